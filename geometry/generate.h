@@ -1,0 +1,20 @@
+// The generators, one file each (generate_NAME.cpp; cs1 and cs2 share generate_bridge.cpp); listed in generator.cpp.
+#pragma once
+#include "geometry/generator.h"
+
+namespace voussoir {
+
+Generator cs1_generator();     // four-span road bridge, leaf and infill (S. Chiara)
+Generator cs2_generator();     // three-span road bridge, solid piers (Gresal)
+Generator arch_generator();    // one ring of voussoirs between fixed springings
+Generator wall_generator();    // running-bond wall of equal blocks
+Generator column_generator();  // stack of equal blocks
+
+/// Materials of the case in the order of the generator's own list, so that indices are known to the generator.
+std::vector<Material> in_order(const std::vector<Material>& defaults, const GeneratorInput& input);
+
+inline double radians(double degrees) {
+  return degrees * 3.14159265358979323846 / 180.0;
+}
+
+}  // namespace voussoir

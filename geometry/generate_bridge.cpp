@@ -1,0 +1,230 @@
+// cs1 and cs2: one layout of a multi-span masonry arch bridge with two sets of defaults. Dimensions and materials are
+// those of the seed paper "From Monitoring to Modeling: 3D-DEM Application to Masonry Arch Bridge Case Studies" where
+// it gives them; the rest is fitted to its periods (see the documentation of the bridges).
+#include "geometry/generate_bridge.h"
+
+#include <cmath>
+
+#include "geometry/generate.h"
+#include "geometry/masonry_parts.h"
+#include "geometry/stiffness.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+int voussoirs(const GeneratorInput& in) {
+  const int given = int(in("voussoirs"));
+  if (given > 0) return given;
+  // An even number, so that the crown is a joint and the vault its own mirror image.
+  const double middle = M_PI * 0.5 * (in("clear_span") + in("ring_thickness"));
+  return 2 * std::max(2, int(std::ceil(0.5 * middle / (in("voussoir_length") * in("block_scale")) - 1e-9)));
+}
+
+void read_heights(Bridge& bridge, const GeneratorInput& in) {
+  for (int i = 0; i + 1 < bridge.spans; ++i) {
+    const double own = in(fmt::format("pier_{}_height", i));
+    bridge.pier_heights.push_back(own > 0.0 ? own : in("pier_height"));
+  }
+  bridge.abutment_height = in("abutment_height");
+}
+
+void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
+  const auto size = [&](const char* length, const char* width, const char* height) {
+    return Vec3(in("block_scale") * Vec3(in(length), in(width), in(height)));
+  };
+  bridge.voussoirs = voussoirs(in);
+  bridge.voussoir = Vec3(M_PI * 0.5 * (in("clear_span") + in("ring_thickness")) / bridge.voussoirs,
+                         in("voussoir_width") * in("block_scale"), in("ring_thickness"));
+  bridge.block = size("block_length", "block_width", "block_height");
+  bridge.fill = size("fill_length", "fill_width", "fill_height");
+  bridge.leaf_piece = size("leaf_length", "leaf_length", "leaf_course_height");
+  bridge.infill = size("infill_length", "infill_width", "leaf_course_height");
+  bridge.infill.z() *= 0.5;
+}
+
+Bridge read_bridge(const GeneratorInput& in) {
+  Bridge bridge;
+  bridge.spans = int(in("spans"));
+  bridge.clear_span = in("clear_span");
+  bridge.width = in("width");
+  read_heights(bridge, in);
+  bridge.pier_thickness = in("pier_thickness");
+  bridge.abutment_length = in("abutment_length");
+  bridge.batter_x = in("batter_x");
+  bridge.batter_y = in("batter_y");
+  bridge.ring_thickness = in("ring_thickness");
+  bridge.fill_over_crown = in("fill_over_crown");
+  bridge.backing_height = in("backing_height");
+  bridge.backing_over_abutment = in("backing_over_abutment");
+  bridge.spandrel_bottom = in("spandrel_thickness_bottom");
+  bridge.spandrel_top = in("spandrel_thickness_top");
+  bridge.parapet_height = in("parapet_height");
+  bridge.parapet_thickness = in("parapet_thickness");
+  bridge.base_depth = in("base_depth");
+  bridge.restraint_depth = in("restraint_depth");
+  bridge.leaf = in.choices.at("makeup") == "leaf";
+  bridge.leaf_length_beside_span = in("abutment_leaf_length");
+  bridge.wing_wall_thickness = in("wing_wall_thickness");
+  bridge.leaf_thickness[0] = in("leaf_thickness_even");
+  bridge.leaf_thickness[1] = in("leaf_thickness_odd");
+  bridge.rigid_backfill = in.choices.at("backfill") == "rigid";
+  bridge.restrained = in.choices.at("abutments") == "restrained";
+  read_block_sizes(bridge, in);
+  return bridge;
+}
+
+/// Keys that contradict one another, by name.
+void check_bridge(const GeneratorInput& in) {
+  const auto at_most = [&](double low, const std::string& small, double high, const std::string& large) {
+    if (low > high + 1e-9) {
+      throw InputError("[bridge] {} = {:g} m is more than {} = {:g} m: make the first smaller or the second larger",
+                       small, low, large, high);
+    }
+  };
+  const double deck = 0.5 * in("clear_span") + in("ring_thickness") + in("fill_over_crown");
+  at_most(in("backing_height"), "backing_height", deck, "clear_span / 2 + ring_thickness + fill_over_crown");
+  if (in("spans") > 1) at_most(2.0 * in("ring_thickness"), "2 ring_thickness", in("pier_thickness"), "pier_thickness");
+  at_most(in("ring_thickness"), "ring_thickness", in("abutment_length"), "abutment_length");
+  at_most(in("backing_over_abutment"), "backing_over_abutment", in("abutment_length"), "abutment_length");
+  at_most(in("ring_thickness"), "ring_thickness", in("backing_over_abutment"), "backing_over_abutment");
+  const double inside = 0.9 * in("width");
+  at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
+  at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
+  at_most(in("parapet_height") > 0.0 ? in("parapet_thickness") : 0.0, "parapet_thickness", in("spandrel_thickness_top"),
+          "spandrel_thickness_top");
+  if (in.choices.at("makeup") != "leaf") return;
+  at_most(in("abutment_leaf_length"), "abutment_leaf_length", in("abutment_length"), "abutment_length");
+  at_most(2.0 * in("wing_wall_thickness"), "2 wing_wall_thickness", inside, "0.9 width");
+  const double least = std::min({in("pier_thickness"), in("abutment_leaf_length"), in("width")});
+  for (const char* key : {"leaf_thickness_even", "leaf_thickness_odd"}) {
+    at_most(2.0 * in(key), std::string("2 ") + key, 0.95 * least,
+            "0.95 times the least of pier_thickness, abutment_leaf_length and width");
+  }
+  if (in("batter_x") > 0.0 || in("batter_y") > 0.0) {
+    throw InputError(
+        "[bridge] batter_x = {:g} and batter_y = {:g}: piers with a leaf (makeup = \"leaf\") have upright "
+        "faces; set both to 0 or makeup = \"solid\"",
+        in("batter_x"), in("batter_y"));
+  }
+}
+
+/// The values of the table, for the scaled blocks. They belong to the default moduli: a case that changes a modulus
+/// changes them in proportion.
+std::map<Component, Stiffness> contact_table(const Bridge& bridge, const std::vector<Material>& defaults,
+                                             const std::vector<Material>& materials, const GeneratorInput& in) {
+  const auto row = [&](const char* name, std::int32_t material) {
+    const Material &now = materials[std::size_t(material)], &then = defaults[std::size_t(material)];
+    const double scale = in("block_scale");
+    return Stiffness{in(std::string("kn_") + name) / scale * (now.youngs_modulus / then.youngs_modulus),
+                     in(std::string("ks_") + name) / scale * (now.shear_modulus / then.shear_modulus)};
+  };
+  const Stiffness wall = row("wall", bridge.masonry), support = row("support", bridge.masonry);
+  return {{Component::arch, row("vault", bridge.vault)},
+          {Component::backing, wall},
+          {Component::spandrel, wall},
+          {Component::parapet, wall},
+          {Component::pier, support},
+          {Component::abutment, support},
+          {Component::infill, row("infill", bridge.infill_material)}};
+}
+
+JointRules joint_rules(const Bridge& bridge, const std::vector<Material>& defaults,
+                       const std::vector<Material>& materials, const GeneratorInput& in) {
+  JointRules rules;
+  rules.kind = in.choices.at("stiffness") == "table" ? JointRules::Kind::table : JointRules::Kind::moduli;
+  rules.table = contact_table(bridge, defaults, materials, in);
+  const Vec3 wing(bridge.block.x(), bridge.wing_wall_thickness, bridge.block.z());
+  rules.nominal = {{Component::arch, bridge.voussoir},  {Component::backing, bridge.block},
+                   {Component::spandrel, bridge.block}, {Component::parapet, bridge.block},
+                   {Component::pier, bridge.block},     {Component::abutment, bridge.leaf ? wing : bridge.block},
+                   {Component::infill, bridge.infill},  {Component::backfill, bridge.fill}};
+  rules.interface_share = in("interface_share");
+  rules.interface_friction = radians(in("interface_friction"));
+  rules.restraint_share = in("restraint_share");
+  rules.smallest_half_length = 0.25 * in("sliver_thickness") * in("block_scale");
+  return rules;
+}
+
+std::int32_t index_of(const std::vector<Material>& materials, const std::string& name) {
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].name == name) return std::int32_t(i);
+  }
+  return 0;  // a bridge without a material of its own for this part uses "masonry"
+}
+
+Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+  if (in.choices.at("backfill") == "deformable") {
+    throw InputError(
+        "[bridge] backfill = \"deformable\" is not yet available in this version: use backfill = \"rigid\" "
+        "or \"none\"");
+  }
+  check_bridge(in);
+  Bridge bridge = read_bridge(in);
+  bridge.vault = index_of(defaults, "vault");
+  bridge.infill_material = index_of(defaults, "infill");
+  bridge.backfill = index_of(defaults, "backfill");
+
+  Layout layout;
+  lay_piers(layout, bridge);
+  lay_abutments(layout, bridge);
+  lay_vaults(layout, bridge);
+  lay_backing(layout, bridge);
+  lay_spandrels(layout, bridge);
+  lay_backfill(layout, bridge);
+  lay_parapets(layout, bridge);
+  lay_bases(layout, bridge);
+  lay_restraints(layout, bridge);
+
+  const std::vector<Material> materials = in_order(defaults, in);
+  const SliverRule slivers = {in("sliver_thickness") * in("block_scale"), in("sliver_share")};
+  Assembly assembly = assemble(std::move(layout), materials, slivers, in.gap_tolerance);
+  assign_stiffness(assembly, joint_rules(bridge, defaults, materials, in), in);
+  return assembly;
+}
+
+Generator bridge_generator(const std::string& name, const std::string& help, std::vector<Parameter> parameters,
+                           std::vector<Choice> choices, std::vector<Material> materials) {
+  Generator generator;
+  generator.name = name;
+  generator.help = help;
+  generator.parameters = std::move(parameters);
+  generator.choices = std::move(choices);
+  generator.materials = materials;
+  generator.build = [materials](const GeneratorInput& in) { return build(materials, in); };
+  return generator;
+}
+
+std::vector<Choice> bridge_choices(bool leaf, bool table) {
+  const std::vector<std::string> makeup =
+      leaf ? std::vector<std::string>{"leaf", "solid"} : std::vector<std::string>{"solid", "leaf"};
+  const std::vector<std::string> stiffness =
+      table ? std::vector<std::string>{"table", "moduli"} : std::vector<std::string>{"moduli", "table"};
+  return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
+          {"backfill", {"rigid", "deformable", "none"}, "blocks, tetrahedra (a later version), or left out"},
+          {"makeup", makeup, "piers and abutments: outer leaf around infill (and wing walls), or solid"},
+          {"stiffness", stiffness, "joints from the table kn_, ks_ per component, or from E/dc and G/dc"}};
+}
+
+}  // namespace
+
+Generator cs1_generator() {
+  const double friction = radians(30.0), loose = radians(40.0);
+  return bridge_generator("cs1", "Four semicircular spans of 10 m, leaf-and-infill piers (S. Chiara)",
+                          bridge_parameters(true), bridge_choices(true, true),
+                          {{"masonry", 1722.0, 4.0e9, 1.6e9, 0.10e6, 0.18e6, friction},
+                           {"infill", 1524.0, 1.0e9, 0.4e9, 0.0, 0.02e6, loose},
+                           {"backfill", 1500.0, 0.4e9, 0.16e9, 0.0, 0.02e6, loose}});
+}
+
+Generator cs2_generator() {
+  const double friction = radians(30.0), loose = radians(40.0);
+  return bridge_generator("cs2", "Three semicircular spans of 15 m on tall solid piers (Gresal)",
+                          bridge_parameters(false), bridge_choices(false, false),
+                          {{"masonry", 1600.0, 1.41e9, 0.45e9, 0.10e6, 0.15e6, friction},
+                           {"vault", 1600.0, 1.692e9, 0.54e9, 0.10e6, 0.15e6, friction},
+                           {"backfill", 1600.0, 0.1e9, 0.042e9, 0.0, 0.02e6, loose}});
+}
+
+}  // namespace voussoir

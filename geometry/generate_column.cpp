@@ -1,0 +1,45 @@
+// column: a stack of equal blocks on a fixed one, for the verification of axial and bending waves.
+#include "geometry/generate.h"
+#include "geometry/masonry.h"
+#include "geometry/stiffness.h"
+
+namespace voussoir {
+
+namespace {
+
+Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+  const int n = int(in("blocks"));
+  const Vec3 half(0.5 * in("width"), 0.5 * in("depth"), 0.0);
+  const double height = in("block_height");
+  Layout layout;
+  const auto lay = [&](Component component, int i) {
+    const Vec3 low(-half.x(), -half.y(), i * height), high(half.x(), half.y(), (i + 1) * height);
+    lay_stone(layout, {make_box(low, high)}, {component, 0, 0, high - low}, high - low, false);
+  };
+  for (int i = 0; i < n; ++i) lay(Component::block, i);
+  lay(Component::base, -1);
+  layout.groups["top"] = {n - 1};
+
+  Assembly assembly = assemble(std::move(layout), in_order(defaults, in), {}, in.gap_tolerance);
+  assign_stiffness(assembly, uniform_rules(in), in);
+  return assembly;
+}
+
+}  // namespace
+
+Generator column_generator() {
+  Generator generator;
+  generator.name = "column";
+  generator.help = "Stack of equal blocks on a fixed one of the same size; all joints, the base's too, are alike";
+  generator.parameters = {{"blocks", 10.0, 1.0, 100000.0, "-", "number of moving blocks", true},
+                          {"width", 1.0, 0.001, 100.0, "m", "along x, about x = 0"},
+                          {"depth", 1.0, 0.001, 100.0, "m", "along y, about y = 0"},
+                          {"block_height", 0.4, 0.001, 100.0, "m", "height of each block"},
+                          {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
+                          {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
+  generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};
+  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
+  return generator;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,162 @@
+#include "geometry/generator.h"
+
+#include <cmath>
+
+#include "geometry/generate.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// The same generator whose build() checks its input first.
+Generator checked(Generator generator) {
+  Generator keys = generator;
+  keys.build = nullptr;
+  generator.build = [keys, build = generator.build](const GeneratorInput& input) {
+    check_input(keys, input);
+    Assembly assembly = build(input);
+    assembly.generator = keys.name;
+    return assembly;
+  };
+  return generator;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void check_value(const Generator& generator, const Parameter& parameter, const GeneratorInput& input) {
+  const auto found = input.values.find(parameter.name);
+  if (found == input.values.end()) {
+    throw InputError("generator \"{}\": no value for \"{}\"; give one from {} to {} {} (default {})", generator.name,
+                     parameter.name, parameter.low, parameter.high, parameter.unit, parameter.value);
+  }
+  const double value = found->second;
+  if (!(value >= parameter.low && value <= parameter.high)) {  // also catches NaN
+    throw InputError("[bridge] {} = {} {}: generator \"{}\" takes {} to {} {} ({}; default {})", parameter.name, value,
+                     parameter.unit, generator.name, parameter.low, parameter.high, parameter.unit, parameter.help,
+                     parameter.value);
+  }
+  if (parameter.integer && value != std::floor(value)) {
+    throw InputError("[bridge] {} = {}: a whole number is needed, such as {}", parameter.name, value,
+                     std::round(value));
+  }
+}
+
+void check_choice(const Generator& generator, const Choice& choice, const GeneratorInput& input) {
+  const auto found = input.choices.find(choice.name);
+  const std::string word = found == input.choices.end() ? "" : found->second;
+  for (const std::string& known : choice.words) {
+    if (word == known) return;
+  }
+  throw InputError("[bridge] {} = \"{}\": generator \"{}\" takes one of: {}", choice.name, word, generator.name,
+                   joined(choice.words));
+}
+
+void check_names(const Generator& generator, const GeneratorInput& input) {
+  std::vector<std::string> known;
+  for (const Parameter& parameter : generator.parameters) known.push_back(parameter.name);
+  for (const Choice& choice : generator.choices) known.push_back(choice.name);
+  const auto check = [&](const std::string& name) {
+    for (const std::string& k : known) {
+      if (k == name) return;
+    }
+    throw InputError("[bridge] has the key \"{}\", which generator \"{}\" does not know; it knows: {}", name,
+                     generator.name, joined(known));
+  };
+  for (const auto& [name, value] : input.values) check(name);
+  for (const auto& [name, word] : input.choices) check(name);
+}
+
+void check_materials(const Generator& generator, const GeneratorInput& input) {
+  for (const Material& material : generator.materials) {
+    const auto found = input.materials.find(material.name);
+    if (found == input.materials.end()) {
+      throw InputError("generator \"{}\" needs the material \"{}\"; start from default_input()", generator.name,
+                       material.name);
+    }
+    const Material& m = found->second;
+    const auto positive = [&](const char* key, double value) {
+      if (!(value > 0.0)) {
+        throw InputError("[materials.{}] {} = {}: a value above 0 is needed", material.name, key, value);
+      }
+    };
+    positive("density", m.density);
+    positive("youngs_modulus", m.youngs_modulus);
+    positive("shear_modulus", m.shear_modulus);
+  }
+}
+
+}  // namespace
+
+std::vector<Material> in_order(const std::vector<Material>& defaults, const GeneratorInput& input) {
+  std::vector<Material> materials;
+  for (const Material& material : defaults) {
+    materials.push_back(input.materials.at(material.name));
+    materials.back().name = material.name;
+  }
+  return materials;
+}
+
+const std::vector<Generator>& generators() {
+  static const std::vector<Generator> all = {checked(cs1_generator()), checked(cs2_generator()),
+                                             checked(arch_generator()), checked(wall_generator()),
+                                             checked(column_generator())};
+  return all;
+}
+
+const Generator& find_generator(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Generator& generator : generators()) {
+    if (generator.name == name) return generator;
+    names.push_back(generator.name);
+  }
+  throw InputError("[bridge] generator = \"{}\": there is none of that name; the generators are: {}", name,
+                   joined(names));
+}
+
+GeneratorInput default_input(const Generator& generator) {
+  GeneratorInput input;
+  for (const Parameter& parameter : generator.parameters) input.values[parameter.name] = parameter.value;
+  for (const Choice& choice : generator.choices) input.choices[choice.name] = choice.words.front();
+  for (const Material& material : generator.materials) input.materials[material.name] = material;
+  return input;
+}
+
+void check_input(const Generator& generator, const GeneratorInput& input) {
+  check_names(generator, input);
+  for (const Parameter& parameter : generator.parameters) check_value(generator, parameter, input);
+  for (const Choice& choice : generator.choices) check_choice(generator, choice, input);
+  check_materials(generator, input);
+  if (!(input.gap_tolerance > 0.0 && input.gap_tolerance < 0.01)) {
+    throw InputError("gap_tolerance = {} m: more than 0 and less than 0.01 m is needed (default 1e-4)",
+                     input.gap_tolerance);
+  }
+}
+
+std::string describe(const Generator& generator) {
+  std::string text =
+      fmt::format("## {}\n\n{}\n\n| key | default | range | unit | meaning |\n| --- | --- | --- | --- | --- |\n",
+                  generator.name, generator.help);
+  for (const Choice& choice : generator.choices) {
+    text += fmt::format("| `{}` | \"{}\" | {} | | {} |\n", choice.name, choice.words.front(), joined(choice.words),
+                        choice.help);
+  }
+  for (const Parameter& p : generator.parameters) {
+    text += fmt::format("| `{}` | {:g} | {:g} to {:g} | {} | {} |\n", p.name, p.value, p.low, p.high, p.unit, p.help);
+  }
+  text +=
+      "\n| material | density kg/m3 | E Pa | G Pa | ft Pa | c Pa | friction deg |\n| --- | --- | --- | --- | --- | --- "
+      "| "
+      "--- |\n";
+  for (const Material& m : generator.materials) {
+    text += fmt::format("| `{}` | {:g} | {:g} | {:g} | {:g} | {:g} | {:g} |\n", m.name, m.density, m.youngs_modulus,
+                        m.shear_modulus, m.tensile_strength, m.cohesion, m.friction_angle * 180.0 / M_PI);
+  }
+  return text;
+}
+
+}  // namespace voussoir

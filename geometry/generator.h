@@ -1,0 +1,66 @@
+// Generators of block assemblies. A new one is a new file in geometry/ and one line in generator.cpp.
+#pragma once
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+
+namespace voussoir {
+
+/// One key a generator understands in the case's [bridge] table.
+struct Parameter {
+  std::string name;              // key in the case file
+  double value = 0.0;            // default
+  double low = 0.0, high = 0.0;  // allowed range, inclusive
+  std::string unit;              // "m", "deg", "-" …
+  std::string help;              // one line
+  bool integer = false;
+};
+/// One key whose value is a word out of a list; the first is the default.
+struct Choice {
+  std::string name;
+  std::vector<std::string> words;
+  std::string help;
+};
+
+/// Values of a generator's keys (all present: defaults filled in), and the materials and joint overrides of the case.
+struct GeneratorInput {
+  std::map<std::string, double> values;
+  std::map<std::string, std::string> choices;
+  std::map<std::string, Material> materials;  // by name, defaults filled in
+  /// Stiffness and strength that the case sets for a pair of materials: key "masonry-infill" (names in either order).
+  struct JointOverride {
+    double kn = -1.0, ks = -1.0;  // Pa/m; negative: not set
+    bool has_law = false;
+    JointLaw law;
+  };
+  std::map<std::string, JointOverride> joints;
+  double gap_tolerance = 1e-4;  // m
+  double operator()(const std::string& key) const { return values.at(key); }
+};
+
+struct Generator {
+  std::string name;
+  std::string help;  // one line
+  std::vector<Parameter> parameters;
+  std::vector<Choice> choices;
+  std::vector<Material> materials;                       // defaults
+  std::function<Assembly(const GeneratorInput&)> build;  // finished: blocks, joints, stiffness, laws, groups
+};
+
+const std::vector<Generator>& generators();
+/// Throws InputError listing the known names when there is none of that name.
+const Generator& find_generator(const std::string& name);
+/// The defaults of a generator as an input to build().
+GeneratorInput default_input(const Generator& generator);
+
+/// Throws InputError for the first key that is unknown, missing, out of its range or not a whole number where it must
+/// be one, and for a choice that is not in its list of words. build() calls it first.
+void check_input(const Generator& generator, const GeneratorInput& input);
+
+/// The keys of a generator as Markdown tables (name, default, range, unit, meaning), for --help and the documentation.
+std::string describe(const Generator& generator);
+
+}  // namespace voussoir

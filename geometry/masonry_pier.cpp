@@ -1,0 +1,89 @@
+// Piers: solid with battered faces, or a leaf around loose infill.
+#include <cmath>
+
+#include "geometry/masonry_parts.h"
+
+namespace voussoir {
+
+namespace {
+
+/// Lays one run of leaf pieces: a box divided along `axis` (0: x, 1: y).
+void lay_run(Layout& layout, const Vec3& low, const Vec3& high, int axis, double piece, bool half, const Unit& unit) {
+  const std::vector<double> at = split(low[axis], high[axis], piece, half);
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    Vec3 a = low, b = high;
+    a[axis] = at[i], b[axis] = at[i + 1];
+    lay_stone(layout, {make_box(a, b)}, unit, b - a, false);
+  }
+}
+
+/// One course of the leaf. `along_y`: the faces along y run through the corners, otherwise those along x.
+void lay_leaf_course(Layout& layout, const Vec3& low, const Vec3& high, double t, bool along_y, const Unit& unit) {
+  const double in_x = along_y ? t : 0.0, in_y = along_y ? 0.0 : t;
+  const double piece = unit.size.x();
+  const Vec3 y_low(low.x(), low.y() + in_y, low.z()), y_high(high.x(), high.y() - in_y, high.z());
+  lay_run(layout, y_low, {low.x() + t, y_high.y(), high.z()}, 1, piece, !along_y, unit);
+  lay_run(layout, {high.x() - t, y_low.y(), low.z()}, y_high, 1, piece, !along_y, unit);
+  const Vec3 x_low(low.x() + in_x, low.y(), low.z()), x_high(high.x() - in_x, high.y(), high.z());
+  lay_run(layout, x_low, {x_high.x(), low.y() + t, high.z()}, 0, piece, along_y, unit);
+  lay_run(layout, {x_low.x(), high.y() - t, low.z()}, x_high, 0, piece, along_y, unit);
+}
+
+}  // namespace
+
+void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, Component component,
+                         int part, int support) {
+  const Unit leaf = {component, part, bridge.masonry, bridge.leaf_piece};
+  const std::vector<double> z = split(low.z(), high.z(), bridge.leaf_piece.z());
+  for (std::size_t k = 0; k + 1 < z.size(); ++k) {
+    const double t = bridge.leaf_thickness[k % 2];
+    lay_leaf_course(layout, {low.x(), low.y(), z[k]}, {high.x(), high.y(), z[k + 1]}, t, k % 2 == 0, leaf);
+    const Unit infill = {Component::infill,
+                         support,
+                         bridge.infill_material,
+                         {bridge.infill.x(), bridge.infill.y(), 0.5 * (z[k + 1] - z[k])}};
+    lay_courses(layout, {low.x() + t, low.y() + t, z[k]}, {high.x() - t, high.y() - t, z[k + 1]}, infill);
+  }
+}
+
+void lay_solid(Layout& layout, const Solid& solid, const Unit& unit) {
+  const auto face = [&](double slope, Vec3 outward, double at_top) {
+    // Points (d, z) on the face: d = at_top + slope (z1 - z), with d measured along `outward`.
+    const Vec3 normal = (outward + Vec3(0.0, 0.0, slope)).normalized();
+    return Plane{normal, (at_top + slope * solid.z1) / std::sqrt(1.0 + slope * slope)};
+  };
+  const std::vector<Plane> faces = {face(solid.slope_left, {-1.0, 0.0, 0.0}, -solid.x0),
+                                    face(solid.slope_right, {1.0, 0.0, 0.0}, solid.x1),
+                                    face(solid.slope_across, {0.0, -1.0, 0.0}, solid.half_width),
+                                    face(solid.slope_across, {0.0, 1.0, 0.0}, solid.half_width)};
+  const std::vector<double> z = split(solid.z0, solid.z1, unit.size.z());
+  for (std::size_t k = 0; k + 1 < z.size(); ++k) {
+    // Each course is divided at its own foot, so that only the outer stones are cut, and little.
+    const double down = solid.z1 - z[k];
+    const double half = solid.half_width + solid.slope_across * down;
+    Layout course;
+    Unit row = unit;
+    row.size.z() = z[k + 1] - z[k];
+    lay_courses(course, {solid.x0 - solid.slope_left * down, -half, z[k]},
+                {solid.x1 + solid.slope_right * down, half, z[k + 1]}, row, int(k));
+    for (Stone& stone : course.stones) {
+      for (const Plane& plane : faces) stone.cells[0] = cut(stone.cells[0], plane);
+      layout.stones.push_back(std::move(stone));
+    }
+  }
+}
+
+void lay_piers(Layout& layout, const Bridge& bridge) {
+  for (int support = 1; support < bridge.spans; ++support) {
+    const double x0 = bridge.support_start(support), x1 = bridge.support_end(support);
+    const double z0 = bridge.support_base(support), z1 = bridge.springing(), half = bridge.half_width();
+    if (bridge.leaf) {
+      lay_leaf_and_infill(layout, bridge, {x0, -half, z0}, {x1, half, z1}, Component::pier, support - 1, support);
+    } else {
+      const Solid solid = {x0, x1, half, z0, z1, bridge.batter_x, bridge.batter_x, bridge.batter_y};
+      lay_solid(layout, solid, bridge.unit(Component::pier, support - 1));
+    }
+  }
+}
+
+}  // namespace voussoir

@@ -1,0 +1,19 @@
+// Making and checking clean convex cells out of surfaces that come from elsewhere.
+#pragma once
+#include <string>
+
+#include "geometry/polyhedron.h"
+
+namespace voussoir {
+
+/// Merges neighbouring faces of a closed surface whose normals differ by at most `angle` (rad) from the largest of them
+/// into one polygon, joins vertices closer than 1e-6 of the shape's size, and drops vertices on straight edges and
+/// collapsed faces. For closed convex surfaces given as triangles (STL, VTK); faces that do not merge into a single
+/// loop stay as they are. The order of the result does not depend on the triangles' order beyond ties in size.
+Polyhedron merge_coplanar_faces(const Polyhedron& triangulated, double angle);
+
+/// Empty if the shape is a closed convex polyhedron with finite vertices, planar faces that look outwards and a volume;
+/// otherwise a sentence that says what is wrong and where. Planes hold to 1e-6 of the shape's size.
+std::string convexity_error(const Polyhedron& shape);
+
+}  // namespace voussoir

@@ -1,0 +1,176 @@
+#include "geometry/stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// 1/k = 1/ka + 1/kb.
+double in_series(double ka, double kb) {
+  return ka * kb / (ka + kb);
+}
+
+Stiffness in_series(const Stiffness& a, const Stiffness& b) {
+  return {in_series(a.kn, b.kn), in_series(a.ks, b.ks)};
+}
+
+Stiffness times(const Stiffness& k, double factor) {
+  return {factor * k.kn, factor * k.ks};
+}
+
+/// One side of a joint: the block, or the half of a nominal block that a fixed one stands for.
+struct Side {
+  Component component = Component::block;
+  std::int32_t material = 0;
+  double half_length = 0.0;  // m, from the centroid to the joint along its normal
+};
+
+class Assigner {
+ public:
+  Assigner(const Assembly& assembly, const JointRules& rules) : assembly_(assembly), rules_(rules) {}
+
+  Stiffness stiffness(const Joint& joint) const {
+    if (rules_.kind == JointRules::Kind::given) return rules_.uniform;
+    const auto [a, b] = sides(joint);
+    const bool fill_a = a.component == Component::backfill, fill_b = b.component == Component::backfill;
+    if (fill_a != fill_b) return times(rules_.table.at(fill_a ? b.component : a.component), rules_.interface_share);
+    const bool from_table = rules_.kind == JointRules::Kind::table && !fill_a;
+    return in_series(from_table ? table_half(a) : moduli_half(a), from_table ? table_half(b) : moduli_half(b));
+  }
+
+  JointLaw law(const Joint& joint) const {
+    const auto [a, b] = sides(joint);
+    if ((a.component == Component::backfill) != (b.component == Component::backfill)) {
+      JointLaw law;  // masonry on fill: friction only
+      law.friction_angle = law.residual_friction_angle = rules_.interface_friction;
+      return law;
+    }
+    const JointLaw p = strength_of(material(a)), q = strength_of(material(b));
+    JointLaw weaker = p;
+    weaker.tension = std::min(p.tension, q.tension);
+    weaker.cohesion = std::min(p.cohesion, q.cohesion);
+    weaker.friction_angle = std::min(p.friction_angle, q.friction_angle);
+    weaker.residual_friction_angle = weaker.friction_angle;
+    return weaker;
+  }
+
+  /// The two sides; a fixed block takes component and material of the other and half of its nominal size.
+  std::pair<Side, Side> sides(const Joint& joint) const {
+    const Block &a = block(joint.a), &b = block(joint.b);
+    if (a.fixed) return {mirrored(b, joint), side(b, joint)};
+    if (b.fixed) return {side(a, joint), mirrored(a, joint)};
+    return {side(a, joint), side(b, joint)};
+  }
+
+  bool is_restraint(const Joint& joint) const {
+    return block(joint.a).component == Component::restraint || block(joint.b).component == Component::restraint;
+  }
+  bool both_fixed(const Joint& joint) const { return block(joint.a).fixed && block(joint.b).fixed; }
+  const Material& material(const Side& s) const { return assembly_.materials[std::size_t(s.material)]; }
+
+ private:
+  const Block& block(std::int64_t i) const { return assembly_.blocks[std::size_t(i)]; }
+
+  Side side(const Block& b, const Joint& joint) const {
+    const double distance = std::abs(joint.normal.dot(b.centroid - polygon_centroid(joint.polygon)));
+    return {b.component, b.material, std::max(distance, rules_.smallest_half_length)};
+  }
+
+  Side mirrored(const Block& moving, const Joint& joint) const {
+    Side s = side(moving, joint);
+    const auto nominal = rules_.nominal.find(moving.component);
+    if (nominal != rules_.nominal.end()) s.half_length = 0.5 * joint.normal.cwiseAbs().dot(nominal->second);
+    return s;
+  }
+
+  Stiffness table_half(const Side& s) const { return times(rules_.table.at(s.component), 2.0); }
+  Stiffness moduli_half(const Side& s) const {
+    return {material(s).youngs_modulus / s.half_length, material(s).shear_modulus / s.half_length};
+  }
+
+  const Assembly& assembly_;
+  const JointRules& rules_;
+};
+
+/// Overrides by pair of material indices, low index first.
+using Overrides = std::map<std::pair<std::int32_t, std::int32_t>, GeneratorInput::JointOverride>;
+
+Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) {
+  Overrides overrides;
+  for (const auto& [key, value] : input.joints) {
+    std::pair<std::int32_t, std::int32_t> pair = {-1, -1};
+    const auto n = std::int32_t(assembly.materials.size());
+    std::string names;
+    for (std::int32_t i = 0; i < n; ++i) {
+      names += (i ? ", " : "") + assembly.materials[std::size_t(i)].name;
+      for (std::int32_t j = 0; j < n; ++j) {
+        const std::string name =
+            assembly.materials[std::size_t(i)].name + "-" + assembly.materials[std::size_t(j)].name;
+        if (name == key) pair = std::minmax(i, j);
+      }
+    }
+    if (pair.first < 0) {
+      throw InputError(
+          "[joints] has \"{}\", which is not a pair of this bridge's materials; write two of ({}) with a "
+          "hyphen between them, such as \"{}-{}\"",
+          key, names, assembly.materials.front().name, assembly.materials.back().name);
+    }
+    overrides[pair] = value;
+  }
+  return overrides;
+}
+
+std::int32_t index_of(std::vector<JointLaw>& laws, const JointLaw& law) {
+  const auto found = std::find(laws.begin(), laws.end(), law);
+  if (found != laws.end()) return std::int32_t(found - laws.begin());
+  laws.push_back(law);
+  return std::int32_t(laws.size()) - 1;
+}
+
+}  // namespace
+
+JointLaw strength_of(const Material& material) {
+  JointLaw law;
+  law.tension = material.tensile_strength;
+  law.cohesion = material.cohesion;
+  law.friction_angle = law.residual_friction_angle = material.friction_angle;
+  return law;
+}
+
+void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input) {
+  const Assigner assigner(assembly, rules);
+  const Overrides overrides = read_overrides(assembly, input);
+  std::erase_if(assembly.joints, [&](const Joint& joint) { return assigner.both_fixed(joint); });
+  for (Joint& joint : assembly.joints) {
+    Stiffness k = assigner.stiffness(joint);
+    JointLaw law = assigner.law(joint);
+    const auto [a, b] = assigner.sides(joint);
+    if (const auto found = overrides.find(std::minmax(a.material, b.material)); found != overrides.end()) {
+      if (found->second.kn >= 0.0) k.kn = found->second.kn;
+      if (found->second.ks >= 0.0) k.ks = found->second.ks;
+      if (found->second.has_law) law = found->second.law;
+    }
+    if (assigner.is_restraint(joint)) k = times(k, rules.restraint_share);
+    joint.kn = k.kn;
+    joint.ks = k.ks;
+    joint.law = index_of(assembly.laws, law);
+  }
+}
+
+JointRules uniform_rules(const GeneratorInput& in) {
+  JointRules rules;
+  if (in("kn") > 0.0 && in("ks") > 0.0) {
+    rules.kind = JointRules::Kind::given;
+    rules.uniform = {in("kn"), in("ks")};
+  } else if (in("kn") > 0.0 || in("ks") > 0.0) {
+    throw InputError("[bridge] kn = {:g} and ks = {:g} Pa/m: give both, or neither to have them from the moduli",
+                     in("kn"), in("ks"));
+  }
+  return rules;
+}
+
+}  // namespace voussoir

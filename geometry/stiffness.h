@@ -1,0 +1,46 @@
+// Stiffness and strength of the joints of a generated assembly.
+#pragma once
+#include <map>
+#include <string>
+
+#include "geometry/assembly.h"
+#include "geometry/generator.h"
+
+namespace voussoir {
+
+struct Stiffness {
+  double kn = 0.0, ks = 0.0;  // Pa/m
+};
+
+/// How the joints of an assembly get their stiffness and strength.
+struct JointRules {
+  /// moduli: kn = E/dc, ks = G/dc from the two half-lengths, in series where materials differ.
+  /// table:  one pair of values per component in every direction, unlike ones in series from equal halves; rigid
+  ///         backfill, which has no row, from the moduli.
+  /// given:  `uniform` for every joint.
+  enum class Kind { moduli, table, given };
+  Kind kind = Kind::moduli;
+  Stiffness uniform;                     // given only
+  std::map<Component, Stiffness> table;  // also what `interface_share` refers to
+  std::map<Component, Vec3> nominal;     // m, block size: half of it stands for the fixed block below or beside
+  double interface_share = 0.20;         // masonry-backfill: share of the masonry's value in the table
+  double interface_friction = 0.0;       // rad
+  double restraint_share = 0.50;         // joints with restraint blocks: share of the stiffness
+  double smallest_half_length = 1e-3;    // m: nearer centroids count as this far from the joint
+};
+
+/// Sets kn, ks and law of every joint (blocks finished, joints found). In this order of precedence: the case's override
+/// for the pair of materials; the interface between masonry and backfill; the rules above. A fixed block takes the
+/// material of what it touches. Strength between unlike materials is the weaker of the two in each value; residual
+/// cohesion is 0 and residual friction the friction. Joints between two fixed blocks are removed.
+/// Throws InputError for an override that names an unknown material.
+void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
+
+/// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli where both are 0. Throws
+/// InputError when only one of them is given.
+JointRules uniform_rules(const GeneratorInput& input);
+
+/// Strength of a joint within one material: brittle, no residual cohesion.
+JointLaw strength_of(const Material& material);
+
+}  // namespace voussoir

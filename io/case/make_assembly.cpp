@@ -1,0 +1,97 @@
+#include <algorithm>
+
+#include "io/case/case.h"
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr double reach = 0.05;  // m: how far off a block's surface a sensor may be mounted
+
+/// How far a point lies outside a convex cell: the largest distance beyond a face plane; negative inside.
+double outside(const Polyhedron& cell, const Vec3& point) {
+  double distance = -1e300;
+  for (std::size_t f = 0; f < cell.faces.size(); ++f) {
+    const Plane plane = face_plane(cell, int(f));
+    distance = std::max(distance, plane.normal.dot(point) - plane.offset);
+  }
+  return distance;
+}
+
+/// The block nearest to a point; of blocks that share it, the one with the lowest number.
+std::pair<std::int64_t, double> nearest_block(const Assembly& assembly, const Vec3& point) {
+  std::int64_t nearest = -1;
+  double least = 1e300;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    const Box box = block_box(assembly.blocks[i]);
+    const double apart = std::max((box.low - point).maxCoeff(), (point - box.high).maxCoeff());
+    if (apart >= least) continue;
+    for (const Polyhedron& cell : assembly.blocks[i].cells)
+      if (const double d = std::max(0.0, outside(cell, point)); d < least) {
+        least = d;
+        nearest = std::int64_t(i);
+      }
+  }
+  return {nearest, least};
+}
+
+std::int32_t law_index(Assembly& assembly, const JointLaw& law) {
+  const auto found = std::find(assembly.laws.begin(), assembly.laws.end(), law);
+  if (found != assembly.laws.end()) return std::int32_t(found - assembly.laws.begin());
+  assembly.laws.push_back(law);
+  return std::int32_t(assembly.laws.size()) - 1;
+}
+
+/// Gives all joints between two materials of an assembly that was read the stiffness and strength the case asks for.
+void override_joints(Assembly& assembly, const std::string& pair, const GeneratorInput::JointOverride& joint) {
+  std::int64_t changed = 0;
+  for (Joint& j : assembly.joints) {
+    const auto name = [&](std::int64_t block) {
+      return assembly.materials[std::size_t(assembly.blocks[std::size_t(block)].material)].name;
+    };
+    if (pair != name(j.a) + "-" + name(j.b) && pair != name(j.b) + "-" + name(j.a)) continue;
+    ++changed;
+    if (joint.kn > 0.0) j.kn = joint.kn;
+    if (joint.ks > 0.0) j.ks = joint.ks;
+    if (joint.has_law) j.law = law_index(assembly, joint.law);
+  }
+  if (changed > 0) return;
+  std::vector<std::string> names;
+  for (const Material& m : assembly.materials) names.push_back(m.name);
+  throw InputError("[joints.{}] fits no joint of the assembly, whose materials are: {}", pair, fmt::join(names, ", "));
+}
+
+}  // namespace
+
+void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors) {
+  for (const SensorSpec& sensor : sensors) {
+    const auto [block, distance] = nearest_block(assembly, sensor.position);
+    if (block < 0 || distance > reach)
+      throw InputError(
+          "sensor \"{}\" at ({}, {}, {}) m lies {:.3g} m from the nearest block ({}): move it onto a block", sensor.id,
+          sensor.position.x(), sensor.position.y(), sensor.position.z(), distance, block);
+    assembly.sensors.push_back({sensor.id, sensor.position, sensor.direction, block});
+  }
+}
+
+Assembly make_assembly(const Case& c) {
+  Assembly assembly;
+  if (!c.generator.empty()) {
+    assembly = find_generator(c.generator).build(c.generator_input);
+    assembly.generator = c.generator;
+  } else {
+    assembly = read_assembly(c.assembly_file);
+    for (const auto& [pair, joint] : c.generator_input.joints) override_joints(assembly, pair, joint);
+    // The copy in a run directory already holds the case's sensors.
+    std::erase_if(assembly.sensors, [&](const Sensor& own) {
+      return std::any_of(c.sensors.begin(), c.sensors.end(), [&](const SensorSpec& s) { return s.id == own.id; });
+    });
+  }
+  assembly.case_text = c.text;
+  attach_sensors(assembly, c.sensors);
+  return assembly;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "io/case/case.h"
+#include "io/case/degrees.h"
+#include "io/case/sections.h"
+#include "io/hdf5/atomic_file.h"
+#include "solver/base/arrays.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+std::string relative_to(const std::string& beside, const std::string& name) {
+  const std::filesystem::path path(name);
+  if (path.is_absolute()) return name;
+  return (std::filesystem::path(beside).parent_path() / path).string();
+}
+
+namespace {
+
+void read_generator(TableReader& bridge, Case& c) {
+  c.generator = bridge.text("generator", "");
+  std::vector<std::string> known;
+  for (const Generator& g : generators()) known.push_back(g.name);
+  if (std::find(known.begin(), known.end(), c.generator) == known.end())
+    bridge.fail("generator", fmt::format("is \"{}\"{}", c.generator, suggestion(c.generator, known)));
+
+  const Generator& generator = find_generator(c.generator);
+  c.generator_input = default_input(generator);
+  for (const Parameter& p : generator.parameters) {
+    double& value = c.generator_input.values[p.name];
+    value = bridge.number(p.name, value, {p.low, p.high, p.unit});
+    if (p.integer && value != std::floor(value))
+      bridge.fail(p.name, fmt::format("is {}: must be a whole number", value));
+  }
+  for (const Choice& choice : generator.choices)
+    if (bridge.has(choice.name))
+      c.generator_input.choices[choice.name] = choice.words[bridge.word(choice.name, choice.words, 0)];
+  for (auto& [name, material] : c.generator_input.materials)
+    material.friction_angle = writable_angle(material.friction_angle);
+}
+
+void read_material(TableReader& table, Material& m) {
+  m.density = table.number("density", m.density, {0.0, 1e5, "kg/m3", true});
+  m.youngs_modulus = table.number("youngs_modulus", m.youngs_modulus, {0.0, 1e13, "Pa", true});
+  m.shear_modulus = table.number("shear_modulus", m.shear_modulus, {0.0, 1e13, "Pa", true});
+  m.tensile_strength = table.number("tensile_strength", m.tensile_strength, {0.0, 1e10, "Pa"});
+  m.cohesion = table.number("cohesion", m.cohesion, {0.0, 1e10, "Pa"});
+  if (table.has("friction_angle"))
+    m.friction_angle = to_radians(table.number("friction_angle", 0.0, {0.0, 89.0, "degrees"}));
+  table.finish();
+}
+
+/// Splits "masonry-infill" at the hyphen that leaves two known materials (names may hold hyphens themselves).
+std::array<std::string, 2> split_pair(const TableReader& joints, const std::string& key,
+                                      const std::vector<std::string>& known) {
+  std::array<std::string, 2> any;
+  for (std::size_t at = key.find('-'); at != std::string::npos; at = key.find('-', at + 1)) {
+    const std::array<std::string, 2> pair = {key.substr(0, at), key.substr(at + 1)};
+    const auto is_known = [&](const std::string& name) {
+      return std::find(known.begin(), known.end(), name) != known.end();
+    };
+    if (!pair[0].empty() && !pair[1].empty()) any = pair;
+    if (is_known(pair[0]) && is_known(pair[1])) return pair;
+  }
+  if (any[0].empty()) joints.fail(key, "must name two materials with a hyphen between, such as \"masonry-infill\"");
+  if (!known.empty())
+    joints.fail(
+        key, fmt::format("must name two materials of this bridge with a hyphen between: {}", fmt::join(known, ", ")));
+  return any;
+}
+
+/// Strength of a joint table. What it leaves out is the weaker of the two materials', brittle, with no cohesion left.
+JointLaw read_law(TableReader& table, const Material* a, const Material* b) {
+  JointLaw law;
+  const auto strength = [&](const char* key, double Material::*member) {
+    if (!a && !table.has(key)) table.missing(key, "the assembly file does not say");
+    return table.number(key, a ? std::min(a->*member, b->*member) : 0.0, {0.0, 1e10, "Pa"});
+  };
+  const auto angle = [&](const char* key, double fallback) {
+    return table.has(key) ? to_radians(table.number(key, 0.0, {0.0, 89.0, "degrees"})) : fallback;
+  };
+  law.tension = strength("tensile_strength", &Material::tensile_strength);
+  law.cohesion = strength("cohesion", &Material::cohesion);
+  if (!a && !table.has("friction_angle")) table.missing("friction_angle", "degrees; the assembly file does not say");
+  law.friction_angle = angle("friction_angle", a ? std::min(a->friction_angle, b->friction_angle) : 0.0);
+  law.residual_cohesion = table.number("residual_cohesion", 0.0, {0.0, 1e10, "Pa"});
+  law.residual_friction_angle = angle("residual_friction_angle", law.friction_angle);
+  law.dilation_angle = angle("dilation_angle", 0.0);
+  const bool softens = table.has("fracture_energy");
+  law.kind = JointLaw::Kind(table.word("kind", joint_law_kinds(),
+                                       std::size_t(softens ? JointLaw::Kind::softening : JointLaw::Kind::brittle)));
+  if (softens) {
+    const auto energy = table.numbers("fracture_energy", 2, {0.0, 1e9, "J/m2"});
+    law.fracture_energy = {energy[0], energy[1]};
+  }
+  const bool softening = law.kind == JointLaw::Kind::softening;
+  if (softening && !(law.fracture_energy[0] > 0.0 && law.fracture_energy[1] > 0.0))
+    table.fail("needs 'fracture_energy' = [GI, GII] in J/m2, both above 0, because kind is \"softening\"");
+  return law;
+}
+
+void read_joint(TableReader& table, const std::array<std::string, 2>& pair, Case& c,
+                GeneratorInput::JointOverride& joint) {
+  joint.kn = table.number("kn", -1.0, {0.0, 1e15, "Pa/m", true});
+  joint.ks = table.number("ks", -1.0, {0.0, 1e15, "Pa/m", true});
+  for (const char* key : {"tensile_strength", "cohesion", "friction_angle", "residual_cohesion",
+                          "residual_friction_angle", "dilation_angle", "kind", "fracture_energy"})
+    joint.has_law = table.has(key) || joint.has_law;
+  table.finish();
+  if (!joint.has_law) return;
+  const auto& materials = c.generator_input.materials;
+  const bool known = !c.generator.empty();
+  joint.law = read_law(table, known ? &materials.at(pair[0]) : nullptr, known ? &materials.at(pair[1]) : nullptr);
+}
+
+}  // namespace
+
+void read_bridge(TableReader& root, Case& c) {
+  auto bridge = root.table("bridge", "[bridge]");
+  if (!bridge) root.missing("bridge", "a table that names a generator or an assembly file");
+  const bool generated = bridge->has("generator"), read = bridge->has("assembly");
+  if (generated && read) bridge->fail("names both a 'generator' and an 'assembly': choose one");
+  if (!generated && !read) bridge->missing("generator", "its name, or 'assembly' = \"file.h5\"");
+  if (generated) {
+    read_generator(*bridge, c);
+  } else {
+    c.assembly_file = relative_to(c.path, bridge->text("assembly", ""));
+    if (!std::filesystem::exists(c.assembly_file))
+      bridge->fail("assembly", fmt::format("is {}: there is no such file", c.assembly_file));
+  }
+  bridge->finish();
+}
+
+void read_materials(TableReader& root, Case& c) {
+  auto materials = root.table("materials", "[materials]");
+  if (!materials) return;
+  if (c.generator.empty())
+    materials->fail(
+        "cannot change an assembly file, which holds its own materials: use [joints.A-B], or generate it anew");
+  std::vector<std::string> known;
+  for (const auto& [name, material] : c.generator_input.materials) known.push_back(name);
+  for (const std::string& name : materials->keys()) {
+    const auto found = c.generator_input.materials.find(name);
+    if (found == c.generator_input.materials.end())
+      materials->fail(name, fmt::format("is not a material of \"{}\"{}", c.generator, suggestion(name, known)));
+    TableReader table = materials->member(name, fmt::format("[materials.{}]", name));
+    read_material(table, found->second);
+  }
+}
+
+void read_joints(TableReader& root, Case& c) {
+  auto joints = root.table("joints", "[joints]");
+  if (!joints) return;
+  std::vector<std::string> known;
+  for (const auto& [name, material] : c.generator_input.materials) known.push_back(name);
+  for (const std::string& key : joints->keys()) {
+    TableReader table = joints->member(key, fmt::format("[joints.{}]", key));
+    const auto pair = split_pair(*joints, key, known);
+    if (pair[0] != pair[1] && c.generator_input.joints.contains(pair[1] + "-" + pair[0]))
+      joints->fail(key, fmt::format("repeats [joints.{}-{}]: give each pair once", pair[1], pair[0]));
+    read_joint(table, pair, c, c.generator_input.joints[key]);
+  }
+}
+
+Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
+  Case c;
+  c.path = path;
+  c.text = text;
+  toml::table table;
+  try {
+    table = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw InputError("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description());
+  }
+  TableReader root(table, path, "the case");
+  read_bridge(root, c);
+  read_materials(root, c);
+  read_joints(root, c);
+  read_settings(root, c);
+  read_stages(root, c, use);
+  read_sensors(root, c);
+  root.finish();
+  c.hash = hash_text(resolved_text(c));
+  for (const MotionSource& motion : c.motions)
+    for (const std::string& record : motion.texts) c.hash = hash_bytes(record.data(), record.size(), c.hash);
+  return c;
+}
+
+Case read_case(const std::string& path, CaseUse use) {
+  return parse_case(read_text(path), path, use);
+}
+
+}  // namespace voussoir

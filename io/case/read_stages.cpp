@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "io/case/sections.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/records/columns.h"
+#include "solver/base/error.h"
+#include "solver/motion/baseline.h"
+
+namespace voussoir {
+
+const std::vector<std::string>& stage_kinds() {
+  static const std::vector<std::string> names = {"gravity", "motion", "free"};
+  return names;
+}
+
+const std::vector<std::string>& gravity_methods() {
+  static const std::vector<std::string> names = {"automatic", "newton", "relaxation"};
+  return names;
+}
+
+std::string motion_file_name(std::size_t stage, int axis) {
+  return fmt::format("motion_{}_{}.txt", stage + 1, axis_names[axis]);
+}
+
+namespace {
+
+struct Unit {
+  const char* name;
+  double size;  // m/s2
+};
+constexpr Unit units[] = {{"m/s2", 1.0}, {"g", 9.80665}, {"cm/s2", 0.01}};
+const std::vector<std::string> axes = {"x", "y", "z"};
+
+std::vector<std::string> unit_names() {
+  std::vector<std::string> names;
+  for (const Unit& unit : units) names.emplace_back(unit.name);
+  return names;
+}
+
+double unit_size(const std::string& name) {
+  return std::find_if(std::begin(units), std::end(units), [&](const Unit& unit) { return name == unit.name; })->size;
+}
+
+PulseSettings read_pulse(TableReader& table) {
+  PulseSettings pulse;
+  pulse.kind = PulseSettings::Kind(table.required_word("kind", pulse_kinds()));
+  pulse.axis = int(table.required_word("axis", axes));
+  pulse.amplitude = table.required_number("amplitude", {-1e4, 1e4, "m/s2"});
+  pulse.frequency = table.number("frequency", 0.0, {0.0, 1e3, "Hz", true});
+  pulse.length = table.number("length", 0.0, {0.0, 1e5, "s", true});
+  pulse.start = table.number("start", 0.0, {0.0, 1e5, "s"});
+  table.finish();
+  return pulse;
+}
+
+SyntheticSettings read_synthetic(TableReader& table, double stage_duration) {
+  SyntheticSettings s;
+  s.seed = std::uint64_t(table.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+  s.peak = table.required_number("peak", {0.0, 1e3, "m/s2", true});
+  s.duration = table.number("duration", stage_duration, {0.0, 1e4, "s", true});
+  s.frequency = table.number("frequency", s.frequency, {0.0, 50.0, "Hz", true});
+  s.bandwidth = table.number("bandwidth", s.bandwidth, {0.0, 2.0, "(damping ratio of the ground)", true});
+  s.rise = table.number("rise", s.rise, {0.0, 1.0, "(share of the duration)", true});
+  s.strong = table.number("strong", s.strong, {0.0, 1.0, "(share of the duration)", true});
+  s.dt = table.number("dt", s.dt, {0.0, 0.1, "s", true});
+  if (table.has("axes")) {
+    s.axes = {};
+    for (const std::string& name : table.texts("axes")) {
+      const auto found = std::find(axes.begin(), axes.end(), name);
+      if (found == axes.end()) table.fail("axes", fmt::format("holds \"{}\": expected x, y or z", name));
+      s.axes[std::size_t(found - axes.begin())] = true;
+    }
+  }
+  table.finish();
+  return s;
+}
+
+/// Names and contents of the files; they are turned into numbers in motion_of().
+void read_record(TableReader& stage, const Case& c, MotionSource& source) {
+  const std::vector<std::string> names = stage.texts("record");
+  if (names.size() > 3)
+    stage.fail("record", fmt::format("names {} files: expected one, or up to three for x, y, z", names.size()));
+  bool any = false;
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    if (names[axis].empty()) continue;
+    any = true;
+    source.files[axis] = relative_to(c.path, names[axis]);
+    if (!std::filesystem::is_regular_file(source.files[axis]))
+      stage.fail("record", fmt::format("is \"{}\": there is no such file", source.files[axis]));
+    source.texts[axis] = read_text(source.files[axis]);
+  }
+  if (!any) stage.fail("record", "names no file: give at least one");
+  const std::vector<std::string> known = unit_names();
+  source.units = known[stage.word("units", known, 0)];
+  source.dt = stage.number("dt", 0.0, {0.0, 10.0, "s", true});
+  source.correct = stage.flag("correct", false);
+}
+
+/// The components on one time grid; shorter ones end in zeros.
+GroundMotion motion_of_records(const TableReader& stage, const MotionSource& source) {
+  GroundMotion motion;
+  int first = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = std::size_t(axis);
+    if (source.files[i].empty()) continue;
+    const Record record = parse_columns(source.texts[i], source.files[i], source.dt);
+    if (first < 0) {
+      first = axis;
+      motion.dt = record.dt;
+    } else if (std::abs(record.dt - motion.dt) > 1e-6 * motion.dt) {
+      stage.fail("record", fmt::format("has components of different time steps: {} s in {}, {} s in {}: resample them",
+                                       motion.dt, source.files[std::size_t(first)], record.dt, source.files[i]));
+    }
+    if (record.values.size() > motion.acceleration.size())
+      motion.acceleration.resize(record.values.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < record.values.size(); ++k)
+      motion.acceleration[k][axis] = record.values[k] * unit_size(source.units);
+  }
+  return source.correct ? correct_baseline(motion) : motion;
+}
+
+GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
+  GroundMotion motion;
+  try {
+    if (source.kind == MotionSource::Kind::record) motion = motion_of_records(stage, source);
+    if (source.kind == MotionSource::Kind::pulse) motion = make_pulse(source.pulse);
+    if (source.kind == MotionSource::Kind::synthetic) motion = synthesize(source.synthetic);
+  } catch (const InputError& error) {
+    if (source.kind == MotionSource::Kind::record) throw;  // names its own file and row
+    stage.fail(std::string("is not possible: ") + error.what());
+  }
+  if (source.scale != 1.0)
+    for (Vec3& a : motion.acceleration) a *= source.scale;
+  return motion;
+}
+
+std::string label_of(const MotionSource& source) {
+  if (source.kind == MotionSource::Kind::pulse)
+    return fmt::format("motion (pulse {} {})", pulse_kinds()[std::size_t(source.pulse.kind)],
+                       axis_names[source.pulse.axis]);
+  if (source.kind == MotionSource::Kind::synthetic)
+    return fmt::format("motion (synthetic, seed {})", source.synthetic.seed);
+  std::vector<std::string> names;
+  for (const std::string& file : source.files)
+    if (!file.empty()) names.push_back(std::filesystem::path(file).filename().string());
+  return fmt::format("motion ({})", fmt::join(names, ", "));
+}
+
+void read_motion(TableReader& table, const Case& c, StageSettings& stage, MotionSource& source) {
+  const bool record = table.has("record"), pulse = table.has("pulse"), synthetic = table.has("synthetic");
+  if (record + pulse + synthetic > 1) table.fail("has more than one of 'record', 'pulse' and 'synthetic': choose one");
+  if (record + pulse + synthetic == 0) table.missing("record", "file names, or 'pulse' = {…}, or 'synthetic' = {…}");
+  source.scale = table.number("scale", 1.0, {-1e6, 1e6, ""});
+  if (record) {
+    source.kind = MotionSource::Kind::record;
+    read_record(table, c, source);
+  } else {
+    for (const char* key : {"units", "dt", "correct"})
+      if (table.has(key)) table.fail(key, "belongs to a 'record': remove it");
+    source.kind = pulse ? MotionSource::Kind::pulse : MotionSource::Kind::synthetic;
+    if (auto sub = table.table("pulse", "the pulse of " + table.place())) source.pulse = read_pulse(*sub);
+    if (auto sub = table.table("synthetic", "the synthetic motion of " + table.place()))
+      source.synthetic = read_synthetic(*sub, stage.duration);
+  }
+  stage.motion = motion_of(table, source);
+}
+
+/// Keys that only other kinds of stage have get a message of their own instead of "unknown".
+void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
+  if (kind == StageSettings::Kind::gravity) {
+    if (table.has("duration"))
+      table.fail("duration", "has no meaning in a gravity stage, which ends in equilibrium: remove it");
+  } else if (table.has("method")) {
+    table.fail("method", "belongs to a gravity stage: remove it");
+  }
+  if (kind == StageSettings::Kind::motion) return;
+  for (const char* key : {"record", "pulse", "synthetic", "scale", "units", "correct", "dt"})
+    if (table.has(key)) table.fail(key, "belongs to a motion stage: set kind = \"motion\" or remove it");
+}
+
+}  // namespace
+
+void read_stages(TableReader& root, Case& c, CaseUse use) {
+  std::vector<TableReader> tables = root.tables("stage");
+  if (tables.empty() && (use == CaseUse::run || root.has("stage")))
+    root.missing("stage", "at least one [[stage]], usually kind = \"gravity\" first");
+  for (TableReader& table : tables) {
+    StageSettings stage;
+    MotionSource source;
+    stage.kind = StageSettings::Kind(table.required_word("kind", stage_kinds()));
+    refuse_foreign_keys(table, stage.kind);
+    if (stage.kind == StageSettings::Kind::gravity)
+      stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0));
+    else
+      stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
+    if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, stage, source);
+    const char* plain = stage.kind == StageSettings::Kind::gravity ? "gravity" : "free vibration";
+    stage.label = table.text("label", stage.kind == StageSettings::Kind::motion ? label_of(source) : plain);
+    table.finish();
+    c.settings.stages.push_back(std::move(stage));
+    c.motions.push_back(std::move(source));
+  }
+}
+
+}  // namespace voussoir

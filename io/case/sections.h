@@ -1,0 +1,22 @@
+// The sections of a case file, one function each. Private to io/case.
+#pragma once
+#include "io/case/case.h"
+#include "io/case/table_reader.h"
+
+namespace voussoir {
+
+void read_bridge(TableReader& root, Case& c);
+void read_materials(TableReader& root, Case& c);
+void read_joints(TableReader& root, Case& c);
+void read_settings(TableReader& root, Case& c);  // analysis, contact, damping, output
+void read_stages(TableReader& root, Case& c, CaseUse use);
+void read_sensors(TableReader& root, Case& c);
+
+/// `name` as seen from the folder of the file `beside`, unless it is absolute.
+std::string relative_to(const std::string& beside, const std::string& name);
+/// Name of the copy of a record in a run directory: motion_<stage>_<axis>.txt, stages counted from 1.
+std::string motion_file_name(std::size_t stage, int axis);
+
+inline constexpr const char* axis_names[] = {"x", "y", "z"};
+
+}  // namespace voussoir

@@ -1,0 +1,81 @@
+// Reading TOML tables with errors a person can act on. Private to io/case.
+#pragma once
+#include <toml++/toml.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geometry/polyhedron.h"
+
+namespace voussoir {
+
+/// Allowed values of a number.
+struct Limits {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  std::string unit;
+  bool above = false;  // low itself is not allowed
+};
+
+/// The known word nearest to `word` (edit distance with transpositions, at most a third of its length), or empty.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
+/// ": did you mean 'X'?" or ": expected one of: A, B, C".
+std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+
+/// One table of a case file. It remembers which keys were asked for, so that finish() finds the keys nobody knows. All
+/// errors are InputError "FILE:LINE: …".
+class TableReader {
+ public:
+  TableReader(const toml::table& table, std::string file, std::string place);
+
+  bool has(const std::string& key);
+  double number(const std::string& key, double fallback, const Limits& limits = {});
+  double required_number(const std::string& key, const Limits& limits = {});
+  std::int64_t integer(const std::string& key, std::int64_t fallback, std::int64_t low, std::int64_t high);
+  bool flag(const std::string& key, bool fallback);
+  std::string text(const std::string& key, const std::string& fallback);
+  std::string required_text(const std::string& key);
+  /// Index of the word in the list.
+  std::size_t word(const std::string& key, const std::vector<std::string>& words, std::size_t fallback);
+  std::size_t required_word(const std::string& key, const std::vector<std::string>& words);
+  /// A list of exactly `count` numbers.
+  std::vector<double> numbers(const std::string& key, std::size_t count, const Limits& limits = {});
+  /// One text or a list of texts.
+  std::vector<std::string> texts(const std::string& key);
+  Vec3 vector(const std::string& key, const Vec3& fallback);
+  bool is_list(const std::string& key);
+  bool is_text(const std::string& key);
+
+  /// The table under a key; empty when there is none.
+  std::optional<TableReader> table(const std::string& key, const std::string& place);
+  /// The tables of [[key]].
+  std::vector<TableReader> tables(const std::string& key);
+  /// Keys of this table, in the file's order; they count as known.
+  std::vector<std::string> keys();
+  /// The table under one of keys().
+  TableReader member(const std::string& key, const std::string& place);
+
+  /// Throws for the first key that was never asked for.
+  void finish() const;
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  /// About the table as a whole.
+  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void missing(const std::string& key, const std::string& what) const;
+  const std::string& place() const { return place_; }
+
+ private:
+  const toml::node* find(const std::string& key);
+  double checked(const std::string& key, const toml::node& node, const Limits& limits) const;
+  std::vector<double> list(const std::string& key, const Limits& limits);
+  std::string at(const toml::source_region& source) const;
+
+  const toml::table* table_;
+  std::string file_, place_;
+  std::set<std::string> known_;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,184 @@
+#include <filesystem>
+
+#include "io/case/case.h"
+#include "io/case/degrees.h"
+#include "io/case/sections.h"
+#include "io/hdf5/atomic_file.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// A TOML basic string.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string vector_text(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
+}
+
+/// Collects "key = value" lines.
+class TomlText {
+ public:
+  void heading(const std::string& name) { text_ += fmt::format("\n{}\n", name); }
+  void raw(const std::string& key, const std::string& value) { text_ += fmt::format("{} = {}\n", key, value); }
+  void set(const std::string& key, double value) { raw(key, number_text(value)); }
+  void set(const std::string& key, const std::string& value) { raw(key, quoted(value)); }
+  void set_angle(const std::string& key, double radians) { raw(key, degrees_text(radians)); }
+  void set_flag(const std::string& key, bool value) { raw(key, value ? "true" : "false"); }
+  std::string text_ = "# Resolved case: every value written out, also those that were defaults.\n";
+};
+
+void write_bridge(TomlText& out, const Case& c) {
+  out.heading("[bridge]");
+  if (c.generator.empty()) return out.set("assembly", std::string("assembly.h5"));
+  out.set("generator", c.generator);
+  for (const auto& [key, word] : c.generator_input.choices) out.set(key, word);
+  for (const auto& [key, value] : c.generator_input.values) out.set(key, value);
+  for (const auto& [name, m] : c.generator_input.materials) {
+    out.heading(fmt::format("[materials.{}]", quoted(name)));
+    out.set("density", m.density);
+    out.set("youngs_modulus", m.youngs_modulus);
+    out.set("shear_modulus", m.shear_modulus);
+    out.set("tensile_strength", m.tensile_strength);
+    out.set("cohesion", m.cohesion);
+    out.set_angle("friction_angle", m.friction_angle);
+  }
+}
+
+void write_joints(TomlText& out, const Case& c) {
+  for (const auto& [key, joint] : c.generator_input.joints) {
+    out.heading(fmt::format("[joints.{}]", quoted(key)));
+    if (joint.kn > 0.0) out.set("kn", joint.kn);
+    if (joint.ks > 0.0) out.set("ks", joint.ks);
+    if (!joint.has_law) continue;
+    const JointLaw& law = joint.law;
+    out.set("kind", joint_law_kinds()[std::size_t(law.kind)]);
+    out.set("tensile_strength", law.tension);
+    out.set("cohesion", law.cohesion);
+    out.set_angle("friction_angle", law.friction_angle);
+    out.set("residual_cohesion", law.residual_cohesion);
+    out.set_angle("residual_friction_angle", law.residual_friction_angle);
+    out.set_angle("dilation_angle", law.dilation_angle);
+    out.raw("fracture_energy",
+            fmt::format("[{}, {}]", number_text(law.fracture_energy[0]), number_text(law.fracture_energy[1])));
+  }
+}
+
+void write_settings(TomlText& out, const SolverSettings& s) {
+  out.heading("[analysis]");
+  out.raw("gravity", vector_text(s.gravity));
+  out.set("time_step", s.step.time_step);
+  out.set("safety", s.step.safety);
+  out.set("mass_scaling_limit", s.step.mass_scaling_limit);
+  out.set("mass_scaling_step", s.step.mass_scaling_step);
+  out.set("equilibrium_tolerance", s.step.equilibrium_tolerance);
+  out.set_flag("intact_shortcut", s.step.intact_shortcut);
+  out.heading("[contact]");
+  out.raw("points_per_side", std::to_string(s.contact.points_per_side));
+  out.set("gap_tolerance", s.contact.gap_tolerance);
+  out.set("skin", s.contact.skin);
+  out.set("reclip_slip", s.contact.reclip_slip);
+  out.set_angle("reclip_angle", s.contact.reclip_angle);
+  out.set_flag("search", s.contact.search);
+  out.heading("[damping]");
+  out.set("kind", damping_kinds()[std::size_t(s.damping.kind)]);
+  out.set("ratio", s.damping.ratio);
+  out.raw("band", fmt::format("[{}, {}]", number_text(s.damping.band[0]), number_text(s.damping.band[1])));
+  out.raw("branches", std::to_string(s.damping.branches));
+  out.set("coefficient", s.damping.coefficient);
+  out.heading("[output]");
+  out.set("checkpoint_every", s.output.checkpoint_every);
+  out.set("checkpoint_wall", s.output.checkpoint_wall);
+  out.set("fields_every", s.output.fields_every);
+  out.set("history_every", s.output.history_every);
+}
+
+std::string pulse_text(const PulseSettings& pulse) {
+  std::string text =
+      fmt::format("{{ kind = {}, axis = {}, amplitude = {}", quoted(pulse_kinds()[std::size_t(pulse.kind)]),
+                  quoted(axis_names[pulse.axis]), number_text(pulse.amplitude));
+  if (pulse.frequency > 0.0) text += ", frequency = " + number_text(pulse.frequency);
+  if (pulse.length > 0.0) text += ", length = " + number_text(pulse.length);
+  return text + ", start = " + number_text(pulse.start) + " }";
+}
+
+std::string synthetic_text(const SyntheticSettings& s) {
+  std::vector<std::string> axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (s.axes[std::size_t(axis)]) axes.push_back(quoted(axis_names[axis]));
+  return fmt::format(
+      "{{ seed = {}, peak = {}, duration = {}, axes = [{}], frequency = {}, bandwidth = {}, rise = {}, strong = {}, "
+      "dt = {} }}",
+      s.seed, number_text(s.peak), number_text(s.duration), fmt::join(axes, ", "), number_text(s.frequency),
+      number_text(s.bandwidth), number_text(s.rise), number_text(s.strong), number_text(s.dt));
+}
+
+void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) {
+  out.set("scale", source.scale);
+  if (source.kind == MotionSource::Kind::pulse) out.raw("pulse", pulse_text(source.pulse));
+  if (source.kind == MotionSource::Kind::synthetic) out.raw("synthetic", synthetic_text(source.synthetic));
+  if (source.kind != MotionSource::Kind::record) return;
+  std::vector<std::string> names;
+  for (int axis = 0; axis < 3; ++axis)
+    names.push_back(quoted(source.files[std::size_t(axis)].empty() ? "" : motion_file_name(stage, axis)));
+  out.raw("record", fmt::format("[{}]", fmt::join(names, ", ")));
+  out.set("units", source.units);
+  if (source.dt > 0.0) out.set("dt", source.dt);
+  out.set_flag("correct", source.correct);
+}
+
+void write_stages(TomlText& out, const Case& c) {
+  for (std::size_t i = 0; i < c.settings.stages.size(); ++i) {
+    const StageSettings& stage = c.settings.stages[i];
+    out.heading("[[stage]]");
+    out.set("kind", stage_kinds()[std::size_t(stage.kind)]);
+    out.set("label", stage.label);
+    if (stage.kind == StageSettings::Kind::gravity)
+      out.set("method", gravity_methods()[std::size_t(stage.method)]);
+    else
+      out.set("duration", stage.duration);
+    if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
+  }
+}
+
+}  // namespace
+
+std::string resolved_text(const Case& c) {
+  TomlText out;
+  write_bridge(out, c);
+  write_joints(out, c);
+  write_settings(out, c.settings);
+  write_stages(out, c);
+  for (const SensorSpec& sensor : c.sensors) {
+    out.heading("[[sensor]]");
+    out.set("id", sensor.id);
+    out.raw("position", vector_text(sensor.position));
+    out.raw("direction", vector_text(sensor.direction));
+  }
+  return out.text_;
+}
+
+void write_resolved_case(const Case& c, const std::string& directory) {
+  const std::filesystem::path folder(directory);
+  for (std::size_t i = 0; i < c.motions.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!c.motions[i].files[std::size_t(axis)].empty())
+        write_atomically((folder / motion_file_name(i, axis)).string(), c.motions[i].texts[std::size_t(axis)]);
+  write_atomically((folder / "case.toml").string(), resolved_text(c));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,235 @@
+#include "io/hdf5/assembly_file.h"
+
+#include <variant>
+
+#include "geometry/joints.h"
+#include "io/hdf5/h5.h"
+#include "io/hdf5/shape_arrays.h"
+#include "solver/base/arrays.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// One dataset in the making.
+struct Table {
+  std::string name, unit;
+  std::size_t columns = 1;
+  std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::int32_t>, std::vector<std::uint8_t>>
+      values;
+};
+using Tables = std::vector<Table>;
+
+/// The outer boundary of a block; loops of a block of several cells share equal vertices.
+Polyhedron boundary(const Block& block) {
+  if (block.cells.size() == 1) return block.cells[0];
+  Polyhedron shape;
+  for (const Polygon& loop : outer_faces(block)) {
+    auto& face = shape.faces.emplace_back();
+    for (const Vec3& p : loop) {
+      std::size_t v = 0;
+      while (v < shape.vertices.size() && (shape.vertices[v] - p).squaredNorm() > 1e-18) ++v;
+      if (v == shape.vertices.size()) shape.vertices.push_back(p);
+      face.push_back(int(v));
+    }
+  }
+  return shape;
+}
+
+void add_shapes(Tables& tables, const std::string& group, const std::string& faces, ShapeArrays&& arrays) {
+  tables.push_back({group + "/vertices", "m", 3, std::move(arrays.vertices)});
+  tables.push_back({group + "/vertex_offset", "", 1, std::move(arrays.vertex_offset)});
+  tables.push_back({group + "/face_vertices", "", 1, std::move(arrays.face_vertices)});
+  tables.push_back({group + "/face_offset", "", 1, std::move(arrays.face_offset)});
+  tables.push_back({group + "/" + faces, "", 1, std::move(arrays.shape_face_offset)});
+}
+
+void add_cells(Tables& tables, const Assembly& assembly) {
+  ShapeArrays cells;
+  std::vector<std::int64_t> owner;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    if (assembly.blocks[i].cells.size() < 2) continue;
+    for (const Polyhedron& cell : assembly.blocks[i].cells) {
+      cells.add(cell);
+      owner.push_back(std::int64_t(i));
+    }
+  }
+  tables.push_back({"cells/block", "", 1, std::move(owner)});
+  add_shapes(tables, "cells", "cell_face_offset", std::move(cells));
+}
+
+void add_blocks(Tables& tables, const Assembly& assembly) {
+  ShapeArrays shapes;
+  std::vector<std::int32_t> component, part, material;
+  std::vector<double> density, mass, centroid, inertia;
+  std::vector<std::uint8_t> fixed;
+  for (const Block& block : assembly.blocks) {
+    shapes.add(boundary(block));
+    component.push_back(std::int32_t(block.component));
+    part.push_back(block.part);
+    material.push_back(block.material);
+    fixed.push_back(block.fixed);
+    density.push_back(block_density(assembly, block));
+    mass.push_back(block.mass);
+    centroid.insert(centroid.end(), block.centroid.data(), block.centroid.data() + 3);
+    const Mat3& j = block.inertia;
+    inertia.insert(inertia.end(), {j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2)});
+  }
+  add_shapes(tables, "blocks", "block_face_offset", std::move(shapes));
+  tables.push_back({"blocks/component", "", 1, std::move(component)});
+  tables.push_back({"blocks/part", "", 1, std::move(part)});
+  tables.push_back({"blocks/material", "", 1, std::move(material)});
+  tables.push_back({"blocks/density", "kg/m3", 1, std::move(density)});
+  tables.push_back({"blocks/mass", "kg", 1, std::move(mass)});
+  tables.push_back({"blocks/centroid", "m", 3, std::move(centroid)});
+  tables.push_back({"blocks/inertia", "kg m2", 6, std::move(inertia)});
+  tables.push_back({"blocks/fixed", "", 1, std::move(fixed)});
+}
+
+void add_joints(Tables& tables, const Assembly& assembly) {
+  std::vector<std::int64_t> blocks, polygon_offset = {0};
+  std::vector<std::int32_t> cells, faces, law;
+  std::vector<double> polygon, normal, area, kn, ks;
+  for (const Joint& joint : assembly.joints) {
+    blocks.insert(blocks.end(), {joint.a, joint.b});
+    cells.insert(cells.end(), {joint.cell_a, joint.cell_b});
+    faces.insert(faces.end(), {joint.face_a, joint.face_b});
+    for (const Vec3& p : joint.polygon) polygon.insert(polygon.end(), p.data(), p.data() + 3);
+    polygon_offset.push_back(std::int64_t(polygon.size() / 3));
+    normal.insert(normal.end(), joint.normal.data(), joint.normal.data() + 3);
+    area.push_back(joint.area);
+    kn.push_back(joint.kn);
+    ks.push_back(joint.ks);
+    law.push_back(joint.law);
+  }
+  tables.push_back({"joints/blocks", "", 2, std::move(blocks)});
+  tables.push_back({"joints/cells", "", 2, std::move(cells)});
+  tables.push_back({"joints/faces", "", 2, std::move(faces)});
+  tables.push_back({"joints/polygon", "m", 3, std::move(polygon)});
+  tables.push_back({"joints/polygon_offset", "", 1, std::move(polygon_offset)});
+  tables.push_back({"joints/normal", "", 3, std::move(normal)});
+  tables.push_back({"joints/area", "m2", 1, std::move(area)});
+  tables.push_back({"joints/kn", "Pa/m", 1, std::move(kn)});
+  tables.push_back({"joints/ks", "Pa/m", 1, std::move(ks)});
+  tables.push_back({"joints/law", "", 1, std::move(law)});
+}
+
+/// One member of every element of a list.
+template <class Row>
+std::vector<double> gather(const std::vector<Row>& rows, double Row::*member) {
+  std::vector<double> values;
+  for (const Row& row : rows) values.push_back(row.*member);
+  return values;
+}
+
+void add_laws(Tables& tables, const Assembly& assembly) {
+  const auto& laws = assembly.laws;
+  std::vector<double> energy;
+  std::vector<std::int32_t> kind;
+  for (const JointLaw& law : laws) {
+    energy.insert(energy.end(), law.fracture_energy.begin(), law.fracture_energy.end());
+    kind.push_back(std::int32_t(law.kind));
+  }
+  tables.push_back({"laws/tension", "Pa", 1, gather(laws, &JointLaw::tension)});
+  tables.push_back({"laws/cohesion", "Pa", 1, gather(laws, &JointLaw::cohesion)});
+  tables.push_back({"laws/friction_angle", "rad", 1, gather(laws, &JointLaw::friction_angle)});
+  tables.push_back({"laws/residual_cohesion", "Pa", 1, gather(laws, &JointLaw::residual_cohesion)});
+  tables.push_back({"laws/residual_friction_angle", "rad", 1, gather(laws, &JointLaw::residual_friction_angle)});
+  tables.push_back({"laws/dilation_angle", "rad", 1, gather(laws, &JointLaw::dilation_angle)});
+  tables.push_back({"laws/fracture_energy", "J/m2", 2, std::move(energy)});
+  tables.push_back({"laws/kind", "", 1, std::move(kind)});
+}
+
+void add_materials(Tables& tables, const Assembly& assembly) {
+  const auto& materials = assembly.materials;
+  tables.push_back({"materials/density", "kg/m3", 1, gather(materials, &Material::density)});
+  tables.push_back({"materials/youngs_modulus", "Pa", 1, gather(materials, &Material::youngs_modulus)});
+  tables.push_back({"materials/shear_modulus", "Pa", 1, gather(materials, &Material::shear_modulus)});
+  tables.push_back({"materials/tensile_strength", "Pa", 1, gather(materials, &Material::tensile_strength)});
+  tables.push_back({"materials/cohesion", "Pa", 1, gather(materials, &Material::cohesion)});
+  tables.push_back({"materials/friction_angle", "rad", 1, gather(materials, &Material::friction_angle)});
+}
+
+Tables mechanics(const Assembly& assembly) {
+  Tables tables;
+  add_blocks(tables, assembly);
+  add_cells(tables, assembly);
+  add_joints(tables, assembly);
+  add_laws(tables, assembly);
+  add_materials(tables, assembly);
+  return tables;
+}
+
+void write_names(h5::File& file, const Assembly& assembly) {
+  file.set_texts("blocks/component", "names", component_names());
+  file.set_texts("laws/kind", "names", joint_law_kinds());
+  std::vector<std::string> names;
+  for (const Material& material : assembly.materials) names.push_back(material.name);
+  file.set_texts("materials", "names", names);
+}
+
+void write_groups(h5::File& file, const Assembly& assembly) {
+  file.make_group("groups");
+  for (const auto& [name, members] : assembly.groups) {
+    if (name.empty() || name.find('/') != std::string::npos)
+      throw InputError("cannot write {}: group \"{}\": a group's name must not be empty nor hold a '/'", file.path(),
+                       name);
+    file.write<std::int64_t>("groups/" + name, members);
+  }
+}
+
+void write_sensors(h5::File& file, const Assembly& assembly) {
+  std::vector<std::string> ids;
+  std::vector<double> position, direction;
+  std::vector<std::int64_t> block;
+  for (const Sensor& sensor : assembly.sensors) {
+    ids.push_back(sensor.id);
+    position.insert(position.end(), sensor.position.data(), sensor.position.data() + 3);
+    direction.insert(direction.end(), sensor.direction.data(), sensor.direction.data() + 3);
+    block.push_back(sensor.block);
+  }
+  const std::size_t n = ids.size();
+  file.write<double>("sensors/position", position, {n, 3}, "m");
+  file.write<double>("sensors/direction", direction, {n, 3});
+  file.write<std::int64_t>("sensors/block", block);
+  file.set_texts("sensors", "id", ids);
+}
+
+}  // namespace
+
+void write_assembly(const std::string& path, const Assembly& assembly) {
+  h5::File file = h5::File::create(path);
+  file.set_text("/", "format", "voussoir-assembly");
+  file.set_integer("/", "format_version", assembly_format_version);
+  file.set_text("/", "units", "SI");
+  file.set_text("/", "generator", assembly.generator);
+  file.set_text("/", "program_version", VOUSSOIR_VERSION);
+  file.set_text("/", "case", assembly.case_text);
+  for (const Table& table : mechanics(assembly))
+    std::visit(
+        [&](const auto& values) {
+          h5::Shape shape = {values.size() / table.columns};
+          if (table.columns > 1) shape.push_back(table.columns);
+          file.write(table.name, values, shape, table.unit);
+        },
+        table.values);
+  write_names(file, assembly);
+  write_groups(file, assembly);
+  write_sensors(file, assembly);
+  file.save();
+}
+
+std::uint64_t assembly_hash(const Assembly& assembly) {
+  std::uint64_t hash = hash_text("voussoir-assembly");
+  for (const Table& table : mechanics(assembly))
+    std::visit(
+        [&](const auto& values) {
+          hash = hash_bytes(table.name.data(), table.name.size(), hash);
+          hash = hash_bytes(values.data(), values.size() * sizeof(values[0]), hash);
+        },
+        table.values);
+  return hash;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,363 @@
+// Reading assembly files. Whatever another program may have got wrong is found here, not in the solver.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/h5.h"
+#include "io/hdf5/shape_arrays.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// One reading: the file, and the assembly as far as it is known.
+class AssemblyReader {
+ public:
+  explicit AssemblyReader(const std::string& path) : file_(h5::File::open(path)) {}
+  Assembly read();
+
+ private:
+  void read_shapes_of_blocks();
+  void read_properties();
+  void read_materials();
+  void materials_from_density();
+  void finish();
+  void read_stated(const std::string& name, std::size_t columns);
+  void read_laws();
+  void read_joints();
+  void find_face(std::size_t row, Joint& joint) const;
+  void check_joint(std::size_t row, const Joint& joint) const;
+  void sort_joints();
+  void read_groups();
+  void read_sensors();
+
+  std::vector<std::int32_t> read_words(const std::string& name, std::size_t size,
+                                       const std::vector<std::string>& known);
+  std::vector<double> read_column(const std::string& name, std::size_t size) const {
+    return read_finite(file_, name, {size});
+  }
+  template <class Integer>
+  std::vector<Integer> read_indices(const std::string& name, const h5::Shape& shape, std::int64_t limit) const;
+  std::size_t blocks() const { return assembly_.blocks.size(); }
+
+  h5::File file_;
+  Assembly assembly_;
+};
+
+/// Integers that must lie in [0, limit).
+template <class Integer>
+std::vector<Integer> AssemblyReader::read_indices(const std::string& name, const h5::Shape& shape,
+                                                  std::int64_t limit) const {
+  std::vector<Integer> values = file_.read<Integer>(name, shape);
+  const std::size_t columns = shape.size() > 1 ? shape[1] : 1;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] < 0 || std::int64_t(values[i]) >= limit)
+      file_.fail(name, fmt::format("row {}: {} is out of range, expected 0 to {}", i / columns, values[i], limit - 1));
+  return values;
+}
+
+/// Numbers of words, translated from the file's own list (attribute `names`) to the program's.
+std::vector<std::int32_t> AssemblyReader::read_words(const std::string& name, std::size_t size,
+                                                     const std::vector<std::string>& known) {
+  const std::vector<std::string> names = file_.has_attribute(name, "names") ? file_.texts(name, "names") : known;
+  std::vector<std::int32_t> values = read_indices<std::int32_t>(name, {size}, std::int64_t(names.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& word = names[std::size_t(values[i])];
+    const auto at = std::find(known.begin(), known.end(), word);
+    if (at == known.end())
+      file_.fail(name,
+                 fmt::format("row {}: unknown word \"{}\", expected one of: {}", i, word, fmt::join(known, ", ")));
+    values[i] = std::int32_t(at - known.begin());
+  }
+  return values;
+}
+
+void AssemblyReader::read_shapes_of_blocks() {
+  const ShapeArrays outer = read_shapes(file_, "blocks", "block_face_offset");
+  if (outer.size() == 0) file_.fail("blocks/vertex_offset", "there are no blocks");
+  assembly_.blocks.resize(outer.size());
+  if (file_.has("cells/block")) {
+    const ShapeArrays cells = read_shapes(file_, "cells", "cell_face_offset");
+    const auto owner = read_indices<std::int64_t>("cells/block", {cells.size()}, std::int64_t(outer.size()));
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (c > 0 && owner[c] < owner[c - 1])
+        file_.fail("cells/block",
+                   fmt::format("row {}: block {} after block {}: must not decrease", c, owner[c], owner[c - 1]));
+      assembly_.blocks[std::size_t(owner[c])].cells.push_back(cells.shape(c));
+      if (const std::string fault = find_fault(assembly_.blocks[std::size_t(owner[c])].cells.back()); !fault.empty())
+        file_.fail("cells/vertices", fmt::format("cell {} of block {}: {}", c, owner[c], fault));
+    }
+  }
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    auto& cells = assembly_.blocks[i].cells;
+    if (!cells.empty()) continue;
+    cells.push_back(outer.shape(i));
+    if (const std::string fault = find_fault(cells[0]); !fault.empty())
+      file_.fail("blocks/vertices", fmt::format("block {}: {}", i, fault));
+  }
+}
+
+void AssemblyReader::read_properties() {
+  const auto component = read_words("blocks/component", blocks(), component_names());
+  const auto part = file_.read<std::int32_t>("blocks/part", {blocks()});
+  const auto fixed = read_indices<std::uint8_t>("blocks/fixed", {blocks()}, 2);
+  for (std::size_t i = 0; i < blocks(); ++i) {
+    assembly_.blocks[i].component = Component(component[i]);
+    assembly_.blocks[i].part = part[i];
+    assembly_.blocks[i].fixed = fixed[i] != 0;
+  }
+  if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end())
+    file_.fail("blocks/fixed", "no block is fixed: at least one must be 1, or all would fall");
+}
+
+void AssemblyReader::read_materials() {
+  if (!file_.has("materials/density")) return materials_from_density();
+  const std::vector<std::string> names = file_.texts("materials", "names");
+  const std::size_t n = names.size();
+  const auto density = read_column("materials/density", n), e = read_column("materials/youngs_modulus", n),
+             g = read_column("materials/shear_modulus", n), ft = read_column("materials/tensile_strength", n),
+             c = read_column("materials/cohesion", n), phi = read_column("materials/friction_angle", n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(density[i] > 0.0))
+      file_.fail("materials/density",
+                 fmt::format("row {} ({}): {} kg/m3, expected more than 0", i, names[i], density[i]));
+    assembly_.materials.push_back({names[i], density[i], e[i], g[i], ft[i], c[i], phi[i]});
+  }
+  const auto material = read_indices<std::int32_t>("blocks/material", {blocks()}, std::int64_t(n));
+  for (std::size_t i = 0; i < blocks(); ++i) assembly_.blocks[i].material = material[i];
+  if (!file_.has("blocks/density")) return;
+  const auto stated = read_column("blocks/density", blocks());
+  for (std::size_t i = 0; i < blocks(); ++i)
+    if (const double own = density[std::size_t(material[i])]; std::abs(stated[i] - own) > 1e-9 * own)
+      file_.fail("blocks/density",
+                 fmt::format("row {}: {} kg/m3, but its material \"{}\" has {} kg/m3: make them agree", i, stated[i],
+                             names[std::size_t(material[i])], own));
+}
+
+/// Files of other programs may state densities only: one material for each value that occurs.
+void AssemblyReader::materials_from_density() {
+  const auto density = read_column("blocks/density", blocks());
+  for (std::size_t i = 0; i < blocks(); ++i) {
+    if (!(density[i] > 0.0))
+      file_.fail("blocks/density", fmt::format("row {}: {} kg/m3, expected more than 0", i, density[i]));
+    std::size_t m = 0;
+    while (m < assembly_.materials.size() && assembly_.materials[m].density != density[i]) ++m;
+    if (m == assembly_.materials.size())
+      assembly_.materials.push_back({.name = fmt::format("material {}", m), .density = density[i]});
+    assembly_.blocks[i].material = std::int32_t(m);
+  }
+}
+
+/// Masses from the shapes; values stated in the file must agree, and then their bits are kept.
+void AssemblyReader::finish() {
+  try {
+    finish_blocks(assembly_);
+  } catch (const InputError& error) {
+    file_.fail("blocks/vertices", error.what());
+  }
+  read_stated("blocks/mass", 1);
+  read_stated("blocks/centroid", 3);
+  read_stated("blocks/inertia", 6);
+}
+
+void AssemblyReader::read_stated(const std::string& name, std::size_t columns) {
+  if (!file_.has(name)) return;
+  const auto values = read_finite(file_, name, columns == 1 ? h5::Shape{blocks()} : h5::Shape{blocks(), columns});
+  for (std::size_t i = 0; i < blocks(); ++i) {
+    Block& block = assembly_.blocks[i];
+    const double* v = values.data() + columns * i;
+    const Box box = block_box(block);
+    const double size = (box.high - box.low).norm();
+    double scale = block.mass, error = 0.0;
+    if (columns == 1) {
+      error = std::abs(v[0] - block.mass);
+      block.mass = v[0];
+    } else if (columns == 3) {
+      const Vec3 centroid(v[0], v[1], v[2]);
+      scale = size;
+      error = (centroid - block.centroid).norm();
+      block.centroid = centroid;
+    } else {
+      Mat3 inertia;
+      inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
+      scale *= size * size;
+      error = (inertia - block.inertia).norm();
+      block.inertia = inertia;
+    }
+    if (error > 1e-6 * scale)
+      file_.fail(name,
+                 fmt::format("row {}: differs by {:.3g} from what the block's shape and density give: correct it or "
+                             "leave the dataset out",
+                             i, error));
+  }
+}
+
+void AssemblyReader::read_laws() {
+  const std::size_t n = file_.shape("laws/tension").at(0);
+  const auto kind = read_words("laws/kind", n, joint_law_kinds());
+  const auto tension = read_column("laws/tension", n), cohesion = read_column("laws/cohesion", n),
+             friction = read_column("laws/friction_angle", n);
+  const auto residual_cohesion = read_column("laws/residual_cohesion", n),
+             residual_friction = read_column("laws/residual_friction_angle", n),
+             dilation = read_column("laws/dilation_angle", n);
+  const auto energy = read_finite(file_, "laws/fracture_energy", {n, 2});
+  for (std::size_t i = 0; i < n; ++i) {
+    assembly_.laws.push_back({JointLaw::Kind(kind[i]),
+                              tension[i],
+                              cohesion[i],
+                              friction[i],
+                              residual_cohesion[i],
+                              residual_friction[i],
+                              dilation[i],
+                              {energy[2 * i], energy[2 * i + 1]}});
+    if (tension[i] < 0.0) file_.fail("laws/tension", fmt::format("row {}: {} Pa, expected 0 or more", i, tension[i]));
+    if (cohesion[i] < 0.0)
+      file_.fail("laws/cohesion", fmt::format("row {}: {} Pa, expected 0 or more", i, cohesion[i]));
+    if (friction[i] < 0.0 || friction[i] >= 1.5707)
+      file_.fail("laws/friction_angle", fmt::format("row {}: {} rad, expected 0 to 1.57", i, friction[i]));
+  }
+}
+
+/// For files that do not say which faces meet: the face of each block that looks along the joint and is nearest to it.
+void AssemblyReader::find_face(std::size_t row, Joint& joint) const {
+  const auto nearest = [&](std::int64_t block, const Vec3& outward, std::int32_t& cell, std::int32_t& face) {
+    double least = 1e300;
+    const auto& cells = assembly_.blocks[std::size_t(block)].cells;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
+        const Plane plane = face_plane(cells[c], int(f));
+        const double away = std::abs(plane.normal.dot(polygon_centroid(joint.polygon)) - plane.offset);
+        if (plane.normal.dot(outward) < 0.99 || away >= least) continue;
+        least = away;
+        cell = std::int32_t(c);
+        face = std::int32_t(f);
+      }
+    if (least > 0.1) file_.fail("joints/blocks", fmt::format("row {}: block {} has no face at the joint", row, block));
+  };
+  nearest(joint.a, joint.normal, joint.cell_a, joint.face_a);
+  nearest(joint.b, -joint.normal, joint.cell_b, joint.face_b);
+}
+
+void AssemblyReader::check_joint(std::size_t row, const Joint& joint) const {
+  const auto fail = [&](const char* name, const std::string& reason) {
+    file_.fail(name, fmt::format("row {} (blocks {} and {}): {}", row, joint.a, joint.b, reason));
+  };
+  if (joint.a == joint.b) fail("joints/blocks", "a joint needs two different blocks");
+  if (joint.a > joint.b) fail("joints/blocks", "the lower block must come first (and the normal point to the higher)");
+  if (joint.polygon.size() < 3) fail("joints/polygon_offset", "a patch needs at least 3 corners");
+  if (std::abs(joint.normal.norm() - 1.0) > 1e-6) fail("joints/normal", "its length must be 1");
+  if (!(joint.area > 0.0)) fail("joints/area", fmt::format("{} m2, expected more than 0", joint.area));
+  if (!(joint.kn > 0.0)) fail("joints/kn", fmt::format("{} Pa/m, expected more than 0", joint.kn));
+  if (!(joint.ks > 0.0)) fail("joints/ks", fmt::format("{} Pa/m, expected more than 0", joint.ks));
+  if (std::abs(polygon_area(joint.polygon) - joint.area) > 1e-3 * joint.area)
+    fail("joints/area", fmt::format("{} m2, but its polygon has {} m2", joint.area, polygon_area(joint.polygon)));
+  if (polygon_normal(joint.polygon).dot(joint.normal) < 0.99)
+    fail("joints/polygon", "its corners must run counter-clockwise about the normal");
+  const auto check_face = [&](std::int64_t block, std::int32_t cell, std::int32_t face) {
+    const auto& cells = assembly_.blocks[std::size_t(block)].cells;
+    if (cell < 0 || cell >= std::int32_t(cells.size()))
+      fail("joints/cells", fmt::format("block {} has no cell {}", block, cell));
+    if (face < 0 || face >= std::int32_t(cells[std::size_t(cell)].faces.size()))
+      fail("joints/faces", fmt::format("cell {} of block {} has no face {}", cell, block, face));
+  };
+  check_face(joint.a, joint.cell_a, joint.face_a);
+  check_face(joint.b, joint.cell_b, joint.face_b);
+}
+
+void AssemblyReader::read_joints() {
+  if (!file_.has("joints/blocks")) return;
+  const std::size_t n = file_.shape("joints/blocks").at(0);
+  const auto between = read_indices<std::int64_t>("joints/blocks", {n, 2}, std::int64_t(blocks()));
+  const auto corners = read_finite(file_, "joints/polygon", {h5::any, 3});
+  const auto offset = file_.read<std::int64_t>("joints/polygon_offset", {n + 1});
+  check_offsets(file_, "joints/polygon_offset", offset, corners.size() / 3);
+  const auto normal = read_finite(file_, "joints/normal", {n, 3}), area = read_column("joints/area", n),
+             kn = read_column("joints/kn", n), ks = read_column("joints/ks", n);
+  const auto law = read_indices<std::int32_t>("joints/law", {n}, std::int64_t(assembly_.laws.size()));
+  const bool located = file_.has("joints/cells") && file_.has("joints/faces");
+  std::vector<std::int32_t> cells(2 * n), faces(2 * n);
+  if (located) {
+    cells = file_.read<std::int32_t>("joints/cells", {n, 2});
+    faces = file_.read<std::int32_t>("joints/faces", {n, 2});
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    Joint joint = {.a = between[2 * i],
+                   .b = between[2 * i + 1],
+                   .cell_a = cells[2 * i],
+                   .cell_b = cells[2 * i + 1],
+                   .face_a = faces[2 * i],
+                   .face_b = faces[2 * i + 1],
+                   .polygon = {},
+                   .normal = Eigen::Map<const Vec3>(normal.data() + 3 * i),
+                   .area = area[i],
+                   .kn = kn[i],
+                   .ks = ks[i],
+                   .law = law[i]};
+    for (std::int64_t k = offset[i]; k < offset[i + 1]; ++k)
+      joint.polygon.emplace_back(Eigen::Map<const Vec3>(corners.data() + 3 * k));
+    if (!located && joint.polygon.size() > 2) find_face(i, joint);
+    check_joint(i, joint);
+    assembly_.joints.push_back(std::move(joint));
+  }
+  sort_joints();
+}
+
+void AssemblyReader::sort_joints() {
+  const auto key = [](const Joint& j) {
+    return std::array{
+        j.a, j.b, std::int64_t(j.cell_a), std::int64_t(j.cell_b), std::int64_t(j.face_a), std::int64_t(j.face_b)};
+  };
+  auto& joints = assembly_.joints;
+  std::stable_sort(joints.begin(), joints.end(), [&](const Joint& x, const Joint& y) { return key(x) < key(y); });
+  const auto twice = std::adjacent_find(joints.begin(), joints.end(),
+                                        [&](const Joint& x, const Joint& y) { return key(x) == key(y); });
+  if (twice != joints.end())
+    file_.fail("joints/blocks", fmt::format("the joint between blocks {} and {} (faces {} and {}) is listed twice",
+                                            twice->a, twice->b, twice->face_a, twice->face_b));
+}
+
+void AssemblyReader::read_groups() {
+  for (const std::string& name : file_.names("groups"))
+    assembly_.groups[name] = read_indices<std::int64_t>("groups/" + name, {h5::any}, std::int64_t(blocks()));
+}
+
+void AssemblyReader::read_sensors() {
+  if (!file_.has("sensors/position")) return;
+  const std::vector<std::string> ids = file_.texts("sensors", "id");
+  const std::size_t n = ids.size();
+  const auto position = read_finite(file_, "sensors/position", {n, 3}),
+             direction = read_finite(file_, "sensors/direction", {n, 3});
+  const auto block = read_indices<std::int64_t>("sensors/block", {n}, std::int64_t(blocks()));
+  for (std::size_t i = 0; i < n; ++i)
+    assembly_.sensors.push_back({ids[i], Eigen::Map<const Vec3>(position.data() + 3 * i),
+                                 Eigen::Map<const Vec3>(direction.data() + 3 * i), block[i]});
+}
+
+Assembly AssemblyReader::read() {
+  h5::check_format(file_, "voussoir-assembly", assembly_format_version);
+  if (file_.has_attribute("/", "units") && file_.text("/", "units") != "SI")
+    file_.fail("/", "the attribute 'units' is \"" + file_.text("/", "units") + "\", expected \"SI\": convert the file");
+  if (file_.has_attribute("/", "generator")) assembly_.generator = file_.text("/", "generator");
+  if (file_.has_attribute("/", "case")) assembly_.case_text = file_.text("/", "case");
+  if (file_.has("fill/nodes")) file_.fail("fill/nodes", "this version does not read a deformable fill: leave it out");
+  read_shapes_of_blocks();
+  read_properties();
+  read_materials();
+  finish();
+  if (file_.has("laws/tension")) read_laws();
+  read_joints();
+  read_groups();
+  read_sensors();
+  return std::move(assembly_);
+}
+
+}  // namespace
+
+Assembly read_assembly(const std::string& path) {
+  return AssemblyReader(path).read();
+}
+
+}  // namespace voussoir

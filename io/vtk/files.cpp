@@ -1,0 +1,69 @@
+#include "io/vtk/files.h"
+
+#include <vtkCommand.h>
+#include <vtkErrorCode.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <filesystem>
+
+#include "io/vtk/atomic.h"
+#include "io/vtk/quiet.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+namespace {
+
+template <class Writer, class Data>
+void write(Data* data, const std::string& path) {
+  write_atomically(path, [&](const std::string& temporary) {
+    bool failed = false;
+    auto writer = vtkSmartPointer<Writer>::New();
+    writer->AddObserver(vtkCommand::ErrorEvent, error_flag(failed));
+    writer->SetFileName(temporary.c_str());
+    writer->SetInputData(data);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    if (writer->Write() == 0 || failed || writer->GetErrorCode() != vtkErrorCode::NoError)
+      throw RunError("{}: cannot be written; is the disk full, or the folder closed to you?", path);
+  });
+}
+
+template <class Reader>
+auto read(const std::string& path, const char* kind) {
+  if (!std::filesystem::is_regular_file(path)) throw InputError("{}: no such file; expected a {} file", path, kind);
+  bool failed = false;
+  const auto flag = error_flag(failed);
+  auto reader = vtkSmartPointer<Reader>::New();
+  reader->AddObserver(vtkCommand::ErrorEvent, flag);
+  if (!reader->CanReadFile(path.c_str())) throw InputError("{}: is not a {} file", path, kind);
+  reader->SetFileName(path.c_str());
+  reader->SetReaderErrorObserver(flag);
+  reader->SetParserErrorObserver(flag);
+  reader->Update();
+  if (failed || reader->GetErrorCode() != vtkErrorCode::NoError)
+    throw InputError("{}: is damaged and cannot be read; write it again", path);
+  vtkSmartPointer output = reader->GetOutput();
+  return output;
+}
+
+}  // namespace
+
+void write_vtu(vtkUnstructuredGrid* grid, const std::string& path) {
+  write<vtkXMLUnstructuredGridWriter>(grid, path);
+}
+void write_vtp(vtkPolyData* data, const std::string& path) {
+  write<vtkXMLPolyDataWriter>(data, path);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::string& path) {
+  return read<vtkXMLUnstructuredGridReader>(path, ".vtu");
+}
+vtkSmartPointer<vtkPolyData> read_vtp(const std::string& path) {
+  return read<vtkXMLPolyDataReader>(path, ".vtp");
+}
+
+}  // namespace voussoir

@@ -1,0 +1,32 @@
+// What ParaView and our own pictures are made from: stones as an unstructured grid, joint patches as polygons.
+//
+// Points are at their present, absolute place: x' = c + u + R (x − c) with the block's centroid c, displacement u and
+// rotation R. The point array "displacement_of_point" is x' − x less the base's displacement, so that
+//   reference = point − displacement_of_point − base_displacement,   drawn = reference + amplification × displacement.
+#pragma once
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include "geometry/assembly.h"
+#include "solver/step/snapshot.h"
+
+namespace voussoir {
+
+/// One cell a block, in block order: a hexahedron when the stone has 8 vertices and 6 quadrilateral faces, else a
+/// polyhedron of its outer faces. Cell data: block, component (index into component_names()), part, fixed, displacement
+/// (m, absolute, of the centroid), rotation (rotation vector, rad), velocity (m/s), max_joint_opening and
+/// max_joint_slip (m, largest since the start over the block's patches). Point data: displacement_of_point (m). Field
+/// data: TimeValue (s), base_displacement (m). Throws InputError when the snapshot is not one of this assembly.
+vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const Snapshot& snapshot);
+
+/// One polygon a patch, in patch order. Cell data: opening, slip, largest_opening, largest_slip (m), normal_traction,
+/// shear_traction (Pa, tension positive), bonded (share of the area), had_bond, area (m2), block_a, block_b,
+/// component_a, component_b (−1 where the second body is not a block). Point and field data as block_grid(); a corner's
+/// displacement is the mean over the two blocks.
+vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snapshot& snapshot);
+
+/// The assembly as built: nothing displaced, every joint closed and bonded where its law has tension or cohesion.
+Snapshot rest_snapshot(const Assembly& assembly);
+
+}  // namespace voussoir

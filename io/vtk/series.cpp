@@ -1,0 +1,105 @@
+#include "io/vtk/series.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/vtk/atomic.h"
+#include "io/vtk/files.h"
+#include "io/vtk/grid.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kSameTime = 1e-9;  // s
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::vector<PvdSeries::Frame> read_frames(const std::string& path) {
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (!collection)
+    throw InputError("{}: is not a ParaView collection (.pvd); remove it, the frames themselves stay readable", path);
+  std::vector<PvdSeries::Frame> frames;
+  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* entry = collection->GetNestedElement(i);
+    PvdSeries::Frame frame;
+    const char* file = entry->GetAttribute("file");
+    if (!file || !entry->GetScalarAttribute("timestep", frame.time))
+      throw InputError("{}: entry {} has no file or no timestep; remove the .pvd, the frames stay readable", path, i);
+    frame.file = file;
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+}  // namespace
+
+PvdSeries::PvdSeries(std::string path) : path_(std::move(path)) {
+  if (fs::exists(path_)) frames_ = read_frames(path_);
+}
+
+void PvdSeries::add(double time, const std::string& file) {
+  std::erase_if(frames_, [&](const Frame& f) { return std::abs(f.time - time) <= kSameTime || f.file == file; });
+  const auto after =
+      std::upper_bound(frames_.begin(), frames_.end(), time, [](double t, const Frame& f) { return t < f.time; });
+  frames_.insert(after, Frame{time, file});
+  write();
+}
+
+void PvdSeries::drop_after(double time) {
+  if (std::erase_if(frames_, [&](const Frame& f) { return f.time > time + kSameTime; }) > 0) write();
+}
+
+std::string PvdSeries::file_path(const Frame& frame) const {
+  return (fs::path(path_).parent_path() / frame.file).string();
+}
+
+void PvdSeries::write() const {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+  for (const Frame& frame : frames_)
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(frame.file));
+  text += "  </Collection>\n</VTKFile>\n";
+  write_text_atomically(path_, text);
+}
+
+VtkSeries::VtkSeries(const std::string& run_directory)
+    : blocks_((fs::path(run_directory) / "vtk" / "blocks.pvd").string()),
+      joints_((fs::path(run_directory) / "vtk" / "joints.pvd").string()) {}
+
+void VtkSeries::resume_at(double time) {
+  blocks_.drop_after(time);
+  joints_.drop_after(time);
+}
+
+void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot) {
+  const fs::path folder = fs::path(blocks_.path()).parent_path();
+  const std::string blocks = fmt::format("blocks_{:010.3f}.vtu", snapshot.time);
+  const std::string joints = fmt::format("joints_{:010.3f}.vtp", snapshot.time);
+  write_vtu(block_grid(assembly, snapshot), (folder / blocks).string());
+  write_vtp(joint_polydata(assembly, snapshot), (folder / joints).string());
+  blocks_.add(snapshot.time, blocks);
+  joints_.add(snapshot.time, joints);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,53 @@
+// The frames of a run for ParaView: DIR/vtk/blocks.pvd and joints.pvd with one .vtu and one .vtp a frame.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+#include "solver/step/snapshot.h"
+
+namespace voussoir {
+
+/// A .pvd collection: which file shows which time. Rewritten whole after each change, so that a reader never meets
+/// half.
+class PvdSeries {
+ public:
+  struct Frame {
+    double time = 0.0;  // s
+    std::string file;   // relative to the folder of the .pvd
+  };
+  /// Loads the frames of an existing file; a missing one means no frames. Throws InputError when it is not a .pvd.
+  explicit PvdSeries(std::string path);
+
+  /// Adds a frame (one of the same time replaces it) and rewrites the file. Throws RunError when that fails.
+  void add(double time, const std::string& file);
+  /// Drops the frames later than `time` (s), as when a run resumes from an earlier checkpoint, and rewrites the file.
+  void drop_after(double time);
+
+  const std::vector<Frame>& frames() const { return frames_; }
+  const std::string& path() const { return path_; }
+  std::string file_path(const Frame& frame) const;  // as seen from the working folder
+
+ private:
+  void write() const;
+  std::string path_;
+  std::vector<Frame> frames_;  // ascending in time
+};
+
+/// Both series of a run directory. The first frame of a fresh run and the first after a resume go the same way.
+class VtkSeries {
+ public:
+  explicit VtkSeries(const std::string& run_directory);
+  /// Forgets frames later than `time` (s).
+  void resume_at(double time);
+  /// Writes vtk/blocks_000012.500.vtu and vtk/joints_000012.500.vtp and adds them to the series.
+  void write(const Assembly& assembly, const Snapshot& snapshot);
+
+  const PvdSeries& blocks() const { return blocks_; }
+  const PvdSeries& joints() const { return joints_; }
+
+ private:
+  PvdSeries blocks_, joints_;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,30 @@
+// Surfaces as other programs write them (OBJ, PLY, STL), before they are taken apart into stones.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "geometry/polyhedron.h"
+
+namespace voussoir {
+
+/// The faces that stand under one name in a file: an object of an OBJ, a solid of an STL, all of a PLY.
+struct FileObject {
+  std::string name;        // as written; empty where the format has none
+  std::size_t line = 0;    // of its first face in a text file; 0: unknown
+  std::vector<int> faces;  // into Surface::faces
+};
+
+struct Surface {
+  std::vector<Vec3> vertices;           // file units
+  std::vector<std::vector<int>> faces;  // vertex loops as written
+  std::vector<std::size_t> face_lines;  // line of each face; 0: unknown
+  std::vector<FileObject> objects;      // in file order, none empty
+};
+
+/// Reads .obj, .ply or .stl (by the ending, in any case). Throws InputError naming file and line where one is known.
+Surface read_surface(const std::string& path);
+/// OBJ: v, f (also negative and slashed indices), o, g; other keywords are passed over. Objects are those of `o`, or of
+/// `g` in a file without `o`.
+Surface read_obj(const std::string& path);
+
+}  // namespace voussoir

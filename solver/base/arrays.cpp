@@ -1,0 +1,42 @@
+#include "solver/base/arrays.h"
+
+#include <cstring>
+
+namespace voussoir {
+
+namespace {
+constexpr std::uint64_t fnv_prime = 0x100000001b3ULL;
+}
+
+std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::uint64_t h = seed;
+  std::size_t i = 0;
+  for (; i + 8 <= size; i += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + i, 8);
+    h = (h ^ word) * fnv_prime;
+    h ^= h >> 29;  // FNV alone never carries high bits down, and doubles differ mostly in their high bits
+  }
+  for (; i < size; ++i) h = (h ^ bytes[i]) * fnv_prime;
+  return h;
+}
+
+std::uint64_t hash_text(const std::string& text) { return hash_bytes(text.data(), text.size()); }
+
+std::uint64_t hash_arrays(const std::vector<NamedArray>& arrays) {
+  std::uint64_t h = hash_text("voussoir");
+  for (const NamedArray& array : arrays) {
+    h = hash_bytes(array.name.data(), array.name.size(), h);
+    std::visit(
+        [&](const auto* values) {
+          const std::uint64_t n = values->size();
+          h = hash_bytes(&n, sizeof n, h);
+          h = hash_bytes(values->data(), n * sizeof(*values->data()), h);
+        },
+        array.data);
+  }
+  return h;
+}
+
+}  // namespace voussoir

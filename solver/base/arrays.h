@@ -1,0 +1,40 @@
+// Flat arrays of the state, and their names: what a checkpoint writes and what the state hash covers.
+#pragma once
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace voussoir {
+
+/// Allocates on cache-line boundaries, which the SIMD kernels rely on.
+template <class T>
+struct CacheAligned {
+  using value_type = T;
+  CacheAligned() = default;
+  template <class U>
+  CacheAligned(const CacheAligned<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  bool operator==(const CacheAligned&) const { return true; }
+};
+template <class T>
+using Array = std::vector<T, CacheAligned<T>>;
+
+/// One array of the state under the name it has in a checkpoint file, e.g. "bodies/displacement".
+struct NamedArray {
+  std::string name;
+  std::size_t columns = 1;  // row length; the number of rows is size / columns
+  std::string unit;
+  std::variant<Array<double>*, Array<std::int64_t>*, Array<std::int32_t>*, Array<std::uint8_t>*> data;
+};
+
+/// 64-bit hash (FNV-1a over 8-byte words, then bytes) of raw bytes, continued from `seed`.
+std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed = 0xcbf29ce484222325ULL);
+std::uint64_t hash_text(const std::string& text);
+/// Hash of names, sizes and raw bits of all arrays in order.
+std::uint64_t hash_arrays(const std::vector<NamedArray>& arrays);
+
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+// The only place that knows about threads. Loops have fixed order and one writer per output, so results have the same
+// bits for any number of threads.
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+namespace voussoir {
+
+/// Makes waiting threads sleep instead of spin: re-executes the program once with OMP_WAIT_POLICY=passive when the
+/// variable is unset, because the runtime reads it before main() begins. Call first thing in main().
+void ensure_passive_waiting(char** argv);
+
+/// Threads the machine offers to this process (its affinity mask counts).
+int available_threads();
+
+/// A contiguous share of [0, n) for one thread; the shares depend on n and the thread count only.
+struct Range {
+  std::size_t begin = 0, end = 0;
+};
+Range share(std::size_t n, int thread, int threads);
+
+/// Waits for all threads of a team. A short spin covers the usual hand-over of microseconds; then the thread sleeps.
+class Barrier {
+ public:
+  explicit Barrier(int threads) : threads_(threads) {}
+  void wait();
+
+ private:
+  int threads_;
+  std::atomic<int> arrived_{0};
+  std::atomic<int> generation_{0};
+};
+
+/// Runs `work(thread, threads, barrier)` once in each of `threads` threads.
+void run_team(int threads, const std::function<void(int, int, Barrier&)>& work);
+
+}  // namespace voussoir

@@ -1,0 +1,228 @@
+#include "solver/contact/make_contact.h"
+
+#include <algorithm>
+
+namespace voussoir {
+
+namespace {
+
+const double* pose_of(const State& state, std::int32_t body) { return &state.pose[pose_width * std::size_t(body)]; }
+
+Eigen::Quaterniond rotation_of(const State& state, std::int32_t body) {
+  const double* p = pose_of(state, body);
+  return {p[3], p[4], p[5], p[6]};
+}
+
+/// Shares of the smaller body's face that a sharp contact stands on, and below which an overlap carries nothing.
+constexpr double point_share = 0.01, least_share = 1e-4;
+
+double body_size(const Model& model, std::int32_t body) {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  for (const Convex& cell : model.cells[body])
+    for (const Vec3& v : cell.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  return std::cbrt((high - low).prod());
+}
+
+/// Series stiffness over the two half-lengths from the centroids to the contact plane, as for joints.
+void set_stiffness(const Model& model, const State& state, const Vec3& place, const Vec3& normal, Patch& patch) {
+  const auto half = [&](std::int32_t body) {
+    const double* p = pose_of(state, body);
+    const Vec3 centroid = model.bodies[body].centroid + Vec3(p[0], p[1], p[2]);
+    return std::max(std::abs(normal.dot(place - centroid)), 0.1 * body_size(model, body));
+  };
+  const Model::Matter &ma = model.matter[patch.a], &mb = model.matter[patch.b];
+  const double da = half(patch.a), db = half(patch.b);
+  patch.kn = 1.0 / (da / ma.youngs + db / mb.youngs);
+  patch.ks = 1.0 / (da / ma.shear + db / mb.shear);
+}
+
+void store(double* to, const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+void store(double* to, const Eigen::Quaterniond& q) { to[0] = q.w(), to[1] = q.x(), to[2] = q.y(), to[3] = q.z(); }
+
+/// Arms and axes of both bodies so that the patch's own jump is zero where the bodies are now.
+void place_patch(const Model& model, const State& state, const Vec3& place, const Mat3& frame, Patch& patch) {
+  const Eigen::Quaterniond e(frame);
+  const auto arm = [&](std::int32_t body) -> Vec3 {
+    const double* p = pose_of(state, body);
+    return rotation_of(state, body).conjugate() * (place - model.bodies[body].centroid - Vec3(p[0], p[1], p[2]));
+  };
+  const Vec3 arm_a = arm(patch.a), arm_b = arm(patch.b);
+  const Vec3 at_a = model.bodies[patch.a].centroid + arm_a;
+  store(patch.arm_a, arm_a);
+  store(patch.arm_b, arm_b);
+  store(patch.place, at_a);
+  store(patch.shift, model.bodies[patch.b].centroid + arm_b - at_a);
+  store(patch.e_a, rotation_of(state, patch.a).conjugate() * e);
+  store(patch.e_b, rotation_of(state, patch.b).conjugate() * e);
+}
+
+/// Gap of the two faces as an affine field over the patch: least squares over the corners (both faces are plane).
+void fit_gap(const Meeting& m, const PatchShape& shape, Patch& patch) {
+  Mat3 normal = Mat3::Zero();
+  Vec3 right = Vec3::Zero();
+  for (std::size_t i = 0; i < m.on_a.size(); ++i) {
+    const Vec3 mid = 0.5 * (m.on_a[i] + m.on_b[i]) - shape.centroid;
+    const Vec3 row(1.0, shape.frame.col(2).dot(mid), -shape.frame.col(1).dot(mid));
+    normal += row * row.transpose();
+    right += row * m.normal.dot(m.on_b[i] - m.on_a[i]);
+  }
+  normal.diagonal() += 1e-14 * Vec3::Constant(normal.trace());
+  store(patch.gap, normal.ldlt().solve(right));
+}
+
+void make_face_patch(const Model& model, const State& state, const Meeting& m, NewContact& contact) {
+  Polygon polygon;
+  const double level = m.normal.dot(m.on_a[0] + m.on_b[0]) / 2;
+  for (std::size_t i = 0; i < m.on_a.size(); ++i) {
+    const Vec3 mid = 0.5 * (m.on_a[i] + m.on_b[i]);
+    polygon.push_back(mid + m.normal * (level - m.normal.dot(mid)));
+  }
+  PatchShape shape = patch_shape(polygon, m.normal, model.contact.points_per_side);
+  // The patch lies midway between the faces at its centroid.
+  double middle = 0.0;
+  for (std::size_t i = 0; i < m.on_a.size(); ++i) middle += m.normal.dot(m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
+  shape.centroid += m.normal * (middle - level);
+  Patch& p = contact.patch;
+  p.area = shape.area, p.ss = shape.ss, p.tt = shape.tt;
+  place_patch(model, state, shape.centroid, shape.frame, p);
+  fit_gap(m, shape, p);
+  set_stiffness(model, state, shape.centroid, m.normal, p);
+  contact.points = shape.points;
+  contact.corners = shape.corners;
+}
+
+/// A sharp meeting stands on a small area of its own.
+void make_point_patch(const Model& model, const State& state, const Vec3& place, const Vec3& normal, double gap, NewContact& contact) {
+  Mat3 frame;
+  frame.col(0) = normal;
+  frame.col(1) = normal.unitOrthogonal();
+  frame.col(2) = normal.cross(frame.col(1));
+  Patch& p = contact.patch;
+  const double size = std::min(body_size(model, p.a), body_size(model, p.b));
+  p.area = point_share * size * size;
+  place_patch(model, state, place, frame, p);
+  p.gap[0] = gap;
+  set_stiffness(model, state, place, normal, p);
+  contact.points = {{0.0, 0.0, p.area}};
+  const double h = 0.5 * std::sqrt(p.area);
+  contact.corners = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
+}
+
+}  // namespace
+
+Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell) {
+  const double* p = pose_of(state, body);
+  return moved(model.cells[body][cell], rotation_of(state, body).toRotationMatrix(), model.bodies[body].centroid, Vec3(p[0], p[1], p[2]));
+}
+
+std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a, std::int32_t b,
+                                       std::int32_t cell_b, double within) {
+  const Meeting m = meeting(placed_cell(model, state, a, cell_a), placed_cell(model, state, b, cell_b), within);
+  if (m.kind == Meeting::Kind::apart || m.on_a.empty()) return std::nullopt;
+  NewContact contact;
+  Patch& p = contact.patch;
+  p.a = a, p.b = b, p.cell_a = cell_a, p.cell_b = cell_b;
+  p.law = model.matter[a].tan_friction <= model.matter[b].tan_friction ? model.contact_law[a] : model.contact_law[b];
+  const double size = std::min(body_size(model, a), body_size(model, b));
+  if (m.kind == Meeting::Kind::face && m.on_a.size() >= 3 && m.area > least_share * size * size) {
+    make_face_patch(model, state, m, contact);
+  } else if (m.kind == Meeting::Kind::edge || m.separation < -0.01 * size) {
+    Vec3 place = Vec3::Zero();
+    for (std::size_t i = 0; i < m.on_a.size(); ++i) place += (m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
+    make_point_patch(model, state, place, m.normal, m.separation, contact);
+  } else {
+    return std::nullopt;  // two edges side by side: nothing to stand on yet
+  }
+  // Found already overlapping (neighbours that met edge to edge): it begins without force from there.
+  double deepest = 0.0;
+  for (const PatchPoint& c : contact.corners.size() > 1 && p.ss > 0.0 ? contact.corners : contact.points)
+    deepest = std::min(deepest, p.gap[0] + p.gap[1] * c.t - p.gap[2] * c.s);
+  p.gap[0] -= deepest;
+  p.point_count = std::int32_t(contact.points.size());
+  p.corner_count = std::int32_t(contact.corners.size());
+  contact.memory.assign(4 * contact.points.size(), 0.0);
+  for (std::size_t i = 0; i < contact.points.size(); ++i) contact.memory[4 * i + 3] = 1.0;
+  return contact;
+}
+
+namespace {
+
+struct Carried {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // on body a, about `place`, world axes
+};
+
+/// Elastic tractions of the old patch about a place.
+Carried elastic_wrench(const State& state, const Patch& patch, const PatchPoint* points, const PatchMemory& memory, const Vec3& place) {
+  const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
+  const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
+  Carried sum;
+  for (int i = 0; i < patch.point_count; ++i) {
+    const std::size_t at = std::size_t(patch.first_point) + i;
+    const Triple<double> u = point_jump(patch, j, points[at].s, points[at].t);
+    const double* plastic = &memory.point[4 * at];
+    if (memory.broken[at] && u.x - plastic[0] >= 0.0) continue;
+    const Vec3 local(patch.kn * (u.x - plastic[0]), patch.ks * (u.y - plastic[1]), patch.ks * (u.z - plastic[2]));
+    const Vec3 force = points[at].weight * (axes * local);
+    const Vec3 where = Vec3(j.place.x, j.place.y, j.place.z) + axes * Vec3(0.0, points[at].s, points[at].t);
+    sum.force += force;
+    sum.moment += (where - place).cross(force);
+  }
+  return sum;
+}
+
+double normal_force(const NewContact& c, double raise) {
+  double sum = 0.0;
+  for (const PatchPoint& p : c.points)
+    sum += p.weight * c.patch.kn * std::min(0.0, c.patch.gap[0] + raise + c.patch.gap[1] * p.t - c.patch.gap[2] * p.s);
+  return sum;
+}
+
+/// Moves the gap until the normal force is the wanted one (compression, negative).
+void match_normal_force(double wanted, NewContact& c) {
+  double span = 0.0;
+  for (const PatchPoint& p : c.points) span = std::max(span, std::abs(c.patch.gap[0] + c.patch.gap[1] * p.t - c.patch.gap[2] * p.s));
+  double low = -2.0 * span - 2.0 * std::abs(wanted) / (c.patch.kn * c.patch.area), high = 2.0 * span + 1e-12;
+  while (normal_force(c, low) > wanted && low > -1.0) low *= 2.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (normal_force(c, middle) < wanted ? low : high) = middle;
+  }
+  c.patch.gap[0] += 0.5 * (low + high);
+}
+
+}  // namespace
+
+void carry_over(const State& state, const Patch& old, const PatchPoint* points, const PatchMemory& memory, NewContact& contact) {
+  Patch& p = contact.patch;
+  p.kn = old.kn, p.ks = old.ks, p.law = old.law;
+  const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
+  const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
+  const Carried carried = elastic_wrench(state, old, points, memory, Vec3(j.place.x, j.place.y, j.place.z));
+  const Vec3 force = axes.transpose() * carried.force, moment = axes.transpose() * carried.moment;
+  if (force.x() >= 0.0) return;  // nothing pressed: it starts as it lies
+  const double gap[3] = {force.x() / (p.kn * p.area), p.tt > 0 ? moment.y() / (p.kn * p.tt) : 0.0, p.ss > 0 ? moment.z() / (p.kn * p.ss) : 0.0};
+  double worst = -1e300;
+  for (const PatchPoint& c : contact.corners)
+    worst = std::max(worst, gap[0] + (p.ss > 0.0 ? gap[1] * c.t - gap[2] * c.s : 0.0));
+  if (worst <= 0.0)
+    std::copy(gap, gap + 3, p.gap);
+  else
+    match_normal_force(force.x(), contact);
+  // Shear force and torsion over the points that press.
+  double area = 0.0, polar = 0.0;
+  const auto closed = [&](const PatchPoint& q) { return p.gap[0] + p.gap[1] * q.t - p.gap[2] * q.s < 0.0; };
+  for (const PatchPoint& q : contact.points)
+    if (closed(q)) area += q.weight, polar += q.weight * (q.s * q.s + q.t * q.t);
+  if (area <= 0.0) return;
+  const double twist = worst <= 0.0 && polar > 0.0 ? moment.x() / (p.ks * polar) : 0.0;
+  for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    const PatchPoint& q = contact.points[i];
+    contact.memory[4 * i + 1] = -(force.y() / (p.ks * area) - twist * q.t);
+    contact.memory[4 * i + 2] = -(force.z() / (p.ks * area) + twist * q.s);
+  }
+}
+
+}  // namespace voussoir

@@ -1,0 +1,258 @@
+#include "solver/contact/search.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "geometry/neighbours.h"
+#include "solver/contact/make_contact.h"
+#include "solver/step/energy.h"
+
+namespace voussoir {
+
+namespace {
+
+using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t>;  // bodies in order, their cells
+
+Key key_of(const Patch& p) {
+  return p.a < p.b ? Key{p.a, p.b, p.cell_a, p.cell_b} : Key{p.b, p.a, p.cell_b, p.cell_a};
+}
+
+double skin(const Model& model) { return model.contact.skin * model.typical_size; }
+
+bool past_limits(const Model& model, const State& state, const Patch& p) {
+  const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
+  const double slip = model.contact.reclip_slip, turn = model.contact.reclip_angle;
+  return j.s * j.s + j.t * j.t > slip * slip * p.area || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > turn * turn;
+}
+
+double least_gap(const State& state, const Patch& p, const std::vector<PatchPoint>& points) {
+  const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
+  double least = 1e300;
+  for (int i = 0; i < p.point_count; ++i) {
+    const PatchPoint& q = points[p.first_point + i];
+    least = std::min(least, point_jump(p, j, q.s, q.t).x);
+  }
+  return least;
+}
+
+struct MovedBodies {
+  std::vector<char> flag;
+};
+
+/// Bodies more than a quarter of the trigger from where they were last looked at; their place is noted anew.
+void mark(const State& state, std::int32_t body, State& to, MovedBodies& moved) {
+  moved.flag[body] = 1;
+  for (int c = 0; c < 3; ++c)
+    to.searched[3 * body + c] = state.pose[pose_width * std::size_t(body) + c] - state.base_displacement()[c];
+}
+
+MovedBodies find_moved(const Model& model, State& state) {
+  MovedBodies moved{std::vector<char>(model.bodies.size(), 0)};
+  const double near = 0.1 * skin(model);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    double d2 = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double d = state.pose[pose_width * i + c] - state.base_displacement()[c] - state.searched[3 * i + c];
+      d2 += d * d;
+    }
+    if (d2 > near * near) mark(state, std::int32_t(i), state, moved);
+  }
+  return moved;
+}
+
+/// A contact of the next list: an old one kept as it is, or a new one.
+struct Entry {
+  Key key;
+  std::int64_t old = -1;                // index in the present list
+  std::optional<NewContact> fresh;
+};
+
+void retire(State& state, std::size_t contact) {
+  for (int c = 0; c < 3; ++c) state.retired_energy()[c] += state.contact.energy[3 * contact + c];
+}
+
+void append(State& next, const Branches& branches, const NewContact& c) {
+  Patch p = c.patch;
+  p.first_point = std::int32_t(next.contact_points.size());
+  p.first_corner = std::int32_t(next.contact_corners.size());
+  next.contacts.push_back(p);
+  next.contact_points.insert(next.contact_points.end(), c.points.begin(), c.points.end());
+  next.contact_corners.insert(next.contact_corners.end(), c.corners.begin(), c.corners.end());
+  PatchMemory& m = next.contact;
+  m.point.insert(m.point.end(), c.memory.begin(), c.memory.end());
+  m.broken.insert(m.broken.end(), c.points.size(), 1);
+  m.point_branch.insert(m.point_branch.end(), 3 * branches.count * c.points.size(), 0.0);
+  m.mode.push_back(mode_points);
+  m.largest.insert(m.largest.end(), {c.carried_opening, c.carried_slip});
+  m.energy.insert(m.energy.end(), 3, 0.0);
+}
+
+/// Relaxed branches for the elastic jump a fresh contact starts with.
+void relax_branches(State& next, const Branches& branches, std::size_t contact) {
+  const Patch& p = next.contacts[contact];
+  const Jump<double> j = patch_jump(p, &next.pose[pose_width * p.a], &next.pose[pose_width * p.b]);
+  for (int i = 0; i < p.point_count; ++i) {
+    const std::size_t at = std::size_t(p.first_point) + i;
+    const Triple<double> u = point_jump(p, j, next.contact_points[at].s, next.contact_points[at].t);
+    if (u.x >= 0.0) continue;
+    const double x[3] = {u.x, u.y - next.contact.point[4 * at + 1], u.z - next.contact.point[4 * at + 2]};
+    for (int k = 0; k < branches.count; ++k)
+      for (int c = 0; c < 3; ++c) next.contact.point_branch[3 * (branches.count * at + k) + c] = -branches.g[k] * x[c];
+  }
+}
+
+void copy_old(const State& from, State& next, const Branches& branches, std::size_t i) {
+  Patch p = from.contacts[i];
+  const std::size_t at = p.first_point, corner = p.first_corner;
+  p.first_point = std::int32_t(next.contact_points.size());
+  p.first_corner = std::int32_t(next.contact_corners.size());
+  next.contacts.push_back(p);
+  for (int k = 0; k < p.point_count; ++k) next.contact_points.push_back(from.contact_points[at + k]);
+  for (int k = 0; k < p.corner_count; ++k) next.contact_corners.push_back(from.contact_corners[corner + k]);
+  const PatchMemory& m = from.contact;
+  PatchMemory& n = next.contact;
+  const auto copy = [](const auto& source, auto& to, std::size_t begin, std::size_t count) {
+    to.insert(to.end(), source.begin() + long(begin), source.begin() + long(begin + count));
+  };
+  copy(m.point, n.point, 4 * at, 4 * p.point_count);
+  copy(m.broken, n.broken, at, p.point_count);
+  copy(m.point_branch, n.point_branch, 3 * branches.count * at, 3 * branches.count * p.point_count);
+  copy(m.mode, n.mode, i, 1);
+  copy(m.largest, n.largest, 2 * i, 2);
+  copy(m.energy, n.energy, 3 * i, 3);
+}
+
+
+/// Joints and contacts past their limits become fresh contacts, or nothing where the cells have parted.
+struct Clipper {
+  const Model& model;
+  State& state;
+  const Branches& branches;
+  ContactUpdate& update;
+
+  std::optional<NewContact> clip(const Patch& old, const PatchPoint* points, const PatchMemory& memory, const double* largest) {
+    std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
+    if (fresh) {
+      carry_over(state, old, points, memory, *fresh);
+      fresh->carried_opening = largest[0];
+      fresh->carried_slip = largest[1];
+      ++update.clipped;
+    } else {
+      ++update.dropped;
+    }
+    return fresh;
+  }
+};
+
+Box placed_box(const Model& model, const State& state, std::int32_t body, const Convex& cell) {
+  const double* p = &state.pose[pose_width * std::size_t(body)];
+  const Mat3 r = Eigen::Quaterniond(p[3], p[4], p[5], p[6]).toRotationMatrix();
+  const Vec3 c = model.bodies[body].centroid, u(p[0], p[1], p[2]);
+  Box box;
+  for (const Vec3& v : cell.vertices) {
+    const Vec3 x = c + u + r * (v - c);
+    box.low = box.low.cwiseMin(x), box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
+
+/// Pairs of cells of different bodies, at least one moved and one free, whose boxes come within the skin.
+std::vector<Key> candidate_pairs(const Model& model, const State& state, const MovedBodies& moved) {
+  std::vector<Box> boxes;
+  std::vector<std::pair<std::int32_t, std::int32_t>> owner;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    for (std::size_t c = 0; c < model.cells[i].size(); ++c) {
+      boxes.push_back(placed_box(model, state, std::int32_t(i), model.cells[i][c]));
+      owner.emplace_back(std::int32_t(i), std::int32_t(c));
+    }
+  std::vector<Key> pairs;
+  for (const auto& [i, j] : neighbours(boxes, skin(model))) {
+    const auto [a, ca] = owner[i];
+    const auto [b, cb] = owner[j];
+    if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed) || !(moved.flag[a] || moved.flag[b])) continue;
+    pairs.push_back(a < b ? Key{a, b, ca, cb} : Key{b, a, cb, ca});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+double search_distance(const Model& model) { return model.contact.search ? 0.4 * skin(model) : 1e300; }
+
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches) {
+  ContactUpdate update;
+  MovedBodies moved = find_moved(model, state);
+  std::vector<Entry> entries;
+  Clipper clipper{model, state, branches, update};
+  double energy_before = 0.0;
+  // 1. Patches past their limits are clipped anew, parted contacts dropped, the others kept.
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if ((state.joint.mode[i] & mode_gone) || !past_limits(model, state, model.joints[i])) continue;
+    const Patch& old = model.joints[i];
+    if (!(state.joint.mode[i] & mode_points)) joint_to_points(model, state, branches, i);
+    energy_before += patch_energy(model, state, branches, i).elastic + patch_energy(model, state, branches, i).branches;
+    std::optional<NewContact> fresh = clipper.clip(old, model.points.data(), state.joint, &state.joint.largest[2 * i]);
+    state.joint.mode[i] |= mode_gone;
+    mark(state, old.a, state, moved), mark(state, old.b, state, moved);
+    if (fresh) entries.push_back({key_of(old), -1, std::move(fresh)});
+  }
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Patch& old = state.contacts[i];
+    const bool clip = past_limits(model, state, old);
+    if (!clip && least_gap(state, old, state.contact_points) < 2.0 * skin(model)) {
+      entries.push_back({key_of(old), std::int64_t(i), std::nullopt});
+      continue;
+    }
+    const PatchEnergy e = patch_energy(model, state, branches, model.joints.size() + i);
+    energy_before += e.elastic + e.branches;
+    std::optional<NewContact> fresh;
+    if (clip)
+      fresh = clipper.clip(old, state.contact_points.data(), state.contact, &state.contact.largest[2 * i]);
+    else
+      ++update.dropped;
+    retire(state, i);
+    mark(state, old.a, state, moved), mark(state, old.b, state, moved);
+    if (fresh) entries.push_back({key_of(old), -1, std::move(fresh)});
+  }
+  // 2. New meetings.
+  std::vector<Key> live;
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (!(state.joint.mode[i] & mode_gone)) live.push_back(key_of(model.joints[i]));
+  for (const Entry& entry : entries) live.push_back(entry.key);
+  std::sort(live.begin(), live.end());
+  for (const Key& key : candidate_pairs(model, state, moved)) {
+    if (std::binary_search(live.begin(), live.end(), key)) continue;
+    ++update.examined;
+    const auto [a, b, ca, cb] = key;
+    if (std::optional<NewContact> fresh = make_contact(model, state, a, ca, b, cb, skin(model))) {
+      entries.push_back({key, -1, std::move(fresh)});
+      ++update.made;
+    }
+  }
+  ++state.counters[1];
+  state.counters[2] += update.made;
+  if (!update.changed()) return update;
+  // 3. The next list, in canonical order.
+  std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) { return x.key < y.key; });
+  State old;
+  std::swap(old.contacts, state.contacts);
+  std::swap(old.contact_points, state.contact_points);
+  std::swap(old.contact_corners, state.contact_corners);
+  std::swap(old.contact, state.contact);
+  double energy_after = 0.0;
+  for (const Entry& entry : entries) {
+    if (entry.old >= 0) {
+      copy_old(old, state, branches, std::size_t(entry.old));
+      continue;
+    }
+    append(state, branches, *entry.fresh);
+    const std::size_t last = state.contacts.size() - 1;
+    relax_branches(state, branches, last);
+    energy_after += patch_energy(model, state, branches, model.joints.size() + last).elastic;
+  }
+  state.clipped_energy() += energy_before - energy_after;
+  return update;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,24 @@
+// Contacts that appear and change during a run. A patch exists before its bodies touch: as soon as they come within the
+// skin, with its gap, so that the law itself sees them meet and no step needs a narrow phase.
+#pragma once
+#include "solver/contact/patch_kernel.h"
+
+namespace voussoir {
+
+struct ContactUpdate {
+  std::int64_t examined = 0;  // pairs of cells given to the narrow phase
+  std::int64_t made = 0, clipped = 0, dropped = 0;
+  bool changed() const { return made + clipped + dropped > 0; }
+};
+
+/// The distance (m) a body may move, relative to the base, between searches: 0.4 of the skin. Pairs farther apart than the
+/// skin when last examined cannot have met: both bodies have moved at most half a skin since (0.4 more than the 0.1 within
+/// which a body counts as not having moved).
+double search_distance(const Model& model);
+
+/// Looks for new contacts around the bodies that have moved since they were last looked at, clips anew the patches that
+/// have slid or turned past their limits (force and moment carried over), drops contacts that have parted. Serial and
+/// decided by the state alone. Afterwards Stepper::prepare() must be called.
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches);
+
+}  // namespace voussoir

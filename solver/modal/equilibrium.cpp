@@ -1,0 +1,159 @@
+#include "solver/modal/equilibrium.h"
+
+#include <Eigen/CholmodSupport>
+
+#include "solver/base/error.h"
+#include "solver/modal/stiffness.h"
+
+namespace voussoir {
+
+namespace {
+
+/// Everything a patch pass changes.
+struct PatchBackup {
+  PatchMemory joint, contact;
+  Array<double> slip, branch;
+  explicit PatchBackup(const State& s) : joint(s.joint), contact(s.contact), slip(s.slip), branch(s.branch) {}
+  void restore(State& s) const { s.joint = joint, s.contact = contact, s.slip = slip, s.branch = branch; }
+};
+
+struct Residual {
+  Eigen::VectorXd force;  // out-of-balance force and moment a free body
+  double largest = 0.0;   // over the average weight
+};
+
+Residual evaluate(Stepper& stepper, const Unknowns& unknowns) {
+  stepper.patches_only();
+  const BodyPass pass = stepper.body_pass();
+  Residual r;
+  r.force.resize(unknowns.count);
+  const double size = stepper.model->typical_size;
+  for (std::size_t i = 0; i < stepper.model->bodies.size(); ++i) {
+    const std::int32_t at = unknowns.of_body[i];
+    if (at < 0) continue;
+    const BodyUpdate u = pass.update(i);
+    r.force.segment<6>(at) << u.force.x, u.force.y, u.force.z, u.moment.x, u.moment.y, u.moment.z;
+    r.largest = std::max(r.largest, std::sqrt(dot(u.force, u.force)));
+    r.largest = std::max(r.largest, std::sqrt(dot(u.moment, u.moment)) / size);
+  }
+  r.largest /= std::max(stepper.model->average_weight, 1e-300);
+  return r;
+}
+
+void move_bodies(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step, double share,
+                 State& state) {
+  state.pose = from;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const std::int32_t at = unknowns.of_body[i];
+    if (at < 0) continue;
+    double* pose = &state.pose[pose_width * i];
+    for (int c = 0; c < 3; ++c) pose[c] += share * step[at + c];
+    const Vec3 turn = share * step.segment<3>(at + 3);
+    const double angle = turn.norm();
+    const Eigen::Quaterniond dq = angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Eigen::Quaterniond::Identity();
+    const Eigen::Quaterniond q = (dq * Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6])).normalized();
+    pose[3] = q.w(), pose[4] = q.x(), pose[5] = q.y(), pose[6] = q.z();
+  }
+}
+
+void stop_motion(State& state) {
+  for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
+    for (int c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
+}
+
+using Cholesky = Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>;
+
+}  // namespace
+
+double out_of_balance(Stepper& stepper) {
+  const PatchBackup backup(*stepper.state);
+  const double largest = evaluate(stepper, number_unknowns(*stepper.model)).largest;
+  backup.restore(*stepper.state);
+  return largest;
+}
+
+Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::function<void(int, double)>& progress) {
+  const Model& model = *stepper.model;
+  State& state = *stepper.state;
+  const Unknowns unknowns = number_unknowns(model);
+  const PatchBackup start(state);
+  const Array<double> start_pose = state.pose;
+  Equilibrium result;
+  Cholesky cholesky;
+  bool analysed = false;
+  Residual r = evaluate(stepper, unknowns);
+  result.first_residual = result.residual = r.largest;
+  Array<double> best_pose = state.pose;
+  const int most_iterations = 40;
+  for (int i = 0; i < most_iterations && r.largest > tolerance; ++i) {
+    // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
+    const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
+    const SparseMatrix k = assemble_stiffness(model, state, unknowns, tangent, 1e-7);
+    if (!analysed) cholesky.analyzePattern(k);
+    analysed = true;
+    cholesky.factorize(k);
+    if (cholesky.info() != Eigen::Success) break;
+    const Eigen::VectorXd step = cholesky.solve(r.force);
+    const Array<double> from = state.pose;
+    // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
+    double best_norm = 1e300, best_share = 0.0;
+    const double norm = r.force.norm();
+    for (double share = 1.0; share > 0.05; share *= 0.5) {
+      move_bodies(model, unknowns, from, step, share, state);
+      start.restore(state);
+      const double now = evaluate(stepper, unknowns).force.norm();
+      if (now < best_norm) best_norm = now, best_share = share;
+      if (now < (1.0 - 0.1 * share) * norm) break;
+    }
+    if (!(best_norm < 1e300)) break;
+    move_bodies(model, unknowns, from, step, best_share, state);
+    start.restore(state);
+    r = evaluate(stepper, unknowns);
+    result.iterations = i + 1;
+    if (progress) progress(i + 1, r.largest);
+    if (r.largest < result.residual) result.residual = r.largest, best_pose = state.pose;
+  }
+  result.converged = r.largest <= tolerance;
+  if (!result.converged) {  // nothing half-broken is handed on: the caller may relax from where it began
+    state.pose = start_pose;
+    start.restore(state);
+  }
+  stop_motion(state);
+  result.account = fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
+                               result.converged ? "converged" : "did not converge", result.iterations, result.residual);
+  return result;
+}
+
+Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
+                  const std::function<void(std::int64_t, double)>& progress) {
+  Equilibrium result;
+  result.relaxed = true;
+  stepper.damping = DampingAtWork{};
+  stepper.damping.local = 0.8;
+  const GroundMotion* motion = stepper.motion;
+  stepper.motion = nullptr;
+  State& state = *stepper.state;
+  const std::int64_t first = state.step();
+  const double time = state.time();
+  result.residual = result.first_residual = out_of_balance(stepper);
+  while (state.step() - first < most_steps && !(stop && stop->load())) {
+    const Advance a = stepper.advance(state.step() + 200, 1, nullptr, stop);
+    if (a.outcome == StepOutcome::runaway) break;
+    result.residual = out_of_balance(stepper);
+    if (progress) progress(state.step() - first, result.residual);
+    if (result.residual < tolerance) {
+      result.converged = true;
+      break;
+    }
+  }
+  result.steps = state.step() - first;
+  state.step() = first;  // relaxation is no time
+  state.time() = time;
+  stepper.motion = motion;
+  stop_motion(state);
+  result.account = fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",
+                               result.converged ? "converged" : "did not converge", result.steps, result.residual);
+  return result;
+}
+
+}  // namespace voussoir

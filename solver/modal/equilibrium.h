@@ -1,0 +1,32 @@
+// Static equilibrium: Newton on the tangent stiffness with sparse Cholesky, and dynamic relaxation where that fails.
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "solver/step/stepper.h"
+
+namespace voussoir {
+
+struct Equilibrium {
+  bool converged = false;
+  bool relaxed = false;         // dynamic relaxation was needed
+  int iterations = 0;           // Newton
+  std::int64_t steps = 0;       // relaxation
+  double residual = 0.0;        // largest out-of-balance force over the weight of an average block
+  double first_residual = 0.0;
+  std::string account;          // one line for the log
+};
+
+/// Largest out-of-balance force of a free body (moments over the typical block size count too) over the average weight.
+double out_of_balance(Stepper& stepper);
+
+/// Newton: each iteration evaluates all patches from the state at the call, so that the result does not depend on the way.
+/// The stepper must have no damping branches. Leaves the state at the best placement found, velocities zero.
+Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::function<void(int, double)>& progress);
+
+/// Dynamic relaxation with Cundall's local damping (0.8), velocities dropped whenever the kinetic energy passes a peak.
+Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
+                  const std::function<void(std::int64_t, double)>& progress);
+
+}  // namespace voussoir

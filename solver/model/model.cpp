@@ -1,0 +1,200 @@
+#include "solver/model/model.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// Morton code of a point in a box, 21 bits an axis: neighbours in space are neighbours in memory.
+std::uint64_t morton(const Vec3& p, const Box& box) {
+  const double extent = std::max(1e-12, (box.high - box.low).maxCoeff());
+  std::uint64_t code = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto bits = std::uint64_t(std::clamp((p[axis] - box.low[axis]) / extent, 0.0, 1.0) * 2097151.0);
+    for (int i = 0; i < 21; ++i) code |= ((bits >> i) & 1u) << (3 * i + axis);
+  }
+  return code;
+}
+
+std::vector<std::int64_t> space_filling_order(const Assembly& assembly) {
+  Box box;
+  for (const Block& block : assembly.blocks) {
+    box.low = box.low.cwiseMin(block.centroid);
+    box.high = box.high.cwiseMax(block.centroid);
+  }
+  std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
+    keys.emplace_back(morton(assembly.blocks[i].centroid, box), std::int64_t(i));
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::int64_t> order;
+  for (const auto& key : keys) order.push_back(key.second);
+  return order;
+}
+
+void add_bodies(const Assembly& assembly, Model& model) {
+  model.block_of_body = space_filling_order(assembly);
+  model.body_of_block.resize(assembly.blocks.size());
+  std::vector<double> sizes;
+  double weight = 0.0;
+  int movable = 0;
+  for (std::size_t i = 0; i < model.block_of_body.size(); ++i) {
+    const Block& block = assembly.blocks[model.block_of_body[i]];
+    model.body_of_block[model.block_of_body[i]] = std::int32_t(i);
+    Body body;
+    body.centroid = block.centroid;
+    body.mass = body.inertial_mass = block.mass;
+    body.inertia = block.inertia;
+    body.inverse_inertia = block.inertia.inverse();
+    body.fixed = block.fixed;
+    model.bodies.push_back(body);
+    model.cells.emplace_back();
+    for (const Polyhedron& cell : block.cells) model.cells.back().push_back(make_convex(cell));
+    const Material& material = assembly.materials.at(block.material);
+    model.matter.push_back({material.youngs_modulus, material.shear_modulus, std::tan(material.friction_angle)});
+    if (block.fixed) continue;
+    sizes.push_back(std::cbrt(block.mass / material.density));
+    weight += block.mass * model.gravity.norm();
+    ++movable;
+  }
+  if (movable == 0) throw InputError("the assembly has no block that can move: every one of its {} is fixed", assembly.blocks.size());
+  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+  model.typical_size = sizes[sizes.size() / 2];
+  model.average_weight = weight / movable;
+}
+
+void store(double* to, const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+/// Fills everything of a joint's patch but its points; returns its shape.
+PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t index, const Model& model, Patch& patch) {
+  if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
+    throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index, joint.a,
+                     joint.b, joint.kn, joint.ks);
+  const PatchShape shape = patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
+  patch.a = model.body_of_block[joint.a];
+  patch.b = model.body_of_block[joint.b];
+  patch.cell_a = joint.cell_a;
+  patch.cell_b = joint.cell_b;
+  patch.law = joint.law;
+  store(patch.place, shape.centroid);
+  store(patch.arm_a, shape.centroid - assembly.blocks[joint.a].centroid);
+  store(patch.arm_b, shape.centroid - assembly.blocks[joint.b].centroid);
+  const Eigen::Quaterniond e(shape.frame);
+  const double q[4] = {e.w(), e.x(), e.y(), e.z()};
+  std::copy(q, q + 4, patch.e_a);
+  std::copy(q, q + 4, patch.e_b);
+  patch.kn = joint.kn;
+  patch.ks = joint.ks;
+  patch.area = shape.area;
+  patch.ss = shape.ss;
+  patch.tt = shape.tt;
+  return shape;
+}
+
+void add_joints(const Assembly& assembly, Model& model) {
+  using Key = std::tuple<int, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int64_t>;
+  std::vector<Key> order;  // corner class, pair of bodies, pair of cells, index
+  for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+    const Joint& joint = assembly.joints[i];
+    const int corners = int(joint.polygon.size());
+    const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
+    order.emplace_back(corners <= 4 ? 0 : corners <= most_fast_corners ? 1 : 2, std::min(a, b), std::max(a, b), joint.cell_a,
+                       joint.cell_b, std::int64_t(i));
+  }
+  std::sort(order.begin(), order.end());
+  for (const Key& key : order) {
+    const std::int64_t index = std::get<5>(key);
+    Patch patch;
+    const PatchShape shape = joint_patch(assembly, assembly.joints[index], index, model, patch);
+    patch.first_point = std::int32_t(model.points.size());
+    patch.point_count = std::int32_t(shape.points.size());
+    patch.first_corner = std::int32_t(model.corners.size());
+    patch.corner_count = std::int32_t(shape.corners.size());
+    model.points.insert(model.points.end(), shape.points.begin(), shape.points.end());
+    model.corners.insert(model.corners.end(), shape.corners.begin(), shape.corners.end());
+    model.joints.push_back(patch);
+    model.joint_of_patch.push_back(index);
+    if (std::get<0>(key) < 2) ++model.batched_joints;
+  }
+}
+
+void fill_lane(const Model& model, const Patch& patch, int lane, JointBatch& batch) {
+  batch.a[lane] = patch.a;
+  batch.b[lane] = patch.b;
+  for (int i = 0; i < 3; ++i) {
+    batch.arm_a[i][lane] = patch.arm_a[i];
+    batch.arm_b[i][lane] = patch.arm_b[i];
+    batch.place[i][lane] = patch.place[i];
+  }
+  for (int i = 0; i < 4; ++i) batch.frame[i][lane] = patch.e_a[i];
+  batch.kn[lane] = patch.kn;
+  batch.ks[lane] = patch.ks;
+  batch.area[lane] = patch.area;
+  batch.ss[lane] = patch.ss;
+  batch.tt[lane] = patch.tt;
+  batch.limit_slip2[lane] = model.contact.reclip_slip * model.contact.reclip_slip * patch.area;
+  batch.limit_turn2[lane] = model.contact.reclip_angle * model.contact.reclip_angle;
+}
+
+/// Batches of eight in order; a batch takes four corners a lane when all its joints have at most four, else eight. Missing
+/// corners repeat the last one, missing joints the last joint.
+void make_batches(Model& model) {
+  for (std::int32_t first = 0; first < model.batched_joints; first += lane_count) {
+    JointBatch batch{};
+    batch.count = std::min<std::int32_t>(lane_count, model.batched_joints - first);
+    int corners = 0;
+    for (int lane = 0; lane < batch.count; ++lane) corners = std::max(corners, model.joints[first + lane].corner_count);
+    batch.corners = corners <= 4 ? 4 : most_fast_corners;
+    batch.first_corner = std::int32_t(model.batch_corners.size());
+    model.batch_corners.resize(model.batch_corners.size() + 2 * batch.corners);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const Patch& patch = model.joints[first + std::min(lane, batch.count - 1)];
+      fill_lane(model, patch, lane, batch);
+      for (int c = 0; c < batch.corners; ++c) {
+        const PatchPoint& corner = model.corners[patch.first_corner + std::min(c, patch.corner_count - 1)];
+        model.batch_corners[batch.first_corner + 2 * c][lane] = corner.s;
+        model.batch_corners[batch.first_corner + 2 * c + 1][lane] = corner.t;
+      }
+    }
+    model.batches.push_back(batch);
+  }
+}
+
+/// One unbonded, frictional law for each coefficient among the materials; a new contact takes the lower of its two bodies'.
+void add_contact_laws(Model& model) {
+  for (const Model::Matter& matter : model.matter) {
+    const auto same = [&](const LawConstants& law) {
+      return law.kind == JointLaw::Kind::brittle && law.tension == 0.0 && law.cohesion == 0.0 && law.residual_cohesion == 0.0 &&
+             law.tan_dilation == 0.0 && law.tan_friction == matter.tan_friction && law.residual_tan_friction == matter.tan_friction;
+    };
+    auto found = std::find_if(model.laws.begin(), model.laws.end(), same);
+    if (found == model.laws.end()) {
+      LawConstants law;
+      law.tan_friction = law.residual_tan_friction = matter.tan_friction;
+      found = model.laws.insert(model.laws.end(), law);
+    }
+    model.contact_law.push_back(std::int32_t(found - model.laws.begin()));
+  }
+}
+
+}  // namespace
+
+Model build_model(const Assembly& assembly, const SolverSettings& settings) {
+  Model model;
+  model.contact = settings.contact;
+  model.gravity = settings.gravity;
+  add_bodies(assembly, model);
+  for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
+  add_contact_laws(model);
+  add_joints(assembly, model);
+  make_batches(model);
+  return model;
+}
+
+}  // namespace voussoir

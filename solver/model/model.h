@@ -1,0 +1,88 @@
+// The model: everything about bodies and patches that does not change during a run, laid out for the step.
+// Bodies are ordered along a space-filling curve, joints by corner count and then by their pair of bodies; eight joints
+// side by side make a batch whose every quantity is one SIMD register.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "geometry/assembly.h"
+#include "geometry/convex.h"
+#include "solver/base/arrays.h"
+#include "solver/base/lanes.h"
+#include "solver/model/laws.h"
+#include "solver/model/quadrature.h"
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+/// Constants of one body; the reference placement is the assembly's.
+struct Body {
+  Vec3 centroid = Vec3::Zero();         // m
+  double mass = 0.0;                    // kg, weighs and moves
+  double inertial_mass = 0.0;           // kg, moves (differs from mass only under mass scaling)
+  Mat3 inertia = Mat3::Zero();          // kg m2, reference axes, scaled like inertial_mass
+  Mat3 inverse_inertia = Mat3::Zero();
+  bool fixed = false;                   // moves with the ground
+};
+
+/// Geometry of one patch for the point-by-point path. The local axes (n, s, t) are held by both bodies: e_a and e_b turn
+/// them into each body's reference axes, so that at the placement where the patch was made R_a e_a = R_b e_b.
+struct Patch {
+  std::int32_t a = 0, b = 0;            // bodies
+  std::int32_t cell_a = 0, cell_b = 0;
+  std::int32_t law = 0;                 // index into Model::laws
+  std::int32_t first_point = 0, point_count = 0;
+  std::int32_t first_corner = 0, corner_count = 0;  // its polygon, for files and pictures
+  double arm_a[3] = {}, arm_b[3] = {};  // m, centroid of the body to that of the patch, reference axes
+  double place[3] = {};                 // m, X_a + arm_a
+  double shift[3] = {};                 // m, (X_b + arm_b) − (X_a + arm_a): zero for the assembly's joints
+  double e_a[4] = {1, 0, 0, 0}, e_b[4] = {1, 0, 0, 0};
+  double gap[3] = {};                   // un (m), θs, θt (rad) when the bodies are where they were when it was made
+  double kn = 0.0, ks = 0.0;            // Pa/m
+  double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
+};
+
+/// Eight joints of the assembly, a lane each, for the intact path.
+struct alignas(64) JointBatch {
+  Lanes arm_a[3], arm_b[3], place[3], frame[4];
+  Lanes kn, ks, area, ss, tt;
+  Lanes limit_slip2, limit_turn2;  // m2, –: squares past which the patch is clipped anew (turn in units of |2 sin(φ/2)|)
+  std::int32_t a[lane_count], b[lane_count];
+  std::int32_t first_corner = 0;  // into Model::batch_corners
+  std::int32_t corners = 4;       // 4 or 8
+  std::int32_t count = 0;         // joints in use; further lanes repeat the last one and are never written
+};
+
+constexpr int most_fast_corners = 8;
+
+struct Model {
+  std::vector<Body> bodies;
+  std::vector<std::int64_t> block_of_body;
+  std::vector<std::int32_t> body_of_block;
+  std::vector<std::vector<Convex>> cells;   // per body, reference placement
+
+  std::vector<LawConstants> laws;           // the assembly's, then the contact laws of pairs of materials
+  std::vector<Patch> joints;                // the assembly's joints in batch order
+  std::vector<std::int64_t> joint_of_patch; // index in Assembly::joints
+  std::vector<PatchPoint> points, corners;  // of all joints
+  Array<JointBatch> batches;                // batch k holds joints 8k … 8k+7; the tail of `joints` beyond batched_joints
+  std::int32_t batched_joints = 0;          // (polygons with more than eight corners) always takes the point path
+  Array<Lanes> batch_corners;               // s, t of each corner
+
+  // For contacts that appear: what a patch between two bodies is made of.
+  struct Matter {
+    double youngs = 0.0, shear = 0.0, tan_friction = 0.0;
+  };
+  std::vector<Matter> matter;               // per body
+  std::vector<std::int32_t> contact_law;    // per body: the law of an unbonded contact with its own friction
+  double typical_size = 0.0;                // m, median over bodies of volume^(1/3)
+  double average_weight = 0.0;              // N, of a free block at 9.81 m/s2 or the case's gravity
+  ContactSettings contact;
+  Vec3 gravity = Vec3::Zero();
+};
+
+/// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError when nothing can move or
+/// a joint has no stiffness.
+Model build_model(const Assembly& assembly, const SolverSettings& settings);
+
+}  // namespace voussoir

@@ -1,0 +1,114 @@
+#include "solver/model/state.h"
+
+#include "solver/contact/jump.h"
+
+namespace voussoir {
+
+void PatchMemory::resize(std::size_t patches, std::size_t points, int branches) {
+  point.assign(4 * points, 0.0);
+  broken.assign(points, 0);
+  point_branch.assign(3 * points * branches, 0.0);
+  mode.assign(patches, 0);
+  largest.assign(2 * patches, 0.0);
+  energy.assign(3 * patches, 0.0);
+}
+
+namespace {
+
+constexpr int patch_columns = 37;
+
+void pack(const Patch& p, Array<double>& rows) {
+  const double row[patch_columns] = {
+      double(p.a), double(p.b), double(p.cell_a), double(p.cell_b), double(p.law), double(p.first_point),
+      double(p.point_count), double(p.first_corner), double(p.corner_count), p.arm_a[0], p.arm_a[1], p.arm_a[2], p.arm_b[0],
+      p.arm_b[1], p.arm_b[2], p.place[0], p.place[1], p.place[2], p.shift[0], p.shift[1], p.shift[2], p.e_a[0], p.e_a[1],
+      p.e_a[2], p.e_a[3], p.e_b[0], p.e_b[1], p.e_b[2], p.e_b[3], p.gap[0], p.gap[1], p.gap[2], p.kn, p.ks, p.area, p.ss, p.tt};
+  rows.insert(rows.end(), row, row + patch_columns);
+}
+
+Patch unpack(const double* r) {
+  Patch p;
+  std::int32_t* whole[9] = {&p.a, &p.b, &p.cell_a, &p.cell_b, &p.law, &p.first_point, &p.point_count, &p.first_corner, &p.corner_count};
+  for (std::int32_t* field : whole) *field = std::int32_t(*r++);
+  const auto take = [&](double* to, int n) {
+    for (int i = 0; i < n; ++i) to[i] = *r++;
+  };
+  take(p.arm_a, 3), take(p.arm_b, 3), take(p.place, 3), take(p.shift, 3), take(p.e_a, 4), take(p.e_b, 4), take(p.gap, 3);
+  take(&p.kn, 1), take(&p.ks, 1), take(&p.area, 1), take(&p.ss, 1), take(&p.tt, 1);
+  return p;
+}
+
+void pack_points(const std::vector<PatchPoint>& points, Array<double>& rows) {
+  rows.clear();
+  for (const PatchPoint& p : points) rows.insert(rows.end(), {p.s, p.t, p.weight});
+}
+
+std::vector<PatchPoint> unpack_points(const Array<double>& rows) {
+  std::vector<PatchPoint> points;
+  for (std::size_t i = 0; i + 2 < rows.size(); i += 3) points.push_back({rows[i], rows[i + 1], rows[i + 2]});
+  return points;
+}
+
+void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& memory) {
+  list.push_back({prefix + "/point_memory", 4, "m, m, m, -", &memory.point});
+  list.push_back({prefix + "/point_broken", 1, "-", &memory.broken});
+  list.push_back({prefix + "/point_branch", 1, "m", &memory.point_branch});
+  list.push_back({prefix + "/mode", 1, "-", &memory.mode});
+  list.push_back({prefix + "/largest", 2, "m", &memory.largest});
+  list.push_back({prefix + "/energy", 3, "J", &memory.energy});
+}
+
+}  // namespace
+
+std::vector<NamedArray> State::arrays() {
+  contact_rows.clear();
+  for (const Patch& p : contacts) pack(p, contact_rows);
+  pack_points(contact_points, contact_point_rows);
+  pack_points(contact_corners, contact_corner_rows);
+  std::vector<NamedArray> list = {{"scalars", 1, "SI", &scalars},
+                                  {"counters", 1, "-", &counters},
+                                  {"bodies/pose", pose_width, "m, -", &pose},
+                                  {"bodies/motion", motion_width, "m/s, kg m2/s, J", &motion},
+                                  {"bodies/searched", 3, "m", &searched},
+                                  {"joints/slip", lane_count, "m, m, rad", &slip},
+                                  {"joints/branch", lane_count, "m, rad", &branch}};
+  add(list, "joints", joint);
+  list.push_back({"contacts/patches", patch_columns, "SI", &contact_rows});
+  list.push_back({"contacts/points", 3, "m, m, m2", &contact_point_rows});
+  list.push_back({"contacts/corners", 3, "m, m, m2", &contact_corner_rows});
+  add(list, "contacts", contact);
+  return list;
+}
+
+void State::unpack_contacts() {
+  contacts.clear();
+  for (std::size_t i = 0; i + patch_columns <= contact_rows.size(); i += patch_columns)
+    contacts.push_back(unpack(&contact_rows[i]));
+  contact_points = unpack_points(contact_point_rows);
+  contact_corners = unpack_points(contact_corner_rows);
+}
+
+State initial_state(const Model& model, int branches) {
+  State state;
+  const std::size_t n = model.bodies.size();
+  state.pose.assign(pose_width * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) state.pose[pose_width * i + 3] = 1.0;
+  state.motion.assign(motion_width * n, 0.0);
+  state.searched.assign(3 * n, 0.0);
+  state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
+  state.branch.assign(6 * lane_count * branches * model.batches.size(), 0.0);
+  state.joint.resize(model.joints.size(), model.points.size(), branches);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Patch& patch = model.joints[i];
+    const LawConstants& law = model.laws[patch.law];
+    const bool bondless = law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
+    if (bondless) {
+      state.joint.mode[i] |= mode_broken;
+      for (int k = 0; k < patch.point_count; ++k) state.joint.broken[patch.first_point + k] = 1;
+    }
+    if (std::int32_t(i) >= model.batched_joints) state.joint.mode[i] |= mode_points;
+  }
+  return state;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,87 @@
+// The state of a run: everything that changes, and nothing that can be recomputed. Its arrays are what a checkpoint holds
+// and what the state hash covers.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "solver/base/arrays.h"
+#include "solver/model/model.h"
+
+namespace voussoir {
+
+/// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu, traction
+/// stiffness × q. A branch stores only p = e q − g u, from which the next q = p + g u follows (docs/theory/damping.md).
+struct Branches {
+  int count = 0;
+  double e[4] = {}, g[4] = {};
+  double loss[4] = {};    // dissipated per step and stiffness: loss q²
+  double stored[4] = {};  // held by the branch's spring per stiffness: ½ stored q²
+  double total_g() const {
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) sum += g[i];
+    return sum;
+  }
+};
+
+/// How a patch is being computed.
+enum PatchMode : std::uint8_t {
+  mode_points = 1,   // point by point (else as six generalised springs)
+  mode_broken = 2,   // intact path: the whole patch has lost its bond (or never had one)
+  mode_gone = 4,     // carries nothing for good: replaced by a contact, or its bodies have parted
+};
+
+/// Memory of a set of patches.
+struct PatchMemory {
+  Array<double> point;           // 4 a point: plastic jump n, s, t (m), softening
+  Array<std::uint8_t> broken;    // 1 a point
+  Array<double> point_branch;    // 3 a branch and point: p (m)
+  Array<std::uint8_t> mode;      // 1 a patch, PatchMode bits
+  Array<double> largest;         // 2 a patch: opening, slip (m)
+  Array<double> energy;          // 3 a patch: friction, fracture, damping (J)
+  void resize(std::size_t patches, std::size_t points, int branches);
+};
+
+constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
+constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base, loss by body damping (J)
+
+struct State {
+  // scalars: time, base velocity and displacement (3 + 3), energies of contacts that are gone (friction, fracture, damping),
+  // elastic energy that new clippings of patches took out, energy at the start of the motion, largest energy term so far
+  Array<double> scalars = Array<double>(13, 0.0);
+  Array<std::int64_t> counters = Array<std::int64_t>(3, 0);  // steps, contact searches, contacts made
+
+  Array<double> pose;      // pose_width a body; displacement since the reference placement
+  Array<double> motion;    // motion_width a body; velocities at the last half step
+  Array<double> searched;  // 3 a body: displacement relative to the base when its contacts were last looked for
+
+  PatchMemory joint;       // of Model::joints
+  Array<double> slip;      // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
+  Array<double> branch;    // per batch branches × 6 × 8: p of the six generalised jumps
+
+  std::vector<Patch> contacts;  // found during the run, sorted by (a, b, cell_a, cell_b)
+  std::vector<PatchPoint> contact_points, contact_corners;
+  PatchMemory contact;
+  Array<double> contact_rows, contact_point_rows, contact_corner_rows;  // the three above as numbers, for files
+
+  double& time() { return scalars[0]; }
+  double time() const { return scalars[0]; }
+  std::int64_t& step() { return counters[0]; }
+  Eigen::Map<Vec3> base_velocity() { return Eigen::Map<Vec3>(&scalars[1]); }
+  Eigen::Map<Vec3> base_displacement() { return Eigen::Map<Vec3>(&scalars[4]); }
+  Eigen::Map<const Vec3> base_displacement() const { return Eigen::Map<const Vec3>(&scalars[4]); }
+  Eigen::Map<const Vec3> base_velocity() const { return Eigen::Map<const Vec3>(&scalars[1]); }
+  double* retired_energy() { return &scalars[7]; }
+  const double* retired_energy() const { return &scalars[7]; }
+  double& clipped_energy() { return scalars[10]; }
+  double clipped_energy() const { return scalars[10]; }
+  double& starting_energy() { return scalars[11]; }
+  double& largest_energy() { return scalars[12]; }
+
+  /// All arrays by name, contacts flattened; call unpack_contacts() after reading into them.
+  std::vector<NamedArray> arrays();
+  void unpack_contacts();
+};
+
+/// At rest in the reference placement, bonds as the laws say.
+State initial_state(const Model& model, int branches);
+}  // namespace voussoir

@@ -1,0 +1,38 @@
+// Synthetic accelerograms: stationary Gaussian noise with the spectrum of a soil layer, under an envelope in time.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+struct SyntheticSettings {
+  std::uint64_t seed = 1;
+  double peak = 0.0;                                // m/s2, largest absolute value of each shaken axis
+  double duration = 0.0;                            // s
+  std::array<bool, 3> axes = {true, false, false};  // x, y, z: independent noise in each
+  double frequency = 2.5;                           // Hz, of the ground filter (firm soil)
+  double bandwidth = 0.6;                           // damping ratio of the ground filter
+  double rise = 0.15;                               // share of the duration until full strength
+  double strong = 0.55;                             // share of the duration until decay begins
+  double dt = 0.005;                                // s
+  bool operator==(const SyntheticSettings&) const = default;
+};
+
+/// Power spectral density of ground acceleration at circular frequency omega (rad/s), for unit white noise at the
+/// bedrock: the Kanai-Tajimi layer filter (Kanai 1957; Tajimi 1960) times the high-pass filter of Clough & Penzien
+/// (1975), whose frequency is a tenth of the ground's with damping 0.6, so that displacements stay bounded.
+double ground_spectrum(double omega, double ground_omega, double ground_damping);
+
+/// Envelope of Jennings, Housner & Tsai (1968): parabolic rise, level strong phase, exponential decay to 0.05 at the
+/// end. `rise` and `strong` are times in s.
+double jennings_envelope(double t, double rise, double strong, double duration);
+
+/// Sum of cosines with Gaussian coefficients, enveloped, baseline-corrected (zero velocity at the end) and scaled to
+/// the peak. The random numbers are the program's own (splitmix64 and Box-Muller), so a seed means the same motion
+/// anywhere. Throws InputError when peak, duration, frequency, bandwidth or dt is not positive or no axis is chosen.
+GroundMotion synthesize(const SyntheticSettings& settings);
+
+}  // namespace voussoir

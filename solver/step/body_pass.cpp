@@ -1,0 +1,152 @@
+#include "solver/step/body_pass.h"
+
+#include <cmath>
+
+namespace voussoir {
+
+Incidence find_incidence(const Model& model, const State& state) {
+  Incidence incidence;
+  const std::size_t joints = model.joints.size(), all = joints + state.contacts.size();
+  const auto patch = [&](std::size_t i) -> const Patch& { return i < joints ? model.joints[i] : state.contacts[i - joints]; };
+  incidence.first.assign(model.bodies.size() + 1, 0);
+  for (std::size_t i = 0; i < all; ++i) ++incidence.first[patch(i).a + 1], ++incidence.first[patch(i).b + 1];
+  for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
+  incidence.patches.resize(incidence.first.back());
+  std::vector<std::int32_t> next(incidence.first.begin(), incidence.first.end() - 1);
+  for (std::size_t i = 0; i < all; ++i) {
+    incidence.patches[next[patch(i).a]++] = std::int32_t(2 * i);
+    incidence.patches[next[patch(i).b]++] = std::int32_t(2 * i + 1);
+  }
+  return incidence;
+}
+
+namespace {
+
+Triple<double> times(const Mat3& m, const Triple<double>& x) {
+  return {m(0, 0) * x.x + m(0, 1) * x.y + m(0, 2) * x.z, m(1, 0) * x.x + m(1, 1) * x.y + m(1, 2) * x.z,
+          m(2, 0) * x.x + m(2, 1) * x.y + m(2, 2) * x.z};
+}
+
+Triple<double> spin(const Body& body, const Quat<double>& q, const Triple<double>& momentum) {
+  return turn(q, times(body.inverse_inertia, turn_back(q, momentum)));
+}
+
+/// exp(½ dt ω) q, renormalised; series of sin and cos below a quarter turn a step, which keep full precision and are the
+/// same on every machine.
+Quat<double> rotate(const Quat<double>& q, const Triple<double>& omega, double dt) {
+  const Triple<double> h = 0.5 * dt * omega;
+  const double x = dot(h, h);
+  double c, s;  // cos |h|, sin |h| / |h|
+  if (x < 0.06) {
+    c = 1.0 - x / 2 * (1.0 - x / 12 * (1.0 - x / 30 * (1.0 - x / 56 * (1.0 - x / 90))));
+    s = 1.0 - x / 6 * (1.0 - x / 20 * (1.0 - x / 42 * (1.0 - x / 72 * (1.0 - x / 110))));
+  } else {
+    const double a = std::sqrt(x);
+    c = std::cos(a);
+    s = std::sin(a) / a;
+  }
+  const Quat<double> r = Quat<double>{c, s * h} * q;
+  const double norm = 1.0 / std::sqrt(r.w * r.w + dot(r.v, r.v));
+  return {norm * r.w, norm * r.v};
+}
+
+double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
+
+/// Cundall's local damping: each component of the out-of-balance force is cut where it speeds the body up and raised where
+/// it slows it down. Returns the loss over the step.
+double damp_locally(double share, double dt, Triple<double>& force, const Triple<double>& velocity) {
+  double loss = 0.0;
+  double* f = &force.x;
+  const double* v = &velocity.x;
+  for (int c = 0; c < 3; ++c) {
+    const double cut = share * std::abs(f[c]) * sign(v[c]);
+    loss += dt * cut * v[c];
+    f[c] -= cut;
+  }
+  return loss;
+}
+
+}  // namespace
+
+BodyUpdate BodyPass::update(std::size_t i) const {
+  const Body& body = model->bodies[i];
+  const double* pose = &state->pose[pose_width * i];
+  const double* motion = &state->motion[motion_width * i];
+  BodyUpdate r;
+  Triple<double> f = {0, 0, 0}, m = {0, 0, 0};
+  for (std::int32_t k = incidence->first[i]; k < incidence->first[i + 1]; ++k) {
+    const std::int32_t entry = incidence->patches[k];
+    const double* w = wrenches + wrench_width * std::size_t(entry >> 1);
+    if (entry & 1) {
+      f.x -= w[0], f.y -= w[1], f.z -= w[2];
+      m.x -= w[3], m.y -= w[4], m.z -= w[5];
+    } else {
+      f.x += w[0], f.y += w[1], f.z += w[2];
+      m.x += w[3], m.y += w[4], m.z += w[5];
+    }
+  }
+  const Triple<double> x = {body.centroid.x() + pose[0], body.centroid.y() + pose[1], body.centroid.z() + pose[2]};
+  m = m - cross(x, f);
+  if (body.fixed) {
+    r.force = f;
+    r.moment = m;
+    r.velocity = {base_velocity_next.x(), base_velocity_next.y(), base_velocity_next.z()};
+    r.momentum = {0, 0, 0};
+    return r;
+  }
+  const Vec3& g = model->gravity;
+  f = f + body.mass * Triple<double>{g.x(), g.y(), g.z()};
+  r.force = f;
+  r.moment = m;
+  const Triple<double> v = triple(motion), l = triple(motion + 3);
+  if (local > 0.0) {
+    r.loss += damp_locally(local, dt, f, v);
+    r.loss += damp_locally(local, dt, m, spin(body, pose_rotation(pose), l));
+  }
+  if (mass_rate > 0.0) {  // centred: the mean of both half-step velocities is damped
+    const double h = 0.5 * dt * mass_rate;
+    r.velocity = (1.0 / (1.0 + h)) * ((1.0 - h) * v + (dt / body.inertial_mass) * f);
+    r.momentum = (1.0 / (1.0 + h)) * ((1.0 - h) * l + dt * m);
+    const Triple<double> mean = 0.5 * (v + r.velocity), turn_mean = 0.5 * (l + r.momentum);
+    r.loss += mass_rate * dt * (body.inertial_mass * dot(mean, mean) + dot(turn_mean, spin(body, pose_rotation(pose), turn_mean)));
+  } else {
+    r.velocity = v + (dt / body.inertial_mass) * f;
+    r.momentum = l + dt * m;
+  }
+  return r;
+}
+
+BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
+  BodyReport report;
+  const double far2 = search_distance * search_distance;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Body& body = model->bodies[i];
+    double* pose = &state->pose[pose_width * i];
+    double* motion = &state->motion[motion_width * i];
+    const BodyUpdate next = update(i);
+    motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;
+    if (body.fixed) {
+      // The ground supplies what the patches take, over the mean of both half steps.
+      const Vec3 mean = 0.5 * (base_velocity_now + base_velocity_next);
+      motion[6] -= dt * (next.force.x * mean.x() + next.force.y * mean.y() + next.force.z * mean.z());
+      for (int c = 0; c < 3; ++c) pose[c] = base_displacement_next[c];
+      continue;
+    }
+    motion[3] = next.momentum.x, motion[4] = next.momentum.y, motion[5] = next.momentum.z;
+    motion[7] += next.loss;
+    for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
+    const Quat<double> q = pose_rotation(pose);
+    const Quat<double> half = rotate(q, spin(body, q, next.momentum), 0.5 * dt);
+    const Quat<double> turned = rotate(q, spin(body, half, next.momentum), dt);
+    pose[3] = turned.w, pose[4] = turned.v.x, pose[5] = turned.v.y, pose[6] = turned.v.z;
+    const double* searched = &state->searched[3 * i];
+    const double dx = pose[0] - base_displacement_next[0] - searched[0], dy = pose[1] - base_displacement_next[1] - searched[1],
+                 dz = pose[2] - base_displacement_next[2] - searched[2];
+    report.search |= dx * dx + dy * dy + dz * dz > far2;
+    const double speed2 = dot(next.velocity, next.velocity);
+    if (!(speed2 < 1e6) && report.runaway < 0) report.runaway = std::int32_t(i);
+  }
+  return report;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,26 @@
+// The critical time step, 2/ω_max of the intact assembly, by power iteration on M⁻¹K.
+#pragma once
+#include "solver/model/state.h"
+
+namespace voussoir {
+
+struct CriticalStep {
+  double step = 0.0;            // s, undamped
+  double highest = 0.0;         // rad/s
+  std::int32_t body = -1;       // the body that moves most in the highest mode
+  std::int64_t patch = -1;      // its patch that is strained most there
+};
+
+/// Rayleigh quotient after at most 200 power iterations, stopped when it grows by less than 1e-4 in ten. It approaches
+/// ω_max from below; the safety factor of the step covers the rest.
+CriticalStep critical_step(const Model& model, const State& state);
+
+struct MassScaling {
+  double share = 0.0;           // added inertia over the mass of all free bodies
+  std::int64_t bodies = 0;      // scaled ones
+};
+/// Raises inertia, never weight, of the bodies whose own bound (Gershgorin over its patches) asks for a step below `step`
+/// until the assembly's critical step reaches it. Throws InputError when the added share would pass `limit`.
+MassScaling scale_mass(Model& model, const State& state, double step, double limit);
+
+}  // namespace voussoir

@@ -1,0 +1,39 @@
+// Damping: Maxwell branches beside every elastic stiffness, Rayleigh, local.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "solver/model/state.h"
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+/// Branches of relative stiffness α and relaxation frequency f beside a unit spring.
+struct MaxwellFit {
+  std::vector<double> stiffness;   // α_j, of the elastic stiffness
+  std::vector<double> frequency;   // f_j, Hz
+  double lowest = 0.0, highest = 0.0;  // damping ratio over the band: the ripple
+};
+
+/// Damping ratio ½ Im/Re of 1 + Σ α_j (iω/ω_j)/(1 + iω/ω_j) at `frequency` (Hz).
+double maxwell_ratio(const MaxwellFit& fit, double frequency);
+/// Stiffness factor |Re| at `frequency`: undamped frequencies rise by its square root.
+double maxwell_stiffening(const MaxwellFit& fit, double frequency);
+/// Least squares of the ratio over the band, frequencies spaced evenly in their logarithm (Gauss–Newton with step control).
+MaxwellFit fit_maxwell(double ratio, std::array<double, 2> band, int branches);
+
+/// Damping as the step uses it.
+struct DampingAtWork {
+  Branches branches;
+  double mass_rate = 0.0;    // 1/s: Rayleigh's mass term
+  double local = 0.0;        // Cundall's coefficient
+  double step_factor = 1.0;  // the critical step is multiplied by this
+  std::string account;       // one line for the log
+};
+
+/// `step` in s; `highest` is the largest undamped circular frequency (rad/s), for the stability of the Rayleigh term.
+DampingAtWork damping_at_work(const DampingSettings& settings, double step, double highest);
+/// The factor alone, before a step is chosen.
+double damping_step_factor(const DampingSettings& settings, double highest);
+
+}  // namespace voussoir

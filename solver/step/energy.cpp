@@ -1,0 +1,113 @@
+#include "solver/step/energy.h"
+
+namespace voussoir {
+
+namespace {
+
+/// ½ stored q² of the branches after their update: q from p = e q − g u.
+double branch_jump(const Branches& b, int k, double p, double u) { return b.e[k] > 0.0 ? (p + b.g[k] * u) / b.e[k] : 0.0; }
+
+PatchEnergy intact_energy(const Model& model, const State& state, const Branches& branches, std::size_t index) {
+  const Patch& patch = model.joints[index];
+  const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
+  const std::size_t batch = index / lane_count, lane = index % lane_count;
+  const double* slip = &state.slip[3 * lane_count * batch + lane];
+  const double u[6] = {j.n, j.s - slip[0], j.t - slip[lane_count], j.rn - slip[2 * lane_count], j.rs, j.rt};
+  if (state.joint.mode[index] & mode_broken) {  // wholly open patches carry nothing
+    bool open = true;
+    for (int c = 0; c < patch.corner_count; ++c) {
+      const PatchPoint& corner = model.corners[patch.first_corner + c];
+      open &= u[0] + u[4] * corner.t - u[5] * corner.s >= 0.0;
+    }
+    if (open) return {};
+  }
+  const double k[6] = {patch.kn * patch.area,                patch.ks * patch.area, patch.ks * patch.area,
+                       patch.ks * (patch.ss + patch.tt), patch.kn * patch.tt,   patch.kn * patch.ss};
+  PatchEnergy e;
+  for (int c = 0; c < 6; ++c) {
+    e.elastic += 0.5 * k[c] * u[c] * u[c];
+    for (int b = 0; b < branches.count; ++b) {
+      const double p = state.branch[lane_count * (6 * (branches.count * batch + b) + c) + lane];
+      const double q = branch_jump(branches, b, p, u[c]);
+      e.branches += 0.5 * k[c] * branches.stored[b] * q * q;
+    }
+  }
+  return e;
+}
+
+PatchEnergy points_energy(const Patch& patch, const PatchPoint* points, const PatchMemory& memory, const State& state,
+                          const Branches& branches) {
+  const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
+  PatchEnergy e;
+  for (int i = 0; i < patch.point_count; ++i) {
+    const std::size_t at = std::size_t(patch.first_point) + i;
+    const Triple<double> u = point_jump(patch, j, points[at].s, points[at].t);
+    const double* plastic = &memory.point[4 * at];
+    const double x[3] = {u.x - plastic[0], u.y - plastic[1], u.z - plastic[2]};
+    if (memory.broken[at] && x[0] >= 0.0) continue;
+    for (int c = 0; c < 3; ++c) {
+      const double k = points[at].weight * (c == 0 ? patch.kn : patch.ks);
+      e.elastic += 0.5 * k * x[c] * x[c];
+      for (int b = 0; b < branches.count; ++b) {
+        const double q = branch_jump(branches, b, memory.point_branch[3 * (branches.count * at + b) + c], x[c]);
+        e.branches += 0.5 * k * branches.stored[b] * q * q;
+      }
+    }
+  }
+  return e;
+}
+
+void add_losses(const PatchMemory& memory, Energies& e) {
+  for (std::size_t i = 0; i + 2 < memory.energy.size(); i += 3) {
+    e.friction += memory.energy[i];
+    e.fracture += memory.energy[i + 1];
+    e.joint_damping += memory.energy[i + 2];
+  }
+}
+
+void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energies& e) {
+  const Body& body = stepper.model->bodies[i];
+  const double* motion = &stepper.state->motion[motion_width * i];
+  const double* pose = &stepper.state->pose[pose_width * i];
+  e.base_work += motion[6];
+  e.body_damping += motion[7];
+  if (body.fixed) return;
+  const BodyUpdate next = pass.update(i);
+  const Triple<double> v = 0.5 * (triple(motion) + next.velocity), l = 0.5 * (triple(motion + 3) + next.momentum);
+  const Triple<double> local = turn_back(pose_rotation(pose), l);
+  const Vec3 lb(local.x, local.y, local.z);
+  e.kinetic += 0.5 * body.inertial_mass * dot(v, v) + 0.5 * lb.dot(body.inverse_inertia * lb);
+  e.gravitational -= body.mass * stepper.model->gravity.dot(Vec3(pose[0], pose[1], pose[2]));
+}
+
+}  // namespace
+
+PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index) {
+  if (index >= model.joints.size())
+    return points_energy(state.contacts[index - model.joints.size()], state.contact_points.data(), state.contact, state, branches);
+  const std::uint8_t mode = state.joint.mode[index];
+  if (mode & mode_gone) return {};
+  if (mode & mode_points) return points_energy(model.joints[index], model.points.data(), state.joint, state, branches);
+  return intact_energy(model, state, branches, index);
+}
+
+Energies compute_energies(const Stepper& stepper, const BodyPass& pass) {
+  const Model& model = *stepper.model;
+  const State& state = *stepper.state;
+  Energies e;
+  for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
+    const PatchEnergy patch = patch_energy(model, state, stepper.damping.branches, i);
+    e.elastic += patch.elastic;
+    e.damping_springs += patch.branches;
+  }
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) add_body(stepper, pass, i, e);
+  add_losses(state.joint, e);
+  add_losses(state.contact, e);
+  e.friction += state.retired_energy()[0];
+  e.fracture += state.retired_energy()[1];
+  e.joint_damping += state.retired_energy()[2];
+  e.clipping = state.clipped_energy();
+  return e;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,32 @@
+// The energy ledger, joules. What was put in equals what is stored plus what is lost, or the run is not to be believed.
+#pragma once
+#include "solver/step/stepper.h"
+
+namespace voussoir {
+
+struct Energies {
+  double kinetic = 0.0;
+  double gravitational = 0.0;   // relative to the reference placement
+  double elastic = 0.0;         // in joints
+  double damping_springs = 0.0; // in Maxwell branches
+  double friction = 0.0;        // dissipated
+  double fracture = 0.0;        // lost with bonds
+  double joint_damping = 0.0;   // dissipated by branches
+  double body_damping = 0.0;    // dissipated by local and mass damping
+  double clipping = 0.0;        // elastic energy that new clippings of patches took out (or, negative, put in)
+  double base_work = 0.0;       // done by the moving ground
+  double stored() const { return kinetic + gravitational + elastic + damping_springs; }
+  double lost() const { return friction + fracture + joint_damping + body_damping + clipping; }
+  /// stored + lost − base work: constant in exact arithmetic.
+  double total() const { return stored() + lost() - base_work; }
+};
+
+/// At a sampling point of the step (positions and patches at this step; `pass` knows the velocities to come).
+Energies compute_energies(const Stepper& stepper, const BodyPass& pass);
+/// Elastic energy of one patch with its branches' springs, J.
+struct PatchEnergy {
+  double elastic = 0.0, branches = 0.0;
+};
+PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index);
+
+}  // namespace voussoir

@@ -1,0 +1,58 @@
+// The step: patches, then bodies, in one team of threads that stays together until there is something to decide.
+#pragma once
+#include <atomic>
+#include <functional>
+
+#include "solver/step/body_pass.h"
+#include "solver/step/damping.h"
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+enum class StepOutcome {
+  reached,      // the step asked for
+  contacts,     // contacts must be looked for before going on
+  runaway,      // a velocity is not finite or past 1000 m/s
+  interrupted,  // the stop flag was set
+};
+
+struct Advance {
+  StepOutcome outcome = StepOutcome::reached;
+  std::int32_t runaway_body = -1;
+  bool reclip = false;                 // contacts: because a patch has slid or turned past its limit
+  std::int64_t intact = 0, points = 0; // patches of the last step on either path
+};
+
+/// What a step works with. The stepper owns only scratch memory; everything that must survive is in the state.
+struct Stepper {
+  const Model* model = nullptr;
+  State* state = nullptr;
+  DampingAtWork damping;
+  double dt = 0.0;                      // s
+  int threads = 1;
+  bool shortcut = true;
+  const GroundMotion* motion = nullptr; // none: the base keeps its velocity
+  double motion_start = 0.0;            // s, time of the motion's first sample
+  double search_distance = 1e300;       // m, see BodyPass
+
+  Incidence incidence;
+  Array<double> wrenches;
+
+  /// Rebuilds what depends on the list of contacts. Call after it changes and before the first advance().
+  void prepare();
+  /// Steps until state->step() is `target` or something has to be decided. Every `sample_every` steps `sample` is called,
+  /// by one thread, between the two passes: positions and patches are at this step, velocities at the half step before.
+  Advance advance(std::int64_t target, std::int64_t sample_every, const std::function<void(const BodyPass&)>& sample,
+                  const std::atomic<bool>* stop);
+  /// The first pass alone, serially: wrenches at the present placement (used by the static solver and for reports).
+  PassReport patches_only();
+  BodyPass body_pass() const;
+};
+
+/// The plain serial step, written as the loop it stands for: every patch in order adds its wrench to both bodies, then every
+/// body moves. The oracle that the two passes must equal bit for bit.
+void serial_step(Stepper& stepper);
+
+Vec3 base_acceleration(const GroundMotion* motion, double time);
+
+}  // namespace voussoir

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# A room includes only rooms up-river of it; VTK stays in io/vtk and viz, OpenMP in solver/base.
+# Usage: check_rooms.sh SOURCE_DIR
+set -u
+cd "$1" || exit 2
+bad=0
+# forbid FOLDERS PATTERN WHY: no file in FOLDERS may include what PATTERN matches.
+forbid() {
+  local hits
+  hits=$(grep -rnE "^#include [<\"]($2)" $1 --include='*.h' --include='*.cpp') || return 0
+  printf '%s:\n%s\n' "$3" "$hits"
+  bad=1
+}
+forbid "solver/base" "geometry/|solver/(model|contact|fill|effects|motion|step|modal)/|io/|viz/|tools/" "solver/base is the spring: it includes no other room"
+forbid "geometry" "solver/(model|contact|fill|effects|motion|step|modal)/|io/|viz/|tools/" "geometry is up-river of solver, io, viz and tools"
+forbid "solver" "io/|viz/|tools/" "solver never includes io, viz or tools"
+forbid "io" "viz/|tools/" "io is up-river of viz and tools"
+forbid "viz" "tools/" "viz is up-river of tools"
+forbid "geometry solver io/case io/hdf5 io/records tools" "vtk" "VTK belongs in io/vtk and viz"
+forbid "geometry solver/model solver/contact solver/fill solver/effects solver/motion solver/step solver/modal io viz tools" "omp\.h" "OpenMP belongs in solver/base"
+if grep -rnE '#pragma omp' geometry solver/[!b]* io viz tools --include='*.h' --include='*.cpp'; then
+  echo "OpenMP pragmas belong in solver/base"; bad=1
+fi
+exit $bad

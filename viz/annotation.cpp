@@ -1,0 +1,120 @@
+#include "viz/annotation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voussoir {
+namespace {
+
+/// How many parts give a scale from 0 to `top` round numbers.
+int scale_steps(double top) {
+  const double leading = top / std::pow(10.0, std::floor(std::log10(top) + 1e-9));
+  const auto is = [&](double value) { return std::abs(leading - value) < 1e-6; };
+  if (is(3) || is(6)) return 3;
+  return is(2) || is(4) || is(8) ? 4 : 5;
+}
+
+void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {
+  const double s = sheet.letter, width = std::min(0.36 * sheet.width, 30 * s), height = 0.85 * s;
+  const double left = 0.5 * (sheet.width - width), bottom = 2.0 * s;
+  constexpr int steps = 200;
+  for (int i = 0; i < steps; ++i)  // a hair wider than a step, so that no seams show
+    overlay.rectangle(left + width * i / steps, bottom, width / steps + 0.6, height, scale_colour((i + 0.5) / steps));
+  const int ticks = scale_steps(colouring.top_mm);
+  for (int i = 0; i <= ticks; ++i) {
+    const double x = left + width * i / ticks;
+    overlay.line(x, bottom - 0.25 * s, x, bottom, 1.2);
+    const std::string value = fmt::format("{:.4g}", colouring.top_mm * i / ticks);
+    overlay.text(x, bottom - 1.45 * s, (colouring.exceeded && i == ticks ? "≥ " : "") + value, 0.9 * s, Align::centre);
+  }
+  const double right = left + width, top = bottom + height;
+  overlay.line(left, bottom, right, bottom, 1.2);
+  overlay.line(left, top, right, top, 1.2);
+  overlay.line(left, bottom, left, top, 1.2);
+  overlay.line(right, bottom, right, top, 1.2);
+  overlay.text(0.5 * sheet.width, top + 0.35 * s, colouring.title, s, Align::centre);
+}
+
+void draw_legend(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {
+  const double s = 0.95 * sheet.letter, gap = 1.3 * s;
+  const auto name = [](Component c) { return component_names()[std::size_t(c)]; };
+  double total = -gap;
+  for (const Component c : colouring.components) total += 1.4 * s + Overlay::text_width(name(c), s) + gap;
+  double x = 0.5 * (sheet.width - total);
+  for (const Component c : colouring.components) {
+    overlay.rectangle(x - 1, 3.6 * s - 1, s + 2, s + 2, kInk);
+    overlay.rectangle(x, 3.6 * s, s, s, component_colour(c));
+    overlay.text(x + 1.4 * s, 3.5 * s, name(c), s);
+    x += 1.4 * s + Overlay::text_width(name(c), s) + gap;
+  }
+}
+
+void draw_length_scale(Overlay& overlay, const Sheet& sheet, double left) {
+  const double s = sheet.letter;
+  const double length = nice_below(0.13 * sheet.width * sheet.metres_per_pixel);
+  const double pixels = length / sheet.metres_per_pixel, y = 1.1 * s;
+  overlay.rectangle(left, y, pixels, 0.3 * s, kInk);
+  overlay.rectangle(left + 0.5 * pixels, y + 0.06 * s, 0.5 * pixels - 0.06 * s, 0.18 * s, {1, 1, 1});
+  overlay.text(left + 0.5 * pixels, y + 0.5 * s, fmt::format("{:g} m", length), s, Align::centre);
+}
+
+/// The three axes as the view sees them; one that points at or away from the reader is left out.
+void draw_axes(Overlay& overlay, const Sheet& sheet, const View& view) {
+  const double s = sheet.letter, size = 2.4 * s;
+  const std::array<std::pair<Vec3, const char*>, 3> axes = {
+      {{Vec3::UnitX(), "x"}, {Vec3::UnitY(), "y"}, {Vec3::UnitZ(), "z"}}};
+  double low_x = 0.0, low_y = 0.0;  // how far they reach to the left and down
+  for (const auto& [axis, name] : axes) {
+    low_x = std::min(low_x, axis.dot(view.right));
+    low_y = std::min(low_y, axis.dot(view.up));
+  }
+  const double x0 = 2.0 * s - (size + s) * low_x, y0 = 1.2 * s - (size + s) * low_y;
+  for (const auto& [axis, name] : axes) {
+    const double dx = axis.dot(view.right), dy = axis.dot(view.up), length = std::hypot(dx, dy);
+    if (length < 0.1) continue;
+    const double x1 = x0 + size * dx, y1 = y0 + size * dy, ux = dx / length, uy = dy / length;
+    overlay.line(x0, y0, x1, y1, 0.11 * s);
+    const double head = 0.5 * s, half = 0.2 * s;
+    overlay.polygon(
+        {{x1 + head * ux, y1 + head * uy}, {x1 - half * uy, y1 + half * ux}, {x1 + half * uy, y1 - half * ux}}, kInk);
+    overlay.text(x1 + (head + 0.55 * s) * ux, y1 + (head + 0.55 * s) * uy - 0.6 * s, name, s, Align::centre);
+  }
+}
+
+void draw_words(Overlay& overlay, const Sheet& sheet, const Words& words) {
+  const double s = sheet.letter, right = sheet.width - 1.2 * s;
+  overlay.text(right, 2.5 * s, words.time, 1.1 * s, Align::right);
+  overlay.text(right, 1.1 * s, words.deform, s, Align::right);
+  const double top = sheet.height - 1.9 * s;
+  overlay.text(1.2 * s, top, words.title, 1.25 * s, Align::left, kInk, true);
+  if (words.cracks.empty()) return;
+  overlay.text(right, top, words.cracks, 0.95 * s, Align::right);
+  const double x = right - Overlay::text_width(words.cracks, 0.95 * s) - 1.0 * s;
+  overlay.line(x - 1.8 * s, top + 0.6 * s, x, top + 0.6 * s, 0.16 * s, kCrack);
+}
+
+}  // namespace
+
+double letter_size(int width) {
+  return std::clamp(width / 72.0, 11.0, 60.0);
+}
+double top_strip(const Sheet& sheet) {
+  return 2.6 * sheet.letter;
+}
+double bottom_strip(const Sheet& sheet) {
+  return 5.2 * sheet.letter;
+}
+
+void draw_annotation(Overlay& overlay, const Sheet& sheet, const View& view, const Colouring& colouring,
+                     const Words& words) {
+  draw_axes(overlay, sheet, view);
+  if (sheet.metres_per_pixel > 0.0) draw_length_scale(overlay, sheet, 7.5 * sheet.letter);
+  if (!colouring.title.empty()) draw_colour_scale(overlay, sheet, colouring);
+  if (!colouring.components.empty()) draw_legend(overlay, sheet, colouring);
+  draw_words(overlay, sheet, words);
+}
+
+}  // namespace voussoir

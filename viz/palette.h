@@ -1,0 +1,29 @@
+// Colours of pictures and charts: readable in grey print and by colour-blind readers.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+
+namespace voussoir {
+
+using Colour = std::array<double, 3>;  // red, green, blue, 0…1
+
+/// The eight colours of Okabe & Ito (2008), for lines; indices beyond the last begin again.
+Colour line_colour(std::size_t index);
+
+/// Light, warm tone of the stones of a component.
+Colour component_colour(Component component);
+constexpr Colour kStone = {0.91, 0.875, 0.80};   // undamaged stone
+constexpr Colour kFixed = {0.78, 0.78, 0.78};    // stones that move with the ground
+constexpr Colour kInk = {0.12, 0.12, 0.14};      // text
+constexpr Colour kOutline = {0.22, 0.20, 0.18};  // edges of stones
+constexpr Colour kFaint = {0.55, 0.68, 0.85};    // what was before
+constexpr Colour kCrack = {0.80, 0.08, 0.08};
+
+/// Colour of a share 0…1 of the scale: from undamaged stone into viridis (van der Walt & Smith 2015), run from its
+/// light end to its dark end, so that lightness falls steadily with the value.
+Colour scale_colour(double share);
+
+}  // namespace voussoir

@@ -1,0 +1,230 @@
+#include "viz/render.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/vtk/files.h"
+#include "io/vtk/grid.h"
+#include "solver/base/error.h"
+#include "viz/annotation.h"
+#include "viz/colouring.h"
+#include "viz/display.h"
+#include "viz/offscreen.h"
+#include "viz/scene.h"
+
+namespace voussoir {
+namespace {
+
+/// Stones: matt, flat-shaded.
+void add_faces(vtkRenderer* renderer, vtkPolyData* faces) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(faces);
+  mapper->SetColorModeToDirectScalars();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->SetAmbient(0.4);
+  actor->GetProperty()->SetDiffuse(0.6);
+  renderer->AddActor(actor);
+}
+
+/// The same shape moved towards the reader by `lift` (m), so that lines lie before the faces they border. The picture
+/// of a point does not change: it moves along its own line of sight.
+vtkSmartPointer<vtkPolyData> lifted(vtkPolyData* shape, vtkCamera* camera, double lift) {
+  Vec3 eye, focus;
+  camera->GetPosition(eye.data());
+  camera->GetFocalPoint(focus.data());
+  const Vec3 along = (eye - focus).normalized();
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i) {
+    Vec3 x;
+    shape->GetPoint(i, x.data());
+    points->InsertNextPoint(Vec3(x + lift * (camera->GetParallelProjection() ? along : (eye - x).normalized())).data());
+  }
+  auto moved = vtkSmartPointer<vtkPolyData>::New();
+  moved->ShallowCopy(shape);
+  moved->SetPoints(points);
+  return moved;
+}
+
+void add_lines(vtkRenderer* renderer, vtkPolyData* lines, double width, const Colour& colour, double lift) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(lifted(lines, renderer->GetActiveCamera(), lift));
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetLineWidth(float(width * kOversampling));
+  actor->GetProperty()->LightingOff();
+  renderer->AddActor(actor);
+}
+
+void add_crack_faces(vtkRenderer* renderer, vtkPolyData* cracks) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(cracks);
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(kCrack[0], kCrack[1], kCrack[2]);
+  actor->GetProperty()->LightingOff();
+  renderer->AddActor(actor);
+}
+
+/// A lamp over the reader's left shoulder and a weak one from the right; together they show a face turned to the reader
+/// in its own colour, so that the colour scale can be read.
+void add_lights(vtkRenderer* renderer, const View& view) {
+  const auto add = [&](double x, double y, double z, double intensity) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(x, y, z);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(intensity);
+    renderer->AddLight(light);
+  };
+  renderer->RemoveAllLights();
+  renderer->SetAutomaticLightCreation(0);
+  const double strength = view.perspective ? 1.3 : 1.0;  // seen obliquely, no face is square to the lamps
+  add(-0.5, 0.8, 1.2, 0.75 * strength);
+  add(0.8, -0.1, 1.2, 0.50 * strength);
+}
+
+vtkSmartPointer<vtkPoints> used_points(vtkPolyData* faces) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
+    faces->GetPolys()->GetCellAtId(c, corners);
+    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
+      points->InsertNextPoint(faces->GetPoint(corners->GetId(k)));
+  }
+  return points;
+}
+
+bool has_component(vtkDataArray* component, const std::string& name) {
+  for (vtkIdType i = 0; i < component->GetNumberOfTuples(); ++i)
+    if (component_names()[std::size_t(component->GetComponent(i, 0))] == name) return true;
+  return false;
+}
+
+Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool cracks) {
+  Words words;
+  words.title = options.title;
+  if (vtkDataArray* time = blocks->GetFieldData()->GetArray("TimeValue"))
+    words.time = fmt::format("t = {:.2f} s", time->GetComponent(0, 0));
+  words.deform = options.amplification == 0.0   ? "undeformed"
+                 : options.amplification == 1.0 ? "true deformations"
+                                                : fmt::format("deformations × {:g}", options.amplification);
+  std::vector<std::string> left_out;  // only what there is to hide
+  if (vtkDataArray* component = blocks->GetCellData()->GetArray("component"))
+    for (const std::string& name : options.hide)
+      if (has_component(component, name)) left_out.push_back(name);
+  if (!left_out.empty()) words.deform += fmt::format(", {} hidden", fmt::join(left_out, ", "));
+  if (cracks) words.cracks = fmt::format("bond lost, or opened or slipped > {:g} mm", options.crack_mm);
+  return words;
+}
+
+void check(const RenderOptions& options) {
+  if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
+  if (!(options.range_mm >= 0.0))
+    throw InputError("pictures: the range of the colour scale is {} mm; give 0 or more", options.range_mm);
+  if (options.width < 200 || (options.height != 0 && options.height < 150))
+    throw InputError("pictures: {} × {} pixels is too small; give at least 200 × 150 (height 0: as needed)",
+                     options.width, options.height);
+}
+
+Sheet make_sheet(const RenderOptions& options, const View& view, vtkPoints* points) {
+  Sheet sheet{options.width, options.height, letter_size(options.width), 0.0};
+  if (sheet.height == 0) {
+    const double content = 0.94 * sheet.width / content_aspect(view, points);
+    const double needed = content + top_strip(sheet) + bottom_strip(sheet) + sheet.letter;
+    sheet.height = int(std::clamp(std::round(needed), 0.2 * sheet.width, 1.6 * sheet.width));
+  }
+  return sheet;
+}
+
+void place_camera(vtkRenderer* renderer, const View& view, vtkPoints* points, Sheet& sheet) {
+  const Frame frame{0.03, 0.97, bottom_strip(sheet) / sheet.height, 1.0 - top_strip(sheet) / sheet.height};
+  fit_camera(renderer->GetActiveCamera(), view, points, frame, double(sheet.width) / sheet.height);
+  if (!view.perspective) sheet.metres_per_pixel = 2.0 * renderer->GetActiveCamera()->GetParallelScale() / sheet.height;
+}
+
+void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden, const RenderOptions& options,
+                double lift) {
+  CrackRule rule;
+  rule.opening = rule.slip = 1e-3 * options.crack_mm;
+  const auto cracks = crack_patches(joints, hidden, options.amplification, rule);
+  if (cracks->GetNumberOfPolys() == 0) return;
+  add_crack_faces(renderer, cracks);
+  add_lines(renderer, borders(cracks), 2.2, kCrack, lift);
+}
+
+/// Thinner lines for more stones, so that a whole bridge does not turn black.
+double outline_width(vtkPolyData* faces) {
+  return std::clamp(0.9 * std::pow(3000.0 / double(faces->GetNumberOfPolys()), 0.2), 0.5, 0.9);
+}
+
+double diagonal(vtkPoints* points) {
+  double box[6];
+  points->GetBounds(box);
+  return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
+}
+
+}  // namespace
+
+void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const RenderOptions& options,
+                    const std::string& png) {
+  check(options);
+  const View view = find_view(options.view);
+  const Hidden hidden(options.hide);
+  const auto faces = deformed_faces(blocks, hidden, options.amplification);
+  if (faces->GetNumberOfPolys() == 0)
+    throw InputError("pictures: nothing is left to draw; hide fewer components than {}", fmt::join(options.hide, ", "));
+  const Colouring colouring = colour_faces(faces, options.colour, options.range_mm);
+  const bool cracks = options.cracks && joints;
+
+  const Display display;
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  const auto points = used_points(faces);
+  Sheet sheet = make_sheet(options, view, points);
+  place_camera(renderer, view, points, sheet);
+  add_lights(renderer, view);
+  const double lift = 1e-3 * diagonal(points);
+  add_faces(renderer, faces);
+  add_lines(renderer, outlines(faces), outline_width(faces), kOutline, lift);
+  if (options.undeformed) add_lines(renderer, outlines(deformed_faces(blocks, hidden, 0.0)), 0.8, kFaint, -lift);
+  if (cracks) add_cracks(renderer, joints, hidden, options, 2.0 * lift);
+  renderer->ResetCameraClippingRange();
+
+  Overlay overlay(renderer);
+  draw_annotation(overlay, sheet, view, colouring, words_of(blocks, options, cracks));
+  const auto window = offscreen_window(sheet.width, sheet.height);
+  window->AddRenderer(renderer);
+  write_png(window, png);
+}
+
+void render_picture(const Assembly& assembly, const Snapshot& snapshot, const RenderOptions& options,
+                    const std::string& png) {
+  render_picture(block_grid(assembly, snapshot), joint_polydata(assembly, snapshot), options, png);
+}
+
+void render_picture(const std::string& vtu, const std::string& vtp, const RenderOptions& options,
+                    const std::string& png) {
+  const auto blocks = read_vtu(vtu);
+  const auto joints = vtp.empty() ? nullptr : read_vtp(vtp);
+  render_picture(blocks, joints, options, png);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,45 @@
+// The shapes of a picture, made from the stored grids: deformed faces and outlines of the visible stones, and the
+// cracks.
+#pragma once
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+
+namespace voussoir {
+
+/// Which components a picture leaves out, by name. Throws InputError listing the names when one is unknown.
+class Hidden {
+ public:
+  explicit Hidden(const std::vector<std::string>& names);
+  bool operator()(int component) const { return component >= 0 && hidden_[std::size_t(component)]; }
+
+ private:
+  std::vector<bool> hidden_;
+};
+
+/// Faces of the visible stones, moved to reference + amplification × displacement relative to the base. Points of one
+/// stone are shared by its faces. Cell data: the grid's, taken over face by face; point data: displacement_of_point.
+vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hidden& hidden, double amplification);
+
+/// Edges where faces of a stone meet at an angle, or where a face ends.
+vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces);
+
+/// When a patch counts as cracked.
+struct CrackRule {
+  double opening = 1e-4, slip = 1e-4;  // m, largest since the start
+  double bonded = 0.5;                 // a patch that had a bond and keeps less of its area
+};
+
+/// The cracked patches between visible stones, deformed like the stones.
+vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hidden, double amplification,
+                                           const CrackRule& rule);
+/// The border lines of polygons.
+vtkSmartPointer<vtkPolyData> borders(vtkPolyData* polygons);
+
+}  // namespace voussoir

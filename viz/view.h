@@ -1,0 +1,34 @@
+// Where a picture is seen from, and how the content is fitted to the sheet.
+#pragma once
+#include <vtkCamera.h>
+#include <vtkPoints.h>
+
+#include <string>
+#include <vector>
+
+#include "geometry/polyhedron.h"
+
+namespace voussoir {
+
+/// A direction to look in. Bridges run along x, y goes across, z up.
+struct View {
+  std::string name;
+  Vec3 forward, up, right;   // unit, orthogonal
+  bool perspective = false;  // orthographic otherwise
+};
+/// front (looking along y), side (from the end, looking along −x), plan (from above), oblique.
+/// Throws InputError listing the known names when there is none of that name.
+View find_view(const std::string& name);
+
+/// The part of the sheet that the content may fill, in shares of its width and height.
+struct Frame {
+  double left = 0.0, right = 1.0, bottom = 0.0, top = 1.0;
+};
+
+/// Width over height of the content as the view sees it (orthographic projection of the points).
+double content_aspect(const View& view, vtkPoints* points);
+
+/// Sets the camera so that all points fit the frame, centred in it. `aspect` is the sheet's width over height.
+void fit_camera(vtkCamera* camera, const View& view, vtkPoints* points, const Frame& frame, double aspect);
+
+}  // namespace voussoir
