@@ -69,6 +69,7 @@ Bridge read_bridge(const GeneratorInput& in) {
   bridge.wing_wall_thickness = in("wing_wall_thickness");
   bridge.leaf_thickness[0] = in("leaf_thickness_even");
   bridge.leaf_thickness[1] = in("leaf_thickness_odd");
+  bridge.fill_bonded = in.choices.at("fill_bond") == "running";
   bridge.rigid_backfill = in.choices.at("backfill") == "rigid";
   bridge.restrained = in.choices.at("abutments") == "restrained";
   read_block_sizes(bridge, in);
@@ -94,6 +95,10 @@ void check_bridge(const GeneratorInput& in) {
   at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
   at_most(in("parapet_height") > 0.0 ? in("parapet_thickness") : 0.0, "parapet_thickness", in("spandrel_thickness_top"),
           "spandrel_thickness_top");
+  if (in("voussoirs") > 0.0 && in("voussoirs") < 4.0) {
+    throw InputError("[bridge] voussoirs = {:g}: a vault needs at least 4, or 0 for the number from voussoir_length",
+                     in("voussoirs"));
+  }
   if (in.choices.at("makeup") != "leaf") return;
   at_most(in("abutment_leaf_length"), "abutment_leaf_length", in("abutment_length"), "abutment_length");
   at_most(2.0 * in("wing_wall_thickness"), "2 wing_wall_thickness", inside, "0.9 width");
@@ -140,7 +145,8 @@ JointRules joint_rules(const Bridge& bridge, const std::vector<Material>& defaul
                    {Component::spandrel, bridge.block}, {Component::parapet, bridge.block},
                    {Component::pier, bridge.block},     {Component::abutment, bridge.leaf ? wing : bridge.block},
                    {Component::infill, bridge.infill},  {Component::backfill, bridge.fill}};
-  rules.interface_share = in("interface_share");
+  // There is one layer of interface however large the blocks, so its stiffness does not follow their size.
+  rules.interface_share = in("interface_share") * in("block_scale");
   rules.interface_friction = radians(in("interface_friction"));
   rules.restraint_share = in("restraint_share");
   rules.smallest_half_length = 0.25 * in("sliver_thickness") * in("block_scale");
@@ -203,6 +209,7 @@ std::vector<Choice> bridge_choices(bool leaf, bool table) {
       table ? std::vector<std::string>{"table", "moduli"} : std::vector<std::string>{"moduli", "table"};
   return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
           {"backfill", {"rigid", "deformable", "none"}, "blocks, tetrahedra (a later version), or left out"},
+          {"fill_bond", {"running", "stack"}, "rigid backfill: running bond, or joints above joints"},
           {"makeup", makeup, "piers and abutments: outer leaf around infill (and wing walls), or solid"},
           {"stiffness", stiffness, "joints from the table kn_, ks_ per component, or from E/dc and G/dc"}};
 }

@@ -212,7 +212,8 @@ void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& 
   for (std::size_t k = 0; k + 1 < z.size(); ++k) {
     const std::vector<double> y = split(low.y(), high.y(), unit.size.y());
     for (std::size_t j = 0; j + 1 < y.size(); ++j) {
-      const std::vector<double> x = split(low.x(), high.x(), unit.size.x(), (j + k + std::size_t(first)) % 2 == 1);
+      const bool half = unit.bonded && (j + k + std::size_t(first)) % 2 == 1;
+      const std::vector<double> x = split(low.x(), high.x(), unit.size.x(), half);
       for (std::size_t i = 0; i + 1 < x.size(); ++i) {
         lay_box(layout, {x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}, unit, nominal);
       }

@@ -25,6 +25,7 @@ struct Unit {
   std::int32_t part = 0;
   std::int32_t material = 0;
   Vec3 size = Vec3::Ones();  // m: along x, across y, height
+  bool bonded = true;        // running bond; otherwise stacked, joints above joints
 };
 
 /// A ring of flat-faced wedges in the plane x-z: joint i runs from intrados[i] to extrados[i], from left to right.
@@ -58,7 +59,7 @@ std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, 
 std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring);
 
 /// Fills a box with horizontal courses in running bond: along x (a course is offset half a length against the ones
-/// above and below, and a row against its neighbours in the course) and, where `bond_across` holds, across y. Stones
+/// above and below) and across y (a row is so against its neighbours in the course), unless the unit is stacked. Stones
 /// that meet a ring of the layout are cut by its extrados; what falls apart becomes separate stones. `first` is the
 /// number of the lowest course in the bond, for walls laid in several calls.
 void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, int first = 0);

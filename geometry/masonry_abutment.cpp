@@ -12,7 +12,7 @@ void lay_wings(Layout& layout, const Bridge& bridge, double x0, double x1, doubl
   lay_courses(layout, {x0, -half, z0}, {x1, -inner, z1}, wing);
   lay_courses(layout, {x0, inner, z0}, {x1, half, z1}, wing);
   if (bridge.rigid_backfill) {
-    lay_courses(layout, {x0, -inner, z0}, {x1, inner, z1}, {Component::backfill, 0, bridge.backfill, bridge.fill});
+    lay_courses(layout, {x0, -inner, z0}, {x1, inner, z1}, bridge.fill_unit());
   }
 }
 

@@ -5,7 +5,7 @@ namespace voussoir {
 
 void lay_backfill(Layout& layout, const Bridge& bridge) {
   if (!bridge.rigid_backfill) return;
-  const Unit unit = {Component::backfill, 0, bridge.backfill, bridge.fill};
+  const Unit unit = bridge.fill_unit();
   const double top_of_backing = bridge.springing() + bridge.backing_height;
   int course = 0;
   for (const Band& band : interior_bands(bridge)) {

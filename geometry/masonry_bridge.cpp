@@ -40,6 +40,10 @@ Unit Bridge::unit(Component component, int part) const {
   return {component, part, masonry, block};
 }
 
+Unit Bridge::fill_unit() const {
+  return {Component::backfill, 0, backfill, fill, fill_bonded};
+}
+
 std::vector<Band> spandrel_courses(const Bridge& bridge) {
   const double springing = bridge.springing(), deck = bridge.deck();
   const double backing = std::min(springing + bridge.backing_height, deck);

@@ -28,6 +28,7 @@ struct Bridge {
   double wing_wall_thickness = 0.0;
   double leaf_thickness[2] = {0.0, 0.0};  // even and odd courses
   bool rigid_backfill = true;
+  bool fill_bonded = true;  // rigid backfill in running bond, or stacked
   bool restrained = false;
   Vec3 voussoir = Vec3::Ones();    // along the arc, across, ring thickness
   Vec3 block = Vec3::Ones();       // masonry laid in courses: along x, across y, height
@@ -49,6 +50,7 @@ struct Bridge {
   double support_start(int support) const;                                                  // x at the springing
   double support_end(int support) const;
   Unit unit(Component component, int part) const;  // masonry block of a component
+  Unit fill_unit() const;                          // rigid backfill
 };
 
 /// A part of the height above the springing with spandrel walls of one thickness.

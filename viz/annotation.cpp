@@ -86,8 +86,14 @@ void draw_axes(Overlay& overlay, const Sheet& sheet, const View& view) {
 
 void draw_words(Overlay& overlay, const Sheet& sheet, const Words& words) {
   const double s = sheet.letter, right = sheet.width - 1.2 * s;
-  overlay.text(right, 2.5 * s, words.time, 1.1 * s, Align::right);
-  overlay.text(right, 1.1 * s, words.deform, s, Align::right);
+  const auto fitted = [&](double y, const std::string& text, double size) {  // beside the colour scale
+    const double room = 0.29 * sheet.width, width = Overlay::text_width(text, size);
+    overlay.text(right, y, text, width > room ? size * room / width : size, Align::right);
+  };
+  const double rise = words.hidden.empty() ? 0.0 : 1.4 * s;
+  fitted(2.5 * s + rise, words.time, 1.1 * s);
+  fitted(1.1 * s + rise, words.deform, s);
+  if (!words.hidden.empty()) fitted(1.1 * s, words.hidden, s);
   const double top = sheet.height - 1.9 * s;
   overlay.text(1.2 * s, top, words.title, 1.25 * s, Align::left, kInk, true);
   if (words.cracks.empty()) return;

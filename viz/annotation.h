@@ -23,7 +23,8 @@ double bottom_strip(const Sheet& sheet);
 struct Words {
   std::string title;   // may be empty
   std::string time;    // "t = 12.50 s"
-  std::string deform;  // "deformations × 2, backfill hidden"
+  std::string deform;  // "deformations × 2"
+  std::string hidden;  // "hidden: backfill"; may be empty
   std::string cracks;  // what the crack lines mean; empty: none drawn
 };
 

@@ -4,7 +4,8 @@
 #include <vtkPNGWriter.h>
 #include <vtkWindowToImageFilter.h>
 
-#include "io/vtk/atomic.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/vtk/folder.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -53,6 +54,7 @@ void write_png(vtkRenderWindow* window, const std::string& path) {
   grab->SetInputBufferTypeToRGB();
   grab->Update();
   const auto picture = averaged(grab->GetOutput());
+  make_folder_of(path);
   write_atomically(path, [&](const std::string& temporary) {
     auto writer = vtkSmartPointer<vtkPNGWriter>::New();
     writer->SetFileName(temporary.c_str());

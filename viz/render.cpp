@@ -130,7 +130,7 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
   if (vtkDataArray* component = blocks->GetCellData()->GetArray("component"))
     for (const std::string& name : options.hide)
       if (has_component(component, name)) left_out.push_back(name);
-  if (!left_out.empty()) words.deform += fmt::format(", {} hidden", fmt::join(left_out, ", "));
+  if (!left_out.empty()) words.hidden = fmt::format("hidden: {}", fmt::join(left_out, ", "));
   if (cracks) words.cracks = fmt::format("bond lost, or opened or slipped > {:g} mm", options.crack_mm);
   return words;
 }

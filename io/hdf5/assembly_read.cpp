@@ -221,20 +221,28 @@ void AssemblyReader::read_laws() {
   }
 }
 
-/// For files that do not say which faces meet: the face of each block that looks along the joint and is nearest to it.
+/// For files that do not say which faces meet: the face of each block that looks along the joint and is nearest to its
+/// middle, in the cell that is nearest to it.
 void AssemblyReader::find_face(std::size_t row, Joint& joint) const {
+  const Vec3 middle = polygon_centroid(joint.polygon);
   const auto nearest = [&](std::int64_t block, const Vec3& outward, std::int32_t& cell, std::int32_t& face) {
     double least = 1e300;
     const auto& cells = assembly_.blocks[std::size_t(block)].cells;
-    for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      double beyond = 0.0;
       for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
         const Plane plane = face_plane(cells[c], int(f));
-        const double away = std::abs(plane.normal.dot(polygon_centroid(joint.polygon)) - plane.offset);
+        beyond = std::max(beyond, plane.normal.dot(middle) - plane.offset);
+      }
+      for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
+        const Plane plane = face_plane(cells[c], int(f));
+        const double away = beyond + std::abs(plane.normal.dot(middle) - plane.offset);
         if (plane.normal.dot(outward) < 0.99 || away >= least) continue;
         least = away;
         cell = std::int32_t(c);
         face = std::int32_t(f);
       }
+    }
     if (least > 0.1) file_.fail("joints/blocks", fmt::format("row {}: block {} has no face at the joint", row, block));
   };
   nearest(joint.a, joint.normal, joint.cell_a, joint.face_a);

@@ -119,6 +119,8 @@ File File::create(const std::string& path) {
   H5FD_file_image_callbacks_t callbacks = {Memory::allocate, Memory::copy,  Memory::grow, Memory::keep,
                                            Memory::same,     Memory::leave, memory.get()};
   H5Pset_fapl_core(access.id(), std::size_t(4) << 20, false);
+  H5Pset_meta_block_size(access.id(), 0);  // no room set aside: the file ends where its contents end
+  H5Pset_small_data_block_size(access.id(), 0);
   H5Pset_file_image_callbacks(access.id(), &callbacks);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);  // headers and indices with checksums too
   // HDF5 tells files in memory apart by name, and two files may be built for one path.
@@ -241,8 +243,12 @@ void File::read_to(const std::string& name, std::span<T> values) const {
 }
 
 bool File::has(const std::string& name) const {
+  // Step by step: asking for a member of a group that is missing is an error, and so is damage, which must not pass for
+  // "not there".
   for (std::size_t at = name.find('/', 1);; at = name.find('/', at + 1)) {
-    if (H5Lexists(handle_.id(), name.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return H5Eclear2(H5E_DEFAULT), false;
+    const htri_t exists = H5Lexists(handle_.id(), name.substr(0, at).c_str(), H5P_DEFAULT);
+    if (exists < 0) fail(name, "damaged: " + last_reason());
+    if (exists == 0) return false;
     if (at == std::string::npos) return true;
   }
 }

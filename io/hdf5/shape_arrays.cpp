@@ -94,7 +94,10 @@ std::string find_fault(const Polyhedron& cell) {
     for (const Vec3& v : cell.vertices) deepest = std::max(deepest, plane.normal.dot(v) - plane.offset);
   }
   if (open.norm() > 1e-6 * surface) return "its faces do not close it: a face is missing or listed clockwise";
-  if (deepest > 1e-3 * (box.high - box.low).norm())
+  const double volume = mass_properties(cell).volume, size = (box.high - box.low).norm();
+  if (std::abs(volume) < 1e-12 * size * size * size) return "it has no volume: give it a thickness";
+  if (volume < 0.0) return "inside-out: its faces must run counter-clockwise seen from outside";
+  if (deepest > 1e-3 * size)
     return fmt::format("not convex: a vertex lies {:.3g} m outside one of its faces; split it into convex cells",
                        deepest);
   return "";

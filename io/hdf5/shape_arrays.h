@@ -24,7 +24,8 @@ struct ShapeArrays {
 /// InputError naming file, dataset and row when offsets do not fit, an index is out of range or a number is not finite.
 ShapeArrays read_shapes(const h5::File& file, const std::string& group, const std::string& face_offset_name);
 
-/// What is wrong with a shape as a convex cell: not closed, not convex; empty when nothing is.
+/// What is wrong with a shape as a convex cell: not closed, without volume, inside-out, not convex; empty when nothing
+/// is.
 std::string find_fault(const Polyhedron& cell);
 
 /// Offsets must begin with 0, never decrease and end with `last`.

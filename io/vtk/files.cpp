@@ -9,7 +9,8 @@
 
 #include <filesystem>
 
-#include "io/vtk/atomic.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/vtk/folder.h"
 #include "io/vtk/quiet.h"
 #include "solver/base/error.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 template <class Writer, class Data>
 void write(Data* data, const std::string& path) {
+  make_folder_of(path);
   write_atomically(path, [&](const std::string& temporary) {
     bool failed = false;
     auto writer = vtkSmartPointer<Writer>::New();

@@ -1,15 +1,18 @@
 #include "io/vtk/series.h"
 
+#include <vtkCommand.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
+#include <vtkXMLDataParser.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "io/vtk/atomic.h"
+#include "io/hdf5/atomic_file.h"
 #include "io/vtk/files.h"
+#include "io/vtk/folder.h"
 #include "io/vtk/grid.h"
+#include "io/vtk/quiet.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -34,7 +37,11 @@ std::string escaped(const std::string& text) {
 }
 
 std::vector<PvdSeries::Frame> read_frames(const std::string& path) {
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  bool failed = false;
+  auto parser = vtkSmartPointer<vtkXMLDataParser>::New();
+  parser->AddObserver(vtkCommand::ErrorEvent, error_flag(failed));
+  parser->SetFileName(path.c_str());
+  vtkXMLDataElement* root = parser->Parse() && !failed ? parser->GetRootElement() : nullptr;
   vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (!collection)
     throw InputError("{}: is not a ParaView collection (.pvd); remove it, the frames themselves stay readable", path);
@@ -80,7 +87,8 @@ void PvdSeries::write() const {
   for (const Frame& frame : frames_)
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(frame.file));
   text += "  </Collection>\n</VTKFile>\n";
-  write_text_atomically(path_, text);
+  make_folder_of(path_);
+  write_atomically(path_, text);
 }
 
 VtkSeries::VtkSeries(const std::string& run_directory)

@@ -3,6 +3,7 @@
 #include <Eigen/CholmodSupport>
 
 #include "solver/base/error.h"
+#include "solver/contact/search.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
@@ -139,6 +140,10 @@ Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, c
   while (state.step() - first < most_steps && !(stop && stop->load())) {
     const Advance a = stepper.advance(state.step() + 200, 1, nullptr, stop);
     if (a.outcome == StepOutcome::runaway) break;
+    if (a.outcome == StepOutcome::contacts) {
+      update_contacts(*stepper.model, state, stepper.damping.branches);
+      stepper.prepare();
+    }
     result.residual = out_of_balance(stepper);
     if (progress) progress(state.step() - first, result.residual);
     if (result.residual < tolerance) {

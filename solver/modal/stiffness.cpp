@@ -65,6 +65,17 @@ Matrix6 points_stiffness(const Model& model, const State& state, const Patch& pa
   return k;
 }
 
+/// As if every point were closed and sticking.
+Matrix6 closed_stiffness(const Patch& patch, const PatchPoint* points) {
+  Matrix6 k = Matrix6::Zero();
+  for (int i = 0; i < patch.point_count; ++i) {
+    const PatchPoint& point = points[patch.first_point + i];
+    const Matrix3x6 rows = point_rows(point);
+    k += point.weight * rows.transpose() * Vec3(patch.kn, patch.ks, patch.ks).asDiagonal() * rows;
+  }
+  return k;
+}
+
 /// Whether a patch on the intact path is wholly open.
 bool is_open(const Model& model, const State& state, std::size_t index) {
   if (!(state.joint.mode[index] & mode_broken)) return false;
@@ -169,7 +180,10 @@ Unknowns number_unknowns(const Model& model) {
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
   const std::size_t joints = model.joints.size();
   const Patch& patch = patch_at(model, state, index);
-  if (index >= joints) return points_stiffness(model, state, patch, state.contact_points.data(), state.contact);
+  if (index >= joints) {
+    if (kind == PatchTangent::present) return points_stiffness(model, state, patch, state.contact_points.data(), state.contact);
+    return closed_stiffness(patch, state.contact_points.data());
+  }
   if (state.joint.mode[index] & mode_gone) return Matrix6::Zero();
   if (kind == PatchTangent::intact) return intact_stiffness(patch);
   if (state.joint.mode[index] & mode_points) return points_stiffness(model, state, patch, model.points.data(), state.joint);

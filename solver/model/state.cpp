@@ -69,6 +69,7 @@ std::vector<NamedArray> State::arrays() {
                                   {"counters", 1, "-", &counters},
                                   {"bodies/pose", pose_width, "m, -", &pose},
                                   {"bodies/motion", motion_width, "m/s, kg m2/s, J", &motion},
+                                  {"bodies/baseline", 3, "m", &baseline},
                                   {"bodies/searched", 3, "m", &searched},
                                   {"joints/slip", lane_count, "m, m, rad", &slip},
                                   {"joints/branch", lane_count, "m, rad", &branch}};
@@ -94,6 +95,7 @@ State initial_state(const Model& model, int branches) {
   state.pose.assign(pose_width * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) state.pose[pose_width * i + 3] = 1.0;
   state.motion.assign(motion_width * n, 0.0);
+  state.baseline.assign(3 * n, 0.0);
   state.searched.assign(3 * n, 0.0);
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.branch.assign(6 * lane_count * branches * model.batches.size(), 0.0);

@@ -52,6 +52,7 @@ struct State {
 
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
+  Array<double> baseline;  // 3 a body: displacement at the end of the last gravity stage, from which demands count
   Array<double> searched;  // 3 a body: displacement relative to the base when its contacts were last looked for
 
   PatchMemory joint;       // of Model::joints

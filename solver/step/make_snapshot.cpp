@@ -1,0 +1,131 @@
+#include "solver/step/make_snapshot.h"
+
+#include <algorithm>
+
+#include "solver/contact/jump.h"
+
+namespace voussoir {
+
+namespace {
+
+const double* pose_of(const State& state, std::int32_t body) { return &state.pose[pose_width * std::size_t(body)]; }
+
+Vec3 vector(const Triple<double>& x) { return {x.x, x.y, x.z}; }
+
+struct Tractions {
+  double area = 0.0, normal = 0.0, s = 0.0, t = 0.0, bonded = 0.0, opening = 0.0, slip = 0.0;
+};
+
+/// Elastic tractions and openings over the points of a patch.
+Tractions point_tractions(const Patch& p, const Jump<double>& j, const PatchPoint* points, const PatchMemory& memory) {
+  Tractions sum;
+  for (int i = 0; i < p.point_count; ++i) {
+    const std::size_t at = std::size_t(p.first_point) + i;
+    const Triple<double> u = point_jump(p, j, points[at].s, points[at].t);
+    const double* plastic = &memory.point[4 * at];
+    const double w = points[at].weight;
+    sum.area += w;
+    if (!memory.broken[at]) sum.bonded += w;
+    if (memory.broken[at]) sum.opening = std::max(sum.opening, u.x);
+    if (memory.broken[at] && u.x - plastic[0] >= 0.0) continue;
+    sum.slip = std::max(sum.slip, std::hypot(plastic[1], plastic[2]));
+    sum.normal += w * p.kn * (u.x - plastic[0]);
+    sum.s += w * p.ks * (u.y - plastic[1]);
+    sum.t += w * p.ks * (u.z - plastic[2]);
+  }
+  return sum;
+}
+
+Tractions intact_tractions(const Model& model, const State& state, const Patch& p, const Jump<double>& j, std::size_t index) {
+  Tractions sum;
+  const bool broken = state.joint.mode[index] & mode_broken;
+  const double* slip = &state.slip[3 * lane_count * (index / lane_count) + index % lane_count];
+  double least = 1e300;
+  for (int c = 0; c < p.corner_count; ++c) {
+    const PatchPoint& corner = model.corners[p.first_corner + c];
+    const double n = point_jump(p, j, corner.s, corner.t).x;
+    least = std::min(least, n);
+    if (broken) sum.opening = std::max(sum.opening, n);
+  }
+  sum.area = p.area;
+  sum.bonded = broken ? 0.0 : p.area;
+  if (broken && least >= 0.0) return sum;
+  sum.slip = std::hypot(slip[0], slip[lane_count]);
+  sum.normal = p.area * p.kn * j.n;
+  sum.s = p.area * p.ks * (j.s - slip[0]);
+  sum.t = p.area * p.ks * (j.t - slip[lane_count]);
+  return sum;
+}
+
+PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<double>& j, const Tractions& sum, const PatchPoint* corners,
+                             const double* largest) {
+  PatchSnapshot s;
+  s.a = model.block_of_body[p.a];
+  s.b = model.block_of_body[p.b];
+  s.normal = vector(turn(j.frame, Triple<double>{1, 0, 0}));
+  for (int c = 0; c < p.corner_count; ++c) {
+    const PatchPoint& corner = corners[p.first_corner + c];
+    s.polygon.push_back(vector(j.place) + vector(turn(j.frame, Triple<double>{0, corner.s, corner.t})));
+  }
+  s.area = p.area;
+  s.opening = sum.opening;
+  s.slip = sum.slip;
+  s.largest_opening = std::max(largest[0], sum.opening);
+  s.largest_slip = std::max(largest[1], sum.slip);
+  s.normal_traction = sum.normal / sum.area;
+  s.shear_traction = std::hypot(sum.s, sum.t) / sum.area;
+  s.bonded = sum.bonded / sum.area;
+  const LawConstants& law = model.laws[p.law];
+  s.had_bond = law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+  return s;
+}
+
+PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t i) {
+  const Patch& p = model.joints[i];
+  const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
+  Tractions sum;
+  if (state.joint.mode[i] & mode_gone) {  // replaced: what it was lives on in its largest opening and slip
+    sum.area = p.area;
+    sum.opening = std::max(0.0, j.n);
+  } else if (state.joint.mode[i] & mode_points) {
+    sum = point_tractions(p, j, model.points.data(), state.joint);
+  } else {
+    sum = intact_tractions(model, state, p, j, i);
+  }
+  return patch_snapshot(model, p, j, sum, model.corners.data(), &state.joint.largest[2 * i]);
+}
+
+}  // namespace
+
+Snapshot make_snapshot(const Model& model, const State& state) {
+  Snapshot snapshot;
+  snapshot.time = state.time();
+  snapshot.base_displacement = state.base_displacement();
+  for (std::int32_t body : model.body_of_block) {
+    const double* p = pose_of(state, body);
+    const double* v = &state.motion[motion_width * std::size_t(body)];
+    snapshot.displacement.emplace_back(p[0], p[1], p[2]);
+    snapshot.rotation.emplace_back(p[3], p[4], p[5], p[6]);
+    snapshot.velocity.emplace_back(v[0], v[1], v[2]);
+  }
+  snapshot.patches.resize(model.joints.size());
+  for (std::size_t i = 0; i < model.joints.size(); ++i) snapshot.patches[model.joint_of_patch[i]] = joint_snapshot(model, state, i);
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const Patch& p = state.contacts[i];
+    const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
+    const Tractions sum = point_tractions(p, j, state.contact_points.data(), state.contact);
+    snapshot.patches.push_back(patch_snapshot(model, p, j, sum, state.contact_corners.data(), &state.contact.largest[2 * i]));
+  }
+  return snapshot;
+}
+
+Vec3 relative_displacement(const Model& model, const State& state, std::int64_t block, const Vec3& position) {
+  const std::int32_t body = model.body_of_block[block];
+  const double* p = pose_of(state, body);
+  const Vec3 arm = position - model.bodies[body].centroid;
+  const Triple<double> turned = turn_change(pose_rotation(p), Triple<double>{arm.x(), arm.y(), arm.z()});
+  const double* from = &state.baseline[3 * std::size_t(body)];
+  return Vec3(p[0] - from[0], p[1] - from[1], p[2] - from[2]) + vector(turned) - state.base_displacement();
+}
+
+}  // namespace voussoir

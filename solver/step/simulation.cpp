@@ -1,0 +1,277 @@
+#include "solver/step/simulation.h"
+
+#include <algorithm>
+
+#include "solver/base/error.h"
+#include "solver/base/parallel.h"
+#include "solver/contact/branch_memory.h"
+#include "solver/contact/search.h"
+#include "solver/step/critical_step.h"
+
+namespace voussoir {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+constexpr std::size_t least_joints_per_thread = 500;  // below, the hand-over costs more than the share saves
+constexpr double runaway_balance = 10.0;              // the energy balance is off by ten times its largest term: give up
+
+int useful_threads(int wanted, const Model& model) {
+  const int most = std::max<int>(1, int(model.joints.size() / least_joints_per_thread));
+  return std::clamp(wanted, 1, most);
+}
+
+std::string body_name(const Assembly& assembly, const Model& model, std::int32_t body) {
+  const std::int64_t block = model.block_of_body[body];
+  return fmt::format("block {} ({})", block, component_names()[std::size_t(assembly.blocks[block].component)]);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers)
+    : assembly_(&assembly), settings_(settings), observers_(std::move(observers)), model_(build_model(assembly, settings)),
+      state_(initial_state(model_, 0)) {
+  stepper_.model = &model_;
+  stepper_.state = &state_;
+  stepper_.shortcut = settings.step.intact_shortcut;
+  stepper_.threads = useful_threads(threads, model_);
+  stepper_.prepare();
+}
+
+double Simulation::end_time() const {
+  double end = 0.0;
+  for (const StageSettings& stage : settings_.stages) end += stage.duration;
+  return end;
+}
+
+void Simulation::log(const std::string& text) const {
+  if (observers_.log) observers_.log(text);
+}
+
+void Simulation::report_progress(bool force, const std::string& note) {
+  if (!observers_.progress || (!force && seconds_since(reported_) < 0.2)) return;
+  reported_ = Clock::now();
+  Progress p;
+  p.stage = position_.stage < std::int64_t(settings_.stages.size()) ? settings_.stages[position_.stage].label : "end";
+  p.time = state_.time();
+  p.end = end_time();
+  p.share = p.end > 0.0 ? p.time / p.end : 1.0;
+  const double wall = seconds_since(started_);
+  p.speed = wall > 0.0 ? (p.time - started_time_) / wall : 0.0;
+  p.left = p.speed > 0.0 ? (p.end - p.time) / p.speed : 0.0;
+  p.note = note;
+  observers_.progress(p);
+}
+
+void Simulation::restore(const RunPosition& position) {
+  position_ = position;
+  stepper_.prepare();
+  stepper_.search_distance = search_distance(model_);
+  if (settings_.step.mass_scaling_step > 0.0)
+    scale_mass(model_, initial_state(model_, 0), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+  if (position.dt > 0.0) {
+    stepper_.dt = position.dt;
+    stepper_.damping = damping_at_work(settings_.damping, position.dt, position.highest);
+  }
+  started_time_ = state_.time();
+}
+
+/// Σ over a body's patches of stiffness over mass: bodies whose bound stays below the assembly's largest cannot have
+/// lowered the critical step, so that most new contacts need no new power iteration.
+double Simulation::contact_bound() const {
+  std::vector<double> bound(model_.bodies.size(), 0.0);
+  const auto add = [&](const Patch& p) {
+    for (const auto& [body, arm] : {std::pair{p.a, p.arm_a}, std::pair{p.b, p.arm_b}}) {
+      const Body& b = model_.bodies[body];
+      if (b.fixed) continue;
+      const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
+      const double inertia = b.inertia.diagonal().minCoeff();
+      bound[body] += std::max(p.kn, p.ks) * (p.area / b.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
+    }
+  };
+  for (std::size_t i = 0; i < model_.joints.size(); ++i)
+    if (!(state_.joint.mode[i] & mode_gone)) add(model_.joints[i]);
+  for (const Patch& p : state_.contacts) add(p);
+  return *std::max_element(bound.begin(), bound.end());
+}
+
+void Simulation::choose_step() {
+  if (settings_.step.mass_scaling_step > 0.0) {
+    const MassScaling scaling = scale_mass(model_, state_, settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+    log(fmt::format("mass scaling: inertia of {} blocks raised, {:.3f} % of the mass added (weights unchanged)", scaling.bodies,
+                    100 * scaling.share));
+  }
+  const CriticalStep critical = critical_step(model_, state_);
+  if (critical.highest <= 0.0 && settings_.step.time_step <= 0.0)
+    throw InputError("no joint holds any block, so there is no critical step: set [analysis] time_step");
+  const double factor = damping_step_factor(settings_.damping, critical.highest);
+  const double limit = critical.highest > 0.0 ? critical.step * factor : 1e300;
+  if (settings_.step.time_step > limit)
+    throw InputError("[analysis] time_step = {:.4g} s is above the critical step of {:.4g} s ({:.4g} s undamped, × {:.3f} for "
+                     "damping), set by {}: lower it, or leave it out for {} × critical",
+                     settings_.step.time_step, limit, critical.step, factor, body_name(*assembly_, model_, critical.body),
+                     settings_.step.safety);
+  position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
+  position_.highest = critical.highest;
+  position_.stiffest = contact_bound();
+  stepper_.dt = position_.dt;
+  if (critical.body < 0) return;
+  log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s", critical.step,
+                  body_name(*assembly_, model_, critical.body), factor, position_.dt));
+}
+
+bool Simulation::gravity(const StageSettings& stage) {
+  stepper_.damping = DampingAtWork{};
+  set_branches(model_, state_, Branches{}, Branches{});
+  const double tolerance = settings_.step.equilibrium_tolerance;
+  if (stage.method != StageSettings::Method::relaxation) {
+    equilibrium_ = newton_equilibrium(stepper_, tolerance, [&](int i, double r) {
+      report_progress(true, fmt::format("Newton {}: out-of-balance {:.1e}", i, r));
+    });
+    log(equilibrium_.account);
+  }
+  if (!equilibrium_.converged && stage.method != StageSettings::Method::newton) {
+    if (stage.method == StageSettings::Method::automatic) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
+    if (position_.dt <= 0.0) choose_step();
+    equilibrium_ = relax(stepper_, tolerance, 400000, observers_.stop, [&](std::int64_t step, double r) {
+      report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
+    });
+    log(equilibrium_.account);
+  }
+  for (std::size_t i = 0; i < model_.bodies.size(); ++i)
+    for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.searched[3 * i + c] = state_.pose[pose_width * i + c];
+  if (!equilibrium_.converged) failure_ = "no equilibrium under gravity: " + equilibrium_.account;
+  return equilibrium_.converged;
+}
+
+/// Step, damping branches and the energy at the start; once a stage, before its first step.
+void Simulation::begin_stage(const StageSettings& stage) {
+  position_.stage_start = state_.time();
+  if (stage.kind == StageSettings::Kind::gravity) return;
+  if (position_.dt <= 0.0) choose_step();
+  const bool from_rest = position_.stage == 0 || settings_.stages[position_.stage - 1].kind == StageSettings::Kind::gravity;
+  if (from_rest) {  // without branches a patch pass changes nothing but what it finds: safe to look at the energy
+    set_branches(model_, state_, Branches{}, Branches{});
+    stepper_.damping = DampingAtWork{};
+    stepper_.patches_only();
+    state_.starting_energy() = compute_energies(stepper_, stepper_.body_pass()).total();
+    const DampingAtWork damping = damping_at_work(settings_.damping, position_.dt, position_.highest);
+    set_branches(model_, state_, Branches{}, damping.branches);
+    stepper_.damping = damping;
+    log(damping.account);
+  }
+  stepper_.search_distance = search_distance(model_);
+  position_.stage_begun = 1.0;
+}
+
+void Simulation::change_contacts() {
+  const ContactUpdate update = update_contacts(model_, state_, stepper_.damping.branches);
+  stepper_.prepare();
+  if (update.made + update.clipped == 0) return;
+  const double bound = contact_bound();
+  if (bound <= position_.stiffest) return;
+  position_.stiffest = bound;
+  if (settings_.step.time_step > 0.0) return;  // the user's own step is the user's
+  const CriticalStep critical = critical_step(model_, state_);
+  const double step = settings_.step.safety * critical.step * damping_step_factor(settings_.damping, critical.highest);
+  if (step >= position_.dt) return;
+  const Branches from = stepper_.damping.branches;
+  position_.dt = stepper_.dt = step;
+  position_.highest = critical.highest;
+  stepper_.damping = damping_at_work(settings_.damping, step, critical.highest);
+  set_branches(model_, state_, from, stepper_.damping.branches);
+  log(fmt::format("t = {:.4f} s: new contacts lower the step to {:.4g} s, set by {}", state_.time(), step,
+                  body_name(*assembly_, model_, critical.body)));
+}
+
+void Simulation::sample(const BodyPass& pass) {
+  Sample s;
+  s.time = state_.time();
+  s.energies = compute_energies(stepper_, pass);
+  const Energies& e = s.energies;
+  for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.joint_damping, e.body_damping,
+                      std::abs(e.base_work)})
+    state_.largest_energy() = std::max(state_.largest_energy(), term);
+  if (state_.largest_energy() > 0.0) s.balance_error = (e.total() - state_.starting_energy()) / state_.largest_energy();
+  worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));
+  if (!(std::abs(s.balance_error) < runaway_balance)) exploded_ = true;
+  s.base_displacement = state_.base_displacement();
+  s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.motion_start);
+  s.contacts = std::int64_t(state_.contacts.size());
+  if (observers_.history) observers_.history(*this, s);
+}
+
+namespace {
+
+/// The next multiple of `every` after `time` (s); never when `every` is zero.
+double next_multiple(double time, double every) { return every > 0.0 ? (std::floor(time / every + 1e-9) + 1.0) * every : 1e300; }
+
+}  // namespace
+
+RunEnd Simulation::timed(const StageSettings& stage, double until) {
+  const OutputSettings& output = settings_.output;
+  stepper_.motion = stage.kind == StageSettings::Kind::motion ? &stage.motion : nullptr;
+  stepper_.motion_start = position_.stage_start;
+  const double end = position_.stage_start + stage.duration;
+  const double stop_at = until >= 0.0 ? std::min(until, end) : end;
+  const auto every = std::max<std::int64_t>(1, std::llround(output.history_every / stepper_.dt));
+  while (state_.time() < stop_at - 1e-9 * stepper_.dt) {
+    const double fields_at = next_multiple(state_.time(), output.fields_every);
+    const double save_at = next_multiple(state_.time(), output.checkpoint_every);
+    const double next = std::min({stop_at, fields_at, save_at});
+    // In pieces short enough for the progress line and the checkpoint by wall time.
+    const auto left = std::max<std::int64_t>(1, std::int64_t(std::ceil((next - state_.time()) / stepper_.dt - 1e-6)));
+    const std::int64_t piece = std::min<std::int64_t>(left, std::max<std::int64_t>(50, 4000000 / std::int64_t(model_.joints.size() + 1)));
+    last_ = stepper_.advance(state_.step() + piece, every, [&](const BodyPass& pass) { sample(pass); }, observers_.stop);
+    if (last_.outcome == StepOutcome::runaway || exploded_) {
+      failure_ = last_.outcome == StepOutcome::runaway
+                     ? fmt::format("at t = {:.4f} s {} moves faster than 1000 m/s or not at a finite speed; lower [analysis] safety or "
+                                   "time_step, and look at its joints", state_.time(), body_name(*assembly_, model_, last_.runaway_body))
+                     : fmt::format("at t = {:.4f} s the energy balance is off by {:.0f} times its largest term; lower [analysis] safety "
+                                   "or time_step", state_.time(), worst_balance_);
+      return RunEnd::failed;
+    }
+    if (last_.outcome == StepOutcome::contacts) change_contacts();
+    if (last_.outcome == StepOutcome::interrupted || (observers_.stop && observers_.stop->load())) {
+      if (observers_.checkpoint) observers_.checkpoint(*this, false);
+      return RunEnd::interrupted;
+    }
+    const double slack = 1e-6 * stepper_.dt;
+    if (state_.time() >= fields_at - slack && observers_.fields) observers_.fields(*this);
+    const bool wall = seconds_since(saved_) > output.checkpoint_wall;
+    if ((state_.time() >= save_at - slack || wall) && state_.time() < end - slack && observers_.checkpoint) {
+      observers_.checkpoint(*this, false);
+      saved_ = Clock::now();
+    }
+    report_progress(false, fmt::format("{:.1f} % of patches point by point",
+                                       100.0 * double(last_.points) / double(std::max<std::int64_t>(1, last_.points + last_.intact))));
+  }
+  return state_.time() >= end - 1e-9 * stepper_.dt ? RunEnd::finished : RunEnd::interrupted;
+}
+
+RunEnd Simulation::run(double until) {
+  report_progress(true, "");
+  while (position_.stage < std::int64_t(settings_.stages.size())) {
+    const StageSettings& stage = settings_.stages[position_.stage];
+    log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));
+    if (position_.stage_begun == 0.0) begin_stage(stage);
+    if (stage.kind == StageSettings::Kind::gravity) {
+      if (!gravity(stage)) return observers_.stop && observers_.stop->load() ? RunEnd::interrupted : RunEnd::failed;
+    } else {
+      const RunEnd end = timed(stage, until);
+      if (end != RunEnd::finished) return end;
+    }
+    ++position_.stage;
+    position_.stage_begun = 0.0;
+    if (observers_.fields) observers_.fields(*this);
+    if (observers_.checkpoint) observers_.checkpoint(*this, true);
+    saved_ = Clock::now();
+  }
+  report_progress(true, "");
+  return RunEnd::finished;
+}
+
+}  // namespace voussoir

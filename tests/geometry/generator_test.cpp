@@ -1,0 +1,177 @@
+// The catalogue of generators, their keys, and the small ones: arch, wall, column.
+#include "geometry/generator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "geometry/joints.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+namespace {
+
+Assembly build(const std::string& name, const std::map<std::string, double>& values = {}) {
+  GeneratorInput input = default_input(find_generator(name));
+  for (const auto& [key, value] : values) input.values.at(key) = value;
+  return find_generator(name).build(input);
+}
+
+std::string error_of(const std::string& name, const GeneratorInput& input) {
+  try {
+    find_generator(name).build(input);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::int64_t moving(const Assembly& assembly) {
+  return std::count_if(assembly.blocks.begin(), assembly.blocks.end(), [](const Block& b) { return !b.fixed; });
+}
+
+double moving_mass(const Assembly& assembly) {
+  double sum = 0.0;
+  for (const Block& block : assembly.blocks) sum += block.fixed ? 0.0 : block.mass;
+  return sum;
+}
+
+TEST(Generators, DefaultsAreWithinTheirRangesAndNamesAreUnique) {
+  std::set<std::string> names;
+  for (const Generator& generator : generators()) {
+    EXPECT_TRUE(names.insert(generator.name).second);
+    EXPECT_NO_THROW(check_input(generator, default_input(generator))) << generator.name;
+    std::set<std::string> keys;
+    const std::string table = describe(generator);
+    for (const Parameter& p : generator.parameters) {
+      EXPECT_TRUE(keys.insert(p.name).second) << p.name;
+      EXPECT_FALSE(p.unit.empty() || p.help.empty()) << p.name;
+      EXPECT_NE(table.find("| `" + p.name + "` |"), std::string::npos) << p.name;
+    }
+  }
+  for (const char* name : {"cs1", "cs2", "arch", "wall", "column"}) EXPECT_EQ(names.count(name), 1u) << name;
+}
+
+TEST(Generators, UnknownNameListsTheKnownOnes) {
+  try {
+    find_generator("cs3");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("cs1, cs2, arch, wall, column"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Generators, BadValuesAreNamed) {
+  const GeneratorInput good = default_input(find_generator("wall"));
+  GeneratorInput bad = good;
+  bad.values["courses"] = 2.5;
+  EXPECT_NE(error_of("wall", bad).find("courses = 2.5"), std::string::npos);
+  bad = good;
+  bad.values["block_height"] = -1.0;
+  EXPECT_NE(error_of("wall", bad).find("block_height = -1"), std::string::npos);
+  bad = good;
+  bad.values["hight"] = 1.0;
+  EXPECT_NE(error_of("wall", bad).find("\"hight\""), std::string::npos);
+  bad = good;
+  bad.values.erase("courses");
+  EXPECT_NE(error_of("wall", bad).find("courses"), std::string::npos);
+  bad = good;
+  bad.values["kn"] = 1e9;  // without ks
+  EXPECT_NE(error_of("wall", bad).find("ks = 0"), std::string::npos);
+  bad = good;
+  bad.materials["masonry"].density = 0.0;
+  EXPECT_NE(error_of("wall", bad).find("density"), std::string::npos);
+}
+
+TEST(Wall, CountsOfBlocksAndJoints) {
+  const Assembly small = build("wall");
+  EXPECT_EQ(moving(small), 105);
+  EXPECT_EQ(small.joints.size(), 285u);
+  const Assembly large = build("wall", {{"length_blocks", 32.0}, {"courses", 32.0}});
+  EXPECT_EQ(moving(large), 1040);
+  EXPECT_EQ(large.joints.size(), 3024u);
+  EXPECT_NEAR(moving_mass(small), 2000.0 * 6.0 * 5.0 * 0.45, 1e-6);
+  EXPECT_EQ(small.groups.at("top").size(), 11u);
+}
+
+TEST(Wall, StiffnessFromTheModuliAndFromTheKeys) {
+  const Assembly wall = build("wall");
+  for (const Joint& joint : wall.joints) {
+    const Block &a = wall.blocks[std::size_t(joint.a)], &b = wall.blocks[std::size_t(joint.b)];
+    if (a.fixed || b.fixed || std::abs(joint.normal.z()) > 0.5) {
+      EXPECT_NEAR(joint.kn, 4.0e9 / 0.50, 1.0);  // bed joints, and the base: half a block above, half a nominal one
+      EXPECT_NEAR(joint.ks, 1.6e9 / 0.50, 1.0);
+    } else {
+      EXPECT_NEAR(joint.kn, 4.0e9 / std::abs(a.centroid.x() - b.centroid.x()), 1.0);
+    }
+    EXPECT_EQ(wall.laws[std::size_t(joint.law)].tension, 0.0);
+    EXPECT_NEAR(wall.laws[std::size_t(joint.law)].friction_angle, M_PI / 6.0, 1e-15);
+  }
+  const Assembly given = build("wall", {{"kn", 3e9}, {"ks", 2e9}});
+  for (const Joint& joint : given.joints) EXPECT_TRUE(joint.kn == 3e9 && joint.ks == 2e9);
+}
+
+TEST(Column, StackOnAFixedBlockOfTheSameStiffness) {
+  const Assembly column = build("column", {{"blocks", 10.0}, {"block_height", 0.4}});
+  EXPECT_EQ(column.blocks.size(), 11u);
+  ASSERT_EQ(column.joints.size(), 10u);
+  for (const Joint& joint : column.joints) {
+    EXPECT_NEAR(joint.kn, 4.0e9 / 0.4, 10.0);
+    EXPECT_NEAR(joint.ks, 1.6e9 / 0.4, 4.0);
+    EXPECT_NEAR(joint.area, 1.0, 1e-12);
+  }
+  EXPECT_EQ(column.groups.at("top").front(), 9);
+  EXPECT_NEAR(column.blocks[9].centroid.z(), 3.8, 1e-12);
+}
+
+TEST(Arch, OppenheimMassJointsAndSpringingPlanes) {
+  const Assembly arch = build("arch", {{"embrace_angle", 157.5}, {"voussoirs", 7.0}, {"thickness_ratio", 0.15}});
+  EXPECT_EQ(moving(arch), 7);
+  ASSERT_EQ(arch.joints.size(), 8u);
+  const double step = 157.5 / 7.0 * M_PI / 180.0;
+  const double area = 0.5 * std::sin(step) * (10.75 * 10.75 - 9.25 * 9.25);  // flat-faced wedge
+  EXPECT_NEAR(moving_mass(arch), 7.0 * 2000.0 * area, 1e-6);
+  int springings = 0;
+  for (const Joint& joint : arch.joints) {
+    EXPECT_NEAR(joint.area, 1.5, 1e-9);
+    const bool fixed = arch.blocks[std::size_t(joint.a)].fixed || arch.blocks[std::size_t(joint.b)].fixed;
+    if (!fixed) continue;
+    ++springings;  // the plane of the joint makes 78.75 degrees with the vertical
+    EXPECT_NEAR(std::abs(joint.normal.z()), std::sin(78.75 * M_PI / 180.0), 1e-12);
+  }
+  EXPECT_EQ(springings, 2);
+  EXPECT_EQ(arch.groups.at("keystone 0"), std::vector<std::int64_t>{3});
+  EXPECT_EQ(arch.groups.at("voussoir 5"), std::vector<std::int64_t>{5});
+}
+
+TEST(Arch, RowsLieInStretcherBondAndLeaveNothingOpen) {
+  const Assembly arch = build("arch", {{"voussoirs", 9.0}, {"rows", 3.0}, {"width", 3.0}, {"thickness", 1.0}});
+  EXPECT_EQ(moving(arch), 5 * 3 + 4 * 4);
+  double outer = 0.0;  // soffit, back and sides of the arch; five free faces of each springing block
+  const double step = M_PI / 9.0, in = 9.5, out = 10.5;
+  const double side = 0.5 * std::sin(step) * (out * out - in * in);
+  outer += 11.0 * (2.0 * side + 3.0 * 2.0 * std::sin(0.5 * step) * (in + out)) + 2.0 * 1.0 * 3.0;
+  EXPECT_NEAR(uncovered_surface(arch), outer, 1e-6);
+  EXPECT_TRUE(find_overlaps(arch, 1e-9).empty());
+}
+
+TEST(Arch, PointedArchMeetsInTheMiddlePlane) {
+  const Assembly arch = build("arch", {{"voussoirs", 12.0}, {"eccentricity", 0.3}, {"thickness", 1.0}});
+  EXPECT_EQ(arch.joints.size(), 13u);
+  EXPECT_EQ(arch.groups.at("keystone 0").size(), 2u);
+  int middle = 0;
+  for (const Joint& joint : arch.joints) {
+    if (std::abs(std::abs(joint.normal.x()) - 1.0) > 1e-9) continue;
+    ++middle;  // heights of the two circles, centre 3 m beyond the middle line
+    EXPECT_NEAR(joint.area, std::sqrt(10.5 * 10.5 - 9.0) - std::sqrt(9.5 * 9.5 - 9.0), 1e-9);
+  }
+  EXPECT_EQ(middle, 1);
+  EXPECT_TRUE(find_overlaps(arch, 1e-9).empty());
+  GeneratorInput odd = default_input(find_generator("arch"));
+  odd.values["eccentricity"] = 0.3;
+  EXPECT_NE(error_of("arch", odd).find("even"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace voussoir

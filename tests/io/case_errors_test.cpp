@@ -1,0 +1,209 @@
+// Messages of the case reader: each names file, line and key, what was found and what is right.
+#include <gtest/gtest.h>
+
+#include "io/case/case.h"
+#include "io/case/table_reader.h"
+#include "solver/base/error.h"
+#include "tests/io/folder.h"
+
+namespace voussoir {
+namespace {
+
+/// A case text, and what the message must hold.
+struct Wrong {
+  const char* name;
+  std::string text;
+  std::vector<std::string> expected;
+};
+
+const std::string head = "[bridge]\ngenerator = \"wall\"\n";                  // lines 1 and 2
+const std::string gravity = "[[stage]]\nkind = \"gravity\"\n";                // two lines
+const std::string motion = "[[stage]]\nkind = \"motion\"\nduration = 2.0\n";  // three lines
+
+const std::vector<Wrong> table = {
+    {"UnknownKey",
+     head + "[damping]\nrtaio = 0.1\n",
+     {"c.toml:4: unknown key 'rtaio' in [damping]: did you mean 'ratio'?"}},
+    {"UnknownKeyListed",
+     head + "[damping]\ncolour = 1\n",
+     {"c.toml:4: unknown key 'colour' in [damping]: expected one of: ", "band", "branches", "ratio"}},
+    {"UnknownTable",
+     head + "[dampin]\nratio = 0.1\n" + gravity,
+     {"c.toml:3: unknown key 'dampin'", "did you mean 'damping'?"}},
+    {"UnknownBridgeKey",
+     head + "corses = 3\n" + gravity,
+     {"c.toml:3: unknown key 'corses' in [bridge]: did you mean 'courses'?"}},
+    {"WrongType",
+     head + "[damping]\nratio = \"high\"\n",
+     {"c.toml:4: 'ratio' in [damping] is text, expected a number"}},
+    {"WrongTypeUnit",
+     head + "[output]\nhistory_every = true\n",
+     {"c.toml:4: 'history_every'", "is true or false, expected a number in s"}},
+    {"NotFlag",
+     head + "[contact]\nsearch = 1\n",
+     {"c.toml:4: 'search' in [contact] is a number, expected true or false"}},
+    {"NotInteger",
+     head + "[contact]\npoints_per_side = 3.5\n",
+     {"'points_per_side'", "is a fraction, expected a whole number"}},
+    {"NotTable", "bridge = 3\n", {"c.toml:1: 'bridge'", "is a number, expected a table"}},
+    {"StageNotDoubleBrackets", head + "[stage]\nkind = \"gravity\"\n", {"c.toml:3: 'stage'", "[[stage]]"}},
+    {"OutOfRange", head + "[damping]\nratio = 0.7\n", {"c.toml:4: 'ratio' in [damping] is 0.7: must be from 0 to 0.5"}},
+    {"OutOfRangeUnit",
+     head + "thickness = -0.4\n" + gravity,
+     {"c.toml:3: 'thickness' in [bridge] is -0.4: must be from 0.001 to 20 m"}},
+    {"GeneratorWhole", head + "courses = 2.5\n" + gravity, {"c.toml:3: 'courses'", "must be a whole number"}},
+    {"NotFinite", head + "[damping]\nratio = nan\n", {"c.toml:4: 'ratio'", "must be a finite number"}},
+    {"NotFiniteList", head + "[damping]\nband = [1.0, inf]\n", {"c.toml:4: 'band'", "is inf: must be a finite number"}},
+    {"Band",
+     head + "[damping]\nband = [12, 0.5]\n",
+     {"c.toml:4: 'band'", "[12, 0.5]", "first frequency must be the lower"}},
+    {"BandLength", head + "[damping]\nband = [12]\n", {"c.toml:4: 'band'", "has 1 numbers, expected 2"}},
+    {"Syntax", head + "[damping\nratio = 1\n", {"c.toml:3: not valid TOML: "}},
+    {"Twice", head + "generator = \"wall\"\n", {"c.toml:3: not valid TOML: "}},
+    {"UnknownGenerator",
+     "[bridge]\ngenerator = \"wal\"\n",
+     {"c.toml:2: 'generator' in [bridge] is \"wal\": did you mean 'wall'?"}},
+    {"UnknownGeneratorListed",
+     "[bridge]\ngenerator = \"viaduct\"\n",
+     {"c.toml:2: ", "expected one of: ", "cs1", "column"}},
+    {"NoBridge", gravity, {"c.toml", "needs 'bridge'"}},
+    {"NoGenerator", "[bridge]\n", {"c.toml:1: [bridge] needs 'generator'"}},
+    {"GeneratorMisspelt",
+     "[bridge]\ngenerater = \"wall\"\n",
+     {"c.toml:2: unknown key 'generater'", "did you mean 'generator'?"}},
+    {"GeneratorAndAssembly", head + "assembly = \"a.h5\"\n", {"c.toml:1: [bridge] names both"}},
+    {"NoAssemblyFile",
+     "[bridge]\nassembly = \"none.h5\"\n",
+     {"c.toml:2: 'assembly'", "none.h5: there is no such file"}},
+    {"UnknownMaterial",
+     head + "[materials.mansonry]\ndensity = 1\n" + gravity,
+     {"c.toml:3: 'mansonry' in [materials] is not a material of \"wall\": did you mean 'masonry'?"}},
+    {"MaterialKey",
+     head + "[materials.masonry]\nfrction_angle = 30\n" + gravity,
+     {"c.toml:4: unknown key 'frction_angle' in [materials.masonry]: did you mean 'friction_angle'?"}},
+    {"Angle",
+     head + "[materials.masonry]\nfriction_angle = 95\n" + gravity,
+     {"c.toml:4: 'friction_angle'", "from 0 to 89 degrees"}},
+    {"JointPair",
+     head + "[joints.masonry]\nkn = 1e9\n" + gravity,
+     {"c.toml:3: 'masonry' in [joints]", "with a hyphen between"}},
+    {"JointMaterial",
+     head + "[joints.masonry-steel]\nkn = 1e9\n" + gravity,
+     {"c.toml:3: 'masonry-steel'", "two materials of this bridge"}},
+    {"JointStiffness",
+     head + "[joints.masonry-masonry]\nkn = 0\n" + gravity,
+     {"c.toml:4: 'kn'", "is 0: must be above 0 to"}},
+    {"JointKind",
+     head + "[joints.masonry-masonry]\nkind = \"plastic\"\n" + gravity,
+     {"c.toml:4: 'kind'", "is \"plastic\": expected one of: brittle, softening, elastic"}},
+    {"SofteningEnergy",
+     head + "[joints.masonry-masonry]\nkind = \"softening\"\n" + gravity,
+     {"c.toml:3: ", "needs 'fracture_energy'"}},
+    {"DampingKind",
+     head + "[damping]\nkind = \"viscous\"\n",
+     {"c.toml:4: 'kind'", "expected one of: none, maxwell, rayleigh, local"}},
+    {"MassScaling",
+     head + "[analysis]\nmass_scaling_limit = 0.1\n",
+     {"c.toml:3: [analysis] needs 'mass_scaling_step'"}},
+    {"NoStages", head, {"c.toml", "needs 'stage'"}},
+    {"StageMisspelt",
+     head + "[[stages]]\nkind = \"gravity\"\n",
+     {"c.toml:3: unknown key 'stages'", "did you mean 'stage'?"}},
+    {"EmptyStages", "stage = []\n" + head, {"needs 'stage'"}},
+    {"EmptyStage", head + "[[stage]]\n", {"c.toml:3: [[stage]] number 1 needs 'kind'", "gravity, motion, free"}},
+    {"StageKind",
+     head + "[[stage]]\nkind = \"static\"\n",
+     {"c.toml:4: 'kind'", "expected one of: gravity, motion, free"}},
+    {"MotionDuration",
+     head + "[[stage]]\nkind = \"motion\"\n",
+     {"c.toml:3: [[stage]] number 1 needs 'duration' (a number in s)"}},
+    {"DurationMisspelt",
+     head + "[[stage]]\nkind = \"free\"\nduratoin = 1\n",
+     {"c.toml:5: unknown key 'duratoin'", "did you mean 'duration'?"}},
+    {"NegativeDuration",
+     head + "[[stage]]\nkind = \"free\"\nduration = -1\n",
+     {"c.toml:5: 'duration'", "is -1: must be above 0 to"}},
+    {"GravityDuration", head + gravity + "duration = 1\n", {"c.toml:5: 'duration'", "ends in equilibrium: remove it"}},
+    {"GravityRecord", head + gravity + "record = \"a\"\n", {"c.toml:5: 'record'", "belongs to a motion stage"}},
+    {"FreeMethod",
+     head + "[[stage]]\nkind = \"free\"\nduration = 1\nmethod = \"newton\"\n",
+     {"c.toml:6: 'method'", "belongs to a gravity stage"}},
+    {"NoSource", head + motion, {"c.toml:3: [[stage]] number 1 needs 'record'"}},
+    {"RecordAndPulse",
+     head + motion + "record = \"a\"\npulse = { kind = \"sine\" }\n",
+     {"c.toml:3: ", "more than one of 'record', 'pulse'"}},
+    {"NoRecord",
+     head + motion + "record = \"nothere.txt\"\n",
+     {"c.toml:6: 'record'", "nothere.txt\": there is no such file"}},
+    {"RecordNames", head + motion + "record = [\"\", \"\"]\n", {"c.toml:6: 'record'", "names no file"}},
+    {"FourRecords", head + motion + "record = [\"a\", \"b\", \"c\", \"d\"]\n", {"c.toml:6: 'record'", "names 4 files"}},
+    {"RecordUnits",
+     head + motion + "record = \"good.txt\"\nunits = \"gal\"\n",
+     {"c.toml:7: 'units'", "expected one of: m/s2, g, cm/s2"}},
+    {"RecordSteps",
+     head + motion + "record = [\"good.txt\", \"other.txt\"]\n",
+     {"c.toml:6: 'record'", "different time steps", "other.txt"}},
+    {"RecordRow", head + motion + "record = \"bad.txt\"\n", {"bad.txt:3: 'oops' is not a number"}},
+    {"PulseUnits",
+     head + motion + "units = \"g\"\npulse = { kind = \"sine\" }\n",
+     {"c.toml:6: 'units'", "belongs to a 'record'"}},
+    {"PulseKind",
+     head + motion + "pulse = { kind = \"square\", axis = \"x\" }\n",
+     {"c.toml:6: 'kind' in the pulse of [[stage]] number 1", "rectangular, half-sine, sine"}},
+    {"PulseAmplitude",
+     head + motion + "pulse = { kind = \"sine\", axis = \"x\" }\n",
+     {"c.toml:6: ", "needs 'amplitude' (a number in m/s2)"}},
+    {"PulseLength",
+     head + motion + "pulse = { kind = \"rectangular\", axis = \"x\", amplitude = 1 }\n",
+     {"c.toml:3: ", "rectangular pulse needs 'length' in s"}},
+    {"PulseBoth",
+     head + motion + "pulse = { kind = \"half-sine\", axis = \"x\", amplitude = 1, frequency = 2, length = 1 }\n",
+     {"c.toml:3: ", "contradict", "0.25 s"}},
+    {"SyntheticPeak", head + motion + "synthetic = { seed = 1 }\n", {"c.toml:6: ", "needs 'peak'"}},
+    {"SyntheticAxes",
+     head + motion + "synthetic = { peak = 1, axes = [\"w\"] }\n",
+     {"c.toml:6: 'axes'", "\"w\": expected x, y or z"}},
+    {"SensorTwice",
+     head + gravity + "[[sensor]]\nid=\"a\"\nposition=[0,0,0]\ndirection=\"x\"\n[[sensor]]\nid=\"a\"\n",
+     {"c.toml:10: 'id' in [[sensor]] number 2 is \"a\"", "ids must differ"}},
+    {"SensorDirection",
+     head + gravity + "[[sensor]]\nid=\"a\"\nposition=[0,0,0]\ndirection=[0,0,0]\n",
+     {"c.toml:8: 'direction'", "has no length"}},
+    {"SensorPosition",
+     head + gravity + "[[sensor]]\nid=\"a\"\nposition=[0,0]\n",
+     {"c.toml:7: 'position'", "has 2 numbers, expected 3"}},
+};
+
+class CaseError : public testing::TestWithParam<Wrong> {};
+
+TEST_P(CaseError, SaysWhatIsWrongAndWhatIsRight) {
+  const test::Folder folder;
+  folder.write("good.txt", "0 0\n0.01 1\n0.02 0\n");
+  folder.write("other.txt", "0 0\n0.02 1\n0.04 0\n");
+  folder.write("bad.txt", "0 0\n0.01 1\n0.02 oops\n");
+  const std::string path = folder.write("c.toml", GetParam().text);
+  const std::string message = test::message_of<InputError>([&] { read_case(path); });
+  EXPECT_TRUE(message.starts_with(folder.path())) << message;
+  for (const std::string& part : GetParam().expected) EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Messages, CaseError, testing::ValuesIn(table),
+                         [](const auto& wrong) { return std::string(wrong.param.name); });
+
+TEST(CaseErrors, MissingFileAndFolder) {
+  const test::Folder folder;
+  EXPECT_NE(test::message_of<InputError>([&] { read_case(folder / "none.toml"); }).find("none.toml: No such file"),
+            std::string::npos);
+  EXPECT_NE(test::message_of<InputError>([&] { read_case(folder.path()); }).find("it is a folder"), std::string::npos);
+}
+
+TEST(Suggestion, NearestWordOrList) {
+  const std::vector<std::string> known = {"ratio", "band", "kind"};
+  EXPECT_EQ(nearest_word("rato", known), "ratio");
+  EXPECT_EQ(nearest_word("ratoi", known), "ratio");  // a swap is one mistake
+  EXPECT_EQ(nearest_word("temperature", known), "");
+  EXPECT_EQ(suggestion("x", known), ": expected one of: ratio, band, kind");
+}
+
+}  // namespace
+}  // namespace voussoir

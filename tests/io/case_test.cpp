@@ -1,0 +1,266 @@
+// Case files: what is read, and that a resolved copy is the same case.
+#include "io/case/case.h"
+
+#include <gtest/gtest.h>
+
+#include "io/case/degrees.h"
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+#include "tests/io/folder.h"
+
+namespace voussoir {
+namespace {
+
+using test::Folder;
+
+const char* const full = R"(
+[bridge]
+generator = "wall"
+length_blocks = 4
+courses = 3
+
+[materials.masonry]
+density = 1800.0
+tensile_strength = 0.1e6
+friction_angle = 33.3
+
+[joints.masonry-masonry]
+kn = 5e9
+ks = 2e9
+cohesion = 0.2e6
+residual_friction_angle = 28.7
+fracture_energy = [50.0, 100.0]
+
+[analysis]
+gravity = [0.1, 0.0, -9.81]
+safety = 0.7
+
+[contact]
+points_per_side = 4
+gap_tolerance = 2e-4
+reclip_angle = 2.5
+
+[damping]
+kind = "rayleigh"
+ratio = 0.05
+band = [1, 20.0]
+
+[[stage]]
+kind = "gravity"
+method = "relaxation"
+
+[[stage]]
+kind = "motion"
+duration = 2.5
+record = ["x.txt", "", "z.txt"]
+units = "g"
+scale = 1.5
+
+[[stage]]
+kind = "motion"
+duration = 3
+pulse = { kind = "sine", axis = "y", amplitude = 4.0, frequency = 2.0 }
+
+[[stage]]
+kind = "motion"
+duration = 6.0
+synthetic = { seed = 3, peak = 2.0, axes = ["x", "y"], frequency = 3.1 }
+label = "noise \"three\""
+
+[[stage]]
+kind = "free"
+duration = 1.0
+
+[output]
+history_every = 0.01
+
+[[sensor]]
+id = "a1"
+position = [0.3, 0.0, 0.7]
+direction = [1.0, 2.0, 3.0]
+
+[[sensor]]
+id = "a2"
+position = [0.3, 0.0, 0.7]
+direction = "y"
+)";
+
+class CaseFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder.write("x.txt", "# t a\n0.0 0.0\n0.01, 0.1\n0.02\t-0.3\n");
+    folder.write("z.txt", "0 0\n0.01 0.05\n");
+  }
+  Folder folder;
+};
+
+TEST_F(CaseFile, EveryTableIsRead) {
+  const Case c = read_case(folder.write("case.toml", full));
+  const SolverSettings& s = c.settings;
+  EXPECT_EQ(c.generator, "wall");
+  EXPECT_EQ(c.generator_input("courses"), 3.0);
+  EXPECT_EQ(c.generator_input("block_height"), 0.5);
+  EXPECT_EQ(c.generator_input.gap_tolerance, 2e-4);
+  EXPECT_EQ(c.generator_input.materials.at("masonry").density, 1800.0);
+  EXPECT_NEAR(c.generator_input.materials.at("masonry").friction_angle, 0.58119464091411, 1e-12);
+  EXPECT_EQ(s.gravity, Vec3(0.1, 0.0, -9.81));
+  EXPECT_EQ(s.step.safety, 0.7);
+  EXPECT_EQ(s.contact.points_per_side, 4);
+  EXPECT_NEAR(s.contact.reclip_angle, 0.0436332312998582, 1e-15);
+  EXPECT_EQ(s.damping.kind, DampingSettings::Kind::rayleigh);
+  EXPECT_EQ(s.damping.band[0], 1.0);
+  EXPECT_EQ(s.output.history_every, 0.01);
+  EXPECT_EQ(s.output.checkpoint_every, 5.0);
+  ASSERT_EQ(c.sensors.size(), 2u);
+  EXPECT_NEAR((c.sensors[0].direction - Vec3(1, 2, 3).normalized()).norm(), 0.0, 1e-15);
+  EXPECT_EQ(c.sensors[1].direction, Vec3::UnitY());
+}
+
+TEST_F(CaseFile, JointLawTakesWhatItLeavesOutFromTheMaterial) {
+  const auto joint = read_case(folder.write("case.toml", full)).generator_input.joints.at("masonry-masonry");
+  ASSERT_TRUE(joint.has_law);
+  EXPECT_EQ(joint.kn, 5e9);
+  EXPECT_EQ(joint.law.kind, JointLaw::Kind::softening);
+  EXPECT_EQ(joint.law.tension, 0.1e6);
+  EXPECT_EQ(joint.law.cohesion, 0.2e6);
+  EXPECT_NEAR(joint.law.friction_angle, 0.58119464091411, 1e-12);
+  EXPECT_NEAR(joint.law.residual_friction_angle, 0.50090949537, 1e-9);
+  EXPECT_EQ(joint.law.residual_cohesion, 0.0);
+  EXPECT_EQ(joint.law.fracture_energy[1], 100.0);
+}
+
+TEST_F(CaseFile, StagesAndMotions) {
+  const Case c = read_case(folder.write("case.toml", full));
+  const auto& stages = c.settings.stages;
+  ASSERT_EQ(stages.size(), 5u);
+  EXPECT_EQ(stages[0].method, StageSettings::Method::relaxation);
+  const GroundMotion& record = stages[1].motion;
+  ASSERT_EQ(record.acceleration.size(), 3u);
+  EXPECT_DOUBLE_EQ(record.dt, 0.01);
+  EXPECT_NEAR(record.acceleration[2].x(), -0.3 * 9.80665 * 1.5, 1e-12);
+  EXPECT_NEAR(record.acceleration[1].z(), 0.05 * 9.80665 * 1.5, 1e-12);
+  EXPECT_EQ(record.acceleration[2].z(), 0.0);  // shorter component ends in zeros
+  EXPECT_EQ(stages[2].label, "motion (pulse sine y)");
+  EXPECT_NEAR(stages[2].motion.duration(), 0.5, 0.01);
+  EXPECT_NEAR(stages[3].motion.duration(), 6.0, 1e-9);
+  EXPECT_EQ(stages[4].kind, StageSettings::Kind::free);
+}
+
+bool same_motion(const GroundMotion& a, const GroundMotion& b) {
+  return a.dt == b.dt && a.acceleration == b.acceleration;
+}
+
+TEST_F(CaseFile, ResolvedCopyIsTheSameCaseBitForBit) {
+  const Case c = read_case(folder.write("case.toml", full));
+  const Folder run;
+  write_resolved_case(c, run.path());
+  EXPECT_EQ(test::bytes_of(run / "motion_2_x.txt"), test::bytes_of(folder / "x.txt"));
+  const Case copy = read_case(run / "case.toml");
+  EXPECT_EQ(resolved_text(copy), resolved_text(c));
+  EXPECT_EQ(copy.hash, c.hash);
+  for (std::size_t i = 0; i < c.settings.stages.size(); ++i) {
+    EXPECT_TRUE(same_motion(copy.settings.stages[i].motion, c.settings.stages[i].motion)) << i;
+    EXPECT_EQ(copy.settings.stages[i].label, c.settings.stages[i].label);
+  }
+  EXPECT_EQ(copy.generator_input.values, c.generator_input.values);
+  EXPECT_EQ(copy.generator_input.joints.at("masonry-masonry").law, c.generator_input.joints.at("masonry-masonry").law);
+  EXPECT_EQ(copy.settings.contact.reclip_angle, c.settings.contact.reclip_angle);
+  EXPECT_EQ(copy.sensors[0].direction, c.sensors[0].direction);
+}
+
+TEST_F(CaseFile, HashSeesTheCaseAndTheRecords) {
+  const std::uint64_t hash = read_case(folder.write("case.toml", full)).hash;
+  std::string other = full;
+  other.replace(other.find("ratio = 0.05"), 12, "ratio = 0.06");
+  EXPECT_NE(read_case(folder.write("case.toml", other)).hash, hash);
+  EXPECT_EQ(read_case(folder.write("case.toml", std::string("# a comment\n") + full)).hash, hash);
+  folder.write("z.txt", "0 0\n0.01 0.06\n");
+  EXPECT_NE(read_case(folder.write("case.toml", full)).hash, hash);
+}
+
+TEST_F(CaseFile, DefaultsOfEveryGeneratorSurviveResolving) {
+  for (const Generator& generator : generators()) {
+    const std::string text = "[bridge]\ngenerator = \"" + generator.name + "\"\n[[stage]]\nkind = \"gravity\"\n";
+    const Case c = parse_case(text, folder / "case.toml");
+    const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+    EXPECT_EQ(copy.hash, c.hash) << generator.name;
+    for (const Parameter& p : generator.parameters) EXPECT_EQ(c.generator_input(p.name), p.value) << p.name;
+    for (const Material& m : generator.materials) {
+      const Material& own = c.generator_input.materials.at(m.name);
+      EXPECT_NEAR(own.friction_angle, m.friction_angle, 1e-15);
+      EXPECT_EQ(copy.generator_input.materials.at(m.name).friction_angle, own.friction_angle);
+    }
+  }
+}
+
+TEST_F(CaseFile, BaselineCorrectionAndOneColumn) {
+  folder.write("a.txt", "0.1\n0.2\n-0.1\n0.3\n0.1\n0.2\n-0.2\n");
+  const std::string head =
+      "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"motion\"\nduration = 1.0\nrecord = \"a.txt\"\n"
+      "dt = 0.02\nunits = \"cm/s2\"\n";
+  const GroundMotion plain = parse_case(head, folder / "c.toml").settings.stages[0].motion;
+  const GroundMotion corrected = parse_case(head + "correct = true\n", folder / "c.toml").settings.stages[0].motion;
+  EXPECT_EQ(plain.dt, 0.02);
+  EXPECT_DOUBLE_EQ(plain.acceleration[3].x(), 0.003);
+  double velocity = 0.0;
+  for (std::size_t i = 1; i < corrected.acceleration.size(); ++i)
+    velocity += 0.01 * (corrected.acceleration[i].x() + corrected.acceleration[i - 1].x());
+  EXPECT_NEAR(velocity, 0.0, 1e-15);
+}
+
+TEST_F(CaseFile, GeometryNeedsNoStage) {
+  const std::string text = "[bridge]\ngenerator = \"column\"\n";
+  EXPECT_EQ(parse_case(text, "c.toml", CaseUse::geometry).settings.stages.size(), 0u);
+  EXPECT_THROW(parse_case(text, "c.toml"), InputError);
+}
+
+TEST_F(CaseFile, AssemblyIsMadeAndSensorsFindTheirBlock) {
+  const Case c = read_case(folder.write("case.toml", full));
+  const Assembly assembly = make_assembly(c);
+  EXPECT_EQ(assembly.case_text, full);
+  ASSERT_EQ(assembly.sensors.size(), 2u);
+  const Box box = block_box(assembly.blocks[std::size_t(assembly.sensors[0].block)]);
+  EXPECT_TRUE((Vec3(0.3, 0.0, 0.7).array() >= box.low.array()).all() &&
+              (Vec3(0.3, 0.0, 0.7).array() <= box.high.array()).all());
+  Assembly again = assembly;
+  const std::string message = test::message_of<InputError>([&] {
+    attach_sensors(again, {{"far", {0, 5, 0}, {1, 0, 0}}});
+  });
+  EXPECT_NE(message.find("sensor \"far\""), std::string::npos) << message;
+}
+
+TEST_F(CaseFile, AssemblyFileWithJointOverride) {
+  const Case wall = read_case(folder.write("case.toml", full));
+  write_assembly(folder / "wall.h5", make_assembly(wall));
+  const std::string text =
+      "[bridge]\nassembly = \"wall.h5\"\n[joints.masonry-masonry]\nkn = 7e9\ntensile_strength = 1.0\n"
+      "cohesion = 2.0\nfriction_angle = 20\n[[stage]]\nkind = \"gravity\"\n";
+  const Case c = parse_case(text, folder / "c.toml");
+  const Assembly assembly = make_assembly(c);
+  for (const Joint& joint : assembly.joints) {
+    EXPECT_EQ(joint.kn, 7e9);
+    EXPECT_EQ(joint.ks, 2e9);
+    EXPECT_EQ(assembly.laws[std::size_t(joint.law)].cohesion, 2.0);
+  }
+  // The run directory's copy of the case and of the assembly give the same again.
+  const Folder run;
+  write_resolved_case(c, run.path());
+  write_assembly(run / "assembly.h5", assembly);
+  const Case copy = read_case(run / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  EXPECT_EQ(assembly_hash(make_assembly(copy)), assembly_hash(assembly));
+}
+
+TEST(Degrees, SurviveWritingAndReading) {
+  for (int i = 0; i <= 890; ++i) {
+    const double degrees = 0.1 * i, radians = to_radians(degrees);
+    EXPECT_EQ(to_radians(std::stod(degrees_text(radians))), radians) << degrees;
+  }
+  EXPECT_EQ(degrees_text(to_radians(30.0)), "30.0");
+  EXPECT_EQ(degrees_text(to_radians(33.3)), "33.3");
+  EXPECT_NEAR(writable_angle(0.7), 0.7, 2e-16);
+  EXPECT_EQ(writable_angle(writable_angle(0.05)), writable_angle(0.05));
+}
+
+}  // namespace
+}  // namespace voussoir

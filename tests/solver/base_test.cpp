@@ -1,0 +1,131 @@
+// Hashes, shares of a loop, barrier and team; the base's acceleration.
+#include <array>
+#include <cstdlib>
+#include <thread>
+#include <unistd.h>
+
+#include "solver/base/arrays.h"
+#include "solver/base/parallel.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+TEST(HashArrays, SeesEveryBitNameAndSize) {
+  Array<double> x = {1.0, 2.0, 3.0};
+  Array<std::uint8_t> flags = {0, 1, 0};
+  const auto list = [&] { return std::vector<NamedArray>{{"x", 1, "m", &x}, {"flags", 1, "-", &flags}}; };
+  const std::uint64_t h = hash_arrays(list());
+  EXPECT_EQ(hash_arrays(list()), h);
+  for (double& value : x) {
+    const double kept = value;
+    value = std::nextafter(value, 10.0);
+    EXPECT_NE(hash_arrays(list()), h);
+    value = kept;
+  }
+  flags[2] = 1;
+  EXPECT_NE(hash_arrays(list()), h);
+  flags[2] = 0;
+  EXPECT_NE(hash_arrays({{"y", 1, "m", &x}, {"flags", 1, "-", &flags}}), h);
+  EXPECT_NE(hash_arrays({{"flags", 1, "-", &flags}, {"x", 1, "m", &x}}), h);
+  x.push_back(0.0);
+  EXPECT_NE(hash_arrays(list()), h);
+}
+
+TEST(HashArrays, TellsZeroFromMinusZero) {
+  Array<double> x = {0.0};
+  const std::uint64_t h = hash_arrays({{"x", 1, "m", &x}});
+  x[0] = -0.0;
+  EXPECT_NE(hash_arrays({{"x", 1, "m", &x}}), h);
+}
+
+TEST(Share, CoversEveryIndexOnceInOrder) {
+  for (std::size_t n : {0u, 1u, 7u, 8u, 1000u})
+    for (int threads : {1, 2, 3, 8, 13}) {
+      std::size_t next = 0;
+      for (int t = 0; t < threads; ++t) {
+        const Range r = share(n, t, threads);
+        EXPECT_EQ(r.begin, next);
+        EXPECT_LE(r.begin, r.end);
+        EXPECT_LE(r.end - r.begin, n / std::size_t(threads) + 1);
+        next = r.end;
+      }
+      EXPECT_EQ(next, n);
+    }
+}
+
+/// Counters that only agree after each wait when nobody runs ahead.
+void count_together(int threads, int rounds) {
+  std::vector<std::array<long, 8>> counters(std::size_t(threads), std::array<long, 8>{});
+  std::atomic<int> wrong{0}, ran{0};
+  run_team(threads, [&](int thread, int team, Barrier& barrier) {
+    ++ran;
+    if (team != threads) ++wrong;
+    for (int i = 0; i < rounds; ++i) {
+      counters[std::size_t(thread)][0] = i;
+      barrier.wait();
+      for (const auto& c : counters)
+        if (c[0] != i) ++wrong;
+      barrier.wait();
+    }
+  });
+  EXPECT_EQ(wrong.load(), 0);
+  EXPECT_EQ(ran.load(), threads);
+}
+
+TEST(Team, StaysTogetherAtTheBarrier) {
+  count_together(1, 100);
+  count_together(2, 20000);
+  count_together(3, 2000);
+  count_together(8, 500);  // more than the machine has, on most
+}
+
+/// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel already) must
+/// not leave the team waiting for threads that never came.
+TEST(Team, DoesNotHangWhenFewerThreadsAreGranted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // the child starts afresh and reads the variable
+  setenv("OMP_THREAD_LIMIT", "1", 1);
+  const auto child = [] {
+    alarm(5);
+    run_team(4, [](int, int, Barrier& barrier) { barrier.wait(); });
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
+  unsetenv("OMP_THREAD_LIMIT");
+}
+
+TEST(BaseAcceleration, IsLinearBetweenSamplesAndZeroOutside) {
+  GroundMotion motion;
+  motion.dt = 0.01;
+  motion.acceleration = {{1, 0, 0}, {3, 2, 0}, {-1, 0, 4}};
+  EXPECT_EQ(base_acceleration(&motion, -1e-9), Vec3(0, 0, 0));
+  EXPECT_EQ(base_acceleration(&motion, 0.0), Vec3(1, 0, 0));
+  EXPECT_LT((base_acceleration(&motion, 0.0025) - Vec3(1.5, 0.5, 0)).norm(), 1e-12);
+  EXPECT_LT((base_acceleration(&motion, 0.01) - Vec3(3, 2, 0)).norm(), 1e-12);
+  EXPECT_LT((base_acceleration(&motion, 0.019) - Vec3(-0.6, 0.2, 3.6)).norm(), 1e-12);
+  EXPECT_LT((base_acceleration(&motion, 0.02) - Vec3(-1, 0, 4)).norm(), 1e-12);
+  EXPECT_EQ(base_acceleration(&motion, 0.0200001), Vec3(0, 0, 0));
+  EXPECT_EQ(base_acceleration(nullptr, 0.01), Vec3(0, 0, 0));
+}
+
+/// The base's velocity and displacement are the leapfrog sums of the acceleration: v = Σ dt a, and a constant acceleration
+/// from rest gives a dt² n (n + 1)/2.
+TEST(BaseMotion, IsIntegratedLikeTheBlocks) {
+  Assembly assembly = stone();
+  add_box(assembly, {0, 0, -1}, {1, 1, 0}, true);
+  add_box(assembly, {0, 0, 0}, {1, 1, 1});
+  Bench bench(joined(std::move(assembly), 1e9, 4e8, elastic_law()));
+  GroundMotion motion;
+  motion.dt = 1.0;
+  motion.acceleration = {{2, 0, 0}, {2, 0, 0}};
+  bench.begin();
+  bench.stepper.motion = &motion;
+  ASSERT_TRUE(bench.run(100));
+  const double dt = bench.stepper.dt;
+  EXPECT_NEAR(bench.state.base_velocity().x(), 2 * 100 * dt, 1e-12);
+  EXPECT_NEAR(bench.state.base_displacement().x(), dt * dt * 100 * 101, 1e-12);
+  EXPECT_EQ(bench.displacement(0), Vec3(bench.state.base_displacement()));
+}
+
+}  // namespace
+}  // namespace voussoir::test

@@ -1,0 +1,284 @@
+// Grids for ParaView: cells, fields, displaced points, and the files they are written to.
+#include "io/vtk/grid.h"
+
+#include <gtest/gtest.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+
+#include <set>
+
+#include "io/vtk/block_shape.h"
+#include "io/vtk/files.h"
+#include "io/vtk/series.h"
+#include "solver/base/error.h"
+#include "tests/viz/folder.h"
+#include "tests/viz/scenes.h"
+
+namespace voussoir {
+namespace {
+
+using test::Folder;
+using test::message_of;
+
+/// Volume of one cell of a grid, from its faces as VTK gives them (divergence theorem).
+double cell_volume(vtkUnstructuredGrid* grid, vtkIdType c) {
+  Polyhedron shape;
+  vtkCell* cell = grid->GetCell(c);
+  for (int f = 0; f < cell->GetNumberOfFaces(); ++f) {
+    shape.faces.emplace_back();
+    vtkPoints* points = cell->GetFace(f)->GetPoints();
+    for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k) {
+      shape.faces.back().push_back(int(shape.vertices.size()));
+      shape.vertices.emplace_back(points->GetPoint(k));
+    }
+  }
+  return mass_properties(shape).volume;
+}
+
+/// Every edge of the cell's faces is run once in each direction.
+bool watertight(const Polyhedron& shape) {
+  std::set<std::pair<int, int>> edges;
+  for (const auto& loop : shape.faces)
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (!edges.insert({loop[k], loop[(k + 1) % loop.size()]}).second) return false;
+  for (const auto& [a, b] : edges)
+    if (!edges.contains({b, a})) return false;
+  return true;
+}
+
+/// An L of two boxes whose common face is smaller than one of them, a wedge and a box.
+Assembly mixed_shapes() {
+  Assembly assembly;
+  Block angle = test::make_block(make_box({0, 0, 0}, {2, 1, 1}), Component::wall);
+  angle.cells.push_back(make_box({0, 0, 1}, {1, 1, 2}));
+  assembly.blocks = {angle,
+                     test::make_block(make_prism({{5, 0, 0}, {7, 0, 0}, {5, 0, 1}}, {0, -3, 0}), Component::pier),
+                     test::make_block(make_box({0, 5, 0}, {1, 6, 3}), Component::arch)};
+  // make_prism wants its base clockwise or not depending on the sweep; a stone must have a positive volume.
+  auto& wedge = assembly.blocks[1].cells[0];
+  if (mass_properties(wedge).volume < 0)
+    for (auto& loop : wedge.faces) std::reverse(loop.begin(), loop.end());
+  test::finish(assembly);
+  return assembly;
+}
+
+TEST(BlockGrid, CellTypesAndVolumesAreThoseOfTheStones) {
+  const Assembly assembly = mixed_shapes();
+  const auto grid = block_grid(assembly, rest_snapshot(assembly));
+  ASSERT_EQ(grid->GetNumberOfCells(), 3);
+  EXPECT_EQ(grid->GetCellType(0), VTK_POLYHEDRON);
+  EXPECT_EQ(grid->GetCellType(1), VTK_POLYHEDRON);
+  EXPECT_EQ(grid->GetCellType(2), VTK_HEXAHEDRON);
+  EXPECT_NEAR(cell_volume(grid, 0), 3.0, 1e-12);
+  EXPECT_NEAR(cell_volume(grid, 1), 3.0, 1e-12);
+  EXPECT_NEAR(cell_volume(grid, 2), 3.0, 1e-12);
+}
+
+TEST(BlockGrid, SurfaceOfACompoundStoneIsWatertight) {
+  const Assembly assembly = mixed_shapes();
+  const Polyhedron shape = outer_surface(assembly.blocks[0]);
+  EXPECT_TRUE(watertight(shape));
+  EXPECT_NEAR(surface_area(shape), 14.0, 1e-12);  // an L of three unit cubes
+}
+
+TEST(BlockGrid, HexahedronTakesAnyFaceOrder) {
+  Polyhedron box = make_box({0, 0, 0}, {1, 2, 3});
+  for (int turn = 0; turn < 6; ++turn) {
+    std::rotate(box.faces.begin(), box.faces.begin() + 1, box.faces.end());
+    const auto order = hexahedron_order(box);
+    ASSERT_TRUE(order);
+    const auto at = [&](int k) { return box.vertices[(*order)[k]]; };
+    EXPECT_NEAR((at(1) - at(0)).cross(at(3) - at(0)).dot(at(4) - at(0)), 6.0, 1e-12);  // right-handed
+  }
+}
+
+TEST(BlockGrid, PointsMoveWithTheStone) {
+  const Assembly assembly = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.time = 3.25;
+  snapshot.base_displacement = {0.5, 0, 0};
+  snapshot.displacement = {{0.5, 0, 0}, {0.6, 0, 0.2}};
+  snapshot.rotation[1] = Eigen::AngleAxisd(0.3, Vec3::UnitY());
+  snapshot.velocity[1] = {1, 2, 3};
+  const auto grid = block_grid(assembly, snapshot);
+  vtkDataArray* moved = grid->GetPointData()->GetArray("displacement_of_point");
+  const Vec3 centre(0.5, 0.5, 1.5);
+  std::size_t upper = 0;
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
+    const Vec3 now(grid->GetPoint(i)), d(moved->GetTuple3(i));
+    const Vec3 reference = now - d - snapshot.base_displacement;
+    if (i < 8) {  // the fixed cube goes with the ground
+      EXPECT_NEAR(d.norm(), 0.0, 1e-14);
+      continue;
+    }
+    ++upper;
+    // Rotation about +y takes z to x: x' = x cos + z sin.
+    const Vec3 r = reference - centre;
+    const Vec3 expected = centre + Vec3(0.6 + std::cos(0.3) * r.x() + std::sin(0.3) * r.z(), r.y(),
+                                        0.2 - std::sin(0.3) * r.x() + std::cos(0.3) * r.z());
+    EXPECT_NEAR((now - expected).norm(), 0.0, 1e-14);
+    EXPECT_TRUE(reference.z() == 1.0 || reference.z() == 2.0 ||
+                std::abs(reference.z() - std::round(reference.z())) < 1e-14);
+  }
+  EXPECT_EQ(upper, 8u);
+  EXPECT_NEAR(grid->GetCellData()->GetArray("rotation")->GetComponent(1, 1), 0.3, 1e-15);
+  EXPECT_EQ(grid->GetCellData()->GetArray("velocity")->GetComponent(1, 2), 3.0);
+  EXPECT_EQ(grid->GetCellData()->GetArray("displacement")->GetComponent(1, 0), 0.6);
+  EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 3.25);
+  EXPECT_EQ(grid->GetFieldData()->GetArray("base_displacement")->GetComponent(0, 0), 0.5);
+}
+
+TEST(BlockGrid, TakesTheLargestOverAllJointsOfAStone) {
+  const Assembly assembly = test::arch_and_wall();
+  const Snapshot snapshot = test::damaged(assembly);
+  const auto grid = block_grid(assembly, snapshot);
+  std::vector<double> opening(assembly.blocks.size(), 0.0), slip(assembly.blocks.size(), 0.0);
+  for (const auto& p : snapshot.patches) {
+    opening[p.a] = std::max(opening[p.a], p.largest_opening), opening[p.b] = std::max(opening[p.b], p.largest_opening);
+    slip[p.a] = std::max(slip[p.a], p.largest_slip), slip[p.b] = std::max(slip[p.b], p.largest_slip);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    EXPECT_EQ(grid->GetCellData()->GetArray("max_joint_opening")->GetComponent(vtkIdType(i), 0), opening[i]);
+    EXPECT_EQ(grid->GetCellData()->GetArray("max_joint_slip")->GetComponent(vtkIdType(i), 0), slip[i]);
+    sum += opening[i] + slip[i];
+  }
+  EXPECT_GT(sum, 0.1);
+}
+
+TEST(JointPolydata, FieldsAndCornersBetweenTheStones) {
+  const Assembly assembly = test::two_cubes();
+  ASSERT_EQ(assembly.joints.size(), 1u);
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.displacement[1] = {0.02, 0, 0.1};
+  PatchSnapshot& patch = snapshot.patches[0];
+  for (Vec3& x : patch.polygon) x += Vec3(0.01, 0, 0.05);  // midway
+  patch.opening = patch.largest_opening = 0.1;
+  patch.bonded = 0.0;
+  patch.normal_traction = -2e5;
+  const auto data = joint_polydata(assembly, snapshot);
+  ASSERT_EQ(data->GetNumberOfPolys(), 1);
+  const auto value = [&](const char* name) { return data->GetCellData()->GetArray(name)->GetComponent(0, 0); };
+  EXPECT_EQ(value("opening"), 0.1);
+  EXPECT_EQ(value("normal_traction"), -2e5);
+  EXPECT_EQ(value("bonded"), 0.0);
+  EXPECT_EQ(value("had_bond"), 1.0);
+  EXPECT_EQ(value("component_a"), double(Component::base));
+  EXPECT_EQ(value("component_b"), double(Component::wall));
+  EXPECT_NEAR(value("area"), 1.0, 1e-12);
+  for (vtkIdType i = 0; i < 4; ++i) {
+    const Vec3 d(data->GetPointData()->GetArray("displacement_of_point")->GetTuple3(i));
+    EXPECT_NEAR((d - Vec3(0.01, 0, 0.05)).norm(), 0.0, 1e-14);
+  }
+}
+
+TEST(JointPolydata, SecondBodyMayBeTheFill) {
+  const Assembly assembly = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.patches[0].b = -3;
+  const auto data = joint_polydata(assembly, snapshot);
+  EXPECT_EQ(data->GetCellData()->GetArray("component_b")->GetComponent(0, 0), -1.0);
+  EXPECT_EQ(data->GetCellData()->GetArray("block_b")->GetComponent(0, 0), -3.0);
+  EXPECT_EQ(block_grid(assembly, snapshot)->GetNumberOfCells(), 2);
+}
+
+TEST(BlockGrid, RefusesAStateOfAnotherAssembly) {
+  const Assembly two = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(two);
+  snapshot.displacement.pop_back();
+  EXPECT_NE(message_of<InputError>([&] { block_grid(two, snapshot); }).find("1 blocks and the assembly 2"),
+            std::string::npos);
+  snapshot = rest_snapshot(two);
+  snapshot.patches[0].b = 7;
+  EXPECT_NE(message_of<InputError>([&] { joint_polydata(two, snapshot); }).find("names blocks 0 and 7"),
+            std::string::npos);
+}
+
+TEST(VtkFiles, ReadBackAsWritten) {
+  const Folder folder;
+  const Assembly assembly = mixed_shapes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.time = 1.0 / 3.0;
+  snapshot.displacement[0] = {1.0 / 7.0, 0, 0};
+  const auto grid = block_grid(assembly, snapshot);
+  write_vtu(grid, folder / "deep/er/blocks.vtu");
+  const auto back = read_vtu(folder / "deep/er/blocks.vtu");
+  ASSERT_EQ(back->GetNumberOfCells(), 3);
+  ASSERT_EQ(back->GetNumberOfPoints(), grid->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < back->GetNumberOfPoints(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(back->GetPoint(i)[c], grid->GetPoint(i)[c]);
+  for (vtkIdType c = 0; c < 3; ++c) EXPECT_NEAR(cell_volume(back, c), 3.0, 1e-12);
+  EXPECT_EQ(back->GetCellData()->GetNumberOfArrays(), grid->GetCellData()->GetNumberOfArrays());
+  EXPECT_EQ(back->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 1.0 / 3.0);
+  const std::string text = test::read_text(folder / "deep/er/blocks.vtu");
+  EXPECT_NE(text.find("vtkZLibDataCompressor"), std::string::npos);
+  EXPECT_NE(text.find("format=\"appended\""), std::string::npos);
+  EXPECT_EQ(test::files_in(folder / "deep/er"), 1u);  // no temporary is left
+}
+
+TEST(VtkFiles, ErrorsNameTheFile) {
+  const Folder folder;
+  const Assembly assembly = test::two_cubes();
+  const auto grid = block_grid(assembly, rest_snapshot(assembly));
+  test::write_text(folder / "file", "in the way");
+  EXPECT_NE(message_of<RunError>([&] { write_vtu(grid, folder / "file/blocks.vtu"); }).find("file"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { read_vtu(folder / "none.vtu"); }).find("no such file"), std::string::npos);
+  test::write_text(folder / "bad.vtu", "<VTKFile type=\"UnstructuredGrid\"");
+  EXPECT_NE(message_of<InputError>([&] { read_vtu(folder / "bad.vtu"); }).find("bad.vtu"), std::string::npos);
+  write_vtu(grid, folder / "blocks.vtu");
+  EXPECT_NE(message_of<InputError>([&] { read_vtp(folder / "blocks.vtu"); }).find("is not a .vtp"), std::string::npos);
+  std::filesystem::create_directories(folder / "taken.vtu/x");
+  EXPECT_NE(message_of<RunError>([&] { write_vtu(grid, folder / "taken.vtu"); }).find("cannot write"),
+            std::string::npos);
+  EXPECT_EQ(test::files_in(folder.str()), 4u);
+}
+
+TEST(VtkFiles, ATruncatedFileIsRefused) {
+  const Folder folder;
+  const Assembly assembly = test::arch_and_wall();
+  write_vtu(block_grid(assembly, rest_snapshot(assembly)), folder / "a.vtu");
+  const std::string text = test::read_text(folder / "a.vtu");
+  test::write_text(folder / "a.vtu", text.substr(0, text.size() * 6 / 10));
+  EXPECT_THROW(read_vtu(folder / "a.vtu"), InputError);
+}
+
+TEST(VtkSeries, ListsFramesAndForgetsLaterOnes) {
+  const Folder folder;
+  const Assembly assembly = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  VtkSeries series(folder.str());
+  for (const double t : {0.0, 0.5, 12.5}) {
+    snapshot.time = t;
+    series.write(assembly, snapshot);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "vtk/blocks_000012.500.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "vtk/joints_000012.500.vtp"));
+  VtkSeries resumed(folder.str());
+  ASSERT_EQ(resumed.blocks().frames().size(), 3u);
+  EXPECT_EQ(resumed.blocks().frames()[2].time, 12.5);
+  EXPECT_EQ(resumed.joints().frames()[1].file, "joints_000000.500.vtp");
+  resumed.resume_at(0.5);
+  EXPECT_EQ(resumed.blocks().frames().size(), 2u);
+  snapshot.time = 0.75;
+  resumed.write(assembly, snapshot);
+  snapshot.time = 0.75;  // the same frame again replaces itself
+  resumed.write(assembly, snapshot);
+  const PvdSeries blocks(folder / "vtk/blocks.pvd");
+  ASSERT_EQ(blocks.frames().size(), 3u);
+  EXPECT_EQ(blocks.frames()[2].time, 0.75);
+  EXPECT_EQ(read_vtu(blocks.file_path(blocks.frames()[2]))->GetNumberOfCells(), 2);
+}
+
+TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
+  const Folder folder;
+  test::write_text(folder / "blocks.pvd", "<VTKFile type=\"Other\"></VTKFile>");
+  EXPECT_NE(message_of<InputError>([&] { PvdSeries series(folder / "blocks.pvd"); }).find("blocks.pvd"),
+            std::string::npos);
+  test::write_text(folder / "blocks.pvd", "garbage");
+  EXPECT_THROW(PvdSeries series(folder / "blocks.pvd"), InputError);
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,370 @@
+// Pictures and charts: drawn without a display, of the right size, and showing what they should.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+
+#include <cmath>
+#include <set>
+
+#include "io/vtk/series.h"
+#include "solver/base/error.h"
+#include "tests/viz/folder.h"
+#include "tests/viz/scenes.h"
+#include "viz/axis.h"
+#include "viz/colouring.h"
+#include "viz/display.h"
+#include "viz/overlay.h"
+#include "viz/palette.h"
+#include "viz/plot.h"
+#include "viz/render.h"
+#include "viz/scene.h"
+#include "viz/view.h"
+
+namespace voussoir {
+namespace {
+
+using test::Folder;
+using test::message_of;
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::array<unsigned char, 3>> pixels;
+  std::size_t colours() const { return std::set(pixels.begin(), pixels.end()).size(); }
+  std::size_t differing(const Picture& other) const {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) n += pixels[i] != other.pixels[i];
+    return n;
+  }
+  /// Share of pixels near a colour.
+  double share(const Colour& colour, double within = 0.08) const {
+    std::size_t n = 0;
+    for (const auto& p : pixels)
+      n += std::abs(p[0] / 255.0 - colour[0]) < within && std::abs(p[1] / 255.0 - colour[1]) < within &&
+           std::abs(p[2] / 255.0 - colour[2]) < within;
+    return double(n) / double(pixels.size());
+  }
+};
+
+Picture read_png(const std::string& path) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  Picture picture{image->GetDimensions()[0], image->GetDimensions()[1], {}};
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i) {
+    const double* c = image->GetPointData()->GetScalars()->GetTuple(i);
+    picture.pixels.push_back(
+        {static_cast<unsigned char>(c[0]), static_cast<unsigned char>(c[1]), static_cast<unsigned char>(c[2])});
+  }
+  return picture;
+}
+
+RenderOptions small(const std::string& view = "front") {
+  RenderOptions options;
+  options.width = 480;
+  options.height = 300;
+  options.view = view;
+  return options;
+}
+
+/// A test without a display of its own, whatever the machine has.
+class NoDisplay : public testing::Test {
+ protected:
+  void SetUp() override { ::unsetenv("DISPLAY"); }
+  Folder folder;
+};
+
+TEST_F(NoDisplay, ServerComesAndGoes) {
+  pid_t server = 0;
+  {
+    const Display display;
+    ASSERT_TRUE(display.own_server());
+    server = display.server();
+    EXPECT_EQ(::kill(server, 0), 0);
+    EXPECT_TRUE(display_is_usable());
+    const Display second;  // uses the first one's
+    EXPECT_FALSE(second.own_server());
+  }
+  EXPECT_EQ(::kill(server, 0), -1);
+  EXPECT_EQ(::getenv("DISPLAY"), nullptr);
+}
+
+TEST_F(NoDisplay, ADisplayThatDoesNotAnswerIsReplacedAndPutBack) {
+  ::setenv("DISPLAY", ":64999", 1);
+  EXPECT_FALSE(display_is_usable());
+  {
+    const Display display;
+    EXPECT_TRUE(display.own_server());
+  }
+  EXPECT_STREQ(::getenv("DISPLAY"), ":64999");
+  ::unsetenv("DISPLAY");
+}
+
+TEST_F(NoDisplay, ServerEndsWithAProcessThatIsKilled) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const Display display;
+    const pid_t server = display.server();
+    if (::write(ends[1], &server, sizeof server) != sizeof server) ::_exit(1);
+    ::pause();
+    ::_exit(0);
+  }
+  pid_t server = 0;
+  ASSERT_EQ(::read(ends[0], &server, sizeof server), ssize_t(sizeof server));
+  EXPECT_EQ(::kill(server, 0), 0);
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  // Whoever adopts it may be slow to collect it: a zombie counts as ended.
+  const auto ended = [&] {
+    const std::string status = test::read_text(fmt::format("/proc/{}/stat", server));
+    return status.empty() || status.find(") Z ") != std::string::npos;
+  };
+  for (int i = 0; i < 500 && !ended(); ++i) ::usleep(10000);
+  EXPECT_TRUE(ended());
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST_F(NoDisplay, MissingXvfbIsSaid) {
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", folder.str().c_str(), 1);
+  const std::string message = message_of<InputError>([] { const Display display; });
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(message.find("install the package xvfb"), std::string::npos) << message;
+}
+
+TEST_F(NoDisplay, PicturesOfAllViewsAndColours) {
+  const Assembly assembly = test::arch_and_wall();
+  const Snapshot snapshot = test::damaged(assembly);
+  const Display display;
+  std::vector<Picture> pictures;
+  for (const std::string view : {"front", "side", "plan", "oblique"}) {
+    render_picture(assembly, snapshot, small(view), folder / view + ".png");
+    pictures.push_back(read_png(folder / view + ".png"));
+  }
+  for (const std::string colour : {"slip", "displacement", "component", "stone"}) {
+    RenderOptions options = small();
+    options.colour = colour;
+    render_picture(assembly, snapshot, options, folder / colour + ".png");
+    pictures.push_back(read_png(folder / colour + ".png"));
+  }
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    EXPECT_EQ(pictures[i].width, 480);
+    EXPECT_EQ(pictures[i].height, 300);
+    EXPECT_GT(pictures[i].colours(), 100u) << i;
+    EXPECT_GT(pictures[i].share({1, 1, 1}, 0.01), 0.2) << i;  // white paper
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT(pictures[i].differing(pictures[j]), 500u) << i << " " << j;
+  }
+}
+
+TEST_F(NoDisplay, TheSamePictureTwiceHasTheSamePixels) {
+  const Assembly assembly = test::arch_and_wall();
+  const Snapshot snapshot = test::damaged(assembly);
+  render_picture(assembly, snapshot, small("oblique"), folder / "a.png");
+  render_picture(assembly, snapshot, small("oblique"), folder / "b.png");
+  EXPECT_EQ(test::read_text(folder / "a.png"), test::read_text(folder / "b.png"));
+}
+
+TEST_F(NoDisplay, OptionsChangeThePicture) {
+  const Assembly assembly = test::arch_and_wall();
+  const Snapshot snapshot = test::damaged(assembly);
+  const Display display;
+  render_picture(assembly, snapshot, small(), folder / "plain.png");
+  const Picture plain = read_png(folder / "plain.png");
+  const auto changed = [&](auto change) {
+    RenderOptions options = small();
+    change(options);
+    render_picture(assembly, snapshot, options, folder / "changed.png");
+    return read_png(folder / "changed.png");
+  };
+  EXPECT_GT(plain.differing(changed([](auto& o) { o.hide = {"spandrel"}; })), 3000u);
+  EXPECT_GT(plain.differing(changed([](auto& o) { o.amplification = 6; })), 1000u);
+  EXPECT_GT(plain.differing(changed([](auto& o) { o.range_mm = 100; })), 1000u);
+  EXPECT_GT(plain.differing(changed([](auto& o) { o.title = "A title"; })), 50u);
+  const Picture whole = changed([](auto& o) { o.cracks = false; });
+  EXPECT_GT(plain.share(kCrack), 2e-3);
+  EXPECT_EQ(whole.share(kCrack, 0.05), 0.0);
+  EXPECT_GT(changed([](auto& o) {
+              o.undeformed = true, o.amplification = 8;
+            }).differing(changed([](auto& o) { o.amplification = 8; })),
+            100u);
+  // Height 0: an arch and a wall 12 m × 4.2 m need less height than 480 × 300.
+  const Picture fitted = changed([](auto& o) { o.height = 0; });
+  EXPECT_EQ(fitted.width, 480);
+  EXPECT_LT(fitted.height, 290);
+  EXPECT_GT(fitted.height, 150);
+}
+
+TEST_F(NoDisplay, PictureFromStoredFrameEqualsPictureFromState) {
+  const Assembly assembly = test::arch_and_wall();
+  const Snapshot snapshot = test::damaged(assembly);
+  VtkSeries series(folder.str());
+  series.write(assembly, snapshot);
+  const Display display;
+  render_picture(assembly, snapshot, small(), folder / "state.png");
+  render_picture(series.blocks().file_path(series.blocks().frames()[0]),
+                 series.joints().file_path(series.joints().frames()[0]), small(), folder / "frame.png");
+  EXPECT_EQ(test::read_text(folder / "state.png"), test::read_text(folder / "frame.png"));
+}
+
+TEST_F(NoDisplay, WrongOptionsAreNamed) {
+  const Assembly assembly = test::two_cubes();
+  const Snapshot snapshot = rest_snapshot(assembly);
+  const auto message = [&](auto change) {
+    RenderOptions options = small();
+    change(options);
+    return message_of<InputError>([&] { render_picture(assembly, snapshot, options, folder / "no.png"); });
+  };
+  EXPECT_NE(message([](auto& o) { o.view = "back"; }).find("front, side, plan or oblique"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.colour = "red"; }).find("opening, slip"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.hide = {"roof"}; }).find("'roof'"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.hide = {"base", "wall"}; }).find("nothing is left"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.width = 20; }).find("too small"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
+}
+
+TEST_F(NoDisplay, ChartsShowTheirLines) {
+  Series wave{"wave", {}, {}}, flat{"flat", {0.0, 10.0}, {0.5, 0.5}};
+  for (int i = 0; i < 50000; ++i) {
+    wave.x.push_back(2e-4 * i);
+    wave.y.push_back(std::sin(3.0 * wave.x.back()));
+  }
+  wave.y[25000] = std::nan("");
+  PlotOptions options{"Two lines", 600, 400, false, false, false};
+  plot_lines({wave, flat}, "time (s)", "displacement (mm)", options, folder / "chart.png");
+  const Picture chart = read_png(folder / "chart.png");
+  EXPECT_EQ(chart.width, 600);
+  EXPECT_EQ(chart.height, 400);
+  EXPECT_GT(chart.share(line_colour(0), 0.15), 2e-3);
+  EXPECT_GT(chart.share(line_colour(1), 0.15), 5e-4);
+  EXPECT_EQ(chart.share(line_colour(3), 0.05), 0.0);
+  EXPECT_NE(message_of<InputError>([&] {
+              plot_lines({{"x", {1}, {1, 2}}}, "", "", "t", folder / "no.png");
+            }).find("1 x and 2 y"),
+            std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { plot_lines({}, "", "", "t", folder / "no.png"); }).find("nothing"),
+            std::string::npos);
+  options.log_y = true;
+  EXPECT_NE(message_of<InputError>([&] {
+              plot_lines({{"x", {1}, {-1}}}, "", "", options, folder / "no.png");
+            }).find("above 0"),
+            std::string::npos);
+}
+
+TEST(Scene, AmplifiesDisplacementsRelativeToTheBase) {
+  const Assembly assembly = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.base_displacement = {9, 9, 9};
+  snapshot.displacement = {{9, 9, 9}, {9.01, 9, 9}};
+  const auto grid = block_grid(assembly, snapshot);
+  const auto faces = deformed_faces(grid, Hidden({}), 5.0);
+  ASSERT_EQ(faces->GetNumberOfPolys(), 12);
+  double box[6];
+  faces->GetBounds(box);
+  EXPECT_NEAR(box[0], 0.0, 1e-12);  // the fixed cube stays
+  EXPECT_NEAR(box[1], 1.05, 1e-12);
+  EXPECT_NEAR(box[5], 2.0, 1e-12);
+  EXPECT_EQ(deformed_faces(grid, Hidden({"wall"}), 1.0)->GetNumberOfPolys(), 6);
+  EXPECT_EQ(outlines(faces)->GetNumberOfLines(), 24);
+}
+
+TEST(Scene, CracksAreJointsThatMovedOrLostTheirBond) {
+  const Assembly assembly = test::two_cubes();
+  const auto count = [&](auto change, const std::vector<std::string>& hide = {}) {
+    Snapshot snapshot = rest_snapshot(assembly);
+    change(snapshot.patches[0]);
+    return crack_patches(joint_polydata(assembly, snapshot), Hidden(hide), 1.0, {})->GetNumberOfPolys();
+  };
+  EXPECT_EQ(count([](auto&) {}), 0);
+  EXPECT_EQ(count([](auto& p) { p.bonded = 0.0; }), 1);
+  EXPECT_EQ(count([](auto& p) { p.bonded = 0.0, p.had_bond = false; }), 0);  // a dry joint has none to lose
+  EXPECT_EQ(count([](auto& p) { p.largest_opening = 2e-4; }), 1);
+  EXPECT_EQ(count([](auto& p) { p.largest_slip = 2e-4; }), 1);
+  EXPECT_EQ(count([](auto& p) { p.largest_slip = 2e-4; }, {"wall"}), 0);
+}
+
+TEST(View, FitsTheContentIntoItsFrame) {
+  vtkNew<vtkPoints> points;
+  for (int k = 0; k < 8; ++k) points->InsertNextPoint(k & 1 ? 30.0 : -2.0, k & 2 ? 4.0 : 0.0, k & 4 ? 11.0 : 0.0);
+  const Frame frame{0.05, 0.9, 0.2, 0.95};
+  const double aspect = 1.8;
+  for (const std::string name : {"front", "side", "plan", "oblique"}) {
+    vtkNew<vtkCamera> camera;
+    fit_camera(camera, find_view(name), points, frame, aspect);
+    camera->SetClippingRange(1.0, 1000.0);
+    double low[2] = {9, 9}, high[2] = {-9, -9};
+    for (vtkIdType i = 0; i < 8; ++i) {
+      double p[4] = {0, 0, 0, 1};
+      points->GetPoint(i, p);
+      camera->GetCompositeProjectionTransformMatrix(aspect, -1, 1)->MultiplyPoint(p, p);
+      for (int c = 0; c < 2; ++c) {
+        const double share = 0.5 * (p[c] / p[3] + 1.0);
+        low[c] = std::min(low[c], share), high[c] = std::max(high[c], share);
+      }
+    }
+    // Centred, inside, and touching the frame one way.
+    EXPECT_NEAR(0.5 * (low[0] + high[0]), 0.475, 1e-3) << name;
+    EXPECT_NEAR(0.5 * (low[1] + high[1]), 0.575, 1e-3) << name;
+    const double fill_x = (high[0] - low[0]) / 0.85, fill_y = (high[1] - low[1]) / 0.75;
+    EXPECT_NEAR(std::max(fill_x, fill_y), 1.0, 1e-3) << name;
+  }
+}
+
+TEST(Colours, ScaleDarkensSteadily) {
+  double last = 1e9;
+  for (int i = 0; i <= 100; ++i) {
+    const Colour c = scale_colour(i / 100.0);
+    const double lightness = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    EXPECT_LT(lightness, last) << i;
+    last = lightness;
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(scale_colour(0.0)[c], kStone[c]);
+}
+
+TEST(Colours, TopOfTheScaleIsRoundAndAFallenStoneDoesNotSetIt) {
+  const Assembly assembly = test::arch_and_wall(120);
+  Snapshot snapshot = rest_snapshot(assembly);
+  const auto scale = [&](double range) {
+    return colour_faces(deformed_faces(block_grid(assembly, snapshot), Hidden({}), 1.0), "opening", range);
+  };
+  EXPECT_EQ(scale(0).top_mm, 1.0);  // nothing opened
+  for (auto& patch : snapshot.patches) patch.largest_opening = 3.1e-3;
+  EXPECT_EQ(scale(0).top_mm, 5.0);
+  EXPECT_FALSE(scale(0).exceeded);
+  EXPECT_EQ(scale(2.0).top_mm, 2.0);
+  EXPECT_TRUE(scale(2.0).exceeded);
+  snapshot.patches[30].largest_opening = 4.0;
+  EXPECT_EQ(scale(0).top_mm, 5.0);
+  EXPECT_TRUE(scale(0).exceeded);
+}
+
+TEST(Axis, TicksAreRound) {
+  const Axis linear = make_axis(-29.3, 27.8, false, true, 7);
+  EXPECT_EQ(linear.low, -30.0);
+  EXPECT_EQ(linear.high, 30.0);
+  ASSERT_EQ(linear.ticks.size(), 7u);
+  EXPECT_EQ(tick_label(linear, linear.ticks[3]), "0");
+  EXPECT_EQ(linear.share(0.0), 0.5);
+  const Axis constant = make_axis(5.0, 5.0, false, true, 5);
+  EXPECT_LT(constant.low, 5.0);
+  EXPECT_GT(constant.high, 5.0);
+  const Axis log = make_axis(0.012, 2.0, true, true, 7);
+  EXPECT_NEAR(log.low, 0.01, 1e-12);
+  EXPECT_NEAR(log.high, 10.0, 1e-9);
+  EXPECT_EQ(log.ticks.size(), 4u);
+  EXPECT_NEAR(log.share(0.1), 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(nice_below(0.7), 0.5);
+  EXPECT_EQ(nice_above(2.1), 2.5);
+  EXPECT_EQ(nice_above(100.0), 100.0);
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,81 @@
+// voussoir generate.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "geometry/joints.h"
+#include "io/case/case.h"
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+#include "tools/voussoir/assembly_table.h"
+#include "tools/voussoir/verb.h"
+
+namespace voussoir {
+
+void print_assembly_table(const Assembly& assembly) {
+  struct Row {
+    std::int64_t blocks = 0, fixed = 0;
+    double mass = 0.0;
+  };
+  std::map<std::string, Row> rows;
+  double mass = 0.0;
+  std::int64_t smallest = -1, largest = -1;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    const Block& b = assembly.blocks[i];
+    Row& row = rows[component_names()[std::size_t(b.component)]];
+    ++row.blocks;
+    if (b.fixed) {
+      ++row.fixed;
+      continue;
+    }
+    row.mass += b.mass;
+    mass += b.mass;
+    if (smallest < 0 || b.mass < assembly.blocks[smallest].mass) smallest = std::int64_t(i);
+    if (largest < 0 || b.mass > assembly.blocks[largest].mass) largest = std::int64_t(i);
+  }
+  fmt::print("{:<12} {:>8} {:>8} {:>12}\n", "component", "blocks", "fixed", "mass (t)");
+  for (const auto& [name, row] : rows) fmt::print("{:<12} {:>8} {:>8} {:>12.2f}\n", name, row.blocks, row.fixed, row.mass / 1000.0);
+  fmt::print("{} blocks, {} joints, {:.2f} t that can move\n", assembly.blocks.size(), assembly.joints.size(), mass / 1000.0);
+  for (const auto& [word, i] : {std::pair{"smallest", smallest}, std::pair{"largest", largest}})
+    if (i >= 0) {
+      const Block& b = assembly.blocks[i];
+      fmt::print("{} block: number {} ({}), {:.1f} kg at ({:.2f}, {:.2f}, {:.2f}) m\n", word, i, component_names()[std::size_t(b.component)],
+                 b.mass, b.centroid.x(), b.centroid.y(), b.centroid.z());
+    }
+  fmt::print("surface not covered by joints: {:.3f} m2\n", uncovered_surface(assembly));
+}
+
+namespace {
+
+int generate(const std::vector<std::string>& arguments) {
+  CommandLine line("generate", "generate CASE [-o FILE]", "voussoir generate cases/cs1-f.toml -o cs1.h5");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"), "assembly file (default: the case's name with .h5)")(
+      "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave");
+  line.positional = {"CASE"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  if (values.count("keys")) {
+    fmt::print("{}\n", describe(find_generator(values["keys"].as<std::string>())));
+    return 0;
+  }
+  if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
+  const std::string file = values["CASE"].as<std::string>();
+  const auto start = std::chrono::steady_clock::now();
+  const Case c = read_case(file, CaseUse::geometry);
+  const Assembly assembly = make_assembly(c);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string to = values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";
+  write_assembly(to, assembly);
+  if (values.count("quiet")) return 0;
+  print_assembly_table(assembly);
+  fmt::print("generated in {:.2f} s, written to {}\n", seconds, to);
+  return 0;
+}
+
+}  // namespace
+
+Verb generate_verb() { return {"generate", "geometry to a block assembly, with its joints", generate}; }
+
+}  // namespace voussoir

@@ -1,0 +1,126 @@
+// voussoir render.
+#include "viz/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/case/case.h"
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/checkpoint_file.h"
+#include "io/vtk/grid.h"
+#include "io/vtk/series.h"
+#include "solver/base/error.h"
+#include "solver/step/make_snapshot.h"
+#include "tools/voussoir/verb.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> words(const std::string& list) {
+  std::vector<std::string> found;
+  std::string word;
+  for (char c : list + ",") {
+    if (c != ',') {
+      word += c;
+      continue;
+    }
+    if (!word.empty() && word != "none") found.push_back(word);
+    word.clear();
+  }
+  return found;
+}
+
+RenderOptions render_options(const options::variables_map& values) {
+  RenderOptions o;
+  o.amplification = values["amplification"].as<double>();
+  o.colour = values["colour"].as<std::string>();
+  o.view = values["view"].as<std::string>();
+  o.hide = words(values["hide"].as<std::string>());
+  o.cracks = values.count("no-cracks") == 0;
+  o.crack_mm = values["crack"].as<double>();
+  o.range_mm = values["range"].as<double>();
+  o.width = values["width"].as<int>();
+  o.height = values["height"].as<int>();
+  o.undeformed = values.count("undeformed") > 0;
+  o.title = values["title"].as<std::string>();
+  return o;
+}
+
+/// The stored frame nearest to the time asked for (default: the last).
+void render_frame(const std::string& directory, const options::variables_map& values, const RenderOptions& o, const std::string& png) {
+  const VtkSeries series(directory);
+  const auto& frames = series.blocks().frames();
+  if (frames.empty()) throw InputError("{} has no frames in vtk/blocks.pvd: give a checkpoint, or a run with output", directory);
+  auto best = frames.end() - 1;
+  if (values.count("time"))
+    best = std::min_element(frames.begin(), frames.end(), [t = values["time"].as<double>()](const auto& a, const auto& b) {
+      return std::abs(a.time - t) < std::abs(b.time - t);
+    });
+  const auto& joints = series.joints().frames();
+  const auto same = std::find_if(joints.begin(), joints.end(), [&](const auto& f) { return f.time == best->time; });
+  render_picture(series.blocks().file_path(*best), same == joints.end() ? "" : series.joints().file_path(*same), o, png);
+}
+
+/// A checkpoint, or an assembly as built.
+void render_file(const std::string& file, const RenderOptions& o, const std::string& png) {
+  const fs::path beside = fs::path(file).parent_path().parent_path();
+  if (!fs::exists(beside / "case.toml") || fs::path(file).parent_path().filename() != "checkpoints") {
+    const Assembly assembly = read_assembly(file);
+    render_picture(assembly, rest_snapshot(assembly), o, png);
+    return;
+  }
+  const Case c = read_case((beside / "case.toml").string());
+  const Assembly assembly = read_assembly((beside / "assembly.h5").string());
+  const Model model = build_model(assembly, c.settings);
+  State state = initial_state(model, 0);
+  CheckpointHeader header;
+  read_checkpoint(file, header, state.arrays());
+  if (header.assembly_hash != assembly_hash(assembly))
+    throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
+  state.unpack_contacts();
+  render_picture(assembly, make_snapshot(model, state), o, png);
+}
+
+int render(const std::vector<std::string>& arguments) {
+  CommandLine line("render", "render DIR|CHECKPOINT|ASSEMBLY [-o PNG]", "voussoir render demo --view front --colour slip --amplification 20 -o slip.png");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("PNG"), "picture (default: DIR/images/…, or beside the file)")(
+      "time,t", options::value<double>()->value_name("T"), "stored frame nearest to this time (s); default: the last")(
+      "amplification,a", options::value<double>()->default_value(2.0), "of the displacements")(
+      "colour,c", options::value<std::string>()->default_value("opening"), "opening, slip, displacement, component or stone")(
+      "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
+      "hide", options::value<std::string>()->default_value("backfill"), "components left out, by commas; none: show all")(
+      "no-cracks", "do not mark cracked joints")("crack", options::value<double>()->default_value(0.1), "opening or slip that counts as a crack, mm")(
+      "range", options::value<double>()->default_value(0.0), "top of the colour scale, mm; 0: from the data")(
+      "width", options::value<int>()->default_value(1800), "pixels")("height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
+      "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""), "words above the picture");
+  line.positional = line.required = {"DIR"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  const std::string from = values["DIR"].as<std::string>();
+  const RenderOptions o = render_options(values);
+  const bool directory = fs::is_directory(from);
+  if (!directory && !fs::exists(from)) throw InputError("there is no file or folder {}", from);
+  std::string png = directory ? fmt::format("{}/images/{}_{}.png", from, o.colour, o.view) : fs::path(from).stem().string() + ".png";
+  if (values.count("output")) png = values["output"].as<std::string>();
+  // -o DIR, as every verb takes it: the picture goes in there.
+  if (fs::is_directory(png) || png.ends_with('/')) png = (fs::path(png) / fmt::format("{}_{}.png", o.colour, o.view)).string();
+  if (const fs::path folder = fs::path(png).parent_path(); !folder.empty()) fs::create_directories(folder);
+  if (directory)
+    render_frame(from, values, o, png);
+  else
+    render_file(from, o, png);
+  if (!values.count("quiet")) fmt::print("{}\n", png);
+  return 0;
+}
+
+}  // namespace
+
+Verb render_verb() { return {"render", "off-screen pictures: deformed shape, damage, views", render}; }
+
+}  // namespace voussoir

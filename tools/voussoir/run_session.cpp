@@ -1,0 +1,285 @@
+#include "tools/voussoir/run_session.h"
+
+#include <fmt/chrono.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/hdf5/checkpoint_file.h"
+#include "solver/base/error.h"
+#include "solver/step/make_snapshot.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::atomic<bool> stop_flag{false};
+
+void ask_to_stop(int) { stop_flag.store(true); }
+
+const std::vector<std::pair<std::string, double Energies::*>>& energy_columns() {
+  static const std::vector<std::pair<std::string, double Energies::*>> columns = {
+      {"kinetic", &Energies::kinetic},           {"gravitational", &Energies::gravitational},
+      {"elastic", &Energies::elastic},           {"damping_springs", &Energies::damping_springs},
+      {"friction", &Energies::friction},         {"fracture", &Energies::fracture},
+      {"joint_damping", &Energies::joint_damping}, {"body_damping", &Energies::body_damping},
+      {"clipping", &Energies::clipping},         {"base_work", &Energies::base_work}};
+  return columns;
+}
+
+std::string demand_channel(const DemandPoint& point) {
+  return fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);
+}
+
+std::vector<Channel> history_channels(const Assembly& assembly) {
+  std::vector<Channel> channels = {{"time", "s"}};
+  for (const auto& column : energy_columns()) channels.push_back({"energy/" + column.first, "J"});
+  channels.push_back({"energy/balance_error", "-"});
+  for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/displacement_{}", axis), "m"});
+  for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/acceleration_{}", axis), "m/s2"});
+  channels.push_back({"contacts", "-"});
+  for (const DemandPoint& point : demand_points(assembly)) channels.push_back({demand_channel(point), "m"});
+  for (const Sensor& sensor : assembly.sensors) {
+    channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
+    channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
+  }
+  return channels;
+}
+
+/// Mean over the group's blocks of the displacement of their centroids relative to base and gravity state.
+double group_displacement(const Simulation& run, const DemandPoint& point) {
+  const std::vector<std::int64_t>& blocks = run.assembly().groups.at(point.group);
+  double sum = 0.0;
+  for (std::int64_t b : blocks)
+    sum += relative_displacement(run.model(), run.state(), b, run.assembly().blocks[b].centroid)[point.axis];
+  return sum / double(blocks.size());
+}
+
+/// Velocity of a sensor's point along its direction at the last half step, m/s.
+double sensor_velocity(const Simulation& run, const Sensor& sensor) {
+  const std::int32_t body = run.model().body_of_block[sensor.block];
+  const double* motion = &run.state().motion[motion_width * std::size_t(body)];
+  const double* pose = &run.state().pose[pose_width * std::size_t(body)];
+  const Eigen::Quaterniond q(pose[3], pose[4], pose[5], pose[6]);
+  const Body& b = run.model().bodies[body];
+  const Vec3 momentum(motion[3], motion[4], motion[5]);
+  const Vec3 spin = q * (b.inverse_inertia * (q.conjugate() * momentum));
+  const Vec3 arm = q * (sensor.position - b.centroid);
+  return sensor.direction.dot(Vec3(motion[0], motion[1], motion[2]) + spin.cross(arm));
+}
+
+}  // namespace
+
+std::vector<DemandPoint> demand_points(const Assembly& assembly) {
+  std::vector<DemandPoint> points;
+  for (const auto& [name, blocks] : assembly.groups) {
+    if (blocks.empty()) continue;
+    if (name.starts_with("keystone")) points.push_back({name, 0});
+    if (name.starts_with("spandrel")) points.push_back({name, 1});
+  }
+  return points;
+}
+
+RunSession::RunSession(const RunRequest& request)
+    : request_(request), case_(read_case(request.directory + "/case.toml")), assembly_(read_assembly(request.directory + "/assembly.h5")),
+      assembly_hash_(assembly_hash(assembly_)), progress_(request.quiet), vtk_(request.directory) {
+  simulation_ = std::make_unique<Simulation>(assembly_, case_.settings, request.threads, observers());
+  history_ = History(path("history.h5"), history_channels(assembly_));
+}
+
+void RunSession::log(const std::string& text) {
+  std::ofstream file(path("run.log"), std::ios::app);
+  file << fmt::format("{:%Y-%m-%d %H:%M:%S}  {}\n", fmt::localtime(std::time(nullptr)), text);
+  if (request_.quiet) return;
+  progress_.end();
+  fmt::print(stderr, "{}\n", text);
+}
+
+Observers RunSession::observers() {
+  Observers o;
+  o.history = [this](const Simulation&, const Sample& s) { append_history(s); };
+  o.fields = [this](Simulation& run) {
+    vtk_.write(assembly_, make_snapshot(run.model(), run.state()));
+    history_.flush();
+  };
+  o.checkpoint = [this](Simulation&, bool stage_end) { write_checkpoint(stage_end); };
+  o.progress = [this](const Progress& p) { progress_.show(p); };
+  o.log = [this](const std::string& text) { log(text); };
+  o.stop = &stop_flag;
+  return o;
+}
+
+void RunSession::append_history(const Sample& s) {
+  std::vector<double> row = {s.time};
+  for (const auto& column : energy_columns()) row.push_back(s.energies.*column.second);
+  row.push_back(s.balance_error);
+  for (int c = 0; c < 3; ++c) row.push_back(s.base_displacement[c]);
+  for (int c = 0; c < 3; ++c) row.push_back(s.base_acceleration[c]);
+  row.push_back(double(s.contacts));
+  for (const DemandPoint& point : demand_points(assembly_)) row.push_back(group_displacement(*simulation_, point));
+  for (const Sensor& sensor : assembly_.sensors) {
+    const Vec3 u = relative_displacement(simulation_->model(), simulation_->state(), sensor.block, sensor.position);
+    row.push_back(sensor.direction.dot(u));
+    row.push_back(sensor_velocity(*simulation_, sensor));
+  }
+  history_.append(row);
+}
+
+void RunSession::write_checkpoint(bool stage_end) {
+  history_.flush();  // first: a resumed run finds every row up to its checkpoint
+  State& state = simulation_->state();
+  const RunPosition& p = simulation_->position();
+  CheckpointHeader header;
+  header.time = state.time();
+  header.step = state.step();
+  header.stage = p.stage;
+  header.stage_time = state.time() - p.stage_start;
+  header.assembly_hash = assembly_hash_;
+  header.case_hash = case_.hash;
+  header.numbers = {{"stage_start", p.stage_start}, {"dt", p.dt}, {"highest", p.highest}, {"stiffest", p.stiffest},
+                    {"stage_begun", p.stage_begun}, {"worst_balance", simulation_->worst_balance()},
+                    {"wall_seconds", before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count()}};
+  const std::string name = checkpoint_name(state.time());
+  voussoir::write_checkpoint(path("checkpoints/") + (stage_end ? fmt::format("stage_{:02}_", p.stage) + name : name), header, state.arrays());
+  prune_checkpoints(path("checkpoints"), 3);
+}
+
+void RunSession::resume() {
+  const std::vector<std::string> files = list_checkpoints(path("checkpoints"));
+  if (files.empty()) throw InputError("{} has no checkpoint to resume from; start again with voussoir run", request_.directory);
+  for (const std::string& file : files) {
+    CheckpointHeader header;
+    try {
+      State& state = simulation_->state();
+      read_checkpoint(file, header, state.arrays());
+      state.unpack_contacts();
+    } catch (const RunError& e) {
+      log(fmt::format("{}; trying the one before", e.what()));
+      continue;
+    }
+    if (header.assembly_hash != assembly_hash_)
+      throw InputError("{} belongs to another assembly than {}: put back the assembly of this run, or start a new one", file, path("assembly.h5"));
+    if (header.case_hash != case_.hash)
+      throw InputError("{} belongs to another case than {}: put back the case of this run, or start a new one", file, path("case.toml"));
+    RunPosition p;
+    p.stage = header.stage;
+    p.stage_start = header.numbers["stage_start"];
+    p.dt = header.numbers["dt"];
+    p.highest = header.numbers["highest"];
+    p.stiffest = header.numbers["stiffest"];
+    p.stage_begun = header.numbers["stage_begun"];
+    before_seconds_ = header.numbers["wall_seconds"];
+    simulation_->restore(p);
+    simulation_->note_balance(header.numbers["worst_balance"]);
+    if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
+    history_.truncate_after(std::nextafter(header.time, -1.0));  // the row of this very step is sampled again
+    vtk_.resume_at(header.time);
+    log(fmt::format("resuming at t = {:.4f} s from {}", header.time, file));
+    return;
+  }
+  throw InputError("none of the {} checkpoints in {} can be read; start again with voussoir run", files.size(), path("checkpoints"));
+}
+
+namespace {
+
+nlohmann::json demand_json(const Assembly& assembly, const History& history) {
+  nlohmann::json demand = {{"places", nlohmann::json::object()}};
+  std::map<std::string, std::pair<double, double>> sums;
+  std::map<std::string, int> counts;
+  for (const DemandPoint& point : demand_points(assembly)) {
+    const std::vector<double>& values = history.values(demand_channel(point));
+    double largest = 0.0;
+    for (double v : values) largest = std::max(largest, std::abs(v));
+    const double residual = values.empty() ? 0.0 : values.back();
+    demand["places"][point.group] = {{"axis", std::string(1, "xyz"[point.axis])}, {"largest", largest}, {"residual", residual}};
+    const std::string kind = point.axis == 0 ? "keystone_x" : "spandrel_y";
+    sums[kind].first += largest;
+    sums[kind].second += std::abs(residual);
+    ++counts[kind];
+  }
+  for (const auto& [kind, sum] : sums)
+    demand[kind] = {{"largest_mean", sum.first / counts[kind]}, {"residual_mean", sum.second / counts[kind]}};
+  return demand;
+}
+
+/// Per component: share of the area of its bonded joints whose bond is lost, largest opening and slip (m).
+nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
+  struct Damage {
+    double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0;
+  };
+  std::map<std::string, Damage> damage;
+  for (const PatchSnapshot& p : snapshot.patches)
+    for (std::int64_t block : {p.a, p.b}) {
+      Damage& d = damage[component_names()[std::size_t(assembly.blocks[block].component)]];
+      if (p.had_bond) d.bonded += p.area, d.broken += p.area * (1.0 - p.bonded);
+      d.opening = std::max(d.opening, p.largest_opening);
+      d.slip = std::max(d.slip, p.largest_slip);
+    }
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [name, d] : damage)
+    json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0}, {"largest_opening", d.opening}, {"largest_slip", d.slip}};
+  return json;
+}
+
+}  // namespace
+
+void RunSession::write_summary(RunEnd end) {
+  Simulation& run = *simulation_;
+  const Snapshot snapshot = make_snapshot(run.model(), run.state());
+  const double wall = before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const Equilibrium& e = run.equilibrium();
+  nlohmann::json json = {{"program_version", VOUSSOIR_VERSION},
+                         {"finished", end == RunEnd::finished},
+                         {"end_time", run.state().time()},
+                         {"steps", run.state().step()},
+                         {"time_step", run.position().dt},
+                         {"wall_seconds", wall},
+                         {"threads", run.threads()},
+                         {"state_hash", fmt::format("{:016x}", hash_arrays(run.state().arrays()))},
+                         {"energy_error", run.worst_balance()},
+                         {"blocks", assembly_.blocks.size()},
+                         {"joints", assembly_.joints.size()},
+                         {"contacts", run.state().contacts.size()},
+                         {"equilibrium", {{"converged", e.converged}, {"newton_iterations", e.iterations}, {"relaxation_steps", e.steps}, {"out_of_balance", e.residual}}},
+                         {"demand", demand_json(assembly_, history_)},
+                         {"damage", damage_json(assembly_, snapshot)}};
+  write_atomically(path("summary.json"), json.dump(2) + "\n");
+}
+
+int RunSession::run() {
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  fs::create_directories(path("checkpoints"));
+  fs::create_directories(path("vtk"));
+  fs::create_directories(path("images"));
+  const RunEnd end = simulation_->run(request_.until);
+  progress_.end();
+  history_.flush();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  if (end == RunEnd::failed) {
+    write_summary(end);
+    throw RunError("{}\nThe last good checkpoints are in {}", simulation_->failure(), path("checkpoints"));
+  }
+  if (end == RunEnd::interrupted && stop_flag.load()) {
+    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", simulation_->state().time(), request_.directory));
+    return 1;
+  }
+  if (end == RunEnd::interrupted) write_checkpoint(false);  // --until
+  write_summary(end);
+  log(fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", end == RunEnd::finished ? "done" : "paused",
+                  simulation_->state().time(), simulation_->state().step(), duration_text(wall), simulation_->worst_balance()));
+  if (end == RunEnd::finished && request_.pictures) {
+    const std::string missing = make_pictures(request_.directory, assembly_, make_snapshot(simulation_->model(), simulation_->state()), history_);
+    log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
+  }
+  return 0;
+}
+
+}  // namespace voussoir

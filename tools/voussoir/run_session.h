@@ -1,0 +1,62 @@
+// One run directory at work: a simulation whose observers write history, checkpoints, ParaView files, log and pictures.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "io/case/case.h"
+#include "io/hdf5/history_file.h"
+#include "io/vtk/series.h"
+#include "solver/step/simulation.h"
+#include "tools/voussoir/terminal.h"
+
+namespace voussoir {
+
+struct RunRequest {
+  std::string directory;
+  int threads = 1;
+  bool quiet = false;
+  bool pictures = true;
+  double until = -1.0;  // s of simulated time; negative: to the end
+};
+
+class RunSession {
+ public:
+  /// The directory holds case.toml and assembly.h5. Throws InputError.
+  explicit RunSession(const RunRequest& request);
+  /// Goes on from the newest good checkpoint; damaged ones are named and the one before is used. Throws InputError when
+  /// there is none, or when it belongs to another case or assembly.
+  void resume();
+  /// Runs to the end (or `until`); returns the exit status.
+  int run();
+
+ private:
+  Observers observers();
+  void write_checkpoint(bool stage_end);
+  void append_history(const Sample& sample);
+  void write_summary(RunEnd end);
+  void log(const std::string& text);
+  std::string path(const std::string& name) const { return request_.directory + "/" + name; }
+
+  RunRequest request_;
+  Case case_;
+  Assembly assembly_;
+  std::uint64_t assembly_hash_ = 0;
+  ProgressLine progress_;
+  std::unique_ptr<Simulation> simulation_;
+  History history_;
+  VtkSeries vtk_;
+  double before_seconds_ = 0.0;  // wall time of the parts of this run that ended earlier
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+/// Points whose largest displacement is a demand: the groups of the assembly named "keystone …" (x) and "spandrel …" (y).
+struct DemandPoint {
+  std::string group;
+  int axis = 0;
+};
+std::vector<DemandPoint> demand_points(const Assembly& assembly);
+
+/// Pictures of the end state and charts of the history in DIR/images. Returns what could not be made, empty if all was.
+std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot, const History& history);
+
+}  // namespace voussoir

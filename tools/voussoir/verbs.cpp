@@ -1,0 +1,55 @@
+#include "tools/voussoir/verb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "solver/base/error.h"
+#include "solver/base/parallel.h"
+
+namespace voussoir {
+
+const std::vector<Verb>& verbs() {
+  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(), run_verb(), resume_verb(), render_verb()};
+  return list;
+}
+
+CommandLine::CommandLine(std::string verb_name, std::string usage_text, std::string example_text)
+    : verb(std::move(verb_name)), usage(std::move(usage_text)), example(std::move(example_text)) {
+  described.add_options()("help,h", "this text")("threads,j", options::value<int>()->value_name("N"),
+                                                 "threads (default: all the machine offers)")("quiet,q", "no progress, no tables");
+}
+
+bool CommandLine::parse(const std::vector<std::string>& arguments, options::variables_map& values) {
+  options::positional_options_description places;
+  options::options_description all;
+  all.add(described);
+  options::options_description hidden;
+  for (const std::string& name : positional) {
+    hidden.add_options()(name.c_str(), options::value<std::string>());
+    places.add(name.c_str(), 1);
+  }
+  all.add(hidden);
+  try {
+    options::store(options::command_line_parser(arguments).options(all).positional(places).run(), values);
+    options::notify(values);
+  } catch (const options::error& e) {
+    throw InputError("{}; see voussoir {} --help", e.what(), verb);
+  }
+  if (values.count("help")) {
+    std::cout << "Usage: voussoir " << usage << "\n\n" << described << "\nExample: " << example << "\n";
+    return false;
+  }
+  for (const std::string& name : required)
+    if (!values.count(name)) throw InputError("{} is missing; usage: voussoir {}", name, usage);
+  if (values.count("threads") && values["threads"].as<int>() < 1)
+    throw InputError("--threads is {}; it must be at least 1", values["threads"].as<int>());
+  return true;
+}
+
+int threads_asked(const options::variables_map& values) {
+  return values.count("threads") ? std::min(values["threads"].as<int>(), 1024) : available_threads();
+}
+
+}  // namespace voussoir
