@@ -50,7 +50,7 @@ void read_damping(TableReader& table, DampingSettings& s) {
       table.fail("band", fmt::format("is [{}, {}]: the first frequency must be the lower", band[0], band[1]));
     s.band = {band[0], band[1]};
   }
-  s.branches = int(table.integer("branches", s.branches, 1, 8));
+  s.branches = int(table.integer("branches", s.branches, 1, 4));
   s.coefficient = table.number("coefficient", s.coefficient, {0.0, 1.0, ""});
   table.finish();
 }

@@ -13,19 +13,17 @@ double convert(const Branches& from, const Branches& to, int k, double p, double
   return to.e[k] * q - to.g[k] * u;
 }
 
-void convert_points(const Patch& patch, const PatchPoint* points, const State& state, const Branches& from, const Branches& to,
+void convert_points(const Patch& patch, const Array<double>& points, const State& state, const Branches& from, const Branches& to,
                     const PatchMemory& memory, Array<double>& next) {
   const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
   for (int i = 0; i < patch.point_count; ++i) {
-    const std::size_t at = std::size_t(patch.first_point) + i;
-    const Triple<double> u = point_jump(patch, j, points[at].s, points[at].t);
-    const double* plastic = &memory.point[4 * at];
-    const double x[3] = {u.x - plastic[0], u.y - plastic[1], u.z - plastic[2]};
-    if (memory.broken[at] && x[0] >= 0.0) continue;
+    const Triple<double> u = elastic_jump(patch, j, patch_point(patch, points, i), memory, i);
+    const double x[3] = {u.x, u.y, u.z};
+    if (memory.broken[point_index(patch, i, 1, 0)] && x[0] >= 0.0) continue;
     for (int k = 0; k < to.count; ++k)
       for (int c = 0; c < 3; ++c) {
-        const double p = from.count == to.count ? memory.point_branch[3 * (from.count * at + k) + c] : 0.0;
-        next[3 * (to.count * at + k) + c] = convert(from, to, k, p, x[c]);
+        const double p = from.count == to.count ? memory.point_branch[point_index(patch, i, 3 * from.count, 3 * k + c)] : 0.0;
+        next[point_index(patch, i, 3 * to.count, 3 * k + c)] = convert(from, to, k, p, x[c]);
       }
   }
 }
@@ -49,16 +47,16 @@ void convert_intact(const Model& model, const State& state, const Branches& from
 
 void set_branches(const Model& model, State& state, const Branches& from, const Branches& to) {
   Array<double> branch(6 * lane_count * to.count * model.batches.size(), 0.0);
-  Array<double> joint_points(3 * to.count * model.points.size(), 0.0), contact_points(3 * to.count * state.contact_points.size(), 0.0);
+  Array<double> joint_points(to.count * model.points.size(), 0.0), contact_points(to.count * state.contact_points.size(), 0.0);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     if (state.joint.mode[i] & mode_gone) continue;
     if (state.joint.mode[i] & mode_points)
-      convert_points(model.joints[i], model.points.data(), state, from, to, state.joint, joint_points);
+      convert_points(model.joints[i], model.points, state, from, to, state.joint, joint_points);
     else
       convert_intact(model, state, from, to, i, branch);
   }
   for (const Patch& contact : state.contacts)
-    convert_points(contact, state.contact_points.data(), state, from, to, state.contact, contact_points);
+    convert_points(contact, state.contact_points, state, from, to, state.contact, contact_points);
   state.branch = std::move(branch);
   state.joint.point_branch = std::move(joint_points);
   state.contact.point_branch = std::move(contact_points);

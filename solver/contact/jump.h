@@ -68,4 +68,11 @@ inline Triple<double> point_jump(const Patch& patch, const Jump<double>& j, doub
   return {j.n + patch.gap[0] + rs * t - rt * s, j.s - j.rn * t, j.t + j.rn * s};
 }
 
+/// The same less the plastic jump of point i.
+inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, const PatchPoint& at, const PatchMemory& memory, int i) {
+  const Triple<double> u = point_jump(patch, j, at.s, at.t);
+  return {u.x - memory.point[point_index(patch, i, 4, 0)], u.y - memory.point[point_index(patch, i, 4, 1)],
+          u.z - memory.point[point_index(patch, i, 4, 2)]};
+}
+
 }  // namespace voussoir

@@ -155,18 +155,16 @@ struct Carried {
 };
 
 /// Elastic tractions of the old patch about a place.
-Carried elastic_wrench(const State& state, const Patch& patch, const PatchPoint* points, const PatchMemory& memory, const Vec3& place) {
+Carried elastic_wrench(const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory, const Vec3& place) {
   const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
   const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
   Carried sum;
   for (int i = 0; i < patch.point_count; ++i) {
-    const std::size_t at = std::size_t(patch.first_point) + i;
-    const Triple<double> u = point_jump(patch, j, points[at].s, points[at].t);
-    const double* plastic = &memory.point[4 * at];
-    if (memory.broken[at] && u.x - plastic[0] >= 0.0) continue;
-    const Vec3 local(patch.kn * (u.x - plastic[0]), patch.ks * (u.y - plastic[1]), patch.ks * (u.z - plastic[2]));
-    const Vec3 force = points[at].weight * (axes * local);
-    const Vec3 where = Vec3(j.place.x, j.place.y, j.place.z) + axes * Vec3(0.0, points[at].s, points[at].t);
+    const PatchPoint point = patch_point(patch, points, i);
+    const Triple<double> u = elastic_jump(patch, j, point, memory, i);
+    if (memory.broken[point_index(patch, i, 1, 0)] && u.x >= 0.0) continue;
+    const Vec3 force = point.weight * (axes * Vec3(patch.kn * u.x, patch.ks * u.y, patch.ks * u.z));
+    const Vec3 where = Vec3(j.place.x, j.place.y, j.place.z) + axes * Vec3(0.0, point.s, point.t);
     sum.force += force;
     sum.moment += (where - place).cross(force);
   }
@@ -195,7 +193,7 @@ void match_normal_force(double wanted, NewContact& c) {
 
 }  // namespace
 
-void carry_over(const State& state, const Patch& old, const PatchPoint* points, const PatchMemory& memory, NewContact& contact) {
+void carry_over(const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact) {
   Patch& p = contact.patch;
   p.kn = old.kn, p.ks = old.ks, p.law = old.law;
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));

@@ -25,10 +25,8 @@ struct PatchPass {
   double* wrenches = nullptr;  // wrench_width × (joints, then contacts)
   bool shortcut = true;        // false: every patch point by point, for verification
 
-  /// Batches [begin, end) of the intact path; patches that fail its check are computed point by point at once.
+  /// Batches [begin, end) of joints: intact lanes as generalised springs, the others point by point, eight side by side.
   PassReport batches(std::size_t begin, std::size_t end) const;
-  /// Joints [begin, end) of those that never batch (more than eight corners), counted from Model::batched_joints.
-  PassReport loose_joints(std::size_t begin, std::size_t end) const;
   /// Contacts [begin, end).
   PassReport contacts(std::size_t begin, std::size_t end) const;
 };
@@ -37,7 +35,7 @@ struct PatchPass {
 void joint_to_points(const Model& model, State& state, const Branches& branches, std::size_t index);
 
 /// One patch of `memory` point by point; returns true when it has slid or turned past the limits of clipping anew.
-bool point_patch(const Model& model, const Patch& patch, std::size_t index, const PatchPoint* points, const double* pose,
+bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points, const double* pose,
                  const Branches& branches, PatchMemory& memory, double* wrench);
 
 }  // namespace voussoir

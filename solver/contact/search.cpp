@@ -25,11 +25,11 @@ bool past_limits(const Model& model, const State& state, const Patch& p) {
   return j.s * j.s + j.t * j.t > slip * slip * p.area || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > turn * turn;
 }
 
-double least_gap(const State& state, const Patch& p, const std::vector<PatchPoint>& points) {
+double least_gap(const State& state, const Patch& p, const Array<double>& points) {
   const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
   double least = 1e300;
   for (int i = 0; i < p.point_count; ++i) {
-    const PatchPoint& q = points[p.first_point + i];
+    const PatchPoint q = patch_point(p, points, i);
     least = std::min(least, point_jump(p, j, q.s, q.t).x);
   }
   return least;
@@ -43,20 +43,15 @@ struct MovedBodies {
 void mark(const State& state, std::int32_t body, State& to, MovedBodies& moved) {
   moved.flag[body] = 1;
   for (int c = 0; c < 3; ++c)
-    to.searched[3 * body + c] = state.pose[pose_width * std::size_t(body) + c] - state.base_displacement()[c];
+    to.searched[7 * std::size_t(body) + c] = state.pose[pose_width * std::size_t(body) + c] - state.base_displacement()[c];
+  for (int c = 3; c < 7; ++c) to.searched[7 * std::size_t(body) + c] = state.pose[pose_width * std::size_t(body) + c];
 }
 
 MovedBodies find_moved(const Model& model, State& state) {
   MovedBodies moved{std::vector<char>(model.bodies.size(), 0)};
   const double near = 0.1 * skin(model);
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    double d2 = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      const double d = state.pose[pose_width * i + c] - state.base_displacement()[c] - state.searched[3 * i + c];
-      d2 += d * d;
-    }
-    if (d2 > near * near) mark(state, std::int32_t(i), state, moved);
-  }
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (moved_since_search(model, state, i, state.base_displacement().data()) > near) mark(state, std::int32_t(i), state, moved);
   return moved;
 }
 
@@ -73,11 +68,11 @@ void retire(State& state, std::size_t contact) {
 
 void append(State& next, const Branches& branches, const NewContact& c) {
   Patch p = c.patch;
-  p.first_point = std::int32_t(next.contact_points.size());
-  p.first_corner = std::int32_t(next.contact_corners.size());
+  p.first_point = std::int32_t(next.contact_points.size() / 3);
+  p.first_corner = std::int32_t(next.contact_corners.size() / 2);
   next.contacts.push_back(p);
-  next.contact_points.insert(next.contact_points.end(), c.points.begin(), c.points.end());
-  next.contact_corners.insert(next.contact_corners.end(), c.corners.begin(), c.corners.end());
+  for (const PatchPoint& q : c.points) next.contact_points.insert(next.contact_points.end(), {q.s, q.t, q.weight});
+  for (const PatchPoint& q : c.corners) next.contact_corners.insert(next.contact_corners.end(), {q.s, q.t});
   PatchMemory& m = next.contact;
   m.point.insert(m.point.end(), c.memory.begin(), c.memory.end());
   m.broken.insert(m.broken.end(), c.points.size(), 1);
@@ -92,28 +87,28 @@ void relax_branches(State& next, const Branches& branches, std::size_t contact) 
   const Patch& p = next.contacts[contact];
   const Jump<double> j = patch_jump(p, &next.pose[pose_width * p.a], &next.pose[pose_width * p.b]);
   for (int i = 0; i < p.point_count; ++i) {
-    const std::size_t at = std::size_t(p.first_point) + i;
-    const Triple<double> u = point_jump(p, j, next.contact_points[at].s, next.contact_points[at].t);
+    const Triple<double> u = elastic_jump(p, j, patch_point(p, next.contact_points, i), next.contact, i);
+    const double x[3] = {u.x, u.y, u.z};
     if (u.x >= 0.0) continue;
-    const double x[3] = {u.x, u.y - next.contact.point[4 * at + 1], u.z - next.contact.point[4 * at + 2]};
     for (int k = 0; k < branches.count; ++k)
-      for (int c = 0; c < 3; ++c) next.contact.point_branch[3 * (branches.count * at + k) + c] = -branches.g[k] * x[c];
+      for (int c = 0; c < 3; ++c)
+        next.contact.point_branch[point_index(p, i, 3 * branches.count, 3 * k + c)] = -branches.g[k] * x[c];
   }
 }
 
 void copy_old(const State& from, State& next, const Branches& branches, std::size_t i) {
   Patch p = from.contacts[i];
   const std::size_t at = p.first_point, corner = p.first_corner;
-  p.first_point = std::int32_t(next.contact_points.size());
-  p.first_corner = std::int32_t(next.contact_corners.size());
+  p.first_point = std::int32_t(next.contact_points.size() / 3);
+  p.first_corner = std::int32_t(next.contact_corners.size() / 2);
   next.contacts.push_back(p);
-  for (int k = 0; k < p.point_count; ++k) next.contact_points.push_back(from.contact_points[at + k]);
-  for (int k = 0; k < p.corner_count; ++k) next.contact_corners.push_back(from.contact_corners[corner + k]);
   const PatchMemory& m = from.contact;
   PatchMemory& n = next.contact;
   const auto copy = [](const auto& source, auto& to, std::size_t begin, std::size_t count) {
     to.insert(to.end(), source.begin() + long(begin), source.begin() + long(begin + count));
   };
+  copy(from.contact_points, next.contact_points, 3 * at, 3 * p.point_count);
+  copy(from.contact_corners, next.contact_corners, 2 * corner, 2 * p.corner_count);
   copy(m.point, n.point, 4 * at, 4 * p.point_count);
   copy(m.broken, n.broken, at, p.point_count);
   copy(m.point_branch, n.point_branch, 3 * branches.count * at, 3 * branches.count * p.point_count);
@@ -130,7 +125,7 @@ struct Clipper {
   const Branches& branches;
   ContactUpdate& update;
 
-  std::optional<NewContact> clip(const Patch& old, const PatchPoint* points, const PatchMemory& memory, const double* largest) {
+  std::optional<NewContact> clip(const Patch& old, const Array<double>& points, const PatchMemory& memory, const double* largest) {
     std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
     if (fresh) {
       carry_over(state, old, points, memory, *fresh);
@@ -192,7 +187,7 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     const Patch& old = model.joints[i];
     if (!(state.joint.mode[i] & mode_points)) joint_to_points(model, state, branches, i);
     energy_before += patch_energy(model, state, branches, i).elastic + patch_energy(model, state, branches, i).branches;
-    std::optional<NewContact> fresh = clipper.clip(old, model.points.data(), state.joint, &state.joint.largest[2 * i]);
+    std::optional<NewContact> fresh = clipper.clip(old, model.points, state.joint, &state.joint.largest[2 * i]);
     state.joint.mode[i] |= mode_gone;
     mark(state, old.a, state, moved), mark(state, old.b, state, moved);
     if (fresh) entries.push_back({key_of(old), -1, std::move(fresh)});
@@ -208,7 +203,7 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     energy_before += e.elastic + e.branches;
     std::optional<NewContact> fresh;
     if (clip)
-      fresh = clipper.clip(old, state.contact_points.data(), state.contact, &state.contact.largest[2 * i]);
+      fresh = clipper.clip(old, state.contact_points, state.contact, &state.contact.largest[2 * i]);
     else
       ++update.dropped;
     retire(state, i);

@@ -11,6 +11,17 @@ struct ContactUpdate {
   bool changed() const { return made + clipped + dropped > 0; }
 };
 
+/// How far any point of the body has moved, relative to the base, since its contacts were last looked for: an upper bound, m.
+inline double moved_since_search(const Model& model, const State& state, std::size_t body, const double* base) {
+  const double* pose = &state.pose[pose_width * body];
+  const double* from = &state.searched[7 * body];
+  double d2 = 0.0, r2 = 0.0;
+  for (int c = 0; c < 3; ++c) d2 += (pose[c] - base[c] - from[c]) * (pose[c] - base[c] - from[c]);
+  for (int c = 3; c < 7; ++c) r2 += (pose[c] - from[c]) * (pose[c] - from[c]);
+  // A turn by φ moves the quaternion by 2 sin(φ/4) >= φ/2.1 up to half a turn.
+  return std::sqrt(d2) + 2.1 * std::sqrt(r2) * model.bodies[body].radius;
+}
+
 /// The distance (m) a body may move, relative to the base, between searches: 0.4 of the skin. Pairs farther apart than the
 /// skin when last examined cannot have met: both bodies have moved at most half a skin since (0.4 more than the 0.1 within
 /// which a body counts as not having moved).

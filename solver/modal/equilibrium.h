@@ -25,7 +25,7 @@ double out_of_balance(Stepper& stepper);
 /// The stepper must have no damping branches. Leaves the state at the best placement found, velocities zero.
 Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::function<void(int, double)>& progress);
 
-/// Dynamic relaxation with Cundall's local damping (0.8), velocities dropped whenever the kinetic energy passes a peak.
+/// Dynamic relaxation with Cundall's local damping (0.8).
 Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
                   const std::function<void(std::int64_t, double)>& progress);
 

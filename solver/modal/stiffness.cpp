@@ -28,9 +28,9 @@ Matrix3x6 point_rows(const PatchPoint& p) {
 }
 
 /// Tangent at a point that has just been updated: nothing where open, normal and transverse stiffness where sliding.
-Mat3 point_tangent(const LawConstants& law, const Patch& patch, const Triple<double>& u, const double* memory, bool broken) {
+Mat3 point_tangent(const LawConstants& law, const Patch& patch, const Triple<double>& elastic, bool broken) {
   Mat3 d = Mat3::Zero();
-  const double n = u.x - memory[0], s = u.y - memory[1], t = u.z - memory[2];
+  const double n = elastic.x, s = elastic.y, t = elastic.z;
   if (!broken || law.kind == JointLaw::Kind::elastic) {
     d.diagonal() << patch.kn, patch.ks, patch.ks;
     return d;
@@ -51,25 +51,25 @@ const Patch& patch_at(const Model& model, const State& state, std::size_t index)
 
 const double* pose_of(const State& state, std::int32_t body) { return &state.pose[pose_width * std::size_t(body)]; }
 
-Matrix6 points_stiffness(const Model& model, const State& state, const Patch& patch, const PatchPoint* points,
+Matrix6 points_stiffness(const Model& model, const State& state, const Patch& patch, const Array<double>& points,
                          const PatchMemory& memory) {
   const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
   Matrix6 k = Matrix6::Zero();
   for (int i = 0; i < patch.point_count; ++i) {
-    const std::size_t at = std::size_t(patch.first_point) + i;
-    const Triple<double> u = point_jump(patch, j, points[at].s, points[at].t);
-    const Mat3 d = point_tangent(model.laws[patch.law], patch, u, &memory.point[4 * at], memory.broken[at]);
-    const Matrix3x6 rows = point_rows(points[at]);
-    k += points[at].weight * rows.transpose() * d * rows;
+    const PatchPoint point = patch_point(patch, points, i);
+    const Triple<double> u = elastic_jump(patch, j, point, memory, i);
+    const Mat3 d = point_tangent(model.laws[patch.law], patch, u, memory.broken[point_index(patch, i, 1, 0)]);
+    const Matrix3x6 rows = point_rows(point);
+    k += point.weight * rows.transpose() * d * rows;
   }
   return k;
 }
 
 /// As if every point were closed and sticking.
-Matrix6 closed_stiffness(const Patch& patch, const PatchPoint* points) {
+Matrix6 closed_stiffness(const Patch& patch, const Array<double>& points) {
   Matrix6 k = Matrix6::Zero();
   for (int i = 0; i < patch.point_count; ++i) {
-    const PatchPoint& point = points[patch.first_point + i];
+    const PatchPoint point = patch_point(patch, points, i);
     const Matrix3x6 rows = point_rows(point);
     k += point.weight * rows.transpose() * Vec3(patch.kn, patch.ks, patch.ks).asDiagonal() * rows;
   }
@@ -82,7 +82,7 @@ bool is_open(const Model& model, const State& state, std::size_t index) {
   const Patch& patch = model.joints[index];
   const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
   for (int c = 0; c < patch.corner_count; ++c) {
-    const PatchPoint& corner = model.corners[patch.first_corner + c];
+    const PatchPoint corner = patch_corner(patch, model.corners, c);
     if (point_jump(patch, j, corner.s, corner.t).x < 0.0) return false;
   }
   return true;
@@ -181,12 +181,12 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
   const std::size_t joints = model.joints.size();
   const Patch& patch = patch_at(model, state, index);
   if (index >= joints) {
-    if (kind == PatchTangent::present) return points_stiffness(model, state, patch, state.contact_points.data(), state.contact);
-    return closed_stiffness(patch, state.contact_points.data());
+    if (kind == PatchTangent::present) return points_stiffness(model, state, patch, state.contact_points, state.contact);
+    return closed_stiffness(patch, state.contact_points);
   }
   if (state.joint.mode[index] & mode_gone) return Matrix6::Zero();
   if (kind == PatchTangent::intact) return intact_stiffness(patch);
-  if (state.joint.mode[index] & mode_points) return points_stiffness(model, state, patch, model.points.data(), state.joint);
+  if (state.joint.mode[index] & mode_points) return points_stiffness(model, state, patch, model.points, state.joint);
   return is_open(model, state, index) ? Matrix6(Matrix6::Zero()) : intact_stiffness(patch);
 }
 

@@ -51,6 +51,8 @@ void add_bodies(const Assembly& assembly, Model& model) {
     body.inertia = block.inertia;
     body.inverse_inertia = block.inertia.inverse();
     body.fixed = block.fixed;
+    for (const Polyhedron& cell : block.cells)
+      for (const Vec3& v : cell.vertices) body.radius = std::max(body.radius, (v - block.centroid).norm());
     model.bodies.push_back(body);
     model.cells.emplace_back();
     for (const Polyhedron& cell : block.cells) model.cells.back().push_back(make_convex(cell));
@@ -97,36 +99,35 @@ PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t
   return shape;
 }
 
-void add_joints(const Assembly& assembly, Model& model) {
+std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
+  std::vector<PatchShape> shapes;
   using Key = std::tuple<int, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int64_t>;
   std::vector<Key> order;  // corner class, pair of bodies, pair of cells, index
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
     const int corners = int(joint.polygon.size());
     const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
-    order.emplace_back(corners <= 4 ? 0 : corners <= most_fast_corners ? 1 : 2, std::min(a, b), std::max(a, b), joint.cell_a,
+    order.emplace_back(std::max(4, corners), std::min(a, b), std::max(a, b), joint.cell_a,
                        joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
   for (const Key& key : order) {
     const std::int64_t index = std::get<5>(key);
     Patch patch;
-    const PatchShape shape = joint_patch(assembly, assembly.joints[index], index, model, patch);
-    patch.first_point = std::int32_t(model.points.size());
-    patch.point_count = std::int32_t(shape.points.size());
-    patch.first_corner = std::int32_t(model.corners.size());
-    patch.corner_count = std::int32_t(shape.corners.size());
-    model.points.insert(model.points.end(), shape.points.begin(), shape.points.end());
-    model.corners.insert(model.corners.end(), shape.corners.begin(), shape.corners.end());
+    shapes.push_back(joint_patch(assembly, assembly.joints[index], index, model, patch));
+    patch.first_corner = std::int32_t(model.corners.size() / 2);
+    patch.corner_count = std::int32_t(shapes.back().corners.size());
+    for (const PatchPoint& c : shapes.back().corners) model.corners.insert(model.corners.end(), {c.s, c.t});
     model.joints.push_back(patch);
     model.joint_of_patch.push_back(index);
-    if (std::get<0>(key) < 2) ++model.batched_joints;
   }
+  return shapes;
 }
 
 void fill_lane(const Model& model, const Patch& patch, int lane, JointBatch& batch) {
   batch.a[lane] = patch.a;
   batch.b[lane] = patch.b;
+  batch.law[lane] = patch.law;
   for (int i = 0; i < 3; ++i) {
     batch.arm_a[i][lane] = patch.arm_a[i];
     batch.arm_b[i][lane] = patch.arm_b[i];
@@ -142,26 +143,51 @@ void fill_lane(const Model& model, const Patch& patch, int lane, JointBatch& bat
   batch.limit_turn2[lane] = model.contact.reclip_angle * model.contact.reclip_angle;
 }
 
-/// Batches of eight in order; a batch takes four corners a lane when all its joints have at most four, else eight. Missing
-/// corners repeat the last one, missing joints the last joint.
-void make_batches(Model& model) {
-  for (std::int32_t first = 0; first < model.batched_joints; first += lane_count) {
+/// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
+void add_points(Model& model, JointBatch& batch, std::int32_t first, const std::vector<PatchShape>& shapes) {
+  std::size_t most = 0;
+  for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, shapes[first + lane].points.size());
+  batch.first_point = std::int32_t(model.point_rows);
+  batch.points = std::int32_t(most);
+  model.point_rows += most;
+  model.points.resize(3 * lane_count * model.point_rows);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::vector<PatchPoint>& points = shapes[first + std::min(lane, batch.count - 1)].points;
+    Patch place;
+    place.first_point = batch.first_point, place.stride = lane_count, place.lane = lane;
+    for (int i = 0; i < batch.points; ++i) {
+      const PatchPoint& p = points[std::min<std::size_t>(i, points.size() - 1)];
+      model.points[point_index(place, i, 3, 0)] = p.s;
+      model.points[point_index(place, i, 3, 1)] = p.t;
+      model.points[point_index(place, i, 3, 2)] = i < int(points.size()) ? p.weight : 0.0;
+    }
+    if (lane >= batch.count) continue;
+    Patch& patch = model.joints[first + lane];
+    patch.first_point = batch.first_point, patch.stride = lane_count, patch.lane = lane;
+    patch.point_count = std::int32_t(points.size());
+  }
+}
+
+/// Batches of eight in order; missing corners repeat the last one, missing joints the last joint.
+void make_batches(Model& model, const std::vector<PatchShape>& shapes) {
+  const auto joints = std::int32_t(model.joints.size());
+  for (std::int32_t first = 0; first < joints; first += lane_count) {
     JointBatch batch{};
-    batch.count = std::min<std::int32_t>(lane_count, model.batched_joints - first);
-    int corners = 0;
-    for (int lane = 0; lane < batch.count; ++lane) corners = std::max(corners, model.joints[first + lane].corner_count);
-    batch.corners = corners <= 4 ? 4 : most_fast_corners;
+    batch.count = std::min<std::int32_t>(lane_count, joints - first);
+    batch.corners = 4;
+    for (int lane = 0; lane < batch.count; ++lane) batch.corners = std::max(batch.corners, model.joints[first + lane].corner_count);
     batch.first_corner = std::int32_t(model.batch_corners.size());
-    model.batch_corners.resize(model.batch_corners.size() + 2 * batch.corners);
+    model.batch_corners.resize(model.batch_corners.size() + 2 * std::size_t(batch.corners));
     for (int lane = 0; lane < lane_count; ++lane) {
       const Patch& patch = model.joints[first + std::min(lane, batch.count - 1)];
       fill_lane(model, patch, lane, batch);
       for (int c = 0; c < batch.corners; ++c) {
-        const PatchPoint& corner = model.corners[patch.first_corner + std::min(c, patch.corner_count - 1)];
+        const PatchPoint corner = patch_corner(patch, model.corners, std::min(c, patch.corner_count - 1));
         model.batch_corners[batch.first_corner + 2 * c][lane] = corner.s;
         model.batch_corners[batch.first_corner + 2 * c + 1][lane] = corner.t;
       }
     }
+    add_points(model, batch, first, shapes);
     model.batches.push_back(batch);
   }
 }
@@ -192,8 +218,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   add_bodies(assembly, model);
   for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
   add_contact_laws(model);
-  add_joints(assembly, model);
-  make_batches(model);
+  make_batches(model, add_joints(assembly, model));
   return model;
 }
 

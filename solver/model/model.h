@@ -22,6 +22,7 @@ struct Body {
   double inertial_mass = 0.0;           // kg, moves (differs from mass only under mass scaling)
   Mat3 inertia = Mat3::Zero();          // kg m2, reference axes, scaled like inertial_mass
   Mat3 inverse_inertia = Mat3::Zero();
+  double radius = 0.0;                  // m, centroid to the farthest vertex
   bool fixed = false;                   // moves with the ground
 };
 
@@ -31,7 +32,8 @@ struct Patch {
   std::int32_t a = 0, b = 0;            // bodies
   std::int32_t cell_a = 0, cell_b = 0;
   std::int32_t law = 0;                 // index into Model::laws
-  std::int32_t first_point = 0, point_count = 0;
+  // Its points are rows first_point … of tables whose rows hold `stride` patches side by side, see point_index().
+  std::int32_t first_point = 0, point_count = 0, stride = 1, lane = 0;
   std::int32_t first_corner = 0, corner_count = 0;  // its polygon, for files and pictures
   double arm_a[3] = {}, arm_b[3] = {};  // m, centroid of the body to that of the patch, reference axes
   double place[3] = {};                 // m, X_a + arm_a
@@ -42,18 +44,32 @@ struct Patch {
   double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
 };
 
-/// Eight joints of the assembly, a lane each, for the intact path.
+/// Where point `i` of a patch keeps number `c` of `columns` in a table of points.
+inline std::size_t point_index(const Patch& p, int i, int columns, int c) {
+  return (std::size_t(p.first_point + i) * std::size_t(columns) + std::size_t(c)) * std::size_t(p.stride) + std::size_t(p.lane);
+}
+/// A point from a table of s, t, weight.
+inline PatchPoint patch_point(const Patch& p, const Array<double>& table, int i) {
+  return {table[point_index(p, i, 3, 0)], table[point_index(p, i, 3, 1)], table[point_index(p, i, 3, 2)]};
+}
+/// A corner from a table of s, t.
+inline PatchPoint patch_corner(const Patch& p, const Array<double>& table, int i) {
+  const std::size_t at = 2 * std::size_t(p.first_corner + i);
+  return {table[at], table[at + 1], 0.0};
+}
+
+/// Eight joints of the assembly, a lane each.
 struct alignas(64) JointBatch {
   Lanes arm_a[3], arm_b[3], place[3], frame[4];
   Lanes kn, ks, area, ss, tt;
   Lanes limit_slip2, limit_turn2;  // m2, –: squares past which the patch is clipped anew (turn in units of |2 sin(φ/2)|)
-  std::int32_t a[lane_count], b[lane_count];
+  std::int32_t a[lane_count], b[lane_count], law[lane_count];
   std::int32_t first_corner = 0;  // into Model::batch_corners
-  std::int32_t corners = 4;       // 4 or 8
+  std::int32_t corners = 4;       // most of any lane
+  std::int32_t first_point = 0;   // row of the tables of points
+  std::int32_t points = 9;        // most of any lane; missing ones repeat the last with no weight
   std::int32_t count = 0;         // joints in use; further lanes repeat the last one and are never written
 };
-
-constexpr int most_fast_corners = 8;
 
 struct Model {
   std::vector<Body> bodies;
@@ -64,9 +80,10 @@ struct Model {
   std::vector<LawConstants> laws;           // the assembly's, then the contact laws of pairs of materials
   std::vector<Patch> joints;                // the assembly's joints in batch order
   std::vector<std::int64_t> joint_of_patch; // index in Assembly::joints
-  std::vector<PatchPoint> points, corners;  // of all joints
-  Array<JointBatch> batches;                // batch k holds joints 8k … 8k+7; the tail of `joints` beyond batched_joints
-  std::int32_t batched_joints = 0;          // (polygons with more than eight corners) always takes the point path
+  Array<double> points;                     // s, t, weight of the joints' points, eight joints side by side
+  Array<double> corners;                    // s, t of the joints' corners
+  std::size_t point_rows = 0;
+  Array<JointBatch> batches;                // batch k holds joints 8k … 8k+7
   Array<Lanes> batch_corners;               // s, t of each corner
 
   // For contacts that appear: what a patch between two bodies is made of.

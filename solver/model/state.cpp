@@ -4,10 +4,10 @@
 
 namespace voussoir {
 
-void PatchMemory::resize(std::size_t patches, std::size_t points, int branches) {
+void PatchMemory::resize(std::size_t patches, std::size_t points) {
   point.assign(4 * points, 0.0);
   broken.assign(points, 0);
-  point_branch.assign(3 * points * branches, 0.0);
+  point_branch.clear();
   mode.assign(patches, 0);
   largest.assign(2 * patches, 0.0);
   energy.assign(3 * patches, 0.0);
@@ -38,17 +38,6 @@ Patch unpack(const double* r) {
   return p;
 }
 
-void pack_points(const std::vector<PatchPoint>& points, Array<double>& rows) {
-  rows.clear();
-  for (const PatchPoint& p : points) rows.insert(rows.end(), {p.s, p.t, p.weight});
-}
-
-std::vector<PatchPoint> unpack_points(const Array<double>& rows) {
-  std::vector<PatchPoint> points;
-  for (std::size_t i = 0; i + 2 < rows.size(); i += 3) points.push_back({rows[i], rows[i + 1], rows[i + 2]});
-  return points;
-}
-
 void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& memory) {
   list.push_back({prefix + "/point_memory", 4, "m, m, m, -", &memory.point});
   list.push_back({prefix + "/point_broken", 1, "-", &memory.broken});
@@ -63,20 +52,18 @@ void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& 
 std::vector<NamedArray> State::arrays() {
   contact_rows.clear();
   for (const Patch& p : contacts) pack(p, contact_rows);
-  pack_points(contact_points, contact_point_rows);
-  pack_points(contact_corners, contact_corner_rows);
   std::vector<NamedArray> list = {{"scalars", 1, "SI", &scalars},
                                   {"counters", 1, "-", &counters},
                                   {"bodies/pose", pose_width, "m, -", &pose},
                                   {"bodies/motion", motion_width, "m/s, kg m2/s, J", &motion},
                                   {"bodies/baseline", 3, "m", &baseline},
-                                  {"bodies/searched", 3, "m", &searched},
+                                  {"bodies/searched", 7, "m, -", &searched},
                                   {"joints/slip", lane_count, "m, m, rad", &slip},
                                   {"joints/branch", lane_count, "m, rad", &branch}};
   add(list, "joints", joint);
   list.push_back({"contacts/patches", patch_columns, "SI", &contact_rows});
-  list.push_back({"contacts/points", 3, "m, m, m2", &contact_point_rows});
-  list.push_back({"contacts/corners", 3, "m, m, m2", &contact_corner_rows});
+  list.push_back({"contacts/points", 3, "m, m, m2", &contact_points});
+  list.push_back({"contacts/corners", 2, "m", &contact_corners});
   add(list, "contacts", contact);
   return list;
 }
@@ -85,30 +72,23 @@ void State::unpack_contacts() {
   contacts.clear();
   for (std::size_t i = 0; i + patch_columns <= contact_rows.size(); i += patch_columns)
     contacts.push_back(unpack(&contact_rows[i]));
-  contact_points = unpack_points(contact_point_rows);
-  contact_corners = unpack_points(contact_corner_rows);
 }
 
-State initial_state(const Model& model, int branches) {
+State initial_state(const Model& model) {
   State state;
   const std::size_t n = model.bodies.size();
   state.pose.assign(pose_width * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) state.pose[pose_width * i + 3] = 1.0;
   state.motion.assign(motion_width * n, 0.0);
   state.baseline.assign(3 * n, 0.0);
-  state.searched.assign(3 * n, 0.0);
+  state.searched.assign(7 * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) state.searched[7 * i + 3] = 1.0;
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
-  state.branch.assign(6 * lane_count * branches * model.batches.size(), 0.0);
-  state.joint.resize(model.joints.size(), model.points.size(), branches);
+  state.joint.resize(model.joints.size(), lane_count * model.point_rows);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Patch& patch = model.joints[i];
-    const LawConstants& law = model.laws[patch.law];
+    const LawConstants& law = model.laws[model.joints[i].law];
     const bool bondless = law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
-    if (bondless) {
-      state.joint.mode[i] |= mode_broken;
-      for (int k = 0; k < patch.point_count; ++k) state.joint.broken[patch.first_point + k] = 1;
-    }
-    if (std::int32_t(i) >= model.batched_joints) state.joint.mode[i] |= mode_points;
+    if (bondless) state.joint.mode[i] |= mode_broken;
   }
   return state;
 }

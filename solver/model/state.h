@@ -11,11 +11,12 @@ namespace voussoir {
 
 /// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu, traction
 /// stiffness × q. A branch stores only p = e q − g u, from which the next q = p + g u follows (docs/theory/damping.md).
+constexpr int most_branches = 4;
 struct Branches {
   int count = 0;
-  double e[4] = {}, g[4] = {};
-  double loss[4] = {};    // dissipated per step and stiffness: loss q²
-  double stored[4] = {};  // held by the branch's spring per stiffness: ½ stored q²
+  double e[most_branches] = {}, g[most_branches] = {};
+  double loss[most_branches] = {};    // dissipated per step and stiffness: loss q²
+  double stored[most_branches] = {};  // held by the branch's spring per stiffness: ½ stored q²
   double total_g() const {
     double sum = 0.0;
     for (int i = 0; i < count; ++i) sum += g[i];
@@ -30,15 +31,15 @@ enum PatchMode : std::uint8_t {
   mode_gone = 4,     // carries nothing for good: replaced by a contact, or its bodies have parted
 };
 
-/// Memory of a set of patches.
+/// Memory of a set of patches; tables of points are laid out as point_index() says.
 struct PatchMemory {
-  Array<double> point;           // 4 a point: plastic jump n, s, t (m), softening
-  Array<std::uint8_t> broken;    // 1 a point
-  Array<double> point_branch;    // 3 a branch and point: p (m)
+  Array<double> point;           // 4 columns: plastic jump n, s, t (m), softening
+  Array<std::uint8_t> broken;    // 1 column
+  Array<double> point_branch;    // 3 columns a branch: p (m)
   Array<std::uint8_t> mode;      // 1 a patch, PatchMode bits
   Array<double> largest;         // 2 a patch: opening, slip (m)
   Array<double> energy;          // 3 a patch: friction, fracture, damping (J)
-  void resize(std::size_t patches, std::size_t points, int branches);
+  void resize(std::size_t patches, std::size_t points);
 };
 
 constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
@@ -53,16 +54,18 @@ struct State {
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
   Array<double> baseline;  // 3 a body: displacement at the end of the last gravity stage, from which demands count
-  Array<double> searched;  // 3 a body: displacement relative to the base when its contacts were last looked for
+  Array<double> searched;  // 7 a body: displacement relative to the base (m) and quaternion when its contacts were last
+                           // looked for
 
   PatchMemory joint;       // of Model::joints
   Array<double> slip;      // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
   Array<double> branch;    // per batch branches × 6 × 8: p of the six generalised jumps
 
   std::vector<Patch> contacts;  // found during the run, sorted by (a, b, cell_a, cell_b)
-  std::vector<PatchPoint> contact_points, contact_corners;
+  Array<double> contact_points;   // s, t, weight
+  Array<double> contact_corners;  // s, t
   PatchMemory contact;
-  Array<double> contact_rows, contact_point_rows, contact_corner_rows;  // the three above as numbers, for files
+  Array<double> contact_rows;     // the contacts as numbers, for files
 
   double& time() { return scalars[0]; }
   double time() const { return scalars[0]; }
@@ -83,6 +86,6 @@ struct State {
   void unpack_contacts();
 };
 
-/// At rest in the reference placement, bonds as the laws say.
-State initial_state(const Model& model, int branches);
+/// At rest in the reference placement, bonds as the laws say, no damping branches.
+State initial_state(const Model& model);
 }  // namespace voussoir

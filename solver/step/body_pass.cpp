@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/contact/search.h"
+
 namespace voussoir {
 
 Incidence find_incidence(const Model& model, const State& state) {
@@ -118,7 +120,6 @@ BodyUpdate BodyPass::update(std::size_t i) const {
 
 BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
   BodyReport report;
-  const double far2 = search_distance * search_distance;
   for (std::size_t i = begin; i < end; ++i) {
     const Body& body = model->bodies[i];
     double* pose = &state->pose[pose_width * i];
@@ -139,10 +140,7 @@ BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
     const Quat<double> half = rotate(q, spin(body, q, next.momentum), 0.5 * dt);
     const Quat<double> turned = rotate(q, spin(body, half, next.momentum), dt);
     pose[3] = turned.w, pose[4] = turned.v.x, pose[5] = turned.v.y, pose[6] = turned.v.z;
-    const double* searched = &state->searched[3 * i];
-    const double dx = pose[0] - base_displacement_next[0] - searched[0], dy = pose[1] - base_displacement_next[1] - searched[1],
-                 dz = pose[2] - base_displacement_next[2] - searched[2];
-    report.search |= dx * dx + dy * dy + dz * dz > far2;
+    report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
     const double speed2 = dot(next.velocity, next.velocity);
     if (!(speed2 < 1e6) && report.runaway < 0) report.runaway = std::int32_t(i);
   }

@@ -16,7 +16,7 @@ PatchEnergy intact_energy(const Model& model, const State& state, const Branches
   if (state.joint.mode[index] & mode_broken) {  // wholly open patches carry nothing
     bool open = true;
     for (int c = 0; c < patch.corner_count; ++c) {
-      const PatchPoint& corner = model.corners[patch.first_corner + c];
+      const PatchPoint corner = patch_corner(patch, model.corners, c);
       open &= u[0] + u[4] * corner.t - u[5] * corner.s >= 0.0;
     }
     if (open) return {};
@@ -35,21 +35,20 @@ PatchEnergy intact_energy(const Model& model, const State& state, const Branches
   return e;
 }
 
-PatchEnergy points_energy(const Patch& patch, const PatchPoint* points, const PatchMemory& memory, const State& state,
+PatchEnergy points_energy(const Patch& patch, const Array<double>& points, const PatchMemory& memory, const State& state,
                           const Branches& branches) {
   const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
   PatchEnergy e;
   for (int i = 0; i < patch.point_count; ++i) {
-    const std::size_t at = std::size_t(patch.first_point) + i;
-    const Triple<double> u = point_jump(patch, j, points[at].s, points[at].t);
-    const double* plastic = &memory.point[4 * at];
-    const double x[3] = {u.x - plastic[0], u.y - plastic[1], u.z - plastic[2]};
-    if (memory.broken[at] && x[0] >= 0.0) continue;
+    const PatchPoint point = patch_point(patch, points, i);
+    const Triple<double> u = elastic_jump(patch, j, point, memory, i);
+    const double x[3] = {u.x, u.y, u.z};
+    if (memory.broken[point_index(patch, i, 1, 0)] && x[0] >= 0.0) continue;
     for (int c = 0; c < 3; ++c) {
-      const double k = points[at].weight * (c == 0 ? patch.kn : patch.ks);
+      const double k = point.weight * (c == 0 ? patch.kn : patch.ks);
       e.elastic += 0.5 * k * x[c] * x[c];
       for (int b = 0; b < branches.count; ++b) {
-        const double q = branch_jump(branches, b, memory.point_branch[3 * (branches.count * at + b) + c], x[c]);
+        const double q = branch_jump(branches, b, memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * b + c)], x[c]);
         e.branches += 0.5 * k * branches.stored[b] * q * q;
       }
     }
@@ -84,10 +83,10 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
 
 PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index) {
   if (index >= model.joints.size())
-    return points_energy(state.contacts[index - model.joints.size()], state.contact_points.data(), state.contact, state, branches);
+    return points_energy(state.contacts[index - model.joints.size()], state.contact_points, state.contact, state, branches);
   const std::uint8_t mode = state.joint.mode[index];
   if (mode & mode_gone) return {};
-  if (mode & mode_points) return points_energy(model.joints[index], model.points.data(), state.joint, state, branches);
+  if (mode & mode_points) return points_energy(model.joints[index], model.points, state.joint, state, branches);
   return intact_energy(model, state, branches, index);
 }
 

@@ -17,21 +17,21 @@ struct Tractions {
 };
 
 /// Elastic tractions and openings over the points of a patch.
-Tractions point_tractions(const Patch& p, const Jump<double>& j, const PatchPoint* points, const PatchMemory& memory) {
+Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<double>& points, const PatchMemory& memory) {
   Tractions sum;
   for (int i = 0; i < p.point_count; ++i) {
-    const std::size_t at = std::size_t(p.first_point) + i;
-    const Triple<double> u = point_jump(p, j, points[at].s, points[at].t);
-    const double* plastic = &memory.point[4 * at];
-    const double w = points[at].weight;
+    const PatchPoint point = patch_point(p, points, i);
+    const Triple<double> u = elastic_jump(p, j, point, memory, i);
+    const bool broken = memory.broken[point_index(p, i, 1, 0)];
+    const double w = point.weight;
     sum.area += w;
-    if (!memory.broken[at]) sum.bonded += w;
-    if (memory.broken[at]) sum.opening = std::max(sum.opening, u.x);
-    if (memory.broken[at] && u.x - plastic[0] >= 0.0) continue;
-    sum.slip = std::max(sum.slip, std::hypot(plastic[1], plastic[2]));
-    sum.normal += w * p.kn * (u.x - plastic[0]);
-    sum.s += w * p.ks * (u.y - plastic[1]);
-    sum.t += w * p.ks * (u.z - plastic[2]);
+    if (!broken) sum.bonded += w;
+    if (broken) sum.opening = std::max(sum.opening, point_jump(p, j, point.s, point.t).x);
+    if (broken && u.x >= 0.0) continue;
+    sum.slip = std::max(sum.slip, std::hypot(memory.point[point_index(p, i, 4, 1)], memory.point[point_index(p, i, 4, 2)]));
+    sum.normal += w * p.kn * u.x;
+    sum.s += w * p.ks * u.y;
+    sum.t += w * p.ks * u.z;
   }
   return sum;
 }
@@ -42,7 +42,7 @@ Tractions intact_tractions(const Model& model, const State& state, const Patch& 
   const double* slip = &state.slip[3 * lane_count * (index / lane_count) + index % lane_count];
   double least = 1e300;
   for (int c = 0; c < p.corner_count; ++c) {
-    const PatchPoint& corner = model.corners[p.first_corner + c];
+    const PatchPoint corner = patch_corner(p, model.corners, c);
     const double n = point_jump(p, j, corner.s, corner.t).x;
     least = std::min(least, n);
     if (broken) sum.opening = std::max(sum.opening, n);
@@ -57,14 +57,14 @@ Tractions intact_tractions(const Model& model, const State& state, const Patch& 
   return sum;
 }
 
-PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<double>& j, const Tractions& sum, const PatchPoint* corners,
+PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<double>& j, const Tractions& sum, const Array<double>& corners,
                              const double* largest) {
   PatchSnapshot s;
   s.a = model.block_of_body[p.a];
   s.b = model.block_of_body[p.b];
   s.normal = vector(turn(j.frame, Triple<double>{1, 0, 0}));
   for (int c = 0; c < p.corner_count; ++c) {
-    const PatchPoint& corner = corners[p.first_corner + c];
+    const PatchPoint corner = patch_corner(p, corners, c);
     s.polygon.push_back(vector(j.place) + vector(turn(j.frame, Triple<double>{0, corner.s, corner.t})));
   }
   s.area = p.area;
@@ -88,11 +88,11 @@ PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t
     sum.area = p.area;
     sum.opening = std::max(0.0, j.n);
   } else if (state.joint.mode[i] & mode_points) {
-    sum = point_tractions(p, j, model.points.data(), state.joint);
+    sum = point_tractions(p, j, model.points, state.joint);
   } else {
     sum = intact_tractions(model, state, p, j, i);
   }
-  return patch_snapshot(model, p, j, sum, model.corners.data(), &state.joint.largest[2 * i]);
+  return patch_snapshot(model, p, j, sum, model.corners, &state.joint.largest[2 * i]);
 }
 
 }  // namespace
@@ -113,8 +113,8 @@ Snapshot make_snapshot(const Model& model, const State& state) {
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Patch& p = state.contacts[i];
     const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
-    const Tractions sum = point_tractions(p, j, state.contact_points.data(), state.contact);
-    snapshot.patches.push_back(patch_snapshot(model, p, j, sum, state.contact_corners.data(), &state.contact.largest[2 * i]));
+    const Tractions sum = point_tractions(p, j, state.contact_points, state.contact);
+    snapshot.patches.push_back(patch_snapshot(model, p, j, sum, state.contact_corners, &state.contact.largest[2 * i]));
   }
   return snapshot;
 }

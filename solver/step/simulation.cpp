@@ -33,7 +33,7 @@ std::string body_name(const Assembly& assembly, const Model& model, std::int32_t
 
 Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers)
     : assembly_(&assembly), settings_(settings), observers_(std::move(observers)), model_(build_model(assembly, settings)),
-      state_(initial_state(model_, 0)) {
+      state_(initial_state(model_)) {
   stepper_.model = &model_;
   stepper_.state = &state_;
   stepper_.shortcut = settings.step.intact_shortcut;
@@ -71,7 +71,7 @@ void Simulation::restore(const RunPosition& position) {
   stepper_.prepare();
   stepper_.search_distance = search_distance(model_);
   if (settings_.step.mass_scaling_step > 0.0)
-    scale_mass(model_, initial_state(model_, 0), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+    scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
   if (position.dt > 0.0) {
     stepper_.dt = position.dt;
     stepper_.damping = damping_at_work(settings_.damping, position.dt, position.highest);
@@ -142,7 +142,7 @@ bool Simulation::gravity(const StageSettings& stage) {
     log(equilibrium_.account);
   }
   for (std::size_t i = 0; i < model_.bodies.size(); ++i)
-    for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.searched[3 * i + c] = state_.pose[pose_width * i + c];
+    for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.pose[pose_width * i + c];
   if (!equilibrium_.converged) failure_ = "no equilibrium under gravity: " + equilibrium_.account;
   return equilibrium_.converged;
 }
@@ -254,6 +254,8 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
 
 RunEnd Simulation::run(double until) {
   report_progress(true, "");
+  // A checkpoint before anything else: whatever happens in the first stage, there is something to resume from.
+  if (position_.stage == 0 && position_.stage_begun == 0.0 && observers_.checkpoint) observers_.checkpoint(*this, false);
   while (position_.stage < std::int64_t(settings_.stages.size())) {
     const StageSettings& stage = settings_.stages[position_.stage];
     log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));

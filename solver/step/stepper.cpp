@@ -52,8 +52,6 @@ void move_base(const Stepper& s, double time, BodyPass& pass) {
 PassReport patch_share(const PatchPass& pass, int thread, int threads) {
   const Range b = share(pass.model->batches.size(), thread, threads);
   PassReport report = pass.batches(b.begin, b.end);
-  const Range l = share(pass.model->joints.size() - std::size_t(pass.model->batched_joints), thread, threads);
-  report.merge(pass.loose_joints(l.begin, l.end));
   const Range c = share(pass.state->contacts.size(), thread, threads);
   report.merge(pass.contacts(c.begin, c.end));
   return report;

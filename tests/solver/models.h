@@ -112,11 +112,19 @@ inline Vec3 random_vector(double scale, std::mt19937& random) {
   return scale * Vec3(unit(random), unit(random), unit(random));
 }
 
+template <class M>
+State fresh_state(const M& model) {
+  if constexpr (requires { initial_state(model, 0); })
+    return initial_state(model, 0);
+  else
+    return initial_state(model);
+}
+
 /// Model, state and stepper held together, driven by hand; blocks are those of the assembly.
 class Bench {
  public:
   explicit Bench(Assembly a, const SolverSettings& s = undamped())
-      : assembly(std::move(a)), settings(s), model(build_model(assembly, s)), state(initial_state(model, 0)) {
+      : assembly(std::move(a)), settings(s), model(build_model(assembly, s)), state(fresh_state(model)) {
     stepper.model = &model;
     stepper.state = &state;
     stepper.shortcut = s.step.intact_shortcut;

@@ -35,7 +35,7 @@ void copy_arrays(State& from, State& to) {
 TEST(StateArrays, CarryTheContactsOver) {
   auto bench = fallen_block();
   ASSERT_FALSE(bench->state.contacts.empty());
-  State copy = initial_state(bench->model, 3);
+  State copy = fresh_state(bench->model);
   copy_arrays(bench->state, copy);
   EXPECT_EQ(hash_arrays(copy.arrays()), hash_arrays(bench->state.arrays()));
   ASSERT_EQ(copy.contacts.size(), bench->state.contacts.size());

@@ -78,7 +78,7 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
   const Case c = read_case((beside / "case.toml").string());
   const Assembly assembly = read_assembly((beside / "assembly.h5").string());
   const Model model = build_model(assembly, c.settings);
-  State state = initial_state(model, 0);
+  State state = initial_state(model);
   CheckpointHeader header;
   read_checkpoint(file, header, state.arrays());
   if (header.assembly_hash != assembly_hash(assembly))
