@@ -9,6 +9,9 @@ namespace voussoir {
 namespace {
 
 constexpr double k_parallel = 1e-8;  // sine below which two edges have one direction
+// Sine below which two edges that meet lie side by side: they do not cross, and the cross product says nothing of use. In
+// masonry every stone has such neighbours, edge along edge.
+constexpr double k_side_by_side = 0.05;
 constexpr double k_tie = 1e-9;       // m, or of a unit vector's components
 constexpr double k_steep = 0.1;      // cosine below which a face is too steep to carry a patch
 
@@ -76,13 +79,13 @@ Axis best_face_axis(const Convex& a, const Convex& b, const Vec3& centres, doubl
   return best;
 }
 
-Axis best_edge_axis(const Convex& a, const Convex& b, const Vec3& centres, double enough) {
+Axis best_edge_axis(const Convex& a, const Convex& b, const Vec3& centres, double enough, double least_sine) {
   Axis best;
   for (const Vec3& u : a.directions)
     for (const Vec3& v : b.directions) {
       const Vec3 cross = u.cross(v);
       const double sine = cross.norm();
-      if (sine < k_parallel) continue;
+      if (sine < least_sine) continue;
       const Vec3 normal = cross / sine;
       const Interval ia = extent(a.vertices, normal), ib = extent(b.vertices, normal);
       const bool forward = ib.low - ia.high >= ia.low - ib.high;
@@ -287,14 +290,14 @@ double separation(const Convex& a, const Convex& b, double enough) {
   const Vec3 centres = b.centre - a.centre;
   const double faces = best_face_axis(a, b, centres, enough).separation;
   if (faces > enough) return faces;
-  return std::max(faces, best_edge_axis(a, b, centres, enough).separation);
+  return std::max(faces, best_edge_axis(a, b, centres, enough, k_parallel).separation);
 }
 
 Meeting meeting(const Convex& a, const Convex& b, double within) {
   const Vec3 centres = b.centre - a.centre;
   const Axis face = best_face_axis(a, b, centres, within);
   if (face.separation > within) return apart(face);
-  const Axis edge = best_edge_axis(a, b, centres, within);
+  const Axis edge = best_edge_axis(a, b, centres, within, k_side_by_side);
   if (edge.separation > within) return apart(edge);
   if (edge.separation > face.separation + 1e-6 + 0.02 * std::abs(face.separation)) return edge_meeting(a, b, edge);
   return face_meeting(a, b, face);

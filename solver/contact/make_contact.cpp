@@ -14,7 +14,7 @@ Eigen::Quaterniond rotation_of(const State& state, std::int32_t body) {
 }
 
 /// Shares of the smaller body's face that a sharp contact stands on, and below which an overlap carries nothing.
-constexpr double point_share = 0.01, least_share = 1e-4;
+constexpr double point_share = 0.01, least_share = 0.01;
 
 double body_size(const Model& model, std::int32_t body) {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);

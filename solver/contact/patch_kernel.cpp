@@ -104,7 +104,7 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
   largest[0] = std::max(largest[0], sums.opening);
   largest[1] = std::max(largest[1], std::sqrt(sums.slip2));
   if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
-  const double limit_slip2 = model.contact.reclip_slip * model.contact.reclip_slip * patch.area;
+  const double limit_slip2 = model.slip_limit2(patch.area);
   const double limit_turn2 = model.contact.reclip_angle * model.contact.reclip_angle;
   return j.s * j.s + j.t * j.t > limit_slip2 || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > limit_turn2;
 }

@@ -21,8 +21,8 @@ double skin(const Model& model) { return model.contact.skin * model.typical_size
 
 bool past_limits(const Model& model, const State& state, const Patch& p) {
   const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
-  const double slip = model.contact.reclip_slip, turn = model.contact.reclip_angle;
-  return j.s * j.s + j.t * j.t > slip * slip * p.area || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > turn * turn;
+  const double turn = model.contact.reclip_angle;
+  return j.s * j.s + j.t * j.t > model.slip_limit2(p.area) || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > turn * turn;
 }
 
 double least_gap(const State& state, const Patch& p, const Array<double>& points) {

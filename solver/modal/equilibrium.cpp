@@ -78,14 +78,13 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::fu
   State& state = *stepper.state;
   const Unknowns unknowns = number_unknowns(model);
   const PatchBackup start(state);
-  const Array<double> start_pose = state.pose;
   Equilibrium result;
   Cholesky cholesky;
   bool analysed = false;
   Residual r = evaluate(stepper, unknowns);
   result.first_residual = result.residual = r.largest;
-  Array<double> best_pose = state.pose;
-  const int most_iterations = 40;
+  Array<double> elastic_pose = state.pose;
+  const int most_iterations = 40, patience = 10;
   for (int i = 0; i < most_iterations && r.largest > tolerance; ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
@@ -112,11 +111,15 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::fu
     r = evaluate(stepper, unknowns);
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
-    if (r.largest < result.residual) result.residual = r.largest, best_pose = state.pose;
+    if (i == 0) elastic_pose = state.pose;
+    result.residual = std::min(result.residual, r.largest);
+    if (i >= patience && result.residual > 1e-2) break;  // joints keep changing state: it would only go round in circles
   }
   result.converged = r.largest <= tolerance;
-  if (!result.converged) {  // nothing half-broken is handed on: the caller may relax from where it began
-    state.pose = start_pose;
+  if (!result.converged) {
+    // Nothing half-broken is handed on, only where the assembly would be if all its joints held: a relaxation from there
+    // overshoots far less than one from the unloaded placement, and overshooting breaks joints that rest would not.
+    state.pose = elastic_pose;
     start.restore(state);
   }
   stop_motion(state);
@@ -129,8 +132,10 @@ Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, c
                   const std::function<void(std::int64_t, double)>& progress) {
   Equilibrium result;
   result.relaxed = true;
-  stepper.damping = DampingAtWork{};
-  stepper.damping.local = 0.8;
+  DampingSettings local;
+  local.kind = DampingSettings::Kind::local;
+  stepper.damping = damping_at_work(local, stepper.dt, 0.0);
+  stepper.dt *= stepper.damping.step_factor;
   const GroundMotion* motion = stepper.motion;
   stepper.motion = nullptr;
   State& state = *stepper.state;

@@ -22,10 +22,12 @@ struct Equilibrium {
 double out_of_balance(Stepper& stepper);
 
 /// Newton: each iteration evaluates all patches from the state at the call, so that the result does not depend on the way.
-/// The stepper must have no damping branches. Leaves the state at the best placement found, velocities zero.
+/// The stepper must have no damping branches. Where it does not converge it leaves the state at the placement of the first
+/// iteration, the elastic solution with every joint holding. Velocities are zero afterwards.
 Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::function<void(int, double)>& progress);
 
-/// Dynamic relaxation with Cundall's local damping (0.8).
+/// Dynamic relaxation with Cundall's local damping (0.8). stepper.dt is the step without damping; on return it is shortened
+/// by the damping's step factor.
 Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
                   const std::function<void(std::int64_t, double)>& progress);
 

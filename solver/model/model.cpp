@@ -139,7 +139,7 @@ void fill_lane(const Model& model, const Patch& patch, int lane, JointBatch& bat
   batch.area[lane] = patch.area;
   batch.ss[lane] = patch.ss;
   batch.tt[lane] = patch.tt;
-  batch.limit_slip2[lane] = model.contact.reclip_slip * model.contact.reclip_slip * patch.area;
+  batch.limit_slip2[lane] = model.slip_limit2(patch.area);
   batch.limit_turn2[lane] = model.contact.reclip_angle * model.contact.reclip_angle;
 }
 

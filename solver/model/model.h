@@ -2,6 +2,7 @@
 // Bodies are ordered along a space-filling curve, joints by corner count and then by their pair of bodies; eight joints
 // side by side make a batch whose every quantity is one SIMD register.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -93,6 +94,10 @@ struct Model {
   std::vector<Matter> matter;               // per body
   std::vector<std::int32_t> contact_law;    // per body: the law of an unbonded contact with its own friction
   double typical_size = 0.0;                // m, median over bodies of volume^(1/3)
+  /// Square of the slip past which a patch is clipped anew, m2: small patches are allowed that of a quarter of a block.
+  double slip_limit2(double area) const {
+    return contact.reclip_slip * contact.reclip_slip * std::max(area, 0.0625 * typical_size * typical_size);
+  }
   double average_weight = 0.0;              // N, of a free block at 9.81 m/s2 or the case's gravity
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();

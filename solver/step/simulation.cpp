@@ -135,11 +135,12 @@ bool Simulation::gravity(const StageSettings& stage) {
   }
   if (!equilibrium_.converged && stage.method != StageSettings::Method::newton) {
     if (stage.method == StageSettings::Method::automatic) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
-    if (position_.dt <= 0.0) choose_step();
+    stepper_.dt = settings_.step.safety * critical_step(model_, state_).step;
     equilibrium_ = relax(stepper_, tolerance, 400000, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
     log(equilibrium_.account);
+    stepper_.dt = position_.dt;
   }
   for (std::size_t i = 0; i < model_.bodies.size(); ++i)
     for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.pose[pose_width * i + c];

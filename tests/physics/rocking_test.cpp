@@ -1,0 +1,93 @@
+// The rocking block of Housner (1963): 0.6 × 2.4 m, α = 0.24498, p = √(3 g/(4 R)) = 2.43847 /s.
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+constexpr double half_width = 0.3, half_height = 1.2;
+
+/// The block on a wide base; σ/(kn × size) = 8e-7.
+std::unique_ptr<Bench> rocking_block(DampingSettings::Kind damping) {
+  Assembly assembly = stone(2000.0, 1e10, 2.0);
+  add_box(assembly, {-2, -1, -0.5}, {2, 1, 0}, true);
+  add_box(assembly, {-half_width, -0.3, 0}, {half_width, 0.3, 2 * half_height});
+  SolverSettings settings = undamped({0, 0, -9.81});
+  settings.damping.kind = damping;
+  auto bench = std::make_unique<Bench>(joined(std::move(assembly), 1e11, 4e10, dry_law(2.0)), settings);
+  bench->begin();
+  return bench;
+}
+
+double tilt(Bench& bench) { return 2 * std::asin(bench.rotation(1).y()); }
+
+/// Quarter cycle by quadrature of ½ θ'² = p² (cos(α − θ0) − cos(α − θ)): from rest at θ0 to the impact at θ = 0.
+double quarter_period(double start) {
+  const double radius = std::hypot(half_width, half_height), alpha = std::atan(half_width / half_height);
+  const double p2 = 3 * 9.81 / (4 * radius);
+  // θ = θ0 (1 − x²) takes the root's singularity out; midpoint rule.
+  double sum = 0.0;
+  const int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) / n, theta = start * (1 - x * x);
+    sum += 2 * start * x / std::sqrt(2 * p2 * (std::cos(alpha - start) - std::cos(alpha - theta))) / n;
+  }
+  return sum;
+}
+
+TEST(Rocking, QuadratureAgreesWithThePublishedPeriods) {
+  const double alpha = std::atan(half_width / half_height);
+  const std::map<double, double> published = {{0.1, 0.7695}, {0.3, 1.4733}, {0.5, 2.1641}, {0.7, 3.0768}, {0.9, 4.9122}};
+  for (const auto& [share, period] : published) EXPECT_NEAR(4 * quarter_period(share * alpha), period, 1e-4);
+}
+
+/// Times at which the tilt changes sign, from rest at a share of α.
+std::vector<double> crossings(double share, double duration) {
+  auto bench = rocking_block(DampingSettings::Kind::none);
+  const double alpha = std::atan(half_width / half_height);
+  // Turned about the edge at x = +half_width, a positive turn about y.
+  bench->turn_about(1, {half_width, 0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(share * alpha, Vec3::UnitY())));
+  std::vector<double> times;
+  double before = tilt(*bench);
+  EXPECT_TRUE(bench->run(std::int64_t(duration / bench->stepper.dt), 1, [&](const BodyPass&) {
+    const double now = tilt(*bench);
+    if (before * now < 0.0) times.push_back(bench->state.time());
+    before = now;
+  }));
+  return times;
+}
+
+TEST(Rocking, QuarterPeriod) {
+  const double alpha = std::atan(half_width / half_height);
+  for (double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const double expected = quarter_period(share * alpha);
+    const std::vector<double> times = crossings(share, 1.1 * expected);
+    ASSERT_FALSE(times.empty()) << share;
+    EXPECT_NEAR(times[0], expected, 0.01 * expected) << share;
+  }
+}
+
+/// A full cycle without loss at the impacts: from crossing 1 to crossing 3.
+TEST(Rocking, FullPeriodWithoutImpactLoss) {
+  const std::vector<double> times = crossings(0.5, 2.5);
+  ASSERT_GE(times.size(), 3u);
+  EXPECT_NEAR(times[2] - times[0], 2.1641, 0.01 * 2.1641);
+}
+
+/// A slowly rising base acceleration lifts an edge at b/h = 0.25 g.
+TEST(Rocking, UpliftAccelerationOfTheBase) {
+  auto bench = rocking_block(DampingSettings::Kind::maxwell);
+  ASSERT_TRUE(bench->balance().converged);
+  bench->begin();
+  GroundMotion ramp;
+  ramp.dt = 2.0;
+  for (int i = 0; i <= 3; ++i) ramp.acceleration.emplace_back((0.2 + 0.02 * i) * 9.81 * std::min(1, i), 0, 0);
+  bench->stepper.motion = &ramp;
+  double lifted = 0.0;
+  ASSERT_TRUE(bench->run(std::int64_t(6.0 / bench->stepper.dt), 1, [&](const BodyPass&) {
+    if (lifted == 0.0 && std::abs(tilt(*bench)) > 1e-4) lifted = base_acceleration(&ramp, bench->state.time()).x() / 9.81;
+  }));
+  EXPECT_NEAR(lifted, 0.25, 0.01 * 0.25);
+}
+
+}  // namespace
+}  // namespace voussoir::test
