@@ -94,6 +94,13 @@ void make_face_patch(const Model& model, const State& state, const Meeting& m, N
   contact.corners = shape.corners;
 }
 
+/// Stones laid edge along edge meet sharply from the start, by the thousand, and carry nothing there; only when they have
+/// moved well into each other do they need a contact.
+bool touching_as_built(const Model& model, const Patch& p) {
+  const double near = model.contact.gap_tolerance;
+  return separation(model.cells[p.a][p.cell_a], model.cells[p.b][p.cell_b], near) <= near;
+}
+
 /// A sharp meeting stands on a small area of its own.
 void make_point_patch(const Model& model, const State& state, const Vec3& place, const Vec3& normal, double gap, NewContact& contact) {
   Mat3 frame;
@@ -129,12 +136,12 @@ std::optional<NewContact> make_contact(const Model& model, const State& state, s
   const double size = std::min(body_size(model, a), body_size(model, b));
   if (m.kind == Meeting::Kind::face && m.on_a.size() >= 3 && m.area > least_share * size * size) {
     make_face_patch(model, state, m, contact);
-  } else if (m.kind == Meeting::Kind::edge || m.separation < -0.01 * size) {
+  } else if (m.separation < -point_share * size || (m.kind == Meeting::Kind::edge && !touching_as_built(model, p))) {
     Vec3 place = Vec3::Zero();
     for (std::size_t i = 0; i < m.on_a.size(); ++i) place += (m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
     make_point_patch(model, state, place, m.normal, m.separation, contact);
   } else {
-    return std::nullopt;  // two edges side by side: nothing to stand on yet
+    return std::nullopt;  // edge beside edge: nothing to stand on yet
   }
   // Found already overlapping (neighbours that met edge to edge): it begins without force from there.
   double deepest = 0.0;

@@ -36,7 +36,7 @@ TEST(Equilibrium, OfAColumnByNewton) {
 
 TEST(Equilibrium, OfAColumnByRelaxation) {
   Bench bench(column(), undamped({0, 0, -g}));
-  bench.begin(0.7 * critical_step(bench.model, bench.state).step);  // local damping of 0.8 needs less than 1/√1.8 of it
+  bench.begin();
   const Equilibrium e = relax(bench.stepper, 1e-6, 400000, nullptr, nullptr);
   EXPECT_TRUE(e.converged);
   for (int i = 0; i < 10; ++i) EXPECT_NEAR(bench.displacement(i).z(), hand_solution(i), 1e-4 * std::abs(hand_solution(9))) << i;
@@ -128,7 +128,6 @@ TEST(Equilibrium, AnArchStandsOnItsReactions) {
       continue;
     }
     const BodyUpdate u = pass.update(i);
-    EXPECT_NEAR(std::abs(u.force.z), 0.5 * 0.5 * weight, 1e300);  // each springing is checked by the sum below
     reaction += Vec3(u.force.x, u.force.y, u.force.z);
   }
   EXPECT_NEAR(reaction.z(), -weight, 1e-7 * weight);
@@ -143,12 +142,13 @@ TEST(Equilibrium, AWallStaysAtRest) {
   free.duration = 1.0;
   settings.stages = {gravity, free};
   settings.output.history_every = 0.05;
-  double most = 0.0, weight = 0.0;
+  double most = 0.0;
   Observers observers;
-  observers.history = [&](const Simulation&, const Sample& s) { most = std::max(most, s.energies.kinetic / std::abs(s.energies.gravitational)); };
+  observers.history = [&](const Simulation&, const Sample& s) {
+    most = std::max(most, s.energies.kinetic / std::abs(s.energies.gravitational));
+  };
   Simulation simulation(assembly, settings, 2, observers);
   ASSERT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
-  (void)weight;
   EXPECT_FALSE(simulation.equilibrium().relaxed);
   EXPECT_GT(most, 0.0);
   EXPECT_LT(most, 1e-9);
@@ -161,7 +161,8 @@ TEST(Equilibrium, OfASlidingBlockIsRefused) {
   add_box(assembly, {-0.5, -0.5, 0}, {0.5, 0.5, 0.5});
   Bench bench(joined(std::move(assembly), 1e9, 4e8, dry_law(0.3)), undamped(g * Vec3(std::sin(0.5), 0, -std::cos(0.5))));
   EXPECT_FALSE(bench.balance(1e-6).converged);
-  EXPECT_EQ(bench.displacement(1), Vec3(0, 0, 0)) << "nothing half-done is handed on";
+  for (std::uint8_t mode : bench.state.joint.mode) EXPECT_EQ(mode & mode_points, 0) << "nothing half-done is handed on";
+  for (double energy : bench.state.joint.energy) EXPECT_EQ(energy, 0.0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ constexpr double side = 0.5;  // m
 
 struct Fall {
   double overlap = 0.0;       // m, deepest so far
-  double gain = 0.0;          // of stored energy over the starting one, share of what the fall could release
+  double gain = 0.0;          // of stored energy over the starting one, share of the largest kinetic energy
   double imbalance = 0.0;     // of the ledger, same share
   double lowest = 1e300;      // m, of the block's centroid
   bool finished = false;
@@ -21,7 +21,7 @@ Fall drop(const Eigen::Quaterniond& rotation, double gap, double duration, Dampi
   Polyhedron cube = make_box(Vec3::Constant(-side / 2), Vec3::Constant(side / 2));
   double low = 1e300;
   for (const Vec3& v : cube.vertices) low = std::min(low, (rotation * v).z());
-  Assembly assembly = stone(2000.0, 1e8, 0.5);
+  Assembly assembly = stone(2000.0, 1e10, 0.5);
   add_box(assembly, {-1, -1, -1}, {1, 1, 0}, true);
   for (Vec3& v : cube.vertices) v += aside + Vec3(0, 0, gap - low);
   add_block(assembly, cube);
@@ -29,29 +29,30 @@ Fall drop(const Eigen::Quaterniond& rotation, double gap, double duration, Dampi
   settings.damping.kind = damping;
   Bench bench(joined(std::move(assembly), 1e8, 4e7, dry_law(0.5)), settings);
   bench.place(1, Vec3::Zero(), rotation);
-  bench.begin(1e-4);
+  bench.begin(1e-5);
   update_contacts(bench.model, bench.state, bench.stepper.damping.branches);
   bench.stepper.prepare();
   Fall fall;
-  const double weight = bench.assembly.blocks[1].mass * 9.81, scale = weight * std::max(gap, 0.05);
-  double first = 1e300;
-  fall.finished = bench.run(std::int64_t(duration / 1e-4), 10, [&](const BodyPass& pass) {
+  double first = 1e300, kinetic = 0.0;
+  fall.finished = bench.run(std::int64_t(duration / 1e-5), 10, [&](const BodyPass& pass) {
     fall.overlap = std::max(fall.overlap, bench.overlap(0, 1));
     fall.lowest = std::min(fall.lowest, bench.assembly.blocks[1].centroid.z() + bench.displacement(1).z());
     const Energies e = compute_energies(bench.stepper, pass);
     if (first == 1e300) first = e.total();
-    fall.gain = std::max(fall.gain, (e.stored() - first) / scale);
-    fall.imbalance = std::max(fall.imbalance, std::abs(e.total() - first) / scale);
+    kinetic = std::max(kinetic, e.kinetic);
+    fall.gain = std::max(fall.gain, e.stored() - first);
+    fall.imbalance = std::max(fall.imbalance, std::abs(e.total() - first));
   });
+  fall.gain /= kinetic, fall.imbalance /= kinetic;
   return fall;
 }
 
-void check(const Fall& fall, const char* what) {
+void check(const Fall& fall, const char* what, double overlap = 0.01) {
   EXPECT_TRUE(fall.finished) << what;
-  EXPECT_LT(fall.overlap, 0.01 * side) << what;
+  EXPECT_LT(fall.overlap, overlap * side) << what;
   EXPECT_GT(fall.lowest, 0.45 * side) << what;
   EXPECT_LT(fall.gain, 0.01) << what;
-  EXPECT_LT(fall.imbalance, 0.02) << what;
+  EXPECT_LT(fall.imbalance, 0.01) << what;
 }
 
 const Eigen::Quaterniond flat = Eigen::Quaterniond::Identity();
@@ -61,7 +62,8 @@ const Eigen::Quaterniond on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 
 TEST(Falling, FlatOnAFace) { check(drop(flat, 0.1, 0.8), "flat"); }
 TEST(Falling, OnAnEdge) { check(drop(on_edge, 0.1, 0.8), "edge"); }
 TEST(Falling, OnACorner) { check(drop(on_corner, 0.1, 0.8), "corner"); }
-TEST(Falling, FarAndFast) { check(drop(on_corner, 2.0, 1.2), "far"); }
+/// 4900 J on a corner: the spring of a sharp contact gives way by 17 mm, 3.4 %.
+TEST(Falling, FarAndFast) { check(drop(on_corner, 2.0, 1.2), "far", 0.05); }
 TEST(Falling, OverTheEdgeOfTheOther) { check(drop(on_edge, 0.1, 0.3, DampingSettings::Kind::none, {1.0, 0.3, 0}), "over the edge"); }
 
 TEST(Falling, AnyWayUp) {
@@ -122,25 +124,25 @@ TEST(Falling, RelaxationFindsTheSlab) {
 
 /// A plank that spins about its own centroid strikes its neighbour, though its centroid never moves towards it.
 TEST(Falling, ASpinningPlankDoesNotPassThroughItsNeighbour) {
-  Assembly assembly = stone(2000.0, 1e8, 0.5);
+  Assembly assembly = stone(2000.0, 1e10, 0.5);
   add_box(assembly, {0.7, 0.3, 0}, {0.9, 0.5, 0.2}, true);
   add_box(assembly, {-1, -0.05, 0}, {1, 0.05, 0.2});
   Bench bench(joined(std::move(assembly), 1e8, 4e7, dry_law(0.5)));
-  bench.begin(1e-4);
+  bench.begin(1e-5);
   bench.push(1, Vec3::Zero(), {0, 0, 2.0});
   double overlap = 0.0;
-  ASSERT_TRUE(bench.run(10000, 10, [&](const BodyPass&) { overlap = std::max(overlap, bench.overlap(0, 1)); }));
+  ASSERT_TRUE(bench.run(100000, 10, [&](const BodyPass&) { overlap = std::max(overlap, bench.overlap(0, 1)); }));
   EXPECT_LT(overlap, 0.01 * 0.2);
   EXPECT_GT(bench.state.contacts.size() + std::size_t(bench.state.counters[2]), 0u);
 }
 
 /// Two free blocks fly at each other and part again: momentum is kept through the contacts that come and go.
 TEST(Falling, TwoFreeBlocksCollideAndKeepMomentum) {
-  Assembly assembly = stone(2000.0, 1e8, 0.5);
+  Assembly assembly = stone(2000.0, 1e10, 0.5);
   add_box(assembly, {0, 0, 0}, {0.5, 0.5, 0.5});
   add_box(assembly, {0.8, 0.2, 0.1}, {1.3, 0.7, 0.6});
   Bench bench(joined(std::move(assembly), 1e8, 4e7, dry_law(0.5)));
-  bench.begin(1e-4);
+  bench.begin(1e-5);
   bench.push(0, {1.0, 0, 0}, {0.3, 0.2, 0.5});
   bench.push(1, {-1.0, -0.2, 0}, {-0.4, 0.1, 0.2});
   const auto momenta = [&] {
@@ -155,7 +157,7 @@ TEST(Falling, TwoFreeBlocksCollideAndKeepMomentum) {
   };
   const auto before = momenta();
   double overlap = 0.0, first = 1e300, worst = 0.0, gain = 0.0;
-  ASSERT_TRUE(bench.run(6000, 10, [&](const BodyPass& pass) {
+  ASSERT_TRUE(bench.run(60000, 10, [&](const BodyPass& pass) {
     overlap = std::max(overlap, bench.overlap(0, 1));
     const Energies e = compute_energies(bench.stepper, pass);
     if (first == 1e300) first = e.total();

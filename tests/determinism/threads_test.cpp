@@ -1,0 +1,119 @@
+// The same bits for any number of threads, and as the plain serial loop.
+#include "solver/step/simulation.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+/// Strong from the first instant.
+GroundMotion strong_motion(double duration) {
+  GroundMotion motion;
+  motion.dt = 0.01;
+  for (double t = 0.0; t < duration; t += motion.dt)
+    motion.acceleration.emplace_back(9 * std::sin(2 * pi * 3 * t), 8 * std::sin(2 * pi * 4 * t), 4 * std::sin(2 * pi * 5 * t));
+  return motion;
+}
+
+Assembly weak_wall(int length, int courses) {
+  Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
+  JointLaw law = dry_law(0.6);
+  law.tension = 2e4, law.cohesion = 3e4;
+  set_law(assembly, law);
+  return assembly;
+}
+
+/// A wall that is shaken to pieces by a stepper with so many threads, contacts looked for as a run does.
+std::uint64_t shaken_wall(int threads, DampingSettings::Kind damping, bool shortcut, std::int64_t steps, std::size_t* contacts = nullptr) {
+  SolverSettings settings = undamped({0, 0, -9.81});
+  settings.damping.kind = damping;
+  settings.step.intact_shortcut = shortcut;
+  Bench bench(weak_wall(4, 5), settings);
+  EXPECT_TRUE(bench.balance(1e-8).converged);
+  bench.begin();
+  const GroundMotion motion = strong_motion(2.0);
+  bench.stepper.motion = &motion;
+  bench.stepper.threads = threads;
+  EXPECT_TRUE(bench.run(steps));
+  if (contacts) *contacts = bench.state.contacts.size();
+  return hash_arrays(bench.state.arrays());
+}
+
+TEST(Threads, GiveTheSameBits) {
+  for (auto damping : {DampingSettings::Kind::maxwell, DampingSettings::Kind::rayleigh, DampingSettings::Kind::local}) {
+    for (bool shortcut : {true, false}) {
+      std::size_t contacts = 0;
+      const std::uint64_t one = shaken_wall(1, damping, shortcut, 4000, &contacts);
+      if (damping == DampingSettings::Kind::maxwell) {
+        EXPECT_GT(contacts, 0u) << "blocks must have met anew for this to mean anything";
+      }
+      for (int threads : {2, 3}) EXPECT_EQ(shaken_wall(threads, damping, shortcut, 4000), one) << threads << " threads";
+    }
+  }
+}
+
+/// Eight threads on fewer cores take turns: fewer steps, and more threads than some passes have work for.
+TEST(Threads, GiveTheSameBitsWhenThereAreManyMoreThanCores) {
+  const std::uint64_t one = shaken_wall(1, DampingSettings::Kind::maxwell, true, 300);
+  for (int threads : {8, 13}) EXPECT_EQ(shaken_wall(threads, DampingSettings::Kind::maxwell, true, 300), one) << threads;
+}
+
+/// serial_step(): patch by patch into the sums of both bodies, then body by body; no teams, shares or incidence.
+TEST(Threads, EqualTheSerialLoop) {
+  for (bool shortcut : {true, false})
+    for (auto damping : {DampingSettings::Kind::none, DampingSettings::Kind::maxwell, DampingSettings::Kind::local}) {
+      SolverSettings settings = undamped({0, 0, -9.81});
+      settings.damping.kind = damping;
+      settings.step.intact_shortcut = shortcut;
+      Bench oracle(weak_wall(4, 5), settings), team(weak_wall(4, 5), settings);
+      const GroundMotion motion = strong_motion(2.0);
+      for (Bench* bench : {&oracle, &team}) {
+        ASSERT_TRUE(bench->balance(1e-8).converged);
+        bench->begin();
+        bench->stepper.motion = &motion;
+      }
+      team.stepper.threads = 3;
+      // Both go from one decision of the contact search to the next: the team says where, the oracle steps there one by one.
+      std::int64_t broken = 0;
+      while (team.state.step() < 2500) {
+        const Advance a = team.stepper.advance(2500, 1, nullptr, nullptr);
+        ASSERT_NE(a.outcome, StepOutcome::runaway);
+        while (oracle.state.step() < team.state.step()) serial_step(oracle.stepper);
+        ASSERT_EQ(hash_arrays(oracle.state.arrays()), hash_arrays(team.state.arrays())) << "step " << team.state.step();
+        if (a.outcome != StepOutcome::contacts) continue;
+        for (Bench* bench : {&oracle, &team}) {
+          update_contacts(bench->model, bench->state, bench->stepper.damping.branches);
+          bench->stepper.prepare();
+        }
+      }
+      for (std::uint8_t b : team.state.joint.broken) broken += b;
+      EXPECT_GT(broken, 0);
+    }
+}
+
+/// A whole run by Simulation, of a wall large enough that it does share its work.
+TEST(Threads, OfASimulationGiveTheSameBits) {
+  const Assembly assembly = weak_wall(24, 24);
+  std::uint64_t first = 0;
+  for (int threads : {1, 2, 3}) {
+    SolverSettings settings;
+    StageSettings gravity, shaking;
+    shaking.kind = StageSettings::Kind::motion;
+    shaking.motion = strong_motion(0.3);
+    shaking.duration = 0.3;
+    settings.stages = {gravity, shaking};
+    Simulation simulation(assembly, settings, threads, {});
+    EXPECT_EQ(simulation.threads(), threads);
+    ASSERT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
+    const std::uint64_t hash = hash_arrays(simulation.state().arrays());
+    if (threads == 1) first = hash;
+    EXPECT_EQ(hash, first) << threads << " threads";
+  }
+}
+
+/// The same model twice in one process: no memory of the first run is left anywhere.
+TEST(Threads, TheSameRunTwiceGivesTheSameBits) {
+  EXPECT_EQ(shaken_wall(2, DampingSettings::Kind::maxwell, true, 2000), shaken_wall(2, DampingSettings::Kind::maxwell, true, 2000));
+}
+
+}  // namespace
+}  // namespace voussoir::test

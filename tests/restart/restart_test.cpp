@@ -1,0 +1,194 @@
+// A run stopped and taken up again, with another number of threads, ends with the same bits as one that never stopped.
+#include <filesystem>
+#include <unistd.h>
+
+#include "io/hdf5/checkpoint_file.h"
+#include "solver/motion/synthesis.h"
+#include "solver/step/simulation.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+Assembly weak_wall(int length, int courses) {
+  Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
+  JointLaw law = dry_law(0.6);
+  law.tension = 2e4, law.cohesion = 3e4;
+  set_law(assembly, law);
+  return assembly;
+}
+
+/// Gravity, a strong motion, a pause, a second motion: damage and new contacts in every part.
+SolverSettings shaken(DampingSettings::Kind damping) {
+  SyntheticSettings synthetic;
+  synthetic.seed = 5;
+  synthetic.peak = 9.0;
+  synthetic.duration = 0.8;
+  synthetic.axes = {true, true, true};
+  StageSettings gravity, first, pause, second;
+  first.kind = second.kind = StageSettings::Kind::motion;
+  first.motion = synthesize(synthetic);
+  first.duration = 0.8;
+  pause.kind = StageSettings::Kind::free;
+  pause.duration = 0.1;
+  synthetic.seed = 6;
+  second.motion = synthesize(synthetic);
+  second.duration = 0.5;
+  SolverSettings settings;
+  settings.damping.kind = damping;
+  settings.stages = {gravity, first, pause, second};
+  return settings;
+}
+
+/// Copies the state's arrays, as a checkpoint would.
+void copy_state(State& from, State& to) {
+  const auto source = from.arrays();
+  const auto target = to.arrays();
+  ASSERT_EQ(source.size(), target.size());
+  for (std::size_t i = 0; i < source.size(); ++i)
+    std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); }, target[i].data);
+  to.unpack_contacts();
+}
+
+std::uint64_t in_one_go(const Assembly& assembly, const SolverSettings& settings, int threads) {
+  Simulation simulation(assembly, settings, threads, {});
+  EXPECT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
+  EXPECT_FALSE(simulation.state().contacts.empty()) << "too tame a run to be a test";
+  return hash_arrays(simulation.state().arrays());
+}
+
+/// Stops at each of the times, hands the state to a new simulation with another number of threads.
+std::uint64_t in_pieces(const Assembly& assembly, const SolverSettings& settings, const std::vector<double>& stops) {
+  auto simulation = std::make_unique<Simulation>(assembly, settings, 1, Observers{});
+  int threads = 1;
+  for (double stop : stops) {
+    EXPECT_EQ(simulation->run(stop), RunEnd::interrupted);
+    threads = threads % 3 + 1;
+    auto next = std::make_unique<Simulation>(assembly, settings, threads, Observers{});
+    copy_state(simulation->state(), next->state());
+    next->restore(simulation->position());
+    simulation = std::move(next);
+  }
+  EXPECT_EQ(simulation->run(), RunEnd::finished) << simulation->failure();
+  return hash_arrays(simulation->state().arrays());
+}
+
+TEST(Restart, GivesTheSameBits) {
+  const Assembly assembly = weak_wall(4, 5);
+  for (auto damping : {DampingSettings::Kind::maxwell, DampingSettings::Kind::rayleigh, DampingSettings::Kind::none}) {
+    const SolverSettings settings = shaken(damping);
+    const std::uint64_t whole = in_one_go(assembly, settings, 2);
+    EXPECT_EQ(in_pieces(assembly, settings, {0.3}), whole) << int(damping);
+    EXPECT_EQ(in_pieces(assembly, settings, {0.1, 0.55, 0.85, 1.0}), whole) << int(damping);
+  }
+}
+
+/// Large enough for the threads to share.
+TEST(Restart, GivesTheSameBitsWithOtherThreads) {
+  const Assembly assembly = weak_wall(24, 24);
+  SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  settings.stages.resize(2);
+  settings.stages[1].duration = 0.35;
+  Simulation whole(assembly, settings, 1, {});
+  ASSERT_EQ(whole.run(), RunEnd::finished) << whole.failure();
+  EXPECT_EQ(in_pieces(assembly, settings, {0.12, 0.25}), hash_arrays(whole.state().arrays()));
+}
+
+/// Mass scaling is not in the state: it must come out the same again.
+TEST(Restart, GivesTheSameBitsUnderMassScaling) {
+  const Assembly assembly = weak_wall(4, 5);
+  SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  const CriticalStep critical = [&] {
+    const Bench bench(weak_wall(4, 5));
+    return critical_step(bench.model, bench.state);
+  }();
+  settings.step.mass_scaling_step = 1.3 * critical.step;
+  settings.step.mass_scaling_limit = 2.0;
+  EXPECT_EQ(in_pieces(assembly, settings, {0.3}), in_one_go(assembly, settings, 1));
+}
+
+/// Checkpoints taken by the run itself, at their times and at the ends of stages, are all good to go on from.
+TEST(Restart, FromEveryCheckpointOfARun) {
+  const Assembly assembly = weak_wall(4, 5);
+  SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  settings.output.checkpoint_every = 0.25;
+  struct Kept {
+    std::unique_ptr<Simulation> simulation;
+    double time;
+  };
+  std::vector<Kept> kept;
+  Observers observers;
+  observers.checkpoint = [&](Simulation& s, bool) {
+    auto next = std::make_unique<Simulation>(assembly, settings, 1, Observers{});
+    copy_state(s.state(), next->state());
+    next->restore(s.position());
+    kept.push_back({std::move(next), s.state().time()});
+  };
+  Simulation whole(assembly, settings, 1, observers);
+  ASSERT_EQ(whole.run(), RunEnd::finished) << whole.failure();
+  const std::uint64_t hash = hash_arrays(whole.state().arrays());
+  ASSERT_GE(kept.size(), 8u);  // five within the stages, four at their ends
+  for (const Kept& k : kept) {
+    EXPECT_EQ(k.simulation->run(), RunEnd::finished) << k.time;
+    EXPECT_EQ(hash_arrays(k.simulation->state().arrays()), hash) << "from t = " << k.time << ", stage " << k.simulation->position().stage;
+  }
+}
+
+/// A stop flag set in the middle of a step's piece.
+TEST(Restart, AfterAnInterruption) {
+  const Assembly assembly = weak_wall(4, 5);
+  const SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  std::atomic<bool> stop{false};
+  Observers observers;
+  observers.stop = &stop;
+  observers.history = [&](const Simulation&, const Sample& s) {
+    if (s.time > 0.4) stop = true;
+  };
+  Simulation first(assembly, settings, 1, observers);
+  ASSERT_EQ(first.run(), RunEnd::interrupted);
+  EXPECT_NEAR(first.state().time(), 0.4, 0.02);
+  Simulation second(assembly, settings, 2, {});
+  copy_state(first.state(), second.state());
+  second.restore(first.position());
+  ASSERT_EQ(second.run(), RunEnd::finished);
+  EXPECT_EQ(hash_arrays(second.state().arrays()), in_one_go(assembly, settings, 1));
+}
+
+/// Through a file.
+TEST(Restart, FromACheckpointFile) {
+  const auto folder = std::filesystem::temp_directory_path() / ("voussoir_restart_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const Assembly assembly = weak_wall(4, 5);
+  const SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  Simulation first(assembly, settings, 1, {});
+  ASSERT_EQ(first.run(0.5), RunEnd::interrupted);
+  const RunPosition p = first.position();
+  CheckpointHeader header;
+  header.time = first.state().time();
+  header.step = first.state().step();
+  header.stage = p.stage;
+  header.numbers = {{"stage_start", p.stage_start}, {"dt", p.dt}, {"highest", p.highest}, {"stiffest", p.stiffest}, {"stage_begun", p.stage_begun}};
+  const std::string path = (folder / "checkpoint.h5").string();
+  const std::uint64_t written = write_checkpoint(path, header, first.state().arrays());
+  EXPECT_EQ(written, hash_arrays(first.state().arrays()));
+
+  Simulation second(assembly, settings, 2, {});
+  CheckpointHeader read;
+  read_checkpoint(path, read, second.state().arrays());
+  second.state().unpack_contacts();
+  EXPECT_EQ(hash_arrays(second.state().arrays()), written);
+  RunPosition q;
+  q.stage = read.stage;
+  q.stage_start = read.numbers.at("stage_start");
+  q.dt = read.numbers.at("dt");
+  q.highest = read.numbers.at("highest");
+  q.stiffest = read.numbers.at("stiffest");
+  q.stage_begun = read.numbers.at("stage_begun");
+  second.restore(q);
+  ASSERT_EQ(second.run(), RunEnd::finished);
+  EXPECT_EQ(hash_arrays(second.state().arrays()), in_one_go(assembly, settings, 1));
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace voussoir::test

@@ -1,0 +1,94 @@
+// The command line: help, options, exit status.
+#include <gtest/gtest.h>
+
+#include "tests/whole/cases.h"
+
+namespace voussoir::test {
+namespace {
+
+const std::vector<std::string> verb_names = {"generate", "import", "info", "run", "resume", "render"};
+
+TEST(CommandLine, HelpOfEachVerbHasAnExample) {
+  const Outcome all = voussoir({"--help"});
+  EXPECT_EQ(all.status, 0);
+  for (const std::string& verb : verb_names) {
+    EXPECT_NE(all.out.find("\n  " + verb + " "), std::string::npos) << verb;
+    const Outcome help = voussoir({verb, "--help"});
+    EXPECT_EQ(help.status, 0) << verb;
+    EXPECT_NE(help.out.find("Example: voussoir " + verb + " "), std::string::npos) << help.out;
+    for (const char* option : {"--help", "--threads", "--quiet"})
+      EXPECT_NE(help.out.find(option), std::string::npos) << verb << " " << option;
+    EXPECT_EQ(help.err, "");
+  }
+}
+
+TEST(CommandLine, EveryVerbOfTheHelpIsTestedHere) {
+  std::string text = voussoir({"--help"}).out;
+  std::vector<std::string> found;
+  for (std::size_t at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ", at + 1))
+    found.push_back(text.substr(at + 3, text.find(' ', at + 3) - at - 3));
+  EXPECT_EQ(found, verb_names) << "a verb has come or gone: add it to the tests of this folder";
+}
+
+TEST(CommandLine, VersionIsSaid) {
+  const Outcome outcome = voussoir({"--version"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(outcome.out.starts_with("voussoir 0.")) << outcome.out;
+}
+
+TEST(CommandLine, NothingAskedIsAnErrorWithHelp) {
+  const Outcome outcome = voussoir({});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.out.find("Usage"), std::string::npos);
+}
+
+TEST(CommandLine, UnknownVerbSuggestsTheRightOne) {
+  expect_error(voussoir({"rnu", "case.toml"}), 2, {"'rnu'", "did you mean 'run'", "--help"});
+  expect_error(voussoir({"demolish"}), 2, {"'demolish'", "--help"});
+}
+
+TEST(CommandLine, WrongOptionsAreRefused) {
+  Folder folder;
+  write_wall(folder);
+  const Surroundings there{.folder = folder.path()};
+  const auto refused = [&](const std::vector<std::string>& words, const std::vector<std::string>& pieces) {
+    SCOPED_TRACE(words.back());
+    expect_error(voussoir(words, there), 2, pieces);
+  };
+  refused({"run", "wall.toml", "--colour", "red"}, {"--colour", "run --help"});
+  refused({"run"}, {"CASE", "usage"});
+  refused({"run", "wall.toml", "second.toml"}, {"run --help"});
+  refused({"run", "wall.toml", "--threads", "0"}, {"--threads", "0"});
+  refused({"run", "wall.toml", "--threads", "many"}, {"many", "threads"});
+  refused({"run", "wall.toml", "--threads", "99999999999999"}, {"threads"});
+  refused({"run", "wall.toml", "--until", "soon"}, {"soon", "until"});
+  refused({"run", "wall.toml", "--until", "nan"}, {"--until", "nan"});
+  refused({"run", "wall.toml", "--until", "-1"}, {"--until", "-1"});
+  refused({"render", "wall.toml", "--width", "-5"}, {"5"});
+  refused({"generate"}, {"CASE"});
+  refused({"generate", "--keys", "pyramid"}, {"pyramid"});
+  refused({"import", "x.obj"}, {"-o"});
+  refused({"import", "x.obj", "-o", "y.h5", "--density", "inf"}, {"--density", "inf"});
+  refused({"import", "x.obj", "-o", "y.h5", "--cohesion", "-1"}, {"--cohesion", "-1"});
+  refused({"import", "x.obj", "-o", "y.h5", "--tension", "nan"}, {"--tension", "nan"});
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"wall.toml"})
+      << "a refused command left something behind";
+}
+
+TEST(CommandLine, KeysOfEachGeneratorAreListed) {
+  for (const char* name : {"cs1", "cs2", "arch", "wall", "column"}) {
+    const Outcome outcome = voussoir({"generate", "--keys", name});
+    EXPECT_EQ(outcome.status, 0) << name;
+    EXPECT_NE(outcome.out.find("Pa/m"), std::string::npos) << outcome.out;
+  }
+}
+
+TEST(CommandLine, OutputThatCannotBeWrittenIsSaid) {
+  Folder folder;
+  write_wall(folder);
+  const Outcome outcome = voussoir({"info", "wall.toml"}, {.folder = folder.path(), .output_file = "/dev/full"});
+  expect_error(outcome, 1, {"standard output"});
+}
+
+}  // namespace
+}  // namespace voussoir::test

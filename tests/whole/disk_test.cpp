@@ -1,0 +1,63 @@
+// A disk that is full, shown by a limit on the size of files: said plainly, and nothing that was written is lost.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "io/hdf5/checkpoint_file.h"
+#include "tests/whole/cases.h"
+
+namespace voussoir::test {
+namespace {
+
+/// Bytes from "nothing fits" to "all but the last checkpoints fit".
+class FullDisk : public testing::TestWithParam<long> {};
+
+TEST_P(FullDisk, IsSaidAndNothingIsLost) {
+  Folder folder;
+  write_wall(folder, {.checkpoints = 0.05, .fields = 0.1});
+  run_whole(folder, "wall.toml", "whole");
+  const Outcome outcome =
+      voussoir({"run", "wall.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path(), .file_size = GetParam()});
+  expect_error(outcome, 1, {"cannot write run/", "ulimit"});
+  for (const auto& [name, bytes] : contents(folder / "run")) EXPECT_FALSE(name.ends_with(".partial")) << name;
+  for (const std::string& name : names_in(folder / "run/checkpoints"))
+    EXPECT_NO_THROW(read_checkpoint_header(folder / "run/checkpoints/" + name)) << name;
+  // With room again it goes on, or begins where nothing had been begun.
+  if (exists(folder / "run/checkpoints")) {
+    EXPECT_NE(outcome.err.find("voussoir resume run"), std::string::npos) << outcome.err;
+    const Outcome more = voussoir({"resume", "run", "--no-pictures"}, {.folder = folder.path()});
+    ASSERT_EQ(more.status, 0) << more.err;
+  } else {
+    run_whole(folder, "wall.toml", "run");
+  }
+  expect_same_run(folder / "whole", folder / "run");
+}
+
+INSTANTIATE_TEST_SUITE_P(Bytes, FullDisk, testing::Values(0, 1000, 20000, 58000, 60000, 100000, 150000, 180000));
+
+TEST(FullDiskElsewhere, OtherVerbsSayItToo) {
+  Folder folder;
+  write_wall(folder);
+  run_whole(folder, "wall.toml", "run");
+  const auto before = contents(folder.path());
+  const Surroundings full{.folder = folder.path(), .file_size = 2000};
+  expect_error(voussoir({"generate", "wall.toml", "-o", "w.h5"}, full), 1, {"cannot write w.h5"});
+  expect_error(voussoir({"render", "run", "-o", "x.png"}, full), 1, {"x.png"});
+  expect_error(voussoir({"generate", "wall.toml", "-o", "run/assembly.h5"}, full), 1, {"run/assembly.h5"});
+  expect_unchanged(folder.path(), before);
+}
+
+TEST(FullDiskElsewhere, PicturesThatCannotBeWrittenDoNotSpoilARun) {
+  Folder folder;
+  write_wall(folder, {.amplitude = 0.5});  // small files
+  run_whole(folder, "wall.toml", "run", {"--until", "0.6"});
+  std::filesystem::remove_all(folder / "run/images");
+  folder.write("run/images", "a file where the folder should be");
+  const Outcome outcome = voussoir({"resume", "run"}, {.folder = folder.path()});
+  EXPECT_EQ(outcome.signal, 0);
+  EXPECT_NE(outcome.err.find("images"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("fault of the program"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace voussoir::test

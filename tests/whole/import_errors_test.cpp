@@ -1,0 +1,143 @@
+// Stones drawn elsewhere that cannot be used.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "geometry/polyhedron.h"
+#include "tests/whole/cases.h"
+
+namespace voussoir::test {
+namespace {
+
+/// An .obj object: a box from `low` to `high`, its corners counted from `first`.
+std::string box(const std::string& name, const Vec3& low, const Vec3& high, int first) {
+  std::string text = "o " + name + "\n";
+  for (int k = 0; k < 8; ++k) {
+    const auto pick = [&](int axis, bool up) { return up ? high[axis] : low[axis]; };
+    text += fmt::format("v {} {} {}\n", pick(0, (k & 3) == 1 || (k & 3) == 2), pick(1, k & 2), pick(2, k & 4));
+  }
+  for (const auto& face : {"4 3 2 1", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"}) {
+    text += "f";
+    for (const char* c = face; *c; ++c)
+      if (*c != ' ') text += fmt::format(" {}", *c - '0' + first - 1);
+    text += "\n";
+  }
+  return text;
+}
+
+const std::string lower = box("lower", {0, 0, 0}, {1, 1, 1}, 1);
+
+Outcome import(const Folder& folder, const std::string& file, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"import", file, "-o", "out.h5"};
+  words.insert(words.end(), more.begin(), more.end());
+  return voussoir(words, {.folder = folder.path()});
+}
+
+void expect_refused(const std::string& text, std::vector<std::string> pieces, const std::string& name = "stones.obj") {
+  Folder folder;
+  folder.write(name, text);
+  pieces.push_back(name);
+  SCOPED_TRACE(pieces[0]);
+  expect_error(import(folder, name), 2, pieces);
+  EXPECT_FALSE(exists(folder / "out.h5"));
+}
+
+TEST(ImportErrors, TheGoodOnesAreTaken) {
+  Folder folder;
+  folder.write("stones.obj", lower + box("upper", {0, 0, 1}, {1, 1, 2}, 9));
+  const Outcome outcome = import(folder, "stones.obj");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("2 blocks, 1 joints"), std::string::npos) << outcome.out;
+  EXPECT_EQ(import(folder, "stones.obj", {"-q"}).out, "");
+}
+
+TEST(ImportErrors, OverlapsAreNamed) {
+  expect_refused(lower + box("upper", {0.5, 0.5, 0.5}, {2, 2, 2}, 9), {"overlap", "'lower'", "'upper'", "0.5 m"});
+  expect_refused(lower + box("twin", {0, 0, 0}, {1, 1, 1}, 9), {"overlap", "'lower'", "'twin'"});
+}
+
+TEST(ImportErrors, StonesWithoutVolume) {
+  expect_refused(box("sheet", {0, 0, 0}, {1, 1, 0}, 1), {"'sheet'", "stones.obj:10"});
+  expect_refused(box("point", {1, 1, 1}, {1, 1, 1}, 1), {"'point'"});
+  expect_refused(lower + box("leaf", {0, 0, 1}, {1, 1, 1}, 9), {"'leaf'"});
+}
+
+TEST(ImportErrors, StonesThatAreNotConvex) {
+  std::string bent = lower;  // one corner of the top pushed into the stone
+  expect_refused(exchanged(bent, "v 1 1 1\n", "v 0.3 0.3 0.5\n"), {"'lower'", "not a convex stone", "convex pieces"});
+}
+
+TEST(ImportErrors, StonesThatAreOpen) {
+  expect_refused(exchanged(lower, "f 5 6 7 8\n", ""), {"'lower'", "not closed"});
+  expect_refused(exchanged(lower, "f 5 6 7 8\n", "f 8 7 6 5\n"), {"'lower'", "turn the faces"});
+}
+
+TEST(ImportErrors, InsideOutStonesAreTurnedAndSaid) {
+  Folder folder;
+  std::string text = lower;
+  for (const auto& [a, b] : {std::pair{"4 3 2 1", "1 2 3 4"},
+                             {"5 6 7 8", "8 7 6 5"},
+                             {"1 2 6 5", "5 6 2 1"},
+                             {"2 3 7 6", "6 7 3 2"},
+                             {"3 4 8 7", "7 8 4 3"},
+                             {"4 1 5 8", "8 5 1 4"}})
+    text = exchanged(text, a, b);
+  folder.write("stones.obj", text);
+  const Outcome outcome = import(folder, "stones.obj");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("'lower' (stone 0) was inside-out"), std::string::npos) << outcome.out;
+}
+
+TEST(ImportErrors, NumbersAndIndices) {
+  expect_refused(exchanged(lower, "v 1 1 1\n", "v 1 nan 1\n"), {"stones.obj:8", "finite"});
+  expect_refused(exchanged(lower, "v 1 1 1\n", "v 1 1e999 1\n"), {"stones.obj:8"});
+  expect_refused(exchanged(lower, "v 1 1 1\n", "v 1 1\n"), {"stones.obj:8", "three"});
+  expect_refused(exchanged(lower, "f 5 6 7 8", "f 5 6 7 80"), {"stones.obj:11", "'80'", "8 vertices"});
+  expect_refused(exchanged(lower, "f 5 6 7 8", "f 5 6 7 0"), {"stones.obj:11", "'0'"});
+  expect_refused(exchanged(lower, "f 5 6 7 8", "f 5 6"), {"stones.obj:11", "three corners"});
+  expect_refused(exchanged(lower, "f 5 6 7 8", "f 5 6 7 99999999999999999999"), {"stones.obj:11"});
+}
+
+TEST(ImportErrors, FilesThatHoldNothing) {
+  for (const char* name : {"stones.obj", "stones.stl", "stones.ply"}) {
+    expect_refused("", {""}, name);
+    expect_refused("nothing to see\n", {""}, name);
+  }
+  expect_refused("solid\n", {"not read"}, "stones.dxf");
+  Folder folder;
+  expect_error(import(folder, "missing.obj"), 2, {"missing.obj"});
+  expect_error(import(folder, "."), 2, {"."});
+  folder.write("stones.obj", lower);
+  expect_error(import(folder, "stones.obj", {"--fixed", "plinth"}), 2, {"'plinth'"});
+  expect_error(import(folder, "stones.obj", {"--scale", "0"}), 2, {"--scale"});
+  expect_error(import(folder, "stones.obj", {"--kn", "1e9"}), 2, {"kn", "ks"});
+}
+
+TEST(ImportErrors, GarbageOfEveryKind) {
+  Folder folder;
+  std::mt19937 random(5);
+  const std::vector<std::string> heads = {
+      "",
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
+      "ply\nformat ascii 1.0\nelement vertex 999999999\n",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 900\n",
+      "ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 6\nproperty list uchar int vertex_indices\nend_header\n",
+      std::string(80, ' ') + "\xff\xff\xff\x7f"};
+  for (const char* ending : {"obj", "stl", "ply"})
+    for (const std::string& head : heads) {
+      std::string bytes = head;
+      for (int i = 0; i < 600; ++i) bytes += char(random());
+      for (const std::string& text : {head, bytes}) {
+        folder.write(std::string("stones.") + ending, text);
+        SCOPED_TRACE(ending + (": " + head.substr(0, 60)));
+        expect_error(import(folder, std::string("stones.") + ending), 2, {std::string("stones.") + ending});
+      }
+    }
+}
+
+}  // namespace
+}  // namespace voussoir::test
