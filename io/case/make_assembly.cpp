@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "geometry/joints.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
@@ -63,6 +64,30 @@ void override_joints(Assembly& assembly, const std::string& pair, const Generato
   throw InputError("[joints.{}] fits no joint of the assembly, whose materials are: {}", pair, fmt::join(names, ", "));
 }
 
+/// Blocks that lie in one another would be thrown apart in the first step.
+void check_overlaps(const Assembly& assembly, const Case& c) {
+  const double gap = c.settings.contact.gap_tolerance;
+  const auto overlaps = find_overlaps(assembly, gap);
+  if (overlaps.empty()) return;
+  const auto name = [&](std::int64_t i) {
+    return fmt::format("{} ({})", i, component_names()[std::size_t(assembly.blocks[std::size_t(i)].component)]);
+  };
+  throw InputError(
+      "{}: {} pairs of blocks overlap; the first, {} and {}, by {:.3g} m: move them apart, or raise [contact] "
+      "gap_tolerance ({} m)",
+      c.assembly_file, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
+}
+
+/// The case's own messages get its name in front.
+template <class Work>
+void in_case(const Case& c, Work&& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", c.path, error.what());
+  }
+}
+
 }  // namespace
 
 void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors) {
@@ -79,18 +104,21 @@ void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors) 
 Assembly make_assembly(const Case& c) {
   Assembly assembly;
   if (!c.generator.empty()) {
-    assembly = find_generator(c.generator).build(c.generator_input);
+    in_case(c, [&] { assembly = find_generator(c.generator).build(c.generator_input); });
     assembly.generator = c.generator;
   } else {
     assembly = read_assembly(c.assembly_file);
-    for (const auto& [pair, joint] : c.generator_input.joints) override_joints(assembly, pair, joint);
+    check_overlaps(assembly, c);
+    in_case(c, [&] {
+      for (const auto& [pair, joint] : c.generator_input.joints) override_joints(assembly, pair, joint);
+    });
     // The copy in a run directory already holds the case's sensors.
     std::erase_if(assembly.sensors, [&](const Sensor& own) {
       return std::any_of(c.sensors.begin(), c.sensors.end(), [&](const SensorSpec& s) { return s.id == own.id; });
     });
   }
   assembly.case_text = c.text;
-  attach_sensors(assembly, c.sensors);
+  in_case(c, [&] { attach_sensors(assembly, c.sensors); });
   return assembly;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/polyhedron.h"
+#include "io/case/suggestion.h"
 
 namespace voussoir {
 
@@ -20,11 +21,6 @@ struct Limits {
   std::string unit;
   bool above = false;  // low itself is not allowed
 };
-
-/// The known word nearest to `word` (edit distance with transpositions, at most a third of its length), or empty.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
-/// ": did you mean 'X'?" or ": expected one of: A, B, C".
-std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
 /// One table of a case file. It remembers which keys were asked for, so that finish() finds the keys nobody knows. All
 /// errors are InputError "FILE:LINE: …".

@@ -125,7 +125,9 @@ File File::create(const std::string& path) {
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);  // headers and indices with checksums too
   // HDF5 tells files in memory apart by name, and two files may be built for one path.
   const std::string name = fmt::format("memory {}", fmt::ptr(memory.get()));
-  Handle file(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);  // of the root group
+  Handle file(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
   if (!file.valid()) throw RunError("cannot write {}: {}", path, last_reason());
   return File(path, std::move(file), std::move(memory));
 }
@@ -168,14 +170,14 @@ void File::write_raw(const std::string& name, const void* data, std::size_t size
     throw RunError("cannot write {}: {}: {} values do not fill the shape {}", path_, name, size, spoken(shape));
   const std::vector<hsize_t> dims(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(int(dims.size()), dims.data(), nullptr), H5Sclose);
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (const std::size_t slash = name.rfind('/'); slash != std::string::npos) make_group(name.substr(0, slash));
   H5Pset_obj_track_times(creation.id(), false);  // equal contents give equal files
   if (size > 0) {
     H5Pset_chunk(creation.id(), int(dims.size()), chunk_of(shape, bytes).data());
     H5Pset_fletcher32(creation.id());
   }
-  const Handle set(H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), links.id(), creation.id(), H5P_DEFAULT),
+  const Handle set(H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                    H5Dclose);
   if (!set.valid() || (size > 0 && H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0))
     throw RunError("cannot write {}: {}: {}", path_, name, last_reason());
@@ -275,10 +277,12 @@ std::vector<std::string> File::datasets() const {
 }
 
 void File::make_group(const std::string& name) {
-  if (has(name)) return;
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
-  const Handle group(H5Gcreate2(handle_.id(), name.c_str(), links.id(), creation.id(), H5P_DEFAULT), H5Gclose);
+  if (name.empty() || has(name)) return;
+  // One by one: groups that HDF5 makes on the way to another carry the time of day.
+  if (const std::size_t slash = name.rfind('/'); slash != std::string::npos) make_group(name.substr(0, slash));
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  const Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) throw RunError("cannot write {}: {}: {}", path_, name, last_reason());
 }
 

@@ -107,8 +107,17 @@ std::string describe_assembly(const std::string& path) {
   return out.text;
 }
 
+/// Damage met by someone who only asks is wrong input, not failed work.
+CheckpointHeader header_of(const std::string& path) {
+  try {
+    return read_checkpoint_header(path);
+  } catch (const RunError& error) {
+    throw InputError("{}", error.what());
+  }
+}
+
 std::string describe_checkpoint(const std::string& path) {
-  const CheckpointHeader header = read_checkpoint_header(path);
+  const CheckpointHeader header = header_of(path);
   const h5::File file = h5::File::open(path);
   Lines out;
   out.add("{}: checkpoint of voussoir {}", path, header.program_version);
@@ -151,8 +160,9 @@ std::string describe_record(const std::string& path) {
 }  // namespace
 
 std::string describe_file(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError("cannot read {}: there is no such file", path);
-  if (!std::filesystem::is_regular_file(path)) throw InputError("cannot read {}: it is not a file", path);
+  std::error_code ignored;  // a name that cannot be looked up names no file
+  if (!std::filesystem::exists(path, ignored)) throw InputError("cannot read {}: there is no such file", path);
+  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("cannot read {}: it is not a file", path);
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".toml") return describe_case(path);
   if (!h5::File::is_hdf5(path)) {

@@ -51,13 +51,18 @@ std::vector<Row> parse_rows(std::string_view text, const std::string& name) {
   return rows;
 }
 
+void check_order(const std::vector<Row>& rows, const std::string& name) {
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (const double t = rows[i].values[0], before = rows[i - 1].values[0]; !(t > before))
+      throw InputError("{}:{}: time {} s after {} s: times must increase", name, rows[i].number, t, before);
+}
+
 /// The step of the times in the first column.
 double time_step(const std::vector<Row>& rows, const std::string& name) {
+  check_order(rows, name);
   const double first = rows.front().values[0], dt = (rows.back().values[0] - first) / double(rows.size() - 1);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double t = rows[i].values[0], before = rows[i - 1].values[0];
-    if (!(t > before))
-      throw InputError("{}:{}: time {} s after {} s: times must increase", name, rows[i].number, t, before);
     if (std::abs(t - before - dt) > even)
       throw InputError(
           "{}:{}: time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s; resample the record, or "

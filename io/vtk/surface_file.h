@@ -26,5 +26,10 @@ Surface read_surface(const std::string& path);
 /// OBJ: v, f (also negative and slashed indices), o, g; other keywords are passed over. Objects are those of `o`, or of
 /// `g` in a file without `o`.
 Surface read_obj(const std::string& path);
+/// STL, text or binary. Each `solid` of a text file is an object. Corners with the very same coordinates are one
+/// vertex.
+Surface read_stl(const std::string& path);
+/// PLY 1.0, text or binary: the elements `vertex` (x, y, z) and `face` (vertex_indices); others are passed over.
+Surface read_ply(const std::string& path);
 
 }  // namespace voussoir

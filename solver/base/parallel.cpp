@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <optional>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -49,13 +50,17 @@ void Barrier::wait() {
 }
 
 void run_team(int threads, const std::function<void(int, int, Barrier&)>& work) {
-  Barrier barrier(threads);
+  std::optional<Barrier> barrier;
   if (threads == 1) {
-    work(0, 1, barrier);
+    work(0, 1, barrier.emplace(1));
     return;
   }
 #pragma omp parallel num_threads(threads)
-  work(omp_get_thread_num(), threads, barrier);
+  {
+#pragma omp single
+    barrier.emplace(omp_get_num_threads());  // the runtime may grant fewer than asked for
+    work(omp_get_thread_num(), omp_get_num_threads(), *barrier);
+  }
 }
 
 }  // namespace voussoir

@@ -49,9 +49,13 @@ void mark(const State& state, std::int32_t body, State& to, MovedBodies& moved) 
 
 MovedBodies find_moved(const Model& model, State& state) {
   MovedBodies moved{std::vector<char>(model.bodies.size(), 0)};
-  const double near = 0.1 * skin(model);
+  const double near = 0.1 * skin(model), far = search_distance(model);
+  const double* base = state.base_displacement().data();
+  bool due = false;  // only a patch asks to be clipped: no need to look around everybody
+  for (std::size_t i = 0; i < model.bodies.size() && !due; ++i) due = moved_since_search(model, state, i, base) > far;
+  if (!due) return moved;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    if (moved_since_search(model, state, i, state.base_displacement().data()) > near) mark(state, std::int32_t(i), state, moved);
+    if (moved_since_search(model, state, i, base) > near) mark(state, std::int32_t(i), state, moved);
   return moved;
 }
 
@@ -151,6 +155,10 @@ Box placed_box(const Model& model, const State& state, std::int32_t body, const 
   return box;
 }
 
+bool boxes_meet(const Box& a, const Box& b, double distance) {
+  return (a.low.array() - distance <= b.high.array()).all() && (b.low.array() - distance <= a.high.array()).all();
+}
+
 /// Pairs of cells of different bodies, at least one moved and one free, whose boxes come within the skin.
 std::vector<Key> candidate_pairs(const Model& model, const State& state, const MovedBodies& moved) {
   std::vector<Box> boxes;
@@ -161,13 +169,24 @@ std::vector<Key> candidate_pairs(const Model& model, const State& state, const M
       owner.emplace_back(std::int32_t(i), std::int32_t(c));
     }
   std::vector<Key> pairs;
-  for (const auto& [i, j] : neighbours(boxes, skin(model))) {
+  const auto consider = [&](std::size_t i, std::size_t j) {
     const auto [a, ca] = owner[i];
     const auto [b, cb] = owner[j];
-    if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed) || !(moved.flag[a] || moved.flag[b])) continue;
+    if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed) || !(moved.flag[a] || moved.flag[b])) return;
     pairs.push_back(a < b ? Key{a, b, ca, cb} : Key{b, a, cb, ca});
+  };
+  std::vector<std::size_t> few;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (moved.flag[owner[i].first]) few.push_back(i);
+  if (few.size() > 20) {
+    for (const auto& [i, j] : neighbours(boxes, skin(model))) consider(std::size_t(i), std::size_t(j));
+  } else {
+    for (std::size_t i : few)
+      for (std::size_t j = 0; j < boxes.size(); ++j)
+        if (boxes_meet(boxes[i], boxes[j], skin(model))) consider(i, j);
   }
   std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 
@@ -212,8 +231,10 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
   }
   // 2. New meetings.
   std::vector<Key> live;
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (!(state.joint.mode[i] & mode_gone)) live.push_back(key_of(model.joints[i]));
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Patch& p = model.joints[i];
+    if (!(state.joint.mode[i] & mode_gone) && (moved.flag[p.a] || moved.flag[p.b])) live.push_back(key_of(p));
+  }
   for (const Entry& entry : entries) live.push_back(entry.key);
   std::sort(live.begin(), live.end());
   for (const Key& key : candidate_pairs(model, state, moved)) {

@@ -27,6 +27,10 @@ inline double moved_since_search(const Model& model, const State& state, std::si
 /// which a body counts as not having moved).
 double search_distance(const Model& model);
 
+/// Patches past their limits of slip and turn are clipped anew at every 32nd step at the earliest, so that a sliding wall
+/// does not stop the run at each step.
+inline bool may_clip_at(std::int64_t step) { return step % 32 == 0; }
+
 /// Looks for new contacts around the bodies that have moved since they were last looked at, clips anew the patches that
 /// have slid or turned past their limits (force and moment carried over), drops contacts that have parted. Serial and
 /// decided by the state alone. Afterwards Stepper::prepare() must be called.

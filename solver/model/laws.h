@@ -108,7 +108,10 @@ struct SofteningLaw {
     if (memory.broken) return coulomb(law, kn, ks, un, us, ut, law.residual_cohesion, law.residual_tan_friction, memory);
     PointResult r;
     double n = un - memory.n;
-    const double tension = law.tension * (1.0 - memory.softening);
+    const double soft_cohesion = residual(law, memory.softening);
+    // The cone may end below the tension limit: nothing is pulled beyond its apex.
+    const double apex = law.tan_friction > 0.0 ? soft_cohesion / law.tan_friction : 1e300;
+    const double tension = std::min(law.tension * (1.0 - memory.softening), apex);
     if (kn * n > tension) {
       const double width = law.tension > 0.0 ? 2.0 * law.mode_1 / law.tension : 0.0;  // m, wI
       const double slope = width > 0.0 ? law.tension / width : kn;
@@ -133,6 +136,7 @@ struct SofteningLaw {
       const double slip = (trial - limit) / (ks - slope);
       if (memory.softening + slip / width >= 1.0) return lose_bond(law, kn, ks, un, us, ut, memory);
       const double keep = 1.0 - ks * slip / trial;
+      if (!(limit >= 0.0) || keep < 0.0) return lose_bond(law, kn, ks, un, us, ut, memory);  // softer than anything left to hold
       memory.s += (1.0 - keep) * s;
       memory.t += (1.0 - keep) * t;
       memory.softening += slip / width;

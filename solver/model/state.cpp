@@ -82,7 +82,7 @@ State initial_state(const Model& model) {
   state.motion.assign(motion_width * n, 0.0);
   state.baseline.assign(3 * n, 0.0);
   state.searched.assign(7 * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) state.searched[7 * i + 3] = 1.0;
+  for (std::size_t i = 0; i < n; ++i) state.searched[7 * i] = 1e30;  // never looked for: as if they had come from far
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.joint.resize(model.joints.size(), lane_count * model.point_rows);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {

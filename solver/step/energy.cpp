@@ -70,12 +70,17 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
   const double* pose = &stepper.state->pose[pose_width * i];
   e.base_work += motion[6];
   e.body_damping += motion[7];
-  if (body.fixed) return;
   const BodyUpdate next = pass.update(i);
-  const Triple<double> v = 0.5 * (triple(motion) + next.velocity), l = 0.5 * (triple(motion + 3) + next.momentum);
-  const Triple<double> local = turn_back(pose_rotation(pose), l);
-  const Vec3 lb(local.x, local.y, local.z);
-  e.kinetic += 0.5 * body.inertial_mass * dot(v, v) + 0.5 * lb.dot(body.inverse_inertia * lb);
+  if (body.fixed) {  // the half step that leads up to now; the other half is added with the step itself
+    const Vec3& v = pass.base_velocity_now;
+    e.base_work -= 0.5 * pass.dt * (next.force.x * v.x() + next.force.y * v.y() + next.force.z * v.z());
+    return;
+  }
+  // ½ v⁻·M v⁺: with this product, not with the square of the mean, the leapfrog keeps the energy of a linear system exactly.
+  const Triple<double> before = turn_back(pose_rotation(pose), triple(motion + 3));
+  const Triple<double> after = turn_back(pose_rotation(pose), next.momentum);
+  e.kinetic += 0.5 * body.inertial_mass * dot(triple(motion), next.velocity) +
+               0.5 * Vec3(before.x, before.y, before.z).dot(body.inverse_inertia * Vec3(after.x, after.y, after.z));
   e.gravitational -= body.mass * stepper.model->gravity.dot(Vec3(pose[0], pose[1], pose[2]));
 }
 

@@ -37,7 +37,7 @@ struct StageSettings {
 struct ContactSettings {
   int points_per_side = 3;        // 3, 4 or 5: Gauss-Lobatto points of quadrilateral patches
   double gap_tolerance = 1e-4;    // m: faces closer than this start in contact
-  double skin = 0.02;             // neighbour list, share of the median block size
+  double skin = 0.04;             // neighbour list, share of the median block size
   double reclip_slip = 0.05;      // share of the patch size
   double reclip_angle = 0.05;     // rad
   bool search = true;             // look for contacts that appear during the run

@@ -38,6 +38,7 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
   stepper_.state = &state_;
   stepper_.shortcut = settings.step.intact_shortcut;
   stepper_.threads = useful_threads(threads, model_);
+  stepper_.search_distance = search_distance(model_);
   stepper_.prepare();
 }
 
@@ -69,7 +70,6 @@ void Simulation::report_progress(bool force, const std::string& note) {
 void Simulation::restore(const RunPosition& position) {
   position_ = position;
   stepper_.prepare();
-  stepper_.search_distance = search_distance(model_);
   if (settings_.step.mass_scaling_step > 0.0)
     scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
   if (position.dt > 0.0) {
@@ -100,7 +100,7 @@ double Simulation::contact_bound() const {
 
 void Simulation::choose_step() {
   if (settings_.step.mass_scaling_step > 0.0) {
-    const MassScaling scaling = scale_mass(model_, state_, settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+    const MassScaling scaling = scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
     log(fmt::format("mass scaling: inertia of {} blocks raised, {:.3f} % of the mass added (weights unchanged)", scaling.bodies,
                     100 * scaling.share));
   }
@@ -164,7 +164,6 @@ void Simulation::begin_stage(const StageSettings& stage) {
     stepper_.damping = damping;
     log(damping.account);
   }
-  stepper_.search_distance = search_distance(model_);
   position_.stage_begun = 1.0;
 }
 
@@ -255,6 +254,10 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
 
 RunEnd Simulation::run(double until) {
   report_progress(true, "");
+  if (state_.counters[1] == 0 && model_.contact.search) {  // who is near whom before anything moves
+    update_contacts(model_, state_, stepper_.damping.branches);
+    stepper_.prepare();
+  }
   // A checkpoint before anything else: whatever happens in the first stage, there is something to resume from.
   if (position_.stage == 0 && position_.stage_begun == 0.0 && observers_.checkpoint) observers_.checkpoint(*this, false);
   while (position_.stage < std::int64_t(settings_.stages.size())) {

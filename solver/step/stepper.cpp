@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/base/parallel.h"
+#include "solver/contact/search.h"
 
 namespace voussoir {
 
@@ -106,6 +107,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every, const s
       PassReport all_patches;
       BodyReport all_bodies;
       for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies);
+      all_patches.reclip &= may_clip_at(step);
       const bool decide = all_patches.reclip || all_bodies.search || all_bodies.runaway >= 0 || found[0].stop || step == target;
       if (!decide) continue;
       if (thread == 0) {

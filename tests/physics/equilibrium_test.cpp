@@ -9,7 +9,9 @@ namespace {
 
 constexpr double g = 9.81;
 
-Assembly column() { return generated("column", {{"blocks", 10}, {"block_height", 0.4}, {"kn", 4e9}, {"ks", 1.6e9}}); }
+Assembly column() {
+  return generated("column", {{"blocks", 10}, {"block_height", 0.4}, {"kn", 4e9}, {"ks", 1.6e9}});
+}
 
 /// Joint j carries the N − j blocks above it: u_i = −Σ_{j ≤ i} (N − j) w/(kn A).
 double hand_solution(int i) {
@@ -39,7 +41,8 @@ TEST(Equilibrium, OfAColumnByRelaxation) {
   bench.begin();
   const Equilibrium e = relax(bench.stepper, 1e-6, 400000, nullptr, nullptr);
   EXPECT_TRUE(e.converged);
-  for (int i = 0; i < 10; ++i) EXPECT_NEAR(bench.displacement(i).z(), hand_solution(i), 1e-4 * std::abs(hand_solution(9))) << i;
+  for (int i = 0; i < 10; ++i)
+    EXPECT_NEAR(bench.displacement(i).z(), hand_solution(i), 1e-4 * std::abs(hand_solution(9))) << i;
   EXPECT_EQ(bench.state.time(), 0.0);
   EXPECT_EQ(bench.state.step(), 0);
 }
@@ -110,7 +113,8 @@ TEST(Equilibrium, AnArchStands) {
   double most = 0.0;
   for (std::size_t i = 0; i < simulation.model().bodies.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      most = std::max(most, std::abs(simulation.state().pose[pose_width * i + std::size_t(c)] - simulation.state().baseline[3 * i + std::size_t(c)]));
+      most = std::max(most, std::abs(simulation.state().pose[pose_width * i + std::size_t(c)] -
+                                     simulation.state().baseline[3 * i + std::size_t(c)]));
   EXPECT_LT(most, 1e-6);
 }
 
@@ -159,7 +163,8 @@ TEST(Equilibrium, OfASlidingBlockIsRefused) {
   Assembly assembly = stone();
   add_box(assembly, {-2, -1, -1}, {2, 1, 0}, true);
   add_box(assembly, {-0.5, -0.5, 0}, {0.5, 0.5, 0.5});
-  Bench bench(joined(std::move(assembly), 1e9, 4e8, dry_law(0.3)), undamped(g * Vec3(std::sin(0.5), 0, -std::cos(0.5))));
+  Bench bench(joined(std::move(assembly), 1e9, 4e8, dry_law(0.3)),
+              undamped(g * Vec3(std::sin(0.5), 0, -std::cos(0.5))));
   EXPECT_FALSE(bench.balance(1e-6).converged);
   for (std::uint8_t mode : bench.state.joint.mode) EXPECT_EQ(mode & mode_points, 0) << "nothing half-done is handed on";
   for (double energy : bench.state.joint.energy) EXPECT_EQ(energy, 0.0);

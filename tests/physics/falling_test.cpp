@@ -8,16 +8,16 @@ namespace {
 constexpr double side = 0.5;  // m
 
 struct Fall {
-  double overlap = 0.0;       // m, deepest so far
-  double gain = 0.0;          // of stored energy over the starting one, share of the largest kinetic energy
-  double imbalance = 0.0;     // of the ledger, same share
-  double lowest = 1e300;      // m, of the block's centroid
+  double overlap = 0.0;    // m, deepest so far
+  double gain = 0.0;       // of stored energy over the starting one, share of the largest kinetic energy
+  double imbalance = 0.0;  // of the ledger, same share
+  double lowest = 1e300;   // m, of the block's centroid
   bool finished = false;
 };
 
 /// A cube falls from `gap` m above a fixed slab, turned by `rotation`, without damping unless said.
-Fall drop(const Eigen::Quaterniond& rotation, double gap, double duration, DampingSettings::Kind damping = DampingSettings::Kind::none,
-          const Vec3& aside = Vec3::Zero()) {
+Fall drop(const Eigen::Quaterniond& rotation, double gap, double duration,
+          DampingSettings::Kind damping = DampingSettings::Kind::none, const Vec3& aside = Vec3::Zero()) {
   Polyhedron cube = make_box(Vec3::Constant(-side / 2), Vec3::Constant(side / 2));
   double low = 1e300;
   for (const Vec3& v : cube.vertices) low = std::min(low, (rotation * v).z());
@@ -59,12 +59,22 @@ const Eigen::Quaterniond flat = Eigen::Quaterniond::Identity();
 const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(0.6, Vec3::UnitY()));
 const Eigen::Quaterniond on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0.1, 0.05, -1));
 
-TEST(Falling, FlatOnAFace) { check(drop(flat, 0.1, 0.8), "flat"); }
-TEST(Falling, OnAnEdge) { check(drop(on_edge, 0.1, 0.8), "edge"); }
-TEST(Falling, OnACorner) { check(drop(on_corner, 0.1, 0.8), "corner"); }
+TEST(Falling, FlatOnAFace) {
+  check(drop(flat, 0.1, 0.8), "flat");
+}
+TEST(Falling, OnAnEdge) {
+  check(drop(on_edge, 0.1, 0.8), "edge");
+}
+TEST(Falling, OnACorner) {
+  check(drop(on_corner, 0.1, 0.8), "corner");
+}
 /// 4900 J on a corner: the spring of a sharp contact gives way by 17 mm, 3.4 %.
-TEST(Falling, FarAndFast) { check(drop(on_corner, 2.0, 1.2), "far", 0.05); }
-TEST(Falling, OverTheEdgeOfTheOther) { check(drop(on_edge, 0.1, 0.3, DampingSettings::Kind::none, {1.0, 0.3, 0}), "over the edge"); }
+TEST(Falling, FarAndFast) {
+  check(drop(on_corner, 2.0, 1.2), "far", 0.05);
+}
+TEST(Falling, OverTheEdgeOfTheOther) {
+  check(drop(on_edge, 0.1, 0.3, DampingSettings::Kind::none, {1.0, 0.3, 0}), "over the edge");
+}
 
 TEST(Falling, AnyWayUp) {
   std::mt19937 random(41);
@@ -188,7 +198,8 @@ TEST(Standing, ATowerOfSevenBoxesStands) {
     EXPECT_EQ(simulation.state().contacts.size(), 0u);
     for (std::size_t i = 0; i < simulation.model().bodies.size(); ++i)
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(simulation.state().pose[pose_width * i + std::size_t(c)], simulation.state().baseline[3 * i + std::size_t(c)], 1e-9);
+        EXPECT_NEAR(simulation.state().pose[pose_width * i + std::size_t(c)],
+                    simulation.state().baseline[3 * i + std::size_t(c)], 1e-9);
   }
 }
 

@@ -61,8 +61,8 @@ SolverSettings table_settings() {
   return settings;
 }
 
-/// Base at a = 0.5 g for t1 = 0.3 s, block at μ g = 0.2 g: they part at (a − μ g), meet when μ g t = a t1, t = 0.75 s; slip
-/// = ½ a t1² (a/(μ g) − 1) = 0.33097 m (Newmark 1965).
+/// Base at a = 0.5 g for t1 = 0.3 s, block at μ g = 0.2 g: they part at (a − μ g), meet when μ g t = a t1, t = 0.75 s;
+/// slip = ½ a t1² (a/(μ g) − 1) = 0.33097 m (Newmark 1965).
 TEST(Sliding, UnderARectangularPulse) {
   for (auto kind : {DampingSettings::Kind::maxwell, DampingSettings::Kind::none}) {
     SolverSettings settings = table_settings();
@@ -82,8 +82,8 @@ TEST(Sliding, UnderARectangularPulse) {
   }
 }
 
-/// Validation ladder B: one full sine 0.4 g, 2 Hz, μ = 0.2: largest 0.031442 m, residual 0.001574 m. The residual is the
-/// difference of two slips of 3 cm: 1 % of those. It tends to the rigid value as the joint is made stiffer.
+/// Validation ladder B: one full sine 0.4 g, 2 Hz, μ = 0.2: largest 0.031442 m, residual 0.001574 m. The residual is
+/// the difference of two slips of 3 cm: 1 % of those. It tends to the rigid value as the joint is made stiffer.
 TEST(Sliding, UnderOneFullSine) {
   SolverSettings settings = table_settings();
   settings.damping.kind = DampingSettings::Kind::none;
@@ -105,7 +105,9 @@ TEST(Sliding, UnderOneFullSine) {
   EXPECT_LT(before, 0.01 * 0.031442);
 }
 
-Vec3 tilted(double angle) { return g * Vec3(std::sin(angle), 0, -std::cos(angle)); }
+Vec3 tilted(double angle) {
+  return g * Vec3(std::sin(angle), 0, -std::cos(angle));
+}
 
 /// a = g (sin 30° − μ cos 30°) = 1.5062 m/s², from three displacements a quarter of a second apart.
 TEST(Incline, BlockAcceleratesAsCoulombSays) {
@@ -126,7 +128,8 @@ TEST(Incline, BlockAcceleratesAsCoulombSays) {
   EXPECT_LT(std::abs(bench.displacement(1).y()), 1e-3 * u[2]);
 }
 
-/// A block on a slope at half its friction angle stays for a minute: less than 1e-9 m, where one popular code creeps at 1 mm/s.
+/// A block on a slope at half its friction angle stays for a minute: less than 1e-9 m, where one popular code creeps at
+/// 1 mm/s.
 TEST(Incline, BlockAtHalfTheFrictionAngleStaysPut) {
   for (auto kind : {DampingSettings::Kind::maxwell, DampingSettings::Kind::none}) {
     SolverSettings settings = table_settings();

@@ -1,5 +1,5 @@
-// The elastic stiffness of one joint on any convex polygon: A kn, A ks, kn I about both axes, ks J (elementary beam theory),
-// by the intact path and point by point.
+// The elastic stiffness of one joint on any convex polygon: A kn, A ks, kn I about both axes, ks J (elementary beam
+// theory), by the intact path and point by point.
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -19,7 +19,8 @@ Assembly two_prisms(const Polygon& polygon, const Eigen::Quaterniond& rotation, 
   if (mass_properties(assembly.blocks[0].cells[0]).volume < 0.0) {
     assembly.blocks[0].cells = {make_prism(placed, -0.7 * normal)};
   }
-  if (mass_properties(assembly.blocks[1].cells[0]).volume < 0.0) assembly.blocks[1].cells = {make_prism(reversed, 0.6 * normal)};
+  if (mass_properties(assembly.blocks[1].cells[0]).volume < 0.0)
+    assembly.blocks[1].cells = {make_prism(reversed, 0.6 * normal)};
   return joined(std::move(assembly), kn, ks, elastic_law());
 }
 
@@ -47,12 +48,13 @@ struct Loads {
   Vec3 force, moment;  // on the second block, about the joint's centroid
 };
 
-/// What the joint does to the second block when the blocks are moved apart by δ and turned apart by an angle about an axis
-/// through the joint's centroid, half each, so that the joint itself stays where it is.
+/// What the joint does to the second block when the blocks are moved apart by δ and turned apart by an angle about an
+/// axis through the joint's centroid, half each, so that the joint itself stays where it is.
 Loads respond(Bench& bench, const Vec3& centroid, const Vec3& delta, const Vec3& axis, double angle) {
   for (std::int64_t block : {0, 1}) {
     const double half = block == 0 ? -0.5 : 0.5;
-    const Vec3 v = std::sin(0.5 * half * angle) * axis, arm = centroid - bench.assembly.blocks[std::size_t(block)].centroid;
+    const Vec3 v = std::sin(0.5 * half * angle) * axis,
+               arm = centroid - bench.assembly.blocks[std::size_t(block)].centroid;
     const double w = std::cos(0.5 * half * angle);
     // (R − 1) arm = 2 w v × arm + 2 v × (v × arm), without cancellation.
     const Vec3 moved = 2 * w * v.cross(arm) + 2 * v.cross(v.cross(arm));
@@ -75,8 +77,8 @@ Vec3 expected_moment(const Section& s, const Vec3& n, const Vec3& turn) {
   return -kn * cross * s.second * cross.transpose() * turn - ks * s.second.trace() * n * n.dot(turn);
 }
 
-/// Axial, shear, bending about both principal axes, torsion. The stored energy of a turn φ is ½ k I (2 sin(φ/2))², so that the
-/// moment is k I sin φ at any angle: a finite angle keeps rounding out of the comparison.
+/// Axial, shear, bending about both principal axes, torsion. The stored energy of a turn φ is ½ k I (2 sin(φ/2))², so
+/// that the moment is k I sin φ at any angle: a finite angle keeps rounding out of the comparison.
 void check_stiffness(const Polygon& polygon, std::mt19937& random, bool shortcut) {
   SolverSettings settings = undamped();
   settings.step.intact_shortcut = shortcut;
@@ -129,9 +131,10 @@ TEST(JointStiffness, OfRandomPolygons) {
     }
 }
 
-/// The wrench is the gradient of the stored energy at finite rotations, so that springs neither make nor destroy energy:
-/// exactly when kn = ks, else up to (kn − ks) times the third order of turn and displacement, since the mean of the two spins
-/// is not quite the spin of the half-way rotation. Turns and moves are below those at which a patch is clipped anew.
+/// The wrench is the gradient of the stored energy at finite rotations, so that springs neither make nor destroy
+/// energy: exactly when kn = ks, else up to (kn − ks) times the third order of turn and displacement, since the mean of
+/// the two spins is not quite the spin of the half-way rotation. Turns and moves are below those at which a patch is
+/// clipped anew.
 void check_gradient(double shear, double tolerance) {
   std::mt19937 random(9);
   for (int repeat = 0; repeat < 10; ++repeat) {
@@ -141,7 +144,8 @@ void check_gradient(double shear, double tolerance) {
     Bench bench(std::move(assembly));
     const Eigen::Quaterniond common = random_rotation(random);
     bench.turn_about(0, place, common);
-    bench.turn_about(1, place, Eigen::Quaterniond(Eigen::AngleAxisd(0.04, random_vector(1.0, random).normalized())) * common);
+    bench.turn_about(1, place,
+                     Eigen::Quaterniond(Eigen::AngleAxisd(0.04, random_vector(1.0, random).normalized())) * common);
     const Vec3 move = random_vector(0.02, random);
     for (int c = 0; c < 3; ++c) bench.pose(1)[c] += move[c];
     bench.stepper.patches_only();

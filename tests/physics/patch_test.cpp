@@ -11,7 +11,8 @@ Polyhedron part_of_box(double low, double high, double a, double b, double c, do
   return cut(make_box({0, 0, low}, {1, 1, high}), plane);
 }
 
-/// A fixed slab under two courses that are cut along lines which cross: patches are triangles, quadrilaterals, pentagons.
+/// A fixed slab under two courses that are cut along lines which cross: patches are triangles, quadrilaterals,
+/// pentagons.
 Assembly crossing_courses() {
   Assembly assembly = stone(2000.0);
   add_box(assembly, {0, 0, -0.5}, {1, 1, 0}, true);

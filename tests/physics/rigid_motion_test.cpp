@@ -24,7 +24,8 @@ TEST(RigidRotation, OfABondedStackThrough90DegreesIsWithoutStress) {
     double worst = 0.0;
     for (int degrees = 0; degrees <= 90; ++degrees) {
       const Eigen::Quaterniond q(Eigen::AngleAxisd(radians(degrees), axis));
-      for (std::int64_t block = 0; block < std::int64_t(bench.assembly.blocks.size()); ++block) bench.turn_about(block, centre, q);
+      for (std::int64_t block = 0; block < std::int64_t(bench.assembly.blocks.size()); ++block)
+        bench.turn_about(block, centre, q);
       bench.stepper.patches_only();
       for (std::size_t i = 0; i < bench.model.joints.size(); ++i) {
         const double* w = &bench.stepper.wrenches[wrench_width * i];
@@ -49,8 +50,8 @@ struct Momenta {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-/// P = Σ m v, and L about the origin = Σ x × m v + L; v and L of the last half step, x of the step after it: the pairing that
-/// leapfrog keeps.
+/// P = Σ m v, and L about the origin = Σ x × m v + L; v and L of the last half step, x of the step after it: the
+/// pairing that leapfrog keeps.
 Momenta momenta(Bench& bench) {
   Momenta sum;
   for (std::int64_t block = 0; block < 2; ++block) {
@@ -66,7 +67,8 @@ void push_at_random(Bench& bench, double speed) {
   std::mt19937 random(17);
   for (std::int64_t block = 0; block < 2; ++block) {
     const Vec3 spin = Vec3(0.3, -0.2, 0.4) + random_vector(speed, random);
-    const Vec3 velocity = Vec3(0.1, 0.2, -0.3) + Vec3(0.3, -0.2, 0.4).cross(bench.assembly.blocks[std::size_t(block)].centroid) +
+    const Vec3 velocity = Vec3(0.1, 0.2, -0.3) +
+                          Vec3(0.3, -0.2, 0.4).cross(bench.assembly.blocks[std::size_t(block)].centroid) +
                           random_vector(speed, random);
     bench.push(block, velocity, spin);
   }
@@ -105,8 +107,8 @@ TEST(FreeBodies, KeepEnergy) {
   EXPECT_LT(worst, 1e-3);
 }
 
-/// The ledger must hold at the step that runs really use, 0.8 of the critical one, whatever the frequencies in the motion:
-/// leapfrog keeps ½ v⁻·M v⁺ + ½ u·K u of a linear system exactly.
+/// The ledger must hold at the step that runs really use, 0.8 of the critical one, whatever the frequencies in the
+/// motion: leapfrog keeps ½ v⁻·M v⁺ + ½ u·K u of a linear system exactly.
 TEST(FreeBodies, KeepEnergyAtTheDefaultStep) {
   Bench bench(two_free_blocks());
   bench.begin();

@@ -18,7 +18,9 @@ std::unique_ptr<Bench> rocking_block(DampingSettings::Kind damping) {
   return bench;
 }
 
-double tilt(Bench& bench) { return 2 * std::asin(bench.rotation(1).y()); }
+double tilt(Bench& bench) {
+  return 2 * std::asin(bench.rotation(1).y());
+}
 
 /// Quarter cycle by quadrature of ½ θ'² = p² (cos(α − θ0) − cos(α − θ)): from rest at θ0 to the impact at θ = 0.
 double quarter_period(double start) {
@@ -36,7 +38,8 @@ double quarter_period(double start) {
 
 TEST(Rocking, QuadratureAgreesWithThePublishedPeriods) {
   const double alpha = std::atan(half_width / half_height);
-  const std::map<double, double> published = {{0.1, 0.7695}, {0.3, 1.4733}, {0.5, 2.1641}, {0.7, 3.0768}, {0.9, 4.9122}};
+  const std::map<double, double> published = {
+      {0.1, 0.7695}, {0.3, 1.4733}, {0.5, 2.1641}, {0.7, 3.0768}, {0.9, 4.9122}};
   for (const auto& [share, period] : published) EXPECT_NEAR(4 * quarter_period(share * alpha), period, 2e-4 * period);
 }
 
@@ -66,8 +69,9 @@ TEST(Rocking, QuarterPeriod) {
   }
 }
 
-/// An elastic joint gives the impact back as bouncing and jitter: the block goes over to its other edge, never higher than it
-/// started. (Housner's inelastic impact would leave 0.9118 of the spin; four quarters are the cycle without loss.)
+/// An elastic joint gives the impact back as bouncing and jitter: the block goes over to its other edge, never higher
+/// than it started. (Housner's inelastic impact would leave 0.9118 of the spin; four quarters are the cycle without
+/// loss.)
 TEST(Rocking, GoesOverToItsOtherEdge) {
   auto bench = rocking_block(DampingSettings::Kind::none);
   const double start = 0.5 * std::atan(half_width / half_height);
@@ -95,7 +99,8 @@ TEST(Rocking, UpliftAccelerationOfTheBase) {
   bench->stepper.motion = &ramp;
   double lifted = 0.0;
   ASSERT_TRUE(bench->run(std::int64_t(6.0 / bench->stepper.dt), 1, [&](const BodyPass&) {
-    if (lifted == 0.0 && std::abs(tilt(*bench)) > 1e-4) lifted = base_acceleration(&ramp, bench->state.time()).x() / 9.81;
+    if (lifted == 0.0 && std::abs(tilt(*bench)) > 1e-4)
+      lifted = base_acceleration(&ramp, bench->state.time()).x() / 9.81;
   }));
   EXPECT_NEAR(lifted, 0.25, 0.01 * 0.25);
 }

@@ -1,5 +1,5 @@
-// The six springs of an intact patch are exactly its points: with and without the shortcut the same wrench, over a history
-// of random motions below and across the limit.
+// The six springs of an intact patch are exactly its points: with and without the shortcut the same wrench, over a
+// history of random motions below and across the limit.
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -45,7 +45,8 @@ struct Outcome {
 };
 
 /// Moves both blocks of both benches alike for many steps; `reach` in m is how far.
-Outcome compare(int corners, const JointLaw& law, DampingSettings::Kind damping, double press, double reach, unsigned seed) {
+Outcome compare(int corners, const JointLaw& law, DampingSettings::Kind damping, double press, double reach,
+                unsigned seed) {
   std::mt19937 random(seed), again(seed);
   SolverSettings on = undamped(), off = undamped();
   on.damping.kind = off.damping.kind = damping;
@@ -59,7 +60,8 @@ Outcome compare(int corners, const JointLaw& law, DampingSettings::Kind damping,
     const double t = 0.02 * i;
     const Vec3 move = reach * Vec3(path.value(0, t), path.value(1, t), path.value(2, t)) - Vec3(0, 0, press);
     const Vec3 turn = reach * Vec3(path.value(3, t), path.value(4, t), path.value(5, t));
-    const Eigen::Quaterniond q(std::sqrt(1 - 0.25 * turn.squaredNorm()), 0.5 * turn.x(), 0.5 * turn.y(), 0.5 * turn.z());
+    const Eigen::Quaterniond q(std::sqrt(1 - 0.25 * turn.squaredNorm()), 0.5 * turn.x(), 0.5 * turn.y(),
+                               0.5 * turn.z());
     for (Bench* bench : {&fast, &slow}) {
       bench->turn_about(0, Vec3::Zero(), whole);
       const Vec3 arm = bench->assembly.blocks[1].centroid;
@@ -71,7 +73,8 @@ Outcome compare(int corners, const JointLaw& law, DampingSettings::Kind damping,
     outcome.points += report.points;
     outcome.intact_after_points |= report.intact > 0 && outcome.points > 0;
     for (int c = 0; c < 6; ++c) {
-      outcome.worst = std::max(outcome.worst, std::abs(fast.stepper.wrenches[std::size_t(c)] - slow.stepper.wrenches[std::size_t(c)]));
+      outcome.worst = std::max(outcome.worst,
+                               std::abs(fast.stepper.wrenches[std::size_t(c)] - slow.stepper.wrenches[std::size_t(c)]));
       outcome.largest = std::max(outcome.largest, std::abs(slow.stepper.wrenches[std::size_t(c)]));
     }
   }
@@ -130,7 +133,8 @@ TEST(Shortcut, SameMotionOfAnElasticWall) {
     ASSERT_TRUE(bench.run(3000));
     top[shortcut] = bench.displacement(bench.assembly.groups.at("top")[0]) - bench.state.base_displacement();
     damping_loss[shortcut] = 0.0;
-    for (std::size_t i = 2; i < bench.state.joint.energy.size(); i += 3) damping_loss[shortcut] += bench.state.joint.energy[i];
+    for (std::size_t i = 2; i < bench.state.joint.energy.size(); i += 3)
+      damping_loss[shortcut] += bench.state.joint.energy[i];
   }
   EXPECT_LT((top[0] - top[1]).norm(), 1e-9 * top[0].norm());
   EXPECT_NEAR(damping_loss[0], damping_loss[1], 1e-9 * damping_loss[0]);

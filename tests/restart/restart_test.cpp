@@ -1,6 +1,7 @@
 // A run stopped and taken up again, with another number of threads, ends with the same bits as one that never stopped.
-#include <filesystem>
 #include <unistd.h>
+
+#include <filesystem>
 
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/motion/synthesis.h"
@@ -46,7 +47,8 @@ void copy_state(State& from, State& to) {
   const auto target = to.arrays();
   ASSERT_EQ(source.size(), target.size());
   for (std::size_t i = 0; i < source.size(); ++i)
-    std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); }, target[i].data);
+    std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); },
+               target[i].data);
   to.unpack_contacts();
 }
 
@@ -130,7 +132,8 @@ TEST(Restart, FromEveryCheckpointOfARun) {
   ASSERT_GE(kept.size(), 8u);  // five within the stages, four at their ends
   for (const Kept& k : kept) {
     EXPECT_EQ(k.simulation->run(), RunEnd::finished) << k.time;
-    EXPECT_EQ(hash_arrays(k.simulation->state().arrays()), hash) << "from t = " << k.time << ", stage " << k.simulation->position().stage;
+    EXPECT_EQ(hash_arrays(k.simulation->state().arrays()), hash)
+        << "from t = " << k.time << ", stage " << k.simulation->position().stage;
   }
 }
 
@@ -167,7 +170,11 @@ TEST(Restart, FromACheckpointFile) {
   header.time = first.state().time();
   header.step = first.state().step();
   header.stage = p.stage;
-  header.numbers = {{"stage_start", p.stage_start}, {"dt", p.dt}, {"highest", p.highest}, {"stiffest", p.stiffest}, {"stage_begun", p.stage_begun}};
+  header.numbers = {{"stage_start", p.stage_start},
+                    {"dt", p.dt},
+                    {"highest", p.highest},
+                    {"stiffest", p.stiffest},
+                    {"stage_begun", p.stage_begun}};
   const std::string path = (folder / "checkpoint.h5").string();
   const std::uint64_t written = write_checkpoint(path, header, first.state().arrays());
   EXPECT_EQ(written, hash_arrays(first.state().arrays()));

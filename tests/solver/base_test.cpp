@@ -1,8 +1,9 @@
 // Hashes, shares of a loop, barrier and team; the base's acceleration.
+#include <unistd.h>
+
 #include <array>
 #include <cstdlib>
 #include <thread>
-#include <unistd.h>
 
 #include "solver/base/arrays.h"
 #include "solver/base/parallel.h"
@@ -80,8 +81,8 @@ TEST(Team, StaysTogetherAtTheBarrier) {
   count_together(8, 500);  // more than the machine has, on most
 }
 
-/// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel already) must
-/// not leave the team waiting for threads that never came.
+/// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel
+/// already) must not leave the team waiting for threads that never came.
 TEST(Team, DoesNotHangWhenFewerThreadsAreGranted) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // the child starts afresh and reads the variable
   setenv("OMP_THREAD_LIMIT", "1", 1);
@@ -108,8 +109,8 @@ TEST(BaseAcceleration, IsLinearBetweenSamplesAndZeroOutside) {
   EXPECT_EQ(base_acceleration(nullptr, 0.01), Vec3(0, 0, 0));
 }
 
-/// The base's velocity and displacement are the leapfrog sums of the acceleration: v = Σ dt a, and a constant acceleration
-/// from rest gives a dt² n (n + 1)/2.
+/// The base's velocity and displacement are the leapfrog sums of the acceleration: v = Σ dt a, and a constant
+/// acceleration from rest gives a dt² n (n + 1)/2.
 TEST(BaseMotion, IsIntegratedLikeTheBlocks) {
   Assembly assembly = stone();
   add_box(assembly, {0, 0, -1}, {1, 1, 0}, true);

@@ -27,7 +27,8 @@ TEST(CriticalStep, OfOneBlockAlongTheNormal) {
 
 /// Sway and rocking of a cube together: K = [ks A, ks A h/2; ks A h/2, ks A h²/4 + kn I], M = diag(m, m/6).
 TEST(CriticalStep, OfOneBlockThatRocks) {
-  const double kn = 1e9, ks = 1e9, m = 2000.0, a = ks / m, d = (ks / 4 + kn / 12) / (m / 6), c2 = (ks / 2) * (ks / 2) / (m * m / 6);
+  const double kn = 1e9, ks = 1e9, m = 2000.0, a = ks / m, d = (ks / 4 + kn / 12) / (m / 6),
+               c2 = (ks / 2) * (ks / 2) / (m * m / 6);
   const double omega = std::sqrt(0.5 * (a + d) + std::sqrt(0.25 * (a - d) * (a - d) + c2));
   const Bench bench(block_on_joint(kn, ks));
   EXPECT_NEAR(critical_step(bench.model, bench.state).highest, omega, 2e-3 * omega);

@@ -59,7 +59,8 @@ TEST(StepFactor, IsOneWithoutDamping) {
   EXPECT_EQ(damping_step_factor(settings, 1e4), 1.0);
 }
 
-/// A force that slows a body down is raised by the coefficient: at worst the assembly is 1 + coefficient times as stiff.
+/// A force that slows a body down is raised by the coefficient: at worst the assembly is 1 + coefficient times as
+/// stiff.
 TEST(StepFactor, OfLocalDamping) {
   DampingSettings settings;
   settings.kind = DampingSettings::Kind::local;

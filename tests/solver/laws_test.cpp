@@ -97,11 +97,12 @@ TEST(BrittleLaw, DilationPressesAConfinedPoint) {
   EXPECT_NEAR(r.n, -1e-4 - point.memory.n, 1e-15);
   EXPECT_NEAR(ks * r.s, -0.6 * kn * r.n, 1e-6 * ks * r.s);
   EXPECT_NEAR(point.memory.s + r.s, 1e-3, 1e-12);
-  // Energy: work of the driving displacement (shear only, un fixed) = stored − stored at the start + friction. The driving
-  // shear traction is τ = 0.6 (σ0 + kn tan ψ slip) once it slides.
+  // Energy: work of the driving displacement (shear only, un fixed) = stored − stored at the start + friction. The
+  // driving shear traction is τ = 0.6 (σ0 + kn tan ψ slip) once it slides.
   const double tan_dilation = std::tan(radians(10.0)), slip = point.memory.s, start = 0.6 * kn * 1e-4;
   const double elastic_slip_ratio = 0.6 * kn * tan_dilation / ks;  // d(us_el)/d(slip)
-  const double work = 0.5 * start * start / ks + (1 + elastic_slip_ratio) * (start * slip + 0.3 * kn * tan_dilation * slip * slip);
+  const double work =
+      0.5 * start * start / ks + (1 + elastic_slip_ratio) * (start * slip + 0.3 * kn * tan_dilation * slip * slip);
   const double stored = 0.5 * kn * r.n * r.n + 0.5 * ks * r.s * r.s - 0.5 * kn * 1e-8;
   EXPECT_NEAR(stored + point.friction, work, 2e-3 * work);
 }

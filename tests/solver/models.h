@@ -23,7 +23,9 @@ namespace voussoir::test {
 constexpr double pi = std::numbers::pi;
 constexpr double standard_gravity = 9.80665;  // m/s2
 
-inline double radians(double degrees) { return degrees * pi / 180.0; }
+inline double radians(double degrees) {
+  return degrees * pi / 180.0;
+}
 
 /// A spring without limits.
 inline JointLaw elastic_law() {
@@ -188,7 +190,8 @@ class Bench {
 
   /// Force and moment about a point that patch `index` puts on the given block, after a patch pass.
   std::pair<Vec3, Vec3> wrench_on(std::int64_t block, std::size_t index, const Vec3& about) const {
-    const Patch& patch = index < model.joints.size() ? model.joints[index] : state.contacts[index - model.joints.size()];
+    const Patch& patch =
+        index < model.joints.size() ? model.joints[index] : state.contacts[index - model.joints.size()];
     const double* w = &stepper.wrenches[wrench_width * index];
     const double sign = patch.a == body(block) ? 1.0 : -1.0;
     const Vec3 force = sign * Vec3(w[0], w[1], w[2]), moment = sign * Vec3(w[3], w[4], w[5]);

@@ -108,7 +108,9 @@ TEST(Quadrature, IsExactOnRandomConvexPolygonsInAnyPlane) {
     }
 }
 
-TEST(Quadrature, RefusesOtherNumbersOfPoints) { EXPECT_THROW(patch_shape(square, Vec3::UnitZ(), 6), InputError); }
+TEST(Quadrature, RefusesOtherNumbersOfPoints) {
+  EXPECT_THROW(patch_shape(square, Vec3::UnitZ(), 6), InputError);
+}
 
 }  // namespace
 }  // namespace voussoir::test

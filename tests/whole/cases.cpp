@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 namespace voussoir::test {
@@ -43,6 +44,16 @@ std::string exchanged(std::string text, const std::string& piece, const std::str
   const std::size_t at = text.find(piece);
   if (at == std::string::npos) throw std::logic_error("the text has no '" + piece + "'");
   return text.replace(at, piece.size(), other);
+}
+
+std::string cube(const std::string& name, double x, double y, double z, int first) {
+  std::string text = "o " + name + "\n";
+  for (const auto& [dx, dy, dz] :
+       {std::array{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}})
+    text += fmt::format("v {} {} {}\n", x + dx, y + dy, z + dz);
+  for (const auto& f : {std::array{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}})
+    text += fmt::format("f {} {} {} {}\n", f[0] + first - 1, f[1] + first - 1, f[2] + first - 1, f[3] + first - 1);
+  return text;
 }
 
 std::string write_wall(const Folder& folder, const Wall& wall, const std::string& name) {

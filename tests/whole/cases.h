@@ -22,6 +22,9 @@ std::string case_text(const Wall& wall);
 /// The same text with one piece exchanged; throws when the piece is not there, so that no test tests nothing.
 std::string exchanged(std::string text, const std::string& piece, const std::string& other);
 
+/// A unit cube of an .obj file as object `name`, its lowest corner at (x, y, z) m; its corners count from `first`.
+std::string cube(const std::string& name, double x, double y, double z, int first);
+
 /// Writes the wall's case as NAME.toml into the folder and returns that name.
 std::string write_wall(const Folder& folder, const Wall& wall = {}, const std::string& name = "wall.toml");
 

@@ -36,6 +36,13 @@ TEST(CommandLine, VersionIsSaid) {
   EXPECT_TRUE(outcome.out.starts_with("voussoir 0.")) << outcome.out;
 }
 
+TEST(CommandLine, WorksWhateverTheThreadsAreToldToDoWhileTheyWait) {
+  for (const char* policy : {"", "active", "passive"}) {
+    const Outcome outcome = voussoir({"--version"}, {.environment = {{"OMP_WAIT_POLICY", policy}}});
+    EXPECT_EQ(outcome.status, 0) << policy << outcome.err;
+  }
+}
+
 TEST(CommandLine, NothingAskedIsAnErrorWithHelp) {
   const Outcome outcome = voussoir({});
   EXPECT_EQ(outcome.status, 2);

@@ -14,10 +14,6 @@ bool has(const std::string& text, const std::string& piece) {
   return text.find(piece) != std::string::npos;
 }
 
-constexpr const char* cube =
-    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-
 TEST(EndToEnd, GenerateWritesAnAssemblyAndItsTable) {
   Folder folder;
   write_wall(folder);
@@ -123,17 +119,7 @@ TEST(EndToEnd, InfoKnowsEveryKindOfFile) {
 
 TEST(EndToEnd, ImportedStonesRun) {
   Folder folder;
-  std::string above = cube;  // a second cube on the first
-  for (int z : {1, 0})
-    for (const char* corner : {"0 0", "1 0", "1 1", "0 1"})
-      above = exchanged(above, std::string("v ") + corner + (z ? " 1\n" : " 0\n"),
-                        std::string("v ") + corner + (z ? " two\n" : " 1\n"));
-  while (has(above, "two")) above = exchanged(above, "two", "2");
-  for (char c = '8'; c >= '1'; --c) {
-    for (std::size_t at = above.find('f'); at < above.size(); ++at)
-      if (above[at] == c) above.replace(at, 1, std::to_string(c - '0' + 8)), ++at;
-  }
-  folder.write("stones.obj", "o lower\n" + std::string(cube) + "o upper\n" + above);
+  folder.write("stones.obj", cube("lower", 0, 0, 0, 1) + cube("upper", 0, 0, 1, 9));
   const Surroundings there{.folder = folder.path()};
   const Outcome imported = voussoir({"import", "stones.obj", "-o", "stones.h5", "--friction", "35"}, there);
   ASSERT_EQ(imported.status, 0) << imported.err;
@@ -148,7 +134,9 @@ duration = 0.2
 )");
   run_whole(folder, "stones.toml", "run");
   // Two cubes on one another stay: 0.2 s of rest move nothing by more than the elastic rest's rounding.
-  EXPECT_LT(summary(folder / "run").at("damage").at("base").value("largest_slip", 1.0), 1e-6);
+  const nlohmann::json damage = summary(folder / "run").at("damage");
+  ASSERT_FALSE(damage.empty());
+  for (const auto& [component, values] : damage.items()) EXPECT_LT(values.at("largest_slip").get<double>(), 1e-6);
 }
 
 TEST(EndToEnd, AnExistingRunIsNeverOverwrittenUnasked) {
@@ -202,7 +190,7 @@ TEST(EndToEnd, RecordsAreCopiedIntoTheRunDirectory) {
 
 TEST(EndToEnd, HistoryIsReadableWhileTheRunGoesOn) {
   Folder folder;
-  write_wall(folder, {.shaken = 4.0, .checkpoints = 0.05, .fields = 0.05});
+  write_wall(folder, {.shaken = 1.5, .checkpoints = 0.1, .fields = 0.05});
   Program program({"run", "wall.toml", "-o", "run", "--no-pictures", "-q"}, {.folder = folder.path()});
   ASSERT_TRUE(wait_until(program, [&] { return exists(folder / "run/history.h5"); }));
   std::size_t rows = 0, reads = 0;
@@ -216,7 +204,7 @@ TEST(EndToEnd, HistoryIsReadableWhileTheRunGoesOn) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(reads, 10u);
   const History history = History::load(folder / "run/history.h5");
-  EXPECT_GT(history.rows(), 700u);
+  EXPECT_GT(history.rows(), 300u);
   EXPECT_TRUE(std::is_sorted(history.time().begin(), history.time().end()));
 }
 

@@ -31,14 +31,12 @@ struct WithAssembly : Folder {
   void expect_refused(const std::vector<std::string>& pieces) const {
     std::vector<std::string> all = pieces;
     all.push_back("wall.h5");
-    const std::vector<std::vector<std::string>> commands = {
-        {"info", "wall.h5"}, {"run", "read.toml", "-o", "run"}, {"render", "wall.h5", "-o", "x.png"}};
+    const std::vector<std::vector<std::string>> commands = {{"info", "wall.h5"}, {"run", "read.toml", "-o", "run"}};
     for (const auto& words : commands) {
       SCOPED_TRACE(words[0]);
       expect_error(voussoir(words, {.folder = path()}), 2, all);
     }
     EXPECT_FALSE(exists(*this / "run"));
-    EXPECT_FALSE(exists(*this / "x.png"));
   }
 };
 
@@ -54,6 +52,8 @@ TEST(FileErrors, AssembliesThatAreNoHdf5) {
   for (const std::string& bytes : {std::string(), std::string("stones"), random_bytes(5000, 1)}) {
     set_bytes(folder / "wall.h5", bytes);
     folder.expect_refused({"not an HDF5 file"});
+    expect_error(voussoir({"render", "wall.h5", "-o", "x.png"}, {.folder = folder.path()}), 2, {"wall.h5"});
+    EXPECT_FALSE(exists(folder / "x.png"));
   }
   std::filesystem::remove(folder / "wall.h5");
   folder.expect_refused({"there is no"});
@@ -82,8 +82,8 @@ TEST(FileErrors, ForeignHdf5) {
 TEST(FileErrors, AssembliesCutOff) {
   WithAssembly folder;
   const std::string whole = bytes_of(folder / "wall.h5");
-  for (std::size_t part = 0; part < 24; ++part) {
-    set_bytes(folder / "wall.h5", whole.substr(0, whole.size() * part / 24));
+  for (std::size_t part = 0; part < 16; ++part) {
+    set_bytes(folder / "wall.h5", whole.substr(0, whole.size() * part / 16));
     SCOPED_TRACE(part);
     expect_error(voussoir({"info", "wall.h5"}, {.folder = folder.path()}), 2, {"wall.h5"});
   }
@@ -99,7 +99,7 @@ TEST(FileErrors, BytesChangedAnywhere) {
   for (const std::string& file : files) {
     const std::string whole = bytes_of(folder / file);
     const std::string said = voussoir({"info", file}, {.folder = folder.path()}).out;
-    for (int i = 0; i < 25; ++i) {
+    for (int i = 0; i < 15; ++i) {
       std::string bytes = whole;
       const std::size_t at = random() % bytes.size();
       bytes[at] = char(bytes[at] ^ (1 << random() % 8));

@@ -1,33 +1,15 @@
 // Stones drawn elsewhere that cannot be used.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "geometry/polyhedron.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
 namespace {
 
-/// An .obj object: a box from `low` to `high`, its corners counted from `first`.
-std::string box(const std::string& name, const Vec3& low, const Vec3& high, int first) {
-  std::string text = "o " + name + "\n";
-  for (int k = 0; k < 8; ++k) {
-    const auto pick = [&](int axis, bool up) { return up ? high[axis] : low[axis]; };
-    text += fmt::format("v {} {} {}\n", pick(0, (k & 3) == 1 || (k & 3) == 2), pick(1, k & 2), pick(2, k & 4));
-  }
-  for (const auto& face : {"4 3 2 1", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"}) {
-    text += "f";
-    for (const char* c = face; *c; ++c)
-      if (*c != ' ') text += fmt::format(" {}", *c - '0' + first - 1);
-    text += "\n";
-  }
-  return text;
-}
-
-const std::string lower = box("lower", {0, 0, 0}, {1, 1, 1}, 1);
+const std::string lower = cube("lower", 0, 0, 0, 1);
 
 Outcome import(const Folder& folder, const std::string& file, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"import", file, "-o", "out.h5"};
@@ -46,7 +28,7 @@ void expect_refused(const std::string& text, std::vector<std::string> pieces, co
 
 TEST(ImportErrors, TheGoodOnesAreTaken) {
   Folder folder;
-  folder.write("stones.obj", lower + box("upper", {0, 0, 1}, {1, 1, 2}, 9));
+  folder.write("stones.obj", lower + cube("upper", 0, 0, 1, 9));
   const Outcome outcome = import(folder, "stones.obj");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("2 blocks, 1 joints"), std::string::npos) << outcome.out;
@@ -54,14 +36,23 @@ TEST(ImportErrors, TheGoodOnesAreTaken) {
 }
 
 TEST(ImportErrors, OverlapsAreNamed) {
-  expect_refused(lower + box("upper", {0.5, 0.5, 0.5}, {2, 2, 2}, 9), {"overlap", "'lower'", "'upper'", "0.5 m"});
-  expect_refused(lower + box("twin", {0, 0, 0}, {1, 1, 1}, 9), {"overlap", "'lower'", "'twin'"});
+  expect_refused(lower + cube("upper", 0.5, 0.5, 0.5, 9), {"overlap", "'lower'", "'upper'", "0.5 m"});
+  expect_refused(lower + cube("twin", 0, 0, 0, 9), {"overlap", "'lower'", "'twin'"});
 }
 
 TEST(ImportErrors, StonesWithoutVolume) {
-  expect_refused(box("sheet", {0, 0, 0}, {1, 1, 0}, 1), {"'sheet'", "stones.obj:10"});
-  expect_refused(box("point", {1, 1, 1}, {1, 1, 1}, 1), {"'point'"});
-  expect_refused(lower + box("leaf", {0, 0, 1}, {1, 1, 1}, 9), {"'leaf'"});
+  const auto flat = [](std::string text, const std::string& from, const std::string& to) {
+    while (text.find(from) != std::string::npos) text = exchanged(text, from, to);
+    return text;
+  };
+  const std::string sheet = flat(cube("sheet", 0, 0, 0, 1), " 1\nv", " 0\nv");
+  expect_refused(exchanged(sheet, "v 0 1 1\n", "v 0 1 0\n"), {"'sheet'", "stones.obj:10"});
+  std::string point = "o point\n" + lower.substr(lower.find("f "));
+  for (int k = 0; k < 8; ++k) point = "v 1 1 1\n" + point;
+  expect_refused(point, {"'point'"});
+  expect_refused(
+      cube("good", 5, 0, 0, 1) + exchanged(flat(cube("leaf", 0, 0, 0, 9), " 1\nv", " 0\nv"), "v 0 1 1\n", "v 0 1 0\n"),
+      {"'leaf'"});
 }
 
 TEST(ImportErrors, StonesThatAreNotConvex) {

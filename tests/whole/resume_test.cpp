@@ -79,6 +79,21 @@ TEST(Resume, SigtermWritesACheckpointAndLeaves) {
   stop_and_go_on(SIGTERM);
 }
 
+TEST(Resume, StoppedWhileItLooksForEquilibrium) {
+  Folder folder;
+  const Wall wall{.length = 30, .courses = 30, .amplitude = 1.0, .shaken = 0.02, .free = 0.01};
+  folder.write("wall.toml", exchanged(case_text(wall), "\"gravity\"", "\"gravity\"\nmethod = \"relaxation\""));
+  Program program({"run", "wall.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
+  ASSERT_TRUE(wait_until(program, [&] { return program.so_far().err.find("relaxation step") != std::string::npos; }))
+      << program.so_far().err;
+  program.send(SIGTERM);
+  expect_error(program.wait(20.0), 1, {"stopped at t = 0.0000 s", "voussoir resume run"});
+  const Outcome outcome = resume(folder, "run");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  run_whole(folder, "wall.toml", "whole");
+  expect_same_run(folder / "whole", folder / "run");
+}
+
 TEST(Resume, AnInterruptLosesNoStep) {
   Folder folder;
   // One checkpoint in the far future: what the signal writes is all there is after gravity.

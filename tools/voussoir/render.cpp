@@ -53,18 +53,22 @@ RenderOptions render_options(const options::variables_map& values) {
 }
 
 /// The stored frame nearest to the time asked for (default: the last).
-void render_frame(const std::string& directory, const options::variables_map& values, const RenderOptions& o, const std::string& png) {
+void render_frame(const std::string& directory, const options::variables_map& values, const RenderOptions& o,
+                  const std::string& png) {
   const VtkSeries series(directory);
   const auto& frames = series.blocks().frames();
-  if (frames.empty()) throw InputError("{} has no frames in vtk/blocks.pvd: give a checkpoint, or a run with output", directory);
+  if (frames.empty())
+    throw InputError("{} has no frames in vtk/blocks.pvd: give a checkpoint, or a run with output", directory);
   auto best = frames.end() - 1;
   if (values.count("time"))
-    best = std::min_element(frames.begin(), frames.end(), [t = values["time"].as<double>()](const auto& a, const auto& b) {
-      return std::abs(a.time - t) < std::abs(b.time - t);
-    });
+    best =
+        std::min_element(frames.begin(), frames.end(), [t = values["time"].as<double>()](const auto& a, const auto& b) {
+          return std::abs(a.time - t) < std::abs(b.time - t);
+        });
   const auto& joints = series.joints().frames();
   const auto same = std::find_if(joints.begin(), joints.end(), [&](const auto& f) { return f.time == best->time; });
-  render_picture(series.blocks().file_path(*best), same == joints.end() ? "" : series.joints().file_path(*same), o, png);
+  render_picture(series.blocks().file_path(*best), same == joints.end() ? "" : series.joints().file_path(*same), o,
+                 png);
 }
 
 /// A checkpoint, or an assembly as built.
@@ -80,7 +84,11 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
   const Model model = build_model(assembly, c.settings);
   State state = initial_state(model);
   CheckpointHeader header;
-  read_checkpoint(file, header, state.arrays());
+  try {
+    read_checkpoint(file, header, state.arrays());
+  } catch (const RunError& error) {  // damage met by someone who only looks is wrong input, not failed work
+    throw InputError("{}", error.what());
+  }
   if (header.assembly_hash != assembly_hash(assembly))
     throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
   state.unpack_contacts();
@@ -88,29 +96,39 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
 }
 
 int render(const std::vector<std::string>& arguments) {
-  CommandLine line("render", "render DIR|CHECKPOINT|ASSEMBLY [-o PNG]", "voussoir render demo --view front --colour slip --amplification 20 -o slip.png");
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("PNG"), "picture (default: DIR/images/…, or beside the file)")(
+  CommandLine line("render", "render DIR|CHECKPOINT|ASSEMBLY [-o PNG]",
+                   "voussoir render demo --view front --colour slip --amplification 20 -o slip.png");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("PNG"),
+                               "picture (default: DIR/images/…, or beside the file)")(
       "time,t", options::value<double>()->value_name("T"), "stored frame nearest to this time (s); default: the last")(
       "amplification,a", options::value<double>()->default_value(2.0), "of the displacements")(
-      "colour,c", options::value<std::string>()->default_value("opening"), "opening, slip, displacement, component or stone")(
+      "colour,c", options::value<std::string>()->default_value("opening"),
+      "opening, slip, displacement, component or stone")(
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
-      "hide", options::value<std::string>()->default_value("backfill"), "components left out, by commas; none: show all")(
-      "no-cracks", "do not mark cracked joints")("crack", options::value<double>()->default_value(0.1), "opening or slip that counts as a crack, mm")(
+      "hide", options::value<std::string>()->default_value("backfill"),
+      "components left out, by commas; none: show all")("no-cracks", "do not mark cracked joints")(
+      "crack", options::value<double>()->default_value(0.1), "opening or slip that counts as a crack, mm")(
       "range", options::value<double>()->default_value(0.0), "top of the colour scale, mm; 0: from the data")(
-      "width", options::value<int>()->default_value(1800), "pixels")("height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
-      "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""), "words above the picture");
+      "width", options::value<int>()->default_value(1800), "pixels")(
+      "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
+      "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""),
+                                                             "words above the picture");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::string from = values["DIR"].as<std::string>();
   const RenderOptions o = render_options(values);
-  const bool directory = fs::is_directory(from);
-  if (!directory && !fs::exists(from)) throw InputError("there is no file or folder {}", from);
-  std::string png = directory ? fmt::format("{}/images/{}_{}.png", from, o.colour, o.view) : fs::path(from).stem().string() + ".png";
+  std::error_code ignored;  // a name that cannot be looked up names no file
+  const bool directory = fs::is_directory(from, ignored);
+  if (!directory && !fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
+  std::string png =
+      directory ? fmt::format("{}/images/{}_{}.png", from, o.colour, o.view) : fs::path(from).stem().string() + ".png";
   if (values.count("output")) png = values["output"].as<std::string>();
   // -o DIR, as every verb takes it: the picture goes in there.
-  if (fs::is_directory(png) || png.ends_with('/')) png = (fs::path(png) / fmt::format("{}_{}.png", o.colour, o.view)).string();
-  if (const fs::path folder = fs::path(png).parent_path(); !folder.empty()) fs::create_directories(folder);
+  if (fs::is_directory(png, ignored) || png.ends_with('/'))
+    png = (fs::path(png) / fmt::format("{}_{}.png", o.colour, o.view)).string();
+  if (values.count("time") && !std::isfinite(values["time"].as<double>()))
+    throw InputError("--time is {}; give seconds, such as 2.5", values["time"].as<double>());
   if (directory)
     render_frame(from, values, o, png);
   else
@@ -121,6 +139,8 @@ int render(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-Verb render_verb() { return {"render", "off-screen pictures: deformed shape, damage, views", render}; }
+Verb render_verb() {
+  return {"render", "off-screen pictures: deformed shape, damage, views", render};
+}
 
 }  // namespace voussoir

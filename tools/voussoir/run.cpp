@@ -18,44 +18,57 @@ RunRequest request(const options::variables_map& values, const std::string& dire
   r.threads = threads_asked(values);
   r.quiet = values.count("quiet") > 0;
   r.pictures = values.count("no-pictures") == 0;
-  if (values.count("until")) r.until = values["until"].as<double>();
+  if (values.count("until")) {
+    r.until = values["until"].as<double>();
+    if (!(r.until >= 0.0)) throw InputError("--until is {}; give a time of 0 s or more", r.until);
+  }
   return r;
 }
 
 void add_run_options(CommandLine& line) {
-  line.described.add_options()("until", options::value<double>()->value_name("T"), "stop at this simulated time (s), with a checkpoint")(
+  line.described.add_options()("until", options::value<double>()->value_name("T"),
+                               "stop at this simulated time (s), with a checkpoint")(
       "no-pictures", "leave out the pictures at the end");
 }
 
 /// A fresh run directory with the resolved case and the assembly. An existing run is never overwritten unasked.
 void prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
-  if (fs::exists(directory + "/case.toml") && !overwrite)
-    throw InputError("{} already holds a run; go on with it (voussoir resume {}), choose another folder (-o DIR), or give --overwrite",
-                     directory, directory);
-  std::error_code failed;
-  fs::create_directories(directory, failed);
-  if (failed) throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
-  if (overwrite)
-    for (const char* old : {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
-      fs::remove_all(fs::path(directory) / old);
+  std::error_code failed;  // a name that cannot be looked up names no run
+  if (fs::exists(directory + "/case.toml", failed) && !overwrite)
+    throw InputError(
+        "{} already holds a run; go on with it (voussoir resume {}), choose another folder (-o DIR), or give "
+        "--overwrite",
+        directory, directory);
+  // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
   const Assembly assembly = make_assembly(c);
+  fs::create_directories(directory, failed);
+  if (failed)
+    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+  if (overwrite)
+    for (const char* old :
+         {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
+      if (fs::remove_all(fs::path(directory) / old, failed); failed)
+        throw RunError("cannot remove {}/{}: {}; choose another folder with -o DIR", directory, old, failed.message());
   write_assembly(directory + "/assembly.h5", assembly);
   write_resolved_case(c, directory);
 }
 
 int run(const std::vector<std::string>& arguments) {
   CommandLine line("run", "run CASE [-o DIR] [--until T]", "voussoir run cases/demo.toml -o demo --threads 2");
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"), "run directory (default: the case's name)")(
-      "overwrite", "remove an earlier run in that folder");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
+                               "run directory (default: the case's name)")("overwrite",
+                                                                           "remove an earlier run in that folder");
   add_run_options(line);
   line.positional = line.required = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::string file = values["CASE"].as<std::string>();
+  const std::string directory =
+      values.count("output") ? values["output"].as<std::string>() : fs::path(file).stem().string();
+  const RunRequest wanted = request(values, directory);
   const Case c = read_case(file);
-  const std::string directory = values.count("output") ? values["output"].as<std::string>() : fs::path(file).stem().string();
   prepare_directory(c, directory, values.count("overwrite") > 0);
-  return RunSession(request(values, directory)).run();
+  return RunSession(wanted).run();
 }
 
 int resume(const std::vector<std::string>& arguments) {
@@ -65,7 +78,8 @@ int resume(const std::vector<std::string>& arguments) {
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::string directory = values["DIR"].as<std::string>();
-  if (!fs::exists(directory + "/case.toml"))
+  std::error_code ignored;  // a name that cannot be looked up names no run
+  if (!fs::exists(directory + "/case.toml", ignored))
     throw InputError("{} is no run directory: it has no case.toml; give the folder that voussoir run wrote", directory);
   RunSession session(request(values, directory));
   session.resume();
@@ -74,7 +88,11 @@ int resume(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-Verb run_verb() { return {"run", "all stages of a case: equilibrium, motion, free vibration", run}; }
-Verb resume_verb() { return {"resume", "goes on with a run from its newest good checkpoint", resume}; }
+Verb run_verb() {
+  return {"run", "all stages of a case: equilibrium, motion, free vibration", run};
+}
+Verb resume_verb() {
+  return {"resume", "goes on with a run from its newest good checkpoint", resume};
+}
 
 }  // namespace voussoir

@@ -11,6 +11,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
+#include "io/vtk/folder.h"
 #include "solver/base/error.h"
 #include "solver/step/make_snapshot.h"
 
@@ -22,15 +23,22 @@ namespace {
 
 std::atomic<bool> stop_flag{false};
 
-void ask_to_stop(int) { stop_flag.store(true); }
+void ask_to_stop(int) {
+  stop_flag.store(true);
+}
 
 const std::vector<std::pair<std::string, double Energies::*>>& energy_columns() {
   static const std::vector<std::pair<std::string, double Energies::*>> columns = {
-      {"kinetic", &Energies::kinetic},           {"gravitational", &Energies::gravitational},
-      {"elastic", &Energies::elastic},           {"damping_springs", &Energies::damping_springs},
-      {"friction", &Energies::friction},         {"fracture", &Energies::fracture},
-      {"joint_damping", &Energies::joint_damping}, {"body_damping", &Energies::body_damping},
-      {"clipping", &Energies::clipping},         {"base_work", &Energies::base_work}};
+      {"kinetic", &Energies::kinetic},
+      {"gravitational", &Energies::gravitational},
+      {"elastic", &Energies::elastic},
+      {"damping_springs", &Energies::damping_springs},
+      {"friction", &Energies::friction},
+      {"fracture", &Energies::fracture},
+      {"joint_damping", &Energies::joint_damping},
+      {"body_damping", &Energies::body_damping},
+      {"clipping", &Energies::clipping},
+      {"base_work", &Energies::base_work}};
   return columns;
 }
 
@@ -88,8 +96,12 @@ std::vector<DemandPoint> demand_points(const Assembly& assembly) {
 }
 
 RunSession::RunSession(const RunRequest& request)
-    : request_(request), case_(read_case(request.directory + "/case.toml")), assembly_(read_assembly(request.directory + "/assembly.h5")),
-      assembly_hash_(assembly_hash(assembly_)), progress_(request.quiet), vtk_(request.directory) {
+    : request_(request),
+      case_(read_case(request.directory + "/case.toml")),
+      assembly_(read_assembly(request.directory + "/assembly.h5")),
+      assembly_hash_(assembly_hash(assembly_)),
+      progress_(request.quiet),
+      vtk_(request.directory) {
   simulation_ = std::make_unique<Simulation>(assembly_, case_.settings, request.threads, observers());
   history_ = History(path("history.h5"), history_channels(assembly_));
 }
@@ -132,6 +144,11 @@ void RunSession::append_history(const Sample& s) {
   history_.append(row);
 }
 
+/// Of the last gravity stage, whether it ran now or before a restart.
+const Equilibrium& RunSession::equilibrium() const {
+  return simulation_->equilibrium().account.empty() ? equilibrium_before_ : simulation_->equilibrium();
+}
+
 void RunSession::write_checkpoint(bool stage_end) {
   history_.flush();  // first: a resumed run finds every row up to its checkpoint
   State& state = simulation_->state();
@@ -143,17 +160,37 @@ void RunSession::write_checkpoint(bool stage_end) {
   header.stage_time = state.time() - p.stage_start;
   header.assembly_hash = assembly_hash_;
   header.case_hash = case_.hash;
-  header.numbers = {{"stage_start", p.stage_start}, {"dt", p.dt}, {"highest", p.highest}, {"stiffest", p.stiffest},
-                    {"stage_begun", p.stage_begun}, {"worst_balance", simulation_->worst_balance()},
-                    {"wall_seconds", before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count()}};
+  const Equilibrium& e = equilibrium();
+  header.numbers = {
+      {"stage_start", p.stage_start},
+      {"dt", p.dt},
+      {"highest", p.highest},
+      {"stiffest", p.stiffest},
+      {"stage_begun", p.stage_begun},
+      {"worst_balance", simulation_->worst_balance()},
+      {"equilibrium_converged", e.converged ? 1.0 : 0.0},
+      {"newton_iterations", double(e.iterations)},
+      {"relaxation_steps", double(e.steps)},
+      {"out_of_balance", e.residual},
+      {"wall_seconds",
+       before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count()}};
   const std::string name = checkpoint_name(state.time());
-  voussoir::write_checkpoint(path("checkpoints/") + (stage_end ? fmt::format("stage_{:02}_", p.stage) + name : name), header, state.arrays());
+  voussoir::write_checkpoint(path("checkpoints/") + (stage_end ? fmt::format("stage_{:02}_", p.stage) + name : name),
+                             header, state.arrays());
   prune_checkpoints(path("checkpoints"), 3);
 }
 
 void RunSession::resume() {
   const std::vector<std::string> files = list_checkpoints(path("checkpoints"));
-  if (files.empty()) throw InputError("{} has no checkpoint to resume from; start again with voussoir run", request_.directory);
+  const bool has_rows = fs::exists(path("history.h5")) && History::load(path("history.h5")).rows() > 0;
+  if (files.empty() && has_rows)
+    throw InputError("{} has no checkpoint to resume from; start again with voussoir run and --overwrite",
+                     request_.directory);
+  if (files.empty()) {  // ended before its first checkpoint: nothing has been begun
+    vtk_.resume_at(-1.0);
+    log("no checkpoint yet: starting from the beginning");
+    return;
+  }
   for (const std::string& file : files) {
     CheckpointHeader header;
     try {
@@ -165,26 +202,38 @@ void RunSession::resume() {
       continue;
     }
     if (header.assembly_hash != assembly_hash_)
-      throw InputError("{} belongs to another assembly than {}: put back the assembly of this run, or start a new one", file, path("assembly.h5"));
+      throw InputError("{} belongs to another assembly than {}: put back the assembly of this run, or start a new one",
+                       file, path("assembly.h5"));
     if (header.case_hash != case_.hash)
-      throw InputError("{} belongs to another case than {}: put back the case of this run, or start a new one", file, path("case.toml"));
-    RunPosition p;
-    p.stage = header.stage;
-    p.stage_start = header.numbers["stage_start"];
-    p.dt = header.numbers["dt"];
-    p.highest = header.numbers["highest"];
-    p.stiffest = header.numbers["stiffest"];
-    p.stage_begun = header.numbers["stage_begun"];
-    before_seconds_ = header.numbers["wall_seconds"];
-    simulation_->restore(p);
-    simulation_->note_balance(header.numbers["worst_balance"]);
-    if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
-    history_.truncate_after(std::nextafter(header.time, -1.0));  // the row of this very step is sampled again
-    vtk_.resume_at(header.time);
+      throw InputError("{} belongs to another case than {}: put back the case of this run, or start a new one", file,
+                       path("case.toml"));
+    go_on_from(header);
     log(fmt::format("resuming at t = {:.4f} s from {}", header.time, file));
     return;
   }
-  throw InputError("none of the {} checkpoints in {} can be read; start again with voussoir run", files.size(), path("checkpoints"));
+  throw InputError("none of the {} checkpoints in {} can be read; start again with voussoir run and --overwrite",
+                   files.size(), path("checkpoints"));
+}
+
+/// After the state has been read.
+void RunSession::go_on_from(CheckpointHeader& header) {
+  RunPosition p;
+  p.stage = header.stage;
+  p.stage_start = header.numbers["stage_start"];
+  p.dt = header.numbers["dt"];
+  p.highest = header.numbers["highest"];
+  p.stiffest = header.numbers["stiffest"];
+  p.stage_begun = header.numbers["stage_begun"];
+  equilibrium_before_.converged = header.numbers["equilibrium_converged"] > 0.0;
+  equilibrium_before_.iterations = int(header.numbers["newton_iterations"]);
+  equilibrium_before_.steps = std::int64_t(header.numbers["relaxation_steps"]);
+  equilibrium_before_.residual = header.numbers["out_of_balance"];
+  before_seconds_ = header.numbers["wall_seconds"];
+  simulation_->restore(p);
+  simulation_->note_balance(header.numbers["worst_balance"]);
+  if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
+  history_.truncate_after(std::nextafter(header.time, -1.0));  // the row of this very step is sampled again
+  vtk_.resume_at(header.time);
 }
 
 namespace {
@@ -198,7 +247,8 @@ nlohmann::json demand_json(const Assembly& assembly, const History& history) {
     double largest = 0.0;
     for (double v : values) largest = std::max(largest, std::abs(v));
     const double residual = values.empty() ? 0.0 : values.back();
-    demand["places"][point.group] = {{"axis", std::string(1, "xyz"[point.axis])}, {"largest", largest}, {"residual", residual}};
+    demand["places"][point.group] = {
+        {"axis", std::string(1, "xyz"[point.axis])}, {"largest", largest}, {"residual", residual}};
     const std::string kind = point.axis == 0 ? "keystone_x" : "spandrel_y";
     sums[kind].first += largest;
     sums[kind].second += std::abs(residual);
@@ -224,7 +274,9 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
     }
   nlohmann::json json = nlohmann::json::object();
   for (const auto& [name, d] : damage)
-    json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0}, {"largest_opening", d.opening}, {"largest_slip", d.slip}};
+    json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0},
+                  {"largest_opening", d.opening},
+                  {"largest_slip", d.slip}};
   return json;
 }
 
@@ -233,8 +285,9 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
 void RunSession::write_summary(RunEnd end) {
   Simulation& run = *simulation_;
   const Snapshot snapshot = make_snapshot(run.model(), run.state());
-  const double wall = before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  const Equilibrium& e = run.equilibrium();
+  const double wall =
+      before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const Equilibrium& e = equilibrium();
   nlohmann::json json = {{"program_version", VOUSSOIR_VERSION},
                          {"finished", end == RunEnd::finished},
                          {"end_time", run.state().time()},
@@ -247,36 +300,52 @@ void RunSession::write_summary(RunEnd end) {
                          {"blocks", assembly_.blocks.size()},
                          {"joints", assembly_.joints.size()},
                          {"contacts", run.state().contacts.size()},
-                         {"equilibrium", {{"converged", e.converged}, {"newton_iterations", e.iterations}, {"relaxation_steps", e.steps}, {"out_of_balance", e.residual}}},
+                         {"equilibrium",
+                          {{"converged", e.converged},
+                           {"newton_iterations", e.iterations},
+                           {"relaxation_steps", e.steps},
+                           {"out_of_balance", e.residual}}},
                          {"demand", demand_json(assembly_, history_)},
                          {"damage", damage_json(assembly_, snapshot)}};
   write_atomically(path("summary.json"), json.dump(2) + "\n");
 }
 
+/// The simulation and its files; what cannot be written ends it with words on how to go on.
+RunEnd RunSession::simulate() {
+  try {
+    for (const char* folder : {"checkpoints/", "vtk/"}) make_folder_of(path(folder));
+    const RunEnd end = simulation_->run(request_.until);
+    progress_.end();
+    history_.flush();
+    const bool stopped = end == RunEnd::interrupted && stop_flag.load();
+    if (end == RunEnd::interrupted && !stopped) write_checkpoint(false);  // --until
+    if (!stopped) write_summary(end);
+    return end;
+  } catch (const RunError& error) {
+    progress_.end();
+    throw RunError("{}\nWhat was written before is whole; go on with: voussoir resume {}", error.what(),
+                   request_.directory);
+  }
+}
+
 int RunSession::run() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  fs::create_directories(path("checkpoints"));
-  fs::create_directories(path("vtk"));
-  fs::create_directories(path("images"));
-  const RunEnd end = simulation_->run(request_.until);
-  progress_.end();
-  history_.flush();
+  const RunEnd end = simulate();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  if (end == RunEnd::failed) {
-    write_summary(end);
+  if (end == RunEnd::failed)
     throw RunError("{}\nThe last good checkpoints are in {}", simulation_->failure(), path("checkpoints"));
-  }
   if (end == RunEnd::interrupted && stop_flag.load()) {
-    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", simulation_->state().time(), request_.directory));
+    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", simulation_->state().time(),
+                    request_.directory));
     return 1;
   }
-  if (end == RunEnd::interrupted) write_checkpoint(false);  // --until
-  write_summary(end);
-  log(fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", end == RunEnd::finished ? "done" : "paused",
-                  simulation_->state().time(), simulation_->state().step(), duration_text(wall), simulation_->worst_balance()));
+  log(fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}",
+                  end == RunEnd::finished ? "done" : "paused", simulation_->state().time(), simulation_->state().step(),
+                  duration_text(wall), simulation_->worst_balance()));
   if (end == RunEnd::finished && request_.pictures) {
-    const std::string missing = make_pictures(request_.directory, assembly_, make_snapshot(simulation_->model(), simulation_->state()), history_);
+    const std::string missing = make_pictures(request_.directory, assembly_,
+                                              make_snapshot(simulation_->model(), simulation_->state()), history_);
     log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
   }
   return 0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/case/case.h"
+#include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/history_file.h"
 #include "io/vtk/series.h"
 #include "solver/step/simulation.h"
@@ -23,14 +24,18 @@ class RunSession {
  public:
   /// The directory holds case.toml and assembly.h5. Throws InputError.
   explicit RunSession(const RunRequest& request);
-  /// Goes on from the newest good checkpoint; damaged ones are named and the one before is used. Throws InputError when
-  /// there is none, or when it belongs to another case or assembly.
+  /// Goes on from the newest good checkpoint; damaged ones are named and the one before is used. A run that was ended
+  /// before its first checkpoint starts from the beginning. Throws InputError when no checkpoint is left, or when it
+  /// belongs to another case or assembly.
   void resume();
   /// Runs to the end (or `until`); returns the exit status.
   int run();
 
  private:
   Observers observers();
+  RunEnd simulate();
+  void go_on_from(CheckpointHeader& header);
+  const Equilibrium& equilibrium() const;
   void write_checkpoint(bool stage_end);
   void append_history(const Sample& sample);
   void write_summary(RunEnd end);
@@ -45,11 +50,13 @@ class RunSession {
   std::unique_ptr<Simulation> simulation_;
   History history_;
   VtkSeries vtk_;
-  double before_seconds_ = 0.0;  // wall time of the parts of this run that ended earlier
+  Equilibrium equilibrium_before_;  // found by a part of this run that ended earlier
+  double before_seconds_ = 0.0;     // wall time of the parts of this run that ended earlier
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// Points whose largest displacement is a demand: the groups of the assembly named "keystone …" (x) and "spandrel …" (y).
+/// Points whose largest displacement is a demand: the groups of the assembly named "keystone …" (x) and "spandrel …"
+/// (y).
 struct DemandPoint {
   std::string group;
   int axis = 0;
@@ -57,6 +64,7 @@ struct DemandPoint {
 std::vector<DemandPoint> demand_points(const Assembly& assembly);
 
 /// Pictures of the end state and charts of the history in DIR/images. Returns what could not be made, empty if all was.
-std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot, const History& history);
+std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot,
+                          const History& history);
 
 }  // namespace voussoir
