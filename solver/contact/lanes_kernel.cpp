@@ -113,7 +113,7 @@ void follow_open(const JointBatch& batch, const Lanes* corners, const LaneElasti
 
 /// Elastic plus viscous generalised jump; the branches of open lanes relax.
 LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch, const LaneElastic& e, LaneMask open, LaneMask keep,
-                          Lanes* p, Lanes& loss) {
+                          Lanes* p, Lanes& loss, const Lanes* du) {
   LaneElastic sum = e;
   const Lanes stiffness[6] = {batch.kn * batch.area,                batch.ks * batch.area, batch.ks * batch.area,
                               batch.ks * (batch.ss + batch.tt), batch.kn * batch.tt,   batch.kn * batch.ss};
@@ -122,7 +122,10 @@ LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch, con
     for (int c = 0; c < 6; ++c, ++p) {
       const Lanes q = *p + branches.g[k] * e.u[c];
       sum.u[c] += q;
-      power += stiffness[c] * q * q;
+      if (branches.e[k] > 0.0) {
+        const Lanes q_b = (*p + branches.g[k] * (e.u[c] - du[c])) / branches.e[k];
+        loss += 0.5 * stiffness[c] * ((q_b + q) * du[c] - branches.stored[k] * (q * q - q_b * q_b));
+      } else power += stiffness[c] * q * q;
       const Lanes next = open ? splat(0.0) : branches.e[k] * q - branches.g[k] * e.u[c];
       *p = keep ? next : *p;
     }
@@ -174,7 +177,7 @@ struct LanePoint {
   Lanes friction, fracture;      // J/m2
 };
 
-LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, Lanes us, Lanes ut, LaneMask active, Lanes* memory,
+LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, Lanes us, Lanes ut, const Lanes* du, LaneMask active, Lanes* memory,
                         LaneMask was_broken) {
   const Lanes zero = splat(0.0);
   const Lanes n = un - memory[0], s = us - memory[1], t = ut - memory[2];
@@ -193,10 +196,13 @@ LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, 
   p.n = p.open ? zero : un - plastic_n;
   p.s = p.open ? zero : keep * s;
   p.t = p.open ? zero : keep * t;
-  const Lanes before = 0.5 * (b.kn * n * n + b.ks * (s * s + t * t));
-  const Lanes after = 0.5 * (b.kn * p.n * p.n + b.ks * (p.s * p.s + p.t * p.t));
-  p.friction = breaks ? zero : (keep * shear + b.kn * p.n * law.dilation) * slip;
-  p.fracture = breaks ? largest(before - after, zero) : zero;
+  // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by the
+  // traction at the end alone the ledger would leak in proportion to the step.
+  const Lanes sb = s - du[1], tb = t - du[2], nb = n - du[0];
+  const Lanes lost_shear = 0.5 * b.ks * ((p.s + sb) * du[1] + (p.t + tb) * du[2] - (p.s * p.s + p.t * p.t) + (sb * sb + tb * tb));
+  const Lanes lost_normal = 0.5 * b.kn * ((p.n + nb) * du[0] - p.n * p.n + nb * nb);
+  p.friction = (p.broken & was_broken) ? lost_shear + b.kn * p.n * law.dilation * slip : zero;
+  p.fracture = breaks ? lost_shear + lost_normal : zero;
   memory[0] = active ? plastic_n : memory[0];
   memory[1] = active ? (p.open ? us : memory[1] + (1.0 - keep) * s) : memory[1];
   memory[2] = active ? (p.open ? ut : memory[2] + (1.0 - keep) * t) : memory[2];
@@ -204,7 +210,7 @@ LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, 
 }
 
 LanePoints points_of_lanes(const Model& model, const JointBatch& b, const LaneStrength& law, const Jump<Lanes>& j,
-                           const Branches& branches, LaneMask active, PatchMemory& memory) {
+                           const Branches& branches, LaneMask active, const Lanes* change, PatchMemory& memory) {
   const Lanes zero = splat(0.0);
   LanePoints sum{{zero, zero, zero, zero, zero, zero, zero, zero, zero}, zero, zero, zero, zero, zero, active, active};
   Resultant<Lanes>& q = sum.resultant;
@@ -215,7 +221,11 @@ LanePoints points_of_lanes(const Model& model, const JointBatch& b, const LaneSt
   for (int i = 0; i < b.points; ++i, point += 3, plastic += 4, broken += lane_count) {
     const Lanes s = point[0], t = point[1], w = point[2];
     const Lanes un = j.n + j.rs * t - j.rt * s, us = j.s - j.rn * t, ut = j.t + j.rn * s;
-    const LanePoint r = brittle_point(b, law, un, us, ut, active, plastic, load_flags(broken));
+    const Lanes du[3] = {change[0] + change[4] * t - change[5] * s, change[1] - change[3] * t, change[2] + change[3] * s};
+    const LaneMask was = load_flags(broken);
+    const Lanes normal = un - plastic[0] - du[0];  // elastic jump at the pass before
+    const Lanes ub[3] = {(was & (normal > zero)) ? zero : normal, us - plastic[1] - du[1], ut - plastic[2] - du[2]};
+    const LanePoint r = brittle_point(b, law, un, us, ut, du, active, plastic, was);
     for (int lane = 0; lane < lane_count; ++lane) broken[lane] = active[lane] ? std::uint8_t(r.broken[lane] != 0) : broken[lane];
     Lanes v[3] = {r.n, r.s, r.t};
     const Lanes u[3] = {r.n, r.s, r.t};
@@ -224,9 +234,12 @@ LanePoints points_of_lanes(const Model& model, const JointBatch& b, const LaneSt
         const Lanes trial = *p + branches.g[k] * u[c];
         const Lanes jump = r.elastic ? trial : zero;
         v[c] += jump;
-        // A branch that lets go loses what its spring held.
-        const Lanes share = r.elastic ? splat(branches.loss[k]) : splat(0.5 * branches.stored[k]);
-        sum.damping += share * w * (c == 0 ? b.kn : b.ks) * trial * trial;
+        if (branches.e[k] > 0.0) {
+          const Lanes q_b = (*p + branches.g[k] * ub[c]) / branches.e[k];
+          sum.damping += 0.5 * w * (c == 0 ? b.kn : b.ks) * ((q_b + jump) * du[c] - branches.stored[k] * (jump * jump - q_b * q_b));
+        } else {
+          sum.damping += branches.loss[k] * w * (c == 0 ? b.kn : b.ks) * jump * jump;
+        }
         const Lanes next = branches.e[k] * jump - branches.g[k] * u[c];
         *p = active ? next : *p;
       }
@@ -290,6 +303,7 @@ struct BatchPass {
   LaneStrength strength;
   Lanes* slip;
   Lanes* p;  // branches of the intact path
+  Lanes change[6] = {};  // of the jump since the pass before
 
   /// Intact lanes: checked at the corners, advanced if they stay; returns which did, and which of those carry load.
   struct Intact {
@@ -305,7 +319,7 @@ struct BatchPass {
     const LaneMask open = keep & broken & check.open, closed = keep & check.admissible & ~open;
     if (any(open)) follow_open(batch, corners, e, open, slip, &pass.state->joint.largest[2 * first]);
     Lanes loss = splat(0.0);
-    const LaneElastic v = pass.branches.count ? advance_lanes(pass.branches, batch, e, open, open | closed, p, loss) : e;
+    const LaneElastic v = pass.branches.count ? advance_lanes(pass.branches, batch, e, open, open | closed, p, loss, change) : e;
     if (pass.branches.count)
       for (int lane = 0; lane < batch.count; ++lane)
         if (closed[lane]) pass.state->joint.energy[3 * (first + lane) + 2] += loss[lane];
@@ -314,11 +328,21 @@ struct BatchPass {
 
   /// Lanes point by point; the few whose law has no lane form are left to point_patch().
   Resultant<Lanes> point_lanes(LaneMask active) {
-    const LanePoints found = points_of_lanes(*pass.model, batch, strength, jump, pass.branches, active, pass.state->joint);
+    const LanePoints found = points_of_lanes(*pass.model, batch, strength, jump, pass.branches, active, change, pass.state->joint);
     note_points(found, active, batch.count, first, pass.state->joint);
     const LaneMask back = active & found.all_open & found.all_broken;
     if (pass.shortcut && any(back)) to_intact(jump, pass.branches, back, batch.count, mode, slip, p);
     return found.resultant;
+  }
+
+  /// The change since the pass before; point_patch() keeps the last jump of its lanes itself.
+  void note_change(LaneMask others) {
+    auto* last = reinterpret_cast<Lanes*>(pass.state->joint.last.data()) + 6 * k;
+    const Lanes now[6] = {jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt};
+    for (int c = 0; c < 6; ++c) {
+      change[c] = now[c] - last[c];
+      last[c] = others ? last[c] : now[c];
+    }
   }
 
   void run(PassReport& report) {
@@ -328,6 +352,7 @@ struct BatchPass {
       if (lane >= batch.count) live[lane] = 0;
       else if (live[lane] && pass.shortcut && !(mode[lane] & mode_points)) keep[lane] = -1;
     }
+    note_change(live & ~keep & ~strength.brittle);
     Intact intact{};
     if (any(keep)) intact = intact_lanes(keep);
     // Lanes that fail the check go point by point from here on.

@@ -73,18 +73,20 @@ void fit_gap(const Meeting& m, const PatchShape& shape, Patch& patch) {
   store(patch.gap, normal.ldlt().solve(right));
 }
 
+/// The patch lies at the level where the faces are nearest: halfway up the mean gap instead, a rocking block would turn about
+/// a point above its edge.
 void make_face_patch(const Model& model, const State& state, const Meeting& m, NewContact& contact) {
+  const auto gap = [&](std::size_t i) { return m.normal.dot(m.on_b[i] - m.on_a[i]); };
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < m.on_a.size(); ++i)
+    if (gap(i) < gap(nearest)) nearest = i;
+  const double level = m.normal.dot(m.on_a[nearest] + m.on_b[nearest]) / 2;
   Polygon polygon;
-  const double level = m.normal.dot(m.on_a[0] + m.on_b[0]) / 2;
   for (std::size_t i = 0; i < m.on_a.size(); ++i) {
     const Vec3 mid = 0.5 * (m.on_a[i] + m.on_b[i]);
     polygon.push_back(mid + m.normal * (level - m.normal.dot(mid)));
   }
-  PatchShape shape = patch_shape(polygon, m.normal, model.contact.points_per_side);
-  // The patch lies midway between the faces at its centroid.
-  double middle = 0.0;
-  for (std::size_t i = 0; i < m.on_a.size(); ++i) middle += m.normal.dot(m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
-  shape.centroid += m.normal * (middle - level);
+  const PatchShape shape = patch_shape(polygon, m.normal, model.contact.points_per_side);
   Patch& p = contact.patch;
   p.area = shape.area, p.ss = shape.ss, p.tt = shape.tt;
   place_patch(model, state, shape.centroid, shape.frame, p);
@@ -162,15 +164,22 @@ struct Carried {
 };
 
 /// Elastic tractions of the old patch about a place.
-Carried elastic_wrench(const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory, const Vec3& place) {
+Carried elastic_wrench(const Model& model, const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory, const Vec3& place) {
   const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
   const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
   Carried sum;
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = elastic_jump(patch, j, point, memory, i);
-    if (memory.broken[point_index(patch, i, 1, 0)] && u.x >= 0.0) continue;
-    const Vec3 force = point.weight * (axes * Vec3(patch.kn * u.x, patch.ks * u.y, patch.ks * u.z));
+    Triple<double> e = u;
+    if (memory.broken[point_index(patch, i, 1, 0)]) {
+      if (u.x >= 0.0) continue;
+      const LawConstants& law = model.laws[patch.law];
+      const double limit = law.residual_cohesion - patch.kn * u.x * law.residual_tan_friction;
+      const double shear = patch.ks * std::hypot(u.y, u.z);
+      if (law.kind != JointLaw::Kind::elastic && shear > limit) e.y *= limit / shear, e.z *= limit / shear;
+    }
+    const Vec3 force = point.weight * (axes * Vec3(patch.kn * e.x, patch.ks * e.y, patch.ks * e.z));
     const Vec3 where = Vec3(j.place.x, j.place.y, j.place.z) + axes * Vec3(0.0, point.s, point.t);
     sum.force += force;
     sum.moment += (where - place).cross(force);
@@ -200,12 +209,12 @@ void match_normal_force(double wanted, NewContact& c) {
 
 }  // namespace
 
-void carry_over(const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact) {
+void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact) {
   Patch& p = contact.patch;
   p.kn = old.kn, p.ks = old.ks, p.law = old.law;
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
   const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
-  const Carried carried = elastic_wrench(state, old, points, memory, Vec3(j.place.x, j.place.y, j.place.z));
+  const Carried carried = elastic_wrench(model, state, old, points, memory, Vec3(j.place.x, j.place.y, j.place.z));
   const Vec3 force = axes.transpose() * carried.force, moment = axes.transpose() * carried.moment;
   if (force.x() >= 0.0) return;  // nothing pressed: it starts as it lies
   const double gap[3] = {force.x() / (p.kn * p.area), p.tt > 0 ? moment.y() / (p.kn * p.tt) : 0.0, p.ss > 0 ? moment.z() / (p.kn * p.ss) : 0.0};

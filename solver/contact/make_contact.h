@@ -20,7 +20,7 @@ std::optional<NewContact> make_contact(const Model& model, const State& state, s
 
 /// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old` (with
 /// its points and memory) carries now: the force always, the moment while the new patch is wholly closed.
-void carry_over(const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact);
+void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact);
 
 /// The cell in its present placement.
 Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell);

@@ -13,28 +13,6 @@ void store_wrench(const Triple<double>& f, const Triple<double>& m, double* wren
   wrench[3] = m.x, wrench[4] = m.y, wrench[5] = m.z;
 }
 
-/// Viscous jump of one point's branches after an elastic move to (n, s, t); the branches are emptied when the point yields.
-Triple<double> advance_branches(const Branches& branches, const Patch& patch, int i, const PointResult& r, double weight,
-                                PatchMemory& memory, double& loss) {
-  Triple<double> viscous = {0.0, 0.0, 0.0};
-  const double u[3] = {r.n, r.s, r.t};
-  double* v = &viscous.x;
-  for (int k = 0; k < branches.count; ++k)
-    for (int c = 0; c < 3; ++c) {
-      double& p = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)];
-      const double g = branches.g[k];
-      double q = p + g * u[c];
-      if (!r.elastic) {  // the branch lets go: what its spring held is lost
-        loss += 0.5 * branches.stored[k] * weight * (c == 0 ? patch.kn : patch.ks) * q * q;
-        q = 0.0;
-      }
-      v[c] += q;
-      p = branches.e[k] * q - g * u[c];
-      loss += branches.loss[k] * weight * (c == 0 ? patch.kn : patch.ks) * q * q;
-    }
-  return viscous;
-}
-
 PointMemory load_memory(const Patch& patch, int i, const PatchMemory& memory) {
   const auto column = [&](int c) { return memory.point[point_index(patch, i, 4, c)]; };
   return {column(0), column(1), column(2), column(3), memory.broken[point_index(patch, i, 1, 0)] != 0};
@@ -46,6 +24,58 @@ void store_memory(const Patch& patch, int i, const PointMemory& point, PatchMemo
   memory.broken[point_index(patch, i, 1, 0)] = point.broken;
 }
 
+/// The jump of the pass before, six numbers; contacts keep theirs one after the other, joints eight side by side.
+double& last_jump(const Patch& patch, std::size_t index, int c, PatchMemory& memory) {
+  return patch.stride == 1 ? memory.last[6 * index + std::size_t(c)]
+                           : memory.last[lane_count * (6 * (index / lane_count) + std::size_t(c)) + index % lane_count];
+}
+
+/// How much a point's jump has changed since the pass before, and its elastic jump then.
+struct PointBefore {
+  double du[3], elastic[3];
+};
+
+PointBefore point_before(const PatchPoint& at, const Triple<double>& u, const double* change, const PointMemory& pm) {
+  PointBefore b{{change[0] + change[4] * at.t - change[5] * at.s, change[1] - change[3] * at.t, change[2] + change[3] * at.s}, {}};
+  b.elastic[0] = u.x - pm.n - b.du[0], b.elastic[1] = u.y - pm.s - b.du[1], b.elastic[2] = u.z - pm.t - b.du[2];
+  if (pm.broken && b.elastic[0] >= 0.0) b.elastic[0] = b.elastic[1] = b.elastic[2] = 0.0;  // it was open
+  return b;
+}
+
+/// Work done on the point's springs over the step, by the mean of the tractions at both ends, less what they now hold more:
+/// what a yielding point has lost. (By the traction at the end alone the ledger would leak in proportion to the step.)
+void book_losses(const Patch& patch, const PointBefore& b, double plastic_opening, bool was_broken, PointResult& r) {
+  const auto lost = [&](double k, double now, int c) {
+    return 0.5 * k * ((now + b.elastic[c]) * b.du[c] - now * now + b.elastic[c] * b.elastic[c]);
+  };
+  const double shear = lost(patch.ks, r.s, 1) + lost(patch.ks, r.t, 2);
+  r.friction = was_broken ? shear + (r.open ? 0.0 : patch.kn * r.n * plastic_opening) : 0.0;
+  r.fracture = was_broken ? 0.0 : shear + lost(patch.kn, r.n, 0);
+}
+
+/// Viscous jump of one point's branches after an elastic move to (n, s, t); the branches are emptied when the point yields.
+Triple<double> advance_branches(const Branches& branches, const Patch& patch, int i, const PointResult& r, const PointBefore& before,
+                                double weight, PatchMemory& memory, double& loss) {
+  Triple<double> viscous = {0.0, 0.0, 0.0};
+  const double u[3] = {r.n, r.s, r.t};
+  double* v = &viscous.x;
+  for (int k = 0; k < branches.count; ++k)
+    for (int c = 0; c < 3; ++c) {
+      double& p = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)];
+      const double g = branches.g[k], stiffness = weight * (c == 0 ? patch.kn : patch.ks);
+      const double q = r.elastic ? p + g * u[c] : 0.0;
+      if (branches.e[k] > 0.0) {  // work done on the branch less what its spring now holds more
+        const double then = (p + g * before.elastic[c]) / branches.e[k];
+        loss += 0.5 * stiffness * ((then + q) * before.du[c] - branches.stored[k] * (q * q - then * then));
+      } else {
+        loss += branches.loss[k] * stiffness * q * q;
+      }
+      v[c] += q;
+      p = branches.e[k] * q - g * u[c];
+    }
+  return viscous;
+}
+
 struct PointSums {
   Resultant<double> resultant{};
   double friction = 0.0, fracture = 0.0, damping = 0.0;
@@ -55,18 +85,21 @@ struct PointSums {
 
 template <class Law>
 PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jump<double>& j, const Array<double>& points,
-                     const Branches& branches, PatchMemory& memory) {
+                     const Branches& branches, const double* change, PatchMemory& memory) {
   PointSums sums;
   Resultant<double>& q = sums.resultant;
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = point_jump(patch, j, point.s, point.t);
     PointMemory pm = load_memory(patch, i, memory);
-    const PointResult r = Law::update(law, patch.kn, patch.ks, u.x, u.y, u.z, pm);
+    const PointBefore before = point_before(point, u, change, pm);
+    const PointMemory old = pm;
+    PointResult r = Law::update(law, patch.kn, patch.ks, u.x, u.y, u.z, pm);
+    if (!r.elastic && (old.broken || law.kind == JointLaw::Kind::brittle)) book_losses(patch, before, pm.n - old.n, old.broken, r);
     store_memory(patch, i, pm, memory);
     double damping = 0.0;
     Triple<double> viscous = {0.0, 0.0, 0.0};
-    if (branches.count) viscous = advance_branches(branches, patch, i, r, point.weight, memory, damping);
+    if (branches.count) viscous = advance_branches(branches, patch, i, r, before, point.weight, memory, damping);
     const double sigma = point.weight * patch.kn * (r.n + viscous.x);
     const double ts = point.weight * patch.ks * (r.s + viscous.y), tt = point.weight * patch.ks * (r.t + viscous.z);
     q.n += sigma, q.s += ts, q.t += tt;
@@ -94,7 +127,14 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
                  const Branches& branches, PatchMemory& memory, double* wrench) {
   const Jump<double> j = patch_jump(patch, pose + pose_width * patch.a, pose + pose_width * patch.b);
   const LawConstants& law = model.laws[patch.law];
-  const PointSums sums = with_law(law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, points, branches, memory); });
+  const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
+  double change[6];
+  for (int c = 0; c < 6; ++c) {
+    double& last = last_jump(patch, index, c, memory);
+    change[c] = now[c] - last;
+    last = now[c];
+  }
+  const PointSums sums = with_law(law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, points, branches, change, memory); });
   Triple<double> force, moment;
   world_wrench(sums.resultant, j, force, moment);
   store_wrench(force, moment, wrench);

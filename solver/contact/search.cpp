@@ -84,6 +84,7 @@ void append(State& next, const Branches& branches, const NewContact& c) {
   m.mode.push_back(mode_points);
   m.largest.insert(m.largest.end(), {c.carried_opening, c.carried_slip});
   m.energy.insert(m.energy.end(), 3, 0.0);
+  m.last.insert(m.last.end(), 6, 0.0);  // a fresh contact's own jump is zero where it is made
 }
 
 /// Relaxed branches for the elastic jump a fresh contact starts with.
@@ -119,6 +120,7 @@ void copy_old(const State& from, State& next, const Branches& branches, std::siz
   copy(m.mode, n.mode, i, 1);
   copy(m.largest, n.largest, 2 * i, 2);
   copy(m.energy, n.energy, 3 * i, 3);
+  copy(m.last, n.last, 6 * i, 6);
 }
 
 
@@ -132,7 +134,7 @@ struct Clipper {
   std::optional<NewContact> clip(const Patch& old, const Array<double>& points, const PatchMemory& memory, const double* largest) {
     std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
     if (fresh) {
-      carry_over(state, old, points, memory, *fresh);
+      carry_over(model, state, old, points, memory, *fresh);
       fresh->carried_opening = largest[0];
       fresh->carried_slip = largest[1];
       ++update.clipped;
@@ -205,7 +207,7 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     if ((state.joint.mode[i] & mode_gone) || !past_limits(model, state, model.joints[i])) continue;
     const Patch& old = model.joints[i];
     if (!(state.joint.mode[i] & mode_points)) joint_to_points(model, state, branches, i);
-    energy_before += patch_energy(model, state, branches, i).elastic + patch_energy(model, state, branches, i).branches;
+    energy_before += patch_energy(model, state, branches, i, true).elastic;
     std::optional<NewContact> fresh = clipper.clip(old, model.points, state.joint, &state.joint.largest[2 * i]);
     state.joint.mode[i] |= mode_gone;
     mark(state, old.a, state, moved), mark(state, old.b, state, moved);
@@ -218,8 +220,8 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
       entries.push_back({key_of(old), std::int64_t(i), std::nullopt});
       continue;
     }
-    const PatchEnergy e = patch_energy(model, state, branches, model.joints.size() + i);
-    energy_before += e.elastic + e.branches;
+    const PatchEnergy e = patch_energy(model, state, branches, model.joints.size() + i, true);
+    energy_before += e.elastic;
     std::optional<NewContact> fresh;
     if (clip)
       fresh = clipper.clip(old, state.contact_points, state.contact, &state.contact.largest[2 * i]);

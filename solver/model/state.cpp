@@ -11,6 +11,7 @@ void PatchMemory::resize(std::size_t patches, std::size_t points) {
   mode.assign(patches, 0);
   largest.assign(2 * patches, 0.0);
   energy.assign(3 * patches, 0.0);
+  last.assign(6 * (patches + 8), 0.0);
 }
 
 namespace {
@@ -45,6 +46,7 @@ void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& 
   list.push_back({prefix + "/mode", 1, "-", &memory.mode});
   list.push_back({prefix + "/largest", 2, "m", &memory.largest});
   list.push_back({prefix + "/energy", 3, "J", &memory.energy});
+  list.push_back({prefix + "/last_jump", 1, "m, rad", &memory.last});
 }
 
 }  // namespace

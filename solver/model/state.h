@@ -38,6 +38,7 @@ struct PatchMemory {
   Array<double> point_branch;    // 3 columns a branch: p (m)
   Array<std::uint8_t> mode;      // 1 a patch, PatchMode bits
   Array<double> largest;         // 2 a patch: opening, slip (m)
+  Array<double> last;            // 6 a patch: jump at the last pass (m, rad); joints eight side by side
   Array<double> energy;          // 3 a patch: friction, fracture, damping (J)
   void resize(std::size_t patches, std::size_t points);
 };

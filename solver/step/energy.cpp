@@ -35,15 +35,21 @@ PatchEnergy intact_energy(const Model& model, const State& state, const Branches
   return e;
 }
 
-PatchEnergy points_energy(const Patch& patch, const Array<double>& points, const PatchMemory& memory, const State& state,
+PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch, const Array<double>& points, const PatchMemory& memory, const State& state,
                           const Branches& branches) {
   const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
   PatchEnergy e;
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = elastic_jump(patch, j, point, memory, i);
-    const double x[3] = {u.x, u.y, u.z};
-    if (memory.broken[point_index(patch, i, 1, 0)] && x[0] >= 0.0) continue;
+    double x[3] = {u.x, u.y, u.z};
+    if (memory.broken[point_index(patch, i, 1, 0)]) {
+      if (x[0] >= 0.0) continue;
+      const LawConstants& law = model.laws[patch.law];
+      const double limit = law.residual_cohesion - patch.kn * u.x * law.residual_tan_friction;
+      const double shear = patch.ks * std::hypot(u.y, u.z);
+      if (yielding && law.kind != JointLaw::Kind::elastic && shear > limit) x[1] *= limit / shear, x[2] *= limit / shear;
+    }
     for (int c = 0; c < 3; ++c) {
       const double k = point.weight * (c == 0 ? patch.kn : patch.ks);
       e.elastic += 0.5 * k * x[c] * x[c];
@@ -76,6 +82,7 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
     e.base_work -= 0.5 * pass.dt * (next.force.x * v.x() + next.force.y * v.y() + next.force.z * v.z());
     return;
   }
+  e.body_damping += 0.5 * next.loss;
   // ½ v⁻·M v⁺: with this product, not with the square of the mean, the leapfrog keeps the energy of a linear system exactly.
   const Triple<double> before = turn_back(pose_rotation(pose), triple(motion + 3));
   const Triple<double> after = turn_back(pose_rotation(pose), next.momentum);
@@ -86,12 +93,12 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
 
 }  // namespace
 
-PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index) {
+PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index, bool yielding) {
   if (index >= model.joints.size())
-    return points_energy(state.contacts[index - model.joints.size()], state.contact_points, state.contact, state, branches);
+    return points_energy(model, yielding, state.contacts[index - model.joints.size()], state.contact_points, state.contact, state, branches);
   const std::uint8_t mode = state.joint.mode[index];
   if (mode & mode_gone) return {};
-  if (mode & mode_points) return points_energy(model.joints[index], model.points, state.joint, state, branches);
+  if (mode & mode_points) return points_energy(model, yielding, model.joints[index], model.points, state.joint, state, branches);
   return intact_energy(model, state, branches, index);
 }
 

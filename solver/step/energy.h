@@ -27,6 +27,7 @@ Energies compute_energies(const Stepper& stepper, const BodyPass& pass);
 struct PatchEnergy {
   double elastic = 0.0, branches = 0.0;
 };
-PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index);
+/// `yielding`: between a patch pass and the next, shear past the cone is cut back to it, as the next pass will do.
+PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index, bool yielding = false);
 
 }  // namespace voussoir
