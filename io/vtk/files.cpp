@@ -12,6 +12,7 @@
 #include "io/hdf5/atomic_file.h"
 #include "io/vtk/folder.h"
 #include "io/vtk/quiet.h"
+#include "io/vtk/sound.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -37,6 +38,7 @@ void write(Data* data, const std::string& path) {
 template <class Reader>
 auto read(const std::string& path, const char* kind) {
   if (!std::filesystem::is_regular_file(path)) throw InputError("{}: no such file; expected a {} file", path, kind);
+  const Silence silence;
   bool failed = false;
   const auto flag = error_flag(failed);
   auto reader = vtkSmartPointer<Reader>::New();
@@ -49,6 +51,7 @@ auto read(const std::string& path, const char* kind) {
   if (failed || reader->GetErrorCode() != vtkErrorCode::NoError)
     throw InputError("{}: is damaged and cannot be read; write it again", path);
   vtkSmartPointer output = reader->GetOutput();
+  if (!is_sound(output)) throw InputError("{}: is damaged: its parts do not fit together; write it again", path);
   return output;
 }
 

@@ -1,6 +1,7 @@
 // VTK reports errors to its observers, and to the terminal where there is none.
 #pragma once
 #include <vtkCallbackCommand.h>
+#include <vtkObject.h>
 #include <vtkSmartPointer.h>
 
 namespace voussoir {
@@ -13,5 +14,16 @@ inline vtkSmartPointer<vtkCallbackCommand> error_flag(bool& failed) {
   command->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
   return command;
 }
+
+/// Keeps VTK's pipeline, which has no observer of ours, from printing as long as the object lives.
+class Silence {
+ public:
+  Silence() : before_(vtkObject::GetGlobalWarningDisplay()) { vtkObject::GlobalWarningDisplayOff(); }
+  ~Silence() { vtkObject::SetGlobalWarningDisplay(before_); }
+  Silence(const Silence&) = delete;
+
+ private:
+  int before_;
+};
 
 }  // namespace voussoir

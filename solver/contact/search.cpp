@@ -239,11 +239,17 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
   }
   for (const Entry& entry : entries) live.push_back(entry.key);
   std::sort(live.begin(), live.end());
+  const auto joined = [&](const Key& key) {  // by another pair of their cells
+    const auto next = std::lower_bound(live.begin(), live.end(), Key{std::get<0>(key), std::get<1>(key), -1, -1});
+    return next != live.end() && std::get<0>(*next) == std::get<0>(key) && std::get<1>(*next) == std::get<1>(key);
+  };
   for (const Key& key : candidate_pairs(model, state, moved)) {
     if (std::binary_search(live.begin(), live.end(), key)) continue;
     ++update.examined;
     const auto [a, b, ca, cb] = key;
-    if (std::optional<NewContact> fresh = make_contact(model, state, a, ca, b, cb, skin(model))) {
+    // Bodies that a live patch holds within its limits cannot come at each other unseen: their other cells wait until they touch.
+    const double within = joined(key) ? 0.0 : skin(model);
+    if (std::optional<NewContact> fresh = make_contact(model, state, a, ca, b, cb, within)) {
       entries.push_back({key, -1, std::move(fresh)});
       ++update.made;
     }

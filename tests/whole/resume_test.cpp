@@ -84,7 +84,7 @@ TEST(Resume, StoppedWhileItLooksForEquilibrium) {
   const Wall wall{.length = 30, .courses = 30, .amplitude = 1.0, .shaken = 0.02, .free = 0.01};
   folder.write("wall.toml", exchanged(case_text(wall), "\"gravity\"", "\"gravity\"\nmethod = \"relaxation\""));
   Program program({"run", "wall.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
-  ASSERT_TRUE(wait_until(program, [&] { return program.so_far().err.find("relaxation step") != std::string::npos; }))
+  ASSERT_TRUE(wait_until(program, [&] { return program.so_far().err.find("stage 1: gravity") != std::string::npos; }))
       << program.so_far().err;
   program.send(SIGTERM);
   expect_error(program.wait(20.0), 1, {"stopped at t = 0.0000 s", "voussoir resume run"});
