@@ -141,7 +141,8 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
   double* energy = &memory.energy[3 * index];
   energy[0] += sums.friction, energy[1] += sums.fracture, energy[2] += sums.damping;
   double* largest = &memory.largest[2 * index];
-  largest[0] = std::max(largest[0], sums.opening);
+  // The gap of a contact that was found apart is no opening of a joint: it only keeps what it was handed.
+  if (patch.stride > 1) largest[0] = std::max(largest[0], sums.opening);
   largest[1] = std::max(largest[1], std::sqrt(sums.slip2));
   if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
   const double limit_slip2 = model.slip_limit2(patch.area);

@@ -70,7 +70,7 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
   s.area = p.area;
   s.opening = sum.opening;
   s.slip = sum.slip;
-  s.largest_opening = std::max(largest[0], sum.opening);
+  s.largest_opening = p.stride > 1 ? std::max(largest[0], sum.opening) : largest[0];
   s.largest_slip = std::max(largest[1], sum.slip);
   s.normal_traction = sum.normal / sum.area;
   s.shear_traction = std::hypot(sum.s, sum.t) / sum.area;
