@@ -30,6 +30,7 @@ struct Unit {
   double size;  // m/s2
 };
 constexpr Unit units[] = {{"m/s2", 1.0}, {"g", 9.80665}, {"cm/s2", 0.01}};
+constexpr double largest_peak = 1e4;  // m/s2; beyond, the unit or the scale is wrong
 const std::vector<std::string> axes = {"x", "y", "z"};
 
 std::vector<std::string> unit_names() {
@@ -132,6 +133,11 @@ GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
   }
   if (source.scale != 1.0)
     for (Vec3& a : motion.acceleration) a *= source.scale;
+  double peak = 0.0;
+  for (const Vec3& a : motion.acceleration) peak = std::max(peak, a.cwiseAbs().maxCoeff());
+  if (!(peak <= largest_peak))
+    stage.fail(fmt::format("has a ground motion with a peak of {:.3g} m/s2, expected at most {:g}: look at its unit{}",
+                           peak, largest_peak, source.scale == 1.0 ? "" : " and 'scale'"));
   return motion;
 }
 

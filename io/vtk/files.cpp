@@ -8,6 +8,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <filesystem>
+#include <new>
 
 #include "io/hdf5/atomic_file.h"
 #include "io/vtk/folder.h"
@@ -44,10 +45,15 @@ auto read(const std::string& path, const char* kind) {
   auto reader = vtkSmartPointer<Reader>::New();
   reader->AddObserver(vtkCommand::ErrorEvent, flag);
   if (!reader->CanReadFile(path.c_str())) throw InputError("{}: is not a {} file", path, kind);
+  if (!head_is_sound(path)) throw InputError("{}: is damaged and cannot be read; write it again", path);
   reader->SetFileName(path.c_str());
   reader->SetReaderErrorObserver(flag);
   reader->SetParserErrorObserver(flag);
-  reader->Update();
+  try {
+    reader->Update();
+  } catch (const std::bad_alloc&) {  // a damaged count
+    failed = true;
+  }
   if (failed || reader->GetErrorCode() != vtkErrorCode::NoError)
     throw InputError("{}: is damaged and cannot be read; write it again", path);
   vtkSmartPointer output = reader->GetOutput();

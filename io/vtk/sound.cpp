@@ -5,8 +5,8 @@
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
-
-#include <string>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
 
 #include "geometry/assembly.h"
 
@@ -84,7 +84,21 @@ bool fields_fit(vtkPointSet* data) {
           data->GetFieldData()->GetArray("TimeValue")->GetNumberOfTuples() > 0);
 }
 
+bool types_are_stated(vtkXMLDataElement* element) {
+  int type = 0;
+  if (std::string_view(element->GetName()) == "DataArray" && !element->GetWordTypeAttribute("type", type)) return false;
+  for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+    if (!types_are_stated(element->GetNestedElement(i))) return false;
+  return true;
+}
+
 }  // namespace
+
+bool head_is_sound(const std::string& path) {
+  auto parser = vtkSmartPointer<vtkXMLDataParser>::New();
+  parser->SetFileName(path.c_str());
+  return parser->Parse() != 0 && parser->GetRootElement() && types_are_stated(parser->GetRootElement());
+}
 
 bool is_sound(vtkUnstructuredGrid* grid) {
   return grid->GetNumberOfCells() > 0 && fits(grid->GetCells(), grid->GetNumberOfPoints()) && fields_fit(grid) &&

@@ -109,7 +109,8 @@ TEST_F(Pictures, ADamagedFrameIsNamed) {
     expect_error(render({"run", "-o", "x.png"}), 2, {"blocks_000000.600.vtu"});
   }
   // Files that VTK reads without a complaint.
-  for (const auto& [word, other] : {std::pair{"NumberOfPoints=", "NumberOfPoimts="},
+  for (const auto& [word, other] : {std::pair{"DataArray type=", "DataArray tipe="},
+                                    {"NumberOfPoints=", "NumberOfPoimts="},
                                     {"NumberOfCells=", "NumberOfCelms="},
                                     {"Name=\"component\"", "Name=\"compoment\""},
                                     {"Name=\"offsets\"", "Name=\"offsetz\""}}) {
