@@ -14,7 +14,7 @@ TEST(Progress, SomethingIsSaidWithinASecond) {
   const double seconds = program.first_output();
   program.send(SIGKILL);
   EXPECT_GE(seconds, 0.0);
-  EXPECT_LT(seconds, 3.0) << "1 s on a free machine; this one may be busy";
+  EXPECT_LT(seconds, 2.0) << "1 s on a free machine; this one may be busy";
 }
 
 TEST(Progress, LinesTellStageTimeAndShare) {

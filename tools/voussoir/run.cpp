@@ -1,4 +1,6 @@
 // voussoir run, voussoir resume.
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "io/hdf5/assembly_file.h"
@@ -29,6 +31,11 @@ void add_run_options(CommandLine& line) {
   line.described.add_options()("until", options::value<double>()->value_name("T"),
                                "stop at this simulated time (s), with a checkpoint")(
       "no-pictures", "leave out the pictures at the end");
+}
+
+/// Said before the first second is over: large cases take longer to build.
+void say_begun(const RunRequest& wanted, const std::string& from) {
+  if (!wanted.quiet) fmt::print(stderr, "reading {}\n", from);
 }
 
 /// A fresh run directory with the resolved case and the assembly. An existing run is never overwritten unasked.
@@ -66,6 +73,7 @@ int run(const std::vector<std::string>& arguments) {
   const std::string directory =
       values.count("output") ? values["output"].as<std::string>() : fs::path(file).stem().string();
   const RunRequest wanted = request(values, directory);
+  say_begun(wanted, file);
   const Case c = read_case(file);
   prepare_directory(c, directory, values.count("overwrite") > 0);
   return RunSession(wanted).run();
@@ -81,7 +89,9 @@ int resume(const std::vector<std::string>& arguments) {
   std::error_code ignored;  // a name that cannot be looked up names no run
   if (!fs::exists(directory + "/case.toml", ignored))
     throw InputError("{} is no run directory: it has no case.toml; give the folder that voussoir run wrote", directory);
-  RunSession session(request(values, directory));
+  const RunRequest wanted = request(values, directory);
+  say_begun(wanted, directory);
+  RunSession session(wanted);
   session.resume();
   return session.run();
 }
