@@ -18,29 +18,6 @@ struct PatchBackup {
   void restore(State& s) const { s.joint = joint, s.contact = contact, s.slip = slip, s.branch = branch; }
 };
 
-struct Residual {
-  Eigen::VectorXd force;  // out-of-balance force and moment a free body
-  double largest = 0.0;   // over the average weight
-};
-
-Residual evaluate(Stepper& stepper, const Unknowns& unknowns) {
-  stepper.patches_only();
-  const BodyPass pass = stepper.body_pass();
-  Residual r;
-  r.force.resize(unknowns.count);
-  const double size = stepper.model->typical_size;
-  for (std::size_t i = 0; i < stepper.model->bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
-    const BodyUpdate u = pass.update(i);
-    r.force.segment<6>(at) << u.force.x, u.force.y, u.force.z, u.moment.x, u.moment.y, u.moment.z;
-    r.largest = std::max(r.largest, std::sqrt(dot(u.force, u.force)));
-    r.largest = std::max(r.largest, std::sqrt(dot(u.moment, u.moment)) / size);
-  }
-  r.largest /= std::max(stepper.model->average_weight, 1e-300);
-  return r;
-}
-
 void move_bodies(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step, double share,
                  State& state) {
   state.pose = from;
@@ -66,14 +43,33 @@ using Cholesky = Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>;
 
 }  // namespace
 
+OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns) {
+  stepper.patches_only();
+  const BodyPass pass = stepper.body_pass();
+  OutOfBalance r;
+  r.force.resize(unknowns.count);
+  const double size = stepper.model->typical_size;
+  for (std::size_t i = 0; i < stepper.model->bodies.size(); ++i) {
+    const std::int32_t at = unknowns.of_body[i];
+    if (at < 0) continue;
+    const BodyUpdate u = pass.update(i);
+    r.force.segment<6>(at) << u.force.x, u.force.y, u.force.z, u.moment.x, u.moment.y, u.moment.z;
+    r.largest = std::max(r.largest, std::sqrt(dot(u.force, u.force)));
+    r.largest = std::max(r.largest, std::sqrt(dot(u.moment, u.moment)) / size);
+  }
+  r.largest /= std::max(stepper.model->average_weight, 1e-300);
+  return r;
+}
+
 double out_of_balance(Stepper& stepper) {
   const PatchBackup backup(*stepper.state);
-  const double largest = evaluate(stepper, number_unknowns(*stepper.model)).largest;
+  const double largest = out_of_balance(stepper, number_unknowns(*stepper.model)).largest;
   backup.restore(*stepper.state);
   return largest;
 }
 
-Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::function<void(int, double)>& progress) {
+Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::atomic<bool>* stop,
+                               const std::function<void(int, double)>& progress) {
   const Model& model = *stepper.model;
   State& state = *stepper.state;
   const Unknowns unknowns = number_unknowns(model);
@@ -81,11 +77,11 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::fu
   Equilibrium result;
   Cholesky cholesky;
   bool analysed = false;
-  Residual r = evaluate(stepper, unknowns);
+  OutOfBalance r = out_of_balance(stepper, unknowns);
   result.first_residual = result.residual = r.largest;
   Array<double> elastic_pose = state.pose;
-  const int most_iterations = 40, patience = 10;
-  for (int i = 0; i < most_iterations && r.largest > tolerance; ++i) {
+  const int most_iterations = 40, patience = 6;
+  for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
     const SparseMatrix k = assemble_stiffness(model, state, unknowns, tangent, 1e-7);
@@ -94,21 +90,21 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::fu
     cholesky.factorize(k);
     if (cholesky.info() != Eigen::Success) break;
     const Eigen::VectorXd step = cholesky.solve(r.force);
-    const Array<double> from = state.pose;
+    const Array<double> before = state.pose;
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
     double best_norm = 1e300, best_share = 0.0;
     const double norm = r.force.norm();
     for (double share = 1.0; share > 0.05; share *= 0.5) {
-      move_bodies(model, unknowns, from, step, share, state);
+      move_bodies(model, unknowns, before, step, share, state);
       start.restore(state);
-      const double now = evaluate(stepper, unknowns).force.norm();
+      const double now = out_of_balance(stepper, unknowns).force.norm();
       if (now < best_norm) best_norm = now, best_share = share;
       if (now < (1.0 - 0.1 * share) * norm) break;
     }
     if (!(best_norm < 1e300)) break;
-    move_bodies(model, unknowns, from, step, best_share, state);
+    move_bodies(model, unknowns, before, step, best_share, state);
     start.restore(state);
-    r = evaluate(stepper, unknowns);
+    r = out_of_balance(stepper, unknowns);
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
     if (i == 0) elastic_pose = state.pose;
@@ -125,44 +121,6 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::fu
   stop_motion(state);
   result.account = fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
                                result.converged ? "converged" : "did not converge", result.iterations, result.residual);
-  return result;
-}
-
-Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
-                  const std::function<void(std::int64_t, double)>& progress) {
-  Equilibrium result;
-  result.relaxed = true;
-  DampingSettings local;
-  local.kind = DampingSettings::Kind::local;
-  stepper.damping = damping_at_work(local, stepper.dt, 0.0);
-  stepper.dt *= stepper.damping.step_factor;
-  const GroundMotion* motion = stepper.motion;
-  stepper.motion = nullptr;
-  State& state = *stepper.state;
-  const std::int64_t first = state.step();
-  const double time = state.time();
-  result.residual = result.first_residual = out_of_balance(stepper);
-  while (state.step() - first < most_steps && !(stop && stop->load())) {
-    const Advance a = stepper.advance(state.step() + 200, 1, nullptr, stop);
-    if (a.outcome == StepOutcome::runaway) break;
-    if (a.outcome == StepOutcome::contacts) {
-      update_contacts(*stepper.model, state, stepper.damping.branches);
-      stepper.prepare();
-    }
-    result.residual = out_of_balance(stepper);
-    if (progress) progress(state.step() - first, result.residual);
-    if (result.residual < tolerance) {
-      result.converged = true;
-      break;
-    }
-  }
-  result.steps = state.step() - first;
-  state.step() = first;  // relaxation is no time
-  state.time() = time;
-  stepper.motion = motion;
-  stop_motion(state);
-  result.account = fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",
-                               result.converged ? "converged" : "did not converge", result.steps, result.residual);
   return result;
 }
 

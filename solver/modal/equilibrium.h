@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "solver/modal/stiffness.h"
 #include "solver/step/stepper.h"
 
 namespace voussoir {
@@ -18,16 +19,26 @@ struct Equilibrium {
   std::string account;          // one line for the log
 };
 
-/// Largest out-of-balance force of a free body (moments over the typical block size count too) over the average weight.
+/// Out-of-balance force and moment of every free body (N, N m), and the largest as below.
+struct OutOfBalance {
+  Eigen::VectorXd force;
+  double largest = 0.0;
+};
+/// From a patch pass at the present placement; the patches remember it.
+OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns);
+
+/// Largest out-of-balance force of a free body (moments over the typical block size count too) over the average weight;
+/// leaves no trace in the state.
 double out_of_balance(Stepper& stepper);
 
 /// Newton: each iteration evaluates all patches from the state at the call, so that the result does not depend on the way.
 /// The stepper must have no damping branches. Where it does not converge it leaves the state at the placement of the first
 /// iteration, the elastic solution with every joint holding. Velocities are zero afterwards.
-Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::function<void(int, double)>& progress);
+Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::atomic<bool>* stop,
+                               const std::function<void(int, double)>& progress);
 
-/// Dynamic relaxation with Cundall's local damping (0.8). stepper.dt is the step without damping; on return it is shortened
-/// by the damping's step factor.
+/// Dynamic relaxation with inertia and damping of its own choice (solver/modal/relaxation.cpp). Neither the stepper's step
+/// nor its damping matters or changes; the stepper must have no damping branches. Velocities are zero afterwards.
 Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
                   const std::function<void(std::int64_t, double)>& progress);
 

@@ -113,6 +113,12 @@ Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch)
   return rows;
 }
 
+/// K of one patch for small motions of both its bodies.
+Eigen::Matrix<double, 12, 12> pair_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
+  const Matrix6x12 rows = jump_rows(model, state, patch_at(model, state, index));
+  return rows.transpose() * patch_stiffness(model, state, index, kind) * rows;
+}
+
 /// The lower block triangle of K: for each free body its own 6 × 6 block, then those of its higher neighbours.
 struct Pattern {
   std::vector<std::int32_t> first, neighbour;  // bodies
@@ -190,14 +196,24 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
   return is_open(model, state, index) ? Matrix6(Matrix6::Zero()) : intact_stiffness(patch);
 }
 
+std::vector<Matrix6> body_stiffness(const Model& model, const State& state, PatchTangent kind) {
+  std::vector<Matrix6> blocks(model.bodies.size(), Matrix6::Zero());
+  for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
+    const Patch& patch = patch_at(model, state, i);
+    const Eigen::Matrix<double, 12, 12> k = pair_stiffness(model, state, i, kind);
+    blocks[patch.a] += k.topLeftCorner<6, 6>();
+    blocks[patch.b] += k.bottomRightCorner<6, 6>();
+  }
+  return blocks;
+}
+
 SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind, double shift) {
   const Pattern pattern = find_pattern(model, state, unknowns);
   std::vector<Matrix6> blocks(pattern.neighbour.size(), Matrix6::Zero());
   const std::size_t all = model.joints.size() + state.contacts.size();
   for (std::size_t i = 0; i < all; ++i) {
     const Patch& patch = patch_at(model, state, i);
-    const Matrix6x12 rows = jump_rows(model, state, patch);
-    const Eigen::Matrix<double, 12, 12> k = rows.transpose() * patch_stiffness(model, state, i, kind) * rows;
+    const Eigen::Matrix<double, 12, 12> k = pair_stiffness(model, state, i, kind);
     const bool free_a = unknowns.of_body[patch.a] >= 0, free_b = unknowns.of_body[patch.b] >= 0;
     if (free_a) blocks[block_at(pattern, patch.a, patch.a)] += k.topLeftCorner<6, 6>();
     if (free_b) blocks[block_at(pattern, patch.b, patch.b)] += k.bottomRightCorner<6, 6>();

@@ -24,6 +24,9 @@ enum class PatchTangent {
 /// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
 Eigen::Matrix<double, 6, 6> patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
 
+/// The 6 × 6 block of K that belongs to each body alone (displacement, rotation vector; world axes), fixed bodies too.
+std::vector<Eigen::Matrix<double, 6, 6>> body_stiffness(const Model& model, const State& state, PatchTangent kind);
+
 /// K with patches taken at the bodies' present placements (material part; lower triangle). `shift` is added to every
 /// diagonal entry as a share of that entry, so that a loose block leaves the matrix positive.
 SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind,

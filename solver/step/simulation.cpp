@@ -57,11 +57,12 @@ void Simulation::report_progress(bool force, const std::string& note) {
   reported_ = Clock::now();
   Progress p;
   p.stage = position_.stage < std::int64_t(settings_.stages.size()) ? settings_.stages[position_.stage].label : "end";
-  p.time = state_.time();
   p.end = end_time();
+  p.timed = position_.stage >= std::int64_t(settings_.stages.size()) || settings_.stages[position_.stage].duration > 0.0;
+  p.time = p.timed ? state_.time() : position_.stage_start;  // relaxation is no time
   p.share = p.end > 0.0 ? p.time / p.end : 1.0;
   const double wall = seconds_since(started_);
-  p.speed = wall > 0.0 ? (p.time - started_time_) / wall : 0.0;
+  p.speed = p.timed && wall > 0.0 ? (p.time - started_time_) / wall : 0.0;
   p.left = p.speed > 0.0 ? (p.end - p.time) / p.speed : 0.0;
   p.note = note;
   observers_.progress(p);
@@ -76,7 +77,6 @@ void Simulation::restore(const RunPosition& position) {
     stepper_.dt = position.dt;
     stepper_.damping = damping_at_work(settings_.damping, position.dt, position.highest);
   }
-  started_time_ = state_.time();
 }
 
 /// Σ over a body's patches of stiffness over mass: bodies whose bound stays below the assembly's largest cannot have
@@ -128,19 +128,18 @@ bool Simulation::gravity(const StageSettings& stage) {
   set_branches(model_, state_, Branches{}, Branches{});
   const double tolerance = settings_.step.equilibrium_tolerance;
   if (stage.method != StageSettings::Method::relaxation) {
-    equilibrium_ = newton_equilibrium(stepper_, tolerance, [&](int i, double r) {
+    equilibrium_ = newton_equilibrium(stepper_, tolerance, observers_.stop, [&](int i, double r) {
       report_progress(true, fmt::format("Newton {}: out-of-balance {:.1e}", i, r));
     });
     log(equilibrium_.account);
   }
-  if (!equilibrium_.converged && stage.method != StageSettings::Method::newton) {
+  const bool stopped = observers_.stop && observers_.stop->load();
+  if (!equilibrium_.converged && !stopped && stage.method != StageSettings::Method::newton) {
     if (stage.method == StageSettings::Method::automatic) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
-    stepper_.dt = settings_.step.safety * critical_step(model_, state_).step;
     equilibrium_ = relax(stepper_, tolerance, 400000, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
     log(equilibrium_.account);
-    stepper_.dt = position_.dt;
   }
   for (std::size_t i = 0; i < model_.bodies.size(); ++i)
     for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.pose[pose_width * i + c];
@@ -212,13 +211,16 @@ double next_multiple(double time, double every) { return every > 0.0 ? (std::flo
 }  // namespace
 
 RunEnd Simulation::timed(const StageSettings& stage, double until) {
+  started_ = Clock::now();
+  started_time_ = state_.time();
   const OutputSettings& output = settings_.output;
   stepper_.motion = stage.kind == StageSettings::Kind::motion ? &stage.motion : nullptr;
   stepper_.motion_start = position_.stage_start;
   const double end = position_.stage_start + stage.duration;
   const double stop_at = until >= 0.0 ? std::min(until, end) : end;
-  const auto every = std::max<std::int64_t>(1, std::llround(output.history_every / stepper_.dt));
   while (state_.time() < stop_at - 1e-9 * stepper_.dt) {
+    // Anew each time: new contacts may have changed the step, and a resumed run must sample at the same steps.
+    const auto every = std::max<std::int64_t>(1, std::llround(output.history_every / stepper_.dt));
     const double fields_at = next_multiple(state_.time(), output.fields_every);
     const double save_at = next_multiple(state_.time(), output.checkpoint_every);
     const double next = std::min({stop_at, fields_at, save_at});

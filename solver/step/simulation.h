@@ -17,6 +17,7 @@ class Simulation;
 /// Where a run stands, for the progress line.
 struct Progress {
   std::string stage;             // "gravity", "motion …"
+  bool timed = true;             // false in stages that take no simulated time
   double time = 0.0, end = 0.0;  // s of simulated time, of the whole run
   double share = 0.0;            // of the whole run
   double speed = 0.0;            // simulated over wall time

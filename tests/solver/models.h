@@ -147,7 +147,7 @@ class Bench {
   }
 
   /// Newton under gravity, with as small a remainder as asked for.
-  Equilibrium balance(double tolerance = 1e-10) { return newton_equilibrium(stepper, tolerance, nullptr); }
+  Equilibrium balance(double tolerance = 1e-10) { return newton_equilibrium(stepper, tolerance, nullptr, nullptr); }
 
   /// Advances, looking for contacts when asked to. False when a body ran away.
   bool run(std::int64_t steps, std::int64_t every = 1, const std::function<void(const BodyPass&)>& sample = nullptr) {

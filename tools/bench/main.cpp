@@ -98,14 +98,10 @@ GroundMotion shaking() {
   return motion;
 }
 
-void settle(Stepper& stepper, double critical, bool quiet) {
-  const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr);
+void settle(Stepper& stepper, bool quiet) {
+  const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr, nullptr);
   if (newton.converged) return;
-  const double step = stepper.dt;
-  stepper.dt = 0.8 * critical;
   const Equilibrium relaxed = relax(stepper, 1e-4, 60000, nullptr, nullptr);
-  stepper.dt = step;
-  stepper.damping = DampingAtWork{};
   if (!quiet) fmt::print(stderr, "  {}\n", relaxed.account);
 }
 
@@ -123,7 +119,7 @@ nlohmann::json run_scene(const Scene& scene, int threads, double wall_seconds, d
   stepper.threads = threads;
   stepper.dt = scene.step > 0.0 ? scene.step : 0.8 * critical.step * damping_step_factor(damping, critical.highest);
   stepper.prepare();
-  settle(stepper, critical.step, quiet);
+  settle(stepper, quiet);
   stepper.damping = damping_at_work(damping, stepper.dt, critical.highest);
   set_branches(model, state, Branches{}, stepper.damping.branches);
   const GroundMotion motion = scene.shaken ? shaking() : GroundMotion{};

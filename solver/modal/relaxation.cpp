@@ -1,0 +1,142 @@
+// Dynamic relaxation: explicit steps in a time that means nothing, so that inertia and damping may be chosen for speed.
+//
+// Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 whatever the assembly, because a pair's stiffness is
+// at most twice its two blocks; the critical step is then at least √2 and no stiff sliver holds up the rest.
+// Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after Underwood
+// 1983). That lies above the lowest one, so that the slowest motion is damped at 0.6 to 0.8 of critical: it hardly
+// overshoots, and so little slips or opens that rest would not.
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "solver/contact/search.h"
+#include "solver/modal/equilibrium.h"
+#include "solver/modal/stiffness.h"
+
+namespace voussoir {
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::int64_t round_steps = 40;  // between looks at residual and frequency
+
+/// Smallest inertia (one mass, one tensor) that is at least the block of K: m 1 and J about as stiff as K's own parts.
+void least_inertia(const Matrix6& k, double size, double& mass, Mat3& inertia) {
+  using Solver3 = Eigen::SelfAdjointEigenSolver<Mat3>;
+  mass = Solver3(k.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  inertia = k.bottomRightCorner<3, 3>() + 1e-3 * mass * size * size * Mat3::Identity();  // a body on one point turns freely
+  if (!(mass > 0.0)) return;
+  Matrix6 m = Matrix6::Zero();
+  m.topLeftCorner<3, 3>() = mass * Mat3::Identity();
+  m.bottomRightCorner<3, 3>() = inertia;
+  const double most =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(k, m, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  mass *= most, inertia *= most;
+}
+
+Mat3 rotation_of(const State& state, std::size_t body) {
+  const double* p = &state.pose[pose_width * body];
+  return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).toRotationMatrix();
+}
+
+/// A body that nothing touches falls by a small share of a block's size in the first step.
+void hang_freely(const Model& model, Body& body) {
+  const double factor = std::max(model.gravity.norm(), 1.0) / (1e-4 * model.typical_size);
+  body.inertial_mass *= factor, body.inertia *= factor, body.inverse_inertia /= factor;
+}
+
+/// Gives the bodies the inertia that relaxes fastest; after new contacts (`again`) it only ever raises it. A body whose
+/// inertia changes is stopped, for its momentum no longer means its velocity.
+void choose_inertia(bool again, State& state, Model& model) {
+  const std::vector<Matrix6> blocks = body_stiffness(model, state, PatchTangent::intact);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Body& body = model.bodies[i];
+    if (body.fixed) continue;
+    double mass = 0.0;
+    Mat3 inertia;
+    least_inertia(blocks[i], model.typical_size, mass, inertia);
+    if (!again && mass <= 0.0) hang_freely(model, body);
+    if (mass <= 0.0 || (again && mass < 1.0001 * body.inertial_mass)) continue;
+    const Mat3 r = rotation_of(state, i);
+    body.inertial_mass = mass;
+    body.inertia = r.transpose() * inertia * r;
+    body.inverse_inertia = body.inertia.inverse();
+    for (int c = 0; c < 6; ++c) state.motion[motion_width * i + std::size_t(c)] = 0.0;
+  }
+}
+
+/// Where the free bodies are and what pulls them, to see how stiff the motion since then was.
+struct Look {
+  Array<double> pose;
+  Eigen::VectorXd force;
+};
+
+/// Square of the circular frequency of the motion between two looks; not positive where it slid without resistance.
+double frequency2(const Model& model, const State& state, const Unknowns& unknowns, const Look& before, const Eigen::VectorXd& force) {
+  double work = 0.0, mass = 0.0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const std::int32_t at = unknowns.of_body[i];
+    if (at < 0) continue;
+    const double *p = &state.pose[pose_width * i], *o = &before.pose[pose_width * i];
+    const Vec3 u(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
+    const Vec3 turn = 2.0 * (Eigen::Quaterniond(p[3], p[4], p[5], p[6]) * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
+    const Vec3 turn_own = rotation_of(state, i).transpose() * turn;
+    work -= u.dot(force.segment<3>(at) - before.force.segment<3>(at)) + turn.dot(force.segment<3>(at + 3) - before.force.segment<3>(at + 3));
+    mass += model.bodies[i].inertial_mass * u.squaredNorm() + turn_own.dot(model.bodies[i].inertia * turn_own);
+  }
+  return mass > 0.0 ? work / mass : 0.0;
+}
+
+}  // namespace
+
+Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
+                  const std::function<void(std::int64_t, double)>& progress) {
+  State& state = *stepper.state;
+  Model model = *stepper.model;  // as heavy as before, but with inertia of its own
+  choose_inertia(false, state, model);
+  const Unknowns unknowns = number_unknowns(model);
+
+  Stepper relaxing = stepper;
+  relaxing.model = &model;
+  relaxing.motion = nullptr;
+  relaxing.damping = DampingAtWork{};
+  relaxing.dt = 1.3;  // s of no meaning
+  relaxing.prepare();
+  const std::int64_t first = state.step();
+  const double time = state.time();
+
+  Equilibrium result;
+  result.relaxed = true;
+  OutOfBalance now = out_of_balance(relaxing, unknowns);
+  result.residual = result.first_residual = now.largest;
+  while (state.step() - first < most_steps && !(stop && stop->load()) && result.residual >= tolerance) {
+    const Look before = {state.pose, now.force};
+    const Advance a = relaxing.advance(state.step() + round_steps, 1, nullptr, stop);
+    if (a.outcome == StepOutcome::runaway) break;
+    if (a.outcome == StepOutcome::contacts) {
+      const ContactUpdate update = update_contacts(model, state, relaxing.damping.branches);
+      if (update.made + update.clipped > 0) choose_inertia(true, state, model);
+      relaxing.prepare();
+      now = out_of_balance(relaxing, unknowns);
+      continue;
+    }
+    now = out_of_balance(relaxing, unknowns);
+    result.residual = now.largest;
+    const double w2 = frequency2(model, state, unknowns, before, now.force);
+    relaxing.damping.mass_rate = 1.2 * std::sqrt(std::clamp(w2, 1e-8, 1.0));
+    if (progress) progress(state.step() - first, result.residual);
+  }
+  result.converged = result.residual < tolerance;
+  result.steps = state.step() - first;
+  state.step() = first;  // relaxation is no time
+  state.time() = time;
+  for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
+    for (std::size_t c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
+  stepper.prepare();
+  result.account = fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",
+                               result.converged ? "converged" : "did not converge", result.steps, result.residual);
+  return result;
+}
+
+}  // namespace voussoir
