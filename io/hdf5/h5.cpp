@@ -39,6 +39,7 @@ void be_silent() {
 template <class T>
 hid_t memory_type() {
   if constexpr (std::same_as<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::same_as<T, float>) return H5T_NATIVE_FLOAT;
   if constexpr (std::same_as<T, std::int64_t>) return H5T_NATIVE_INT64;
   if constexpr (std::same_as<T, std::int32_t>) return H5T_NATIVE_INT32;
   if constexpr (std::same_as<T, std::uint8_t>) return H5T_NATIVE_UINT8;
@@ -233,7 +234,7 @@ std::vector<T> File::read(const std::string& name, const Shape& expected) const 
   } catch (const std::bad_alloc&) {
     fail(name, "its shape " + spoken(shape(name)) + " does not fit into the memory");
   }
-  read_raw(name, values.data(), values.size(), memory_type<T>(), std::same_as<T, double>);
+  read_raw(name, values.data(), values.size(), memory_type<T>(), std::floating_point<T>);
   return values;
 }
 
@@ -241,7 +242,7 @@ template <Element T>
 void File::read_to(const std::string& name, std::span<T> values) const {
   if (count(shape(name)) != values.size())
     fail(name, "its shape is " + spoken(shape(name)) + ", expected " + std::to_string(values.size()) + " values");
-  read_raw(name, values.data(), values.size(), memory_type<T>(), std::same_as<T, double>);
+  read_raw(name, values.data(), values.size(), memory_type<T>(), std::floating_point<T>);
 }
 
 bool File::has(const std::string& name) const {
@@ -291,6 +292,7 @@ void File::make_group(const std::string& name) {
   template std::vector<T> File::read<T>(const std::string&, const Shape&) const;                   \
   template void File::read_to<T>(const std::string&, std::span<T>) const;
 VOUSSOIR_H5_INSTANTIATE(double)
+VOUSSOIR_H5_INSTANTIATE(float)
 VOUSSOIR_H5_INSTANTIATE(std::int64_t)
 VOUSSOIR_H5_INSTANTIATE(std::int32_t)
 VOUSSOIR_H5_INSTANTIATE(std::uint8_t)

@@ -28,7 +28,7 @@ struct NamedArray {
   std::string name;
   std::size_t columns = 1;  // row length; the number of rows is size / columns
   std::string unit;
-  std::variant<Array<double>*, Array<std::int64_t>*, Array<std::int32_t>*, Array<std::uint8_t>*> data;
+  std::variant<Array<double>*, Array<float>*, Array<std::int64_t>*, Array<std::int32_t>*, Array<std::uint8_t>*> data;
 };
 
 /// 64-bit hash (FNV-1a over 8-byte words, then bytes) of raw bytes, continued from `seed`.

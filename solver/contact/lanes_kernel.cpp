@@ -17,12 +17,9 @@ struct LanePoses {
 };
 
 LanePoses gather(const double* pose, const std::int32_t* bodies) {
-  alignas(64) double rows[7][lane_count];
-  for (int lane = 0; lane < lane_count; ++lane) {
-    const double* p = pose + pose_width * std::size_t(bodies[lane]);
-    for (int c = 0; c < 7; ++c) rows[c][lane] = p[c];
-  }
-  const auto* r = reinterpret_cast<const Lanes*>(rows);
+  Lanes r[lane_count];
+  for (int lane = 0; lane < lane_count; ++lane) r[lane] = *reinterpret_cast<const Lanes*>(pose + pose_width * std::size_t(bodies[lane]));
+  transpose(r);
   return {{r[0], r[1], r[2]}, {r[3], {r[4], r[5], r[6]}}};
 }
 
@@ -111,25 +108,30 @@ void follow_open(const JointBatch& batch, const Lanes* corners, const LaneElasti
     if (open[lane]) largest[2 * lane] = std::max(largest[2 * lane], most[lane]);
 }
 
-/// Elastic plus viscous generalised jump; the branches of open lanes relax.
-LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch, const LaneElastic& e, LaneMask open, LaneMask keep,
-                          Lanes* p, Lanes& loss, const Lanes* du) {
+/// Twice the loss of a branch over the step, per unit stiffness: the work done on it by the mean of its tractions at both ends,
+/// less what its spring now holds more, (q₀ + q)(Δu − s (q − q₀)); for a dashpot alone (Rayleigh) 2 q²/g.
+inline Lanes branch_loss(const Branches& branches, int k, Lanes then, Lanes q, Lanes du) {
+  if (branches.e[k] == 0.0) return 2.0 * branches.loss[k] * q * q;
+  return (then + q) * (du - branches.stored[k] * (q - then));
+}
+
+/// Elastic plus viscous generalised jump; the branches of open lanes relax, those of lanes that close start from nothing.
+LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch, const LaneElastic& e, LaneMask closed, LaneMask was_open,
+                          LaneMask keep, Singles* kept, Lanes& loss, const Lanes* du) {
   LaneElastic sum = e;
   const Lanes stiffness[6] = {batch.kn * batch.area,                batch.ks * batch.area, batch.ks * batch.area,
                               batch.ks * (batch.ss + batch.tt), batch.kn * batch.tt,   batch.kn * batch.ss};
-  for (int k = 0; k < branches.count; ++k) {
-    Lanes power = splat(0.0);
-    for (int c = 0; c < 6; ++c, ++p) {
-      const Lanes q = *p + branches.g[k] * e.u[c];
+  for (int c = 0; c < 6; ++c) {
+    Lanes twice = splat(0.0);
+    const Lanes change = was_open ? e.u[c] : du[c];
+    for (int k = 0; k < branches.count; ++k, ++kept) {
+      const Lanes then = widen(*kept);
+      const Lanes q = closed ? branches.e[k] * then + branches.g[k] * change : splat(0.0);
       sum.u[c] += q;
-      if (branches.e[k] > 0.0) {
-        const Lanes q_b = (*p + branches.g[k] * (e.u[c] - du[c])) / branches.e[k];
-        loss += 0.5 * stiffness[c] * ((q_b + q) * du[c] - branches.stored[k] * (q * q - q_b * q_b));
-      } else power += stiffness[c] * q * q;
-      const Lanes next = open ? splat(0.0) : branches.e[k] * q - branches.g[k] * e.u[c];
-      *p = keep ? next : *p;
+      twice += branch_loss(branches, k, then, q, du[c]);
+      *kept = narrow(keep ? q : then);
     }
-    loss += branches.loss[k] * power;
+    loss += 0.5 * stiffness[c] * twice;
   }
   return sum;
 }
@@ -150,9 +152,9 @@ Resultant<Lanes> lanes_resultant(const JointBatch& b, const LaneElastic& v) {
 }
 
 void store_lanes(const Triple<Lanes>& f, const Triple<Lanes>& m, const JointBatch& batch, double* wrench) {
-  const Lanes rows[6] = {f.x, f.y, f.z, m.x, m.y, m.z};
-  for (int lane = 0; lane < batch.count; ++lane)
-    for (int c = 0; c < 6; ++c) wrench[wrench_width * lane + c] = rows[c][lane];
+  Lanes rows[lane_count] = {f.x, f.y, f.z, m.x, m.y, m.z, Lanes{}, Lanes{}};
+  transpose(rows);
+  for (int lane = 0; lane < batch.count; ++lane) *reinterpret_cast<Lanes*>(wrench + wrench_width * lane) = rows[lane];
 }
 
 /// What the point path found of its lanes.
@@ -161,12 +163,6 @@ struct LanePoints {
   Lanes friction, fracture, damping, opening, slip2;
   LaneMask all_open, all_broken;
 };
-
-LaneMask load_flags(const std::uint8_t* bytes) {
-  LaneMask m;
-  for (int lane = 0; lane < lane_count; ++lane) m[lane] = bytes[lane] ? -1 : 0;
-  return m;
-}
 
 Lanes largest(Lanes a, Lanes b) { return a > b ? a : b; }
 
@@ -181,16 +177,21 @@ LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, 
                         LaneMask was_broken) {
   const Lanes zero = splat(0.0);
   const Lanes n = un - memory[0], s = us - memory[1], t = ut - memory[2];
-  const Lanes sigma = b.kn * n, shear = b.ks * square_root(s * s + t * t);
+  const Lanes sigma = b.kn * n, shear2 = b.ks * b.ks * (s * s + t * t);
+  const Lanes bonded_limit = law.cohesion - sigma * law.tangent;
   LanePoint p;
-  const LaneMask holds = ~was_broken & (sigma <= law.tension) & (shear <= law.cohesion - sigma * law.tangent);
+  const LaneMask holds = ~was_broken & (sigma <= law.tension) & (bonded_limit >= 0.0) & (shear2 <= bonded_limit * bonded_limit);
   const LaneMask breaks = ~was_broken & ~holds;
   p.broken = was_broken | breaks;
   p.open = p.broken & (n >= zero);
   const Lanes limit = law.residual_cohesion - sigma * law.residual_tangent;
-  const LaneMask slides = p.broken & ~p.open & (shear > limit);
-  const Lanes slip = slides ? (shear - limit) / (b.ks + b.kn * law.dilation * law.residual_tangent) : zero;
-  const Lanes keep = slides ? 1.0 - b.ks * slip / shear : splat(1.0);
+  const LaneMask slides = p.broken & ~p.open & (shear2 > limit * limit);
+  Lanes slip = zero, keep = splat(1.0);
+  if (any(slides)) {
+    const Lanes shear = square_root(shear2);
+    slip = slides ? (shear - limit) / (b.ks + b.kn * law.dilation * law.residual_tangent) : zero;
+    keep = slides ? 1.0 - b.ks * slip / shear : splat(1.0);
+  }
   p.elastic = ~(p.open | slides | breaks);
   const Lanes plastic_n = p.open ? zero : memory[0] + slip * law.dilation;
   p.n = p.open ? zero : un - plastic_n;
@@ -199,13 +200,18 @@ LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, 
   // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by the
   // traction at the end alone the ledger would leak in proportion to the step.
   const Lanes sb = s - du[1], tb = t - du[2], nb = n - du[0];
+  p.friction = p.fracture = zero;
+  if (!any(active & ~p.elastic)) return p;
   const Lanes lost_shear = 0.5 * b.ks * ((p.s + sb) * du[1] + (p.t + tb) * du[2] - (p.s * p.s + p.t * p.t) + (sb * sb + tb * tb));
   const Lanes lost_normal = 0.5 * b.kn * ((p.n + nb) * du[0] - p.n * p.n + nb * nb);
-  p.friction = (p.broken & was_broken) ? lost_shear + b.kn * p.n * law.dilation * slip : zero;
+  p.friction = (was_broken & ~p.elastic) ? lost_shear + b.kn * p.n * law.dilation * slip : zero;
   p.fracture = breaks ? lost_shear + lost_normal : zero;
-  memory[0] = active ? plastic_n : memory[0];
-  memory[1] = active ? (p.open ? us : memory[1] + (1.0 - keep) * s) : memory[1];
-  memory[2] = active ? (p.open ? ut : memory[2] + (1.0 - keep) * t) : memory[2];
+  const LaneMask moves = active & (p.open | slides);
+  if (any(moves)) {  // most points rest, and what is not written need not be written back
+    memory[0] = moves ? plastic_n : memory[0];
+    memory[1] = moves ? (p.open ? us : memory[1] + (1.0 - keep) * s) : memory[1];
+    memory[2] = moves ? (p.open ? ut : memory[2] + (1.0 - keep) * t) : memory[2];
+  }
   return p;
 }
 
@@ -216,33 +222,31 @@ LanePoints points_of_lanes(const Model& model, const JointBatch& b, const LaneSt
   Resultant<Lanes>& q = sum.resultant;
   const auto* point = reinterpret_cast<const Lanes*>(model.points.data()) + 3 * std::size_t(b.first_point);
   auto* plastic = reinterpret_cast<Lanes*>(memory.point.data()) + 4 * std::size_t(b.first_point);
-  auto* p = reinterpret_cast<Lanes*>(memory.point_branch.data()) + 3 * branches.count * std::size_t(b.first_point);
+  auto* kept = reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * branches.count * std::size_t(b.first_point);
   std::uint8_t* broken = &memory.broken[lane_count * std::size_t(b.first_point)];
   for (int i = 0; i < b.points; ++i, point += 3, plastic += 4, broken += lane_count) {
     const Lanes s = point[0], t = point[1], w = point[2];
     const Lanes un = j.n + j.rs * t - j.rt * s, us = j.s - j.rn * t, ut = j.t + j.rn * s;
     const Lanes du[3] = {change[0] + change[4] * t - change[5] * s, change[1] - change[3] * t, change[2] + change[3] * s};
-    const LaneMask was = load_flags(broken);
+    const LaneMask flags = load_bytes(broken), was = (flags & 1) != 0, idle = (flags & 2) != 0;
     const Lanes normal = un - plastic[0] - du[0];  // elastic jump at the pass before
     const Lanes ub[3] = {(was & (normal > zero)) ? zero : normal, us - plastic[1] - du[1], ut - plastic[2] - du[2]};
     const LanePoint r = brittle_point(b, law, un, us, ut, du, active, plastic, was);
-    for (int lane = 0; lane < lane_count; ++lane) broken[lane] = active[lane] ? std::uint8_t(r.broken[lane] != 0) : broken[lane];
+    store_bytes(active ? (r.broken & 1) | (~r.elastic & 2) : flags, broken);
     Lanes v[3] = {r.n, r.s, r.t};
     const Lanes u[3] = {r.n, r.s, r.t};
-    for (int k = 0; k < branches.count; ++k)
-      for (int c = 0; c < 3; ++c, ++p) {
-        const Lanes trial = *p + branches.g[k] * u[c];
-        const Lanes jump = r.elastic ? trial : zero;
-        v[c] += jump;
-        if (branches.e[k] > 0.0) {
-          const Lanes q_b = (*p + branches.g[k] * ub[c]) / branches.e[k];
-          sum.damping += 0.5 * w * (c == 0 ? b.kn : b.ks) * ((q_b + jump) * du[c] - branches.stored[k] * (jump * jump - q_b * q_b));
-        } else {
-          sum.damping += branches.loss[k] * w * (c == 0 ? b.kn : b.ks) * jump * jump;
-        }
-        const Lanes next = branches.e[k] * jump - branches.g[k] * u[c];
-        *p = active ? next : *p;
+    Lanes twice[3] = {zero, zero, zero};
+    Singles* row = kept + 3 * branches.count * i;
+    const int count = any(active & (r.elastic | ~idle)) ? branches.count : 0;  // what was and is empty need not be read
+    for (int k = 0; k < count; ++k)
+      for (int c = 0; c < 3; ++c, ++row) {
+        const Lanes then = widen(*row);
+        const Lanes viscous = r.elastic ? branches.e[k] * then + branches.g[k] * (u[c] - ub[c]) : zero;
+        v[c] += viscous;
+        twice[c] += branch_loss(branches, k, then, viscous, du[c]);
+        *row = narrow(active ? viscous : then);
       }
+    sum.damping += 0.5 * w * (b.kn * twice[0] + b.ks * (twice[1] + twice[2]));
     const Lanes sigma = w * b.kn * v[0], ts = w * b.ks * v[1], tt = w * b.ks * v[2];
     q.n += sigma, q.s += ts, q.t += tt;
     q.sn += s * sigma, q.tn += t * sigma;
@@ -270,16 +274,17 @@ void note_points(const LanePoints& found, LaneMask active, int count, std::size_
 }
 
 /// Patches that are wholly open and broken go back to the intact path: their plastic slip is a rigid field again.
-void to_intact(const Jump<Lanes>& j, const Branches& branches, LaneMask back, int count, std::uint8_t* mode, Lanes* slip, Lanes* p) {
+void to_intact(const Jump<Lanes>& j, const Branches& branches, LaneMask back, int count, std::uint8_t* mode, Lanes* slip, Singles* kept) {
   slip[0] = back ? j.s : slip[0];
   slip[1] = back ? j.t : slip[1];
   slip[2] = back ? j.rn : slip[2];
-  for (int c = 0; c < 6 * branches.count; ++c) p[c] = back ? splat(0.0) : p[c];
+  for (int c = 0; c < 6 * branches.count; ++c) kept[c] = narrow(back ? splat(0.0) : widen(kept[c]));
   for (int lane = 0; lane < count; ++lane)
-    if (back[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_points) | mode_broken);
+    if (back[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_points) | mode_broken | mode_open);
 }
 
 LaneMask mode_mask(const std::uint8_t* mode, int count, int bit) {
+  if (count == lane_count) return (load_bytes(mode) & bit) != 0;
   LaneMask m{};
   for (int lane = 0; lane < count; ++lane) m[lane] = (mode[lane] & bit) ? -1 : 0;
   return m;
@@ -294,6 +299,10 @@ Resultant<Lanes> merge(LaneMask first, const Resultant<Lanes>& a, LaneMask secon
 
 /// One batch, from its pose to its wrenches.
 struct BatchPass {
+  /// Minus the number of patches on either path, lane by lane.
+  struct Counts {
+    LaneMask intact{}, points{};
+  };
   const PatchPass& pass;
   std::size_t k;
   const JointBatch& batch;
@@ -302,7 +311,7 @@ struct BatchPass {
   Jump<Lanes> jump;
   LaneStrength strength;
   Lanes* slip;
-  Lanes* p;  // branches of the intact path
+  Singles* kept;         // branches of the intact path
   Lanes change[6] = {};  // of the jump since the pass before
 
   /// Intact lanes: checked at the corners, advanced if they stay; returns which did, and which of those carry load.
@@ -318,8 +327,13 @@ struct BatchPass {
     const LaneCheck check = check_corners(batch, corners, e, strength, broken);
     const LaneMask open = keep & broken & check.open, closed = keep & check.admissible & ~open;
     if (any(open)) follow_open(batch, corners, e, open, slip, &pass.state->joint.largest[2 * first]);
+    const LaneMask was_open = keep & mode_mask(mode, batch.count, mode_open);
+    if (any(open ^ was_open))
+      for (int lane = 0; lane < batch.count; ++lane)
+        if (keep[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_open) | (open[lane] ? mode_open : 0));
     Lanes loss = splat(0.0);
-    const LaneElastic v = pass.branches.count ? advance_lanes(pass.branches, batch, e, open, open | closed, p, loss, change) : e;
+    const LaneElastic v =
+        pass.branches.count ? advance_lanes(pass.branches, batch, e, closed, was_open, open | closed, kept, loss, change) : e;
     if (pass.branches.count)
       for (int lane = 0; lane < batch.count; ++lane)
         if (closed[lane]) pass.state->joint.energy[3 * (first + lane) + 2] += loss[lane];
@@ -331,7 +345,7 @@ struct BatchPass {
     const LanePoints found = points_of_lanes(*pass.model, batch, strength, jump, pass.branches, active, change, pass.state->joint);
     note_points(found, active, batch.count, first, pass.state->joint);
     const LaneMask back = active & found.all_open & found.all_broken;
-    if (pass.shortcut && any(back)) to_intact(jump, pass.branches, back, batch.count, mode, slip, p);
+    if (pass.shortcut && any(back)) to_intact(jump, pass.branches, back, batch.count, mode, slip, kept);
     return found.resultant;
   }
 
@@ -345,7 +359,7 @@ struct BatchPass {
     }
   }
 
-  void run(PassReport& report) {
+  void run(PassReport& report, Counts& counts) {
     const LaneMask gone = mode_mask(mode, batch.count, mode_gone);
     LaneMask live = ~gone, keep{};
     for (int lane = 0; lane < lane_count; ++lane) {
@@ -374,12 +388,10 @@ struct BatchPass {
         if (others[lane])
           point_patch(*pass.model, pass.model->joints[first + lane], first + lane, pass.model->points, pass.state->pose.data(),
                       pass.branches, pass.state->joint, wrench + wrench_width * lane);
-    report.reclip |= any(live & ((jump.s * jump.s + jump.t * jump.t > batch.limit_slip2) |
-                                 (jump.rn * jump.rn + jump.rs * jump.rs + jump.rt * jump.rt > batch.limit_turn2)));
-    for (int lane = 0; lane < batch.count; ++lane) {
-      report.intact += intact.stays[lane] != 0;
-      report.points += points[lane] != 0;
-    }
+    report.reclip |= any(live & ((jump.s * jump.s + jump.t * jump.t > pass.model->slip_limit2(batch.area)) |
+                                 (jump.rn * jump.rn + jump.rs * jump.rs + jump.rt * jump.rt > pass.model->turn_limit2())));
+    counts.intact += intact.stays;
+    counts.points += points;
   }
 };
 
@@ -387,15 +399,17 @@ struct BatchPass {
 
 PassReport PatchPass::batches(std::size_t begin, std::size_t end) const {
   PassReport report;
+  BatchPass::Counts counts;
   auto* slip = reinterpret_cast<Lanes*>(state->slip.data());
-  auto* branch = reinterpret_cast<Lanes*>(state->branch.data());
+  auto* branch = reinterpret_cast<Singles*>(state->branch.data());
   for (std::size_t k = begin; k < end; ++k) {
     const JointBatch& batch = model->batches[k];
     const std::size_t first = lane_count * k;
     BatchPass{*this, k, batch, first, &state->joint.mode[first], lanes_jump(batch, state->pose.data()), strengths(*model, batch),
               slip + 3 * k, branch + 6 * branches.count * k}
-        .run(report);
+        .run(report, counts);
   }
+  for (int lane = 0; lane < lane_count; ++lane) report.intact -= counts.intact[lane], report.points -= counts.points[lane];
   return report;
 }
 

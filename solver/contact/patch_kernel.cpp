@@ -61,17 +61,15 @@ Triple<double> advance_branches(const Branches& branches, const Patch& patch, in
   double* v = &viscous.x;
   for (int k = 0; k < branches.count; ++k)
     for (int c = 0; c < 3; ++c) {
-      double& p = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)];
-      const double g = branches.g[k], stiffness = weight * (c == 0 ? patch.kn : patch.ks);
-      const double q = r.elastic ? p + g * u[c] : 0.0;
-      if (branches.e[k] > 0.0) {  // work done on the branch less what its spring now holds more
-        const double then = (p + g * before.elastic[c]) / branches.e[k];
-        loss += 0.5 * stiffness * ((then + q) * before.du[c] - branches.stored[k] * (q * q - then * then));
-      } else {
+      float& kept = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)];
+      const double then = kept, stiffness = weight * (c == 0 ? patch.kn : patch.ks);
+      const double q = r.elastic ? branches.e[k] * then + branches.g[k] * (u[c] - before.elastic[c]) : 0.0;
+      if (branches.e[k] > 0.0)  // work done on the branch less what its spring now holds more
+        loss += 0.5 * stiffness * (then + q) * (before.du[c] - branches.stored[k] * (q - then));
+      else
         loss += branches.loss[k] * stiffness * q * q;
-      }
       v[c] += q;
-      p = branches.e[k] * q - g * u[c];
+      kept = float(q);
     }
   return viscous;
 }
@@ -146,8 +144,7 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
   largest[1] = std::max(largest[1], std::sqrt(sums.slip2));
   if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
   const double limit_slip2 = model.slip_limit2(patch.area);
-  const double limit_turn2 = model.contact.reclip_angle * model.contact.reclip_angle;
-  return j.s * j.s + j.t * j.t > limit_slip2 || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > limit_turn2;
+  return j.s * j.s + j.t * j.t > limit_slip2 || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
 }
 
 void joint_to_points(const Model& model, State& state, const Branches& branches, std::size_t index) {
@@ -160,15 +157,14 @@ void joint_to_points(const Model& model, State& state, const Branches& branches,
     const PatchPoint point = patch_point(patch, model.points, i);
     store_memory(patch, i, {0.0, a - r * point.t, b + r * point.s, broken ? 1.0 : 0.0, broken}, state.joint);
     for (int k = 0; k < branches.count; ++k) {
-      const double* p = &state.branch[lane_count * 6 * (branches.count * batch + k) + lane];
-      const auto row = [&](int c) { return p[lane_count * c]; };
+      const auto row = [&](int c) -> double { return state.branch[branch_index(branches.count, batch, c, k) + lane]; };
       const double field[3] = {row(0) + row(4) * point.t - row(5) * point.s, row(1) - row(3) * point.t, row(2) + row(3) * point.s};
       for (int c = 0; c < 3; ++c)
-        state.joint.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)] = field[c];
+        state.joint.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)] = float(field[c]);
     }
   }
   state.joint.mode[index] |= mode_points;
-  state.joint.mode[index] &= std::uint8_t(~mode_broken);
+  state.joint.mode[index] &= std::uint8_t(~(mode_broken | mode_open));
 }
 
 PassReport PatchPass::contacts(std::size_t begin, std::size_t end) const {

@@ -80,25 +80,11 @@ void append(State& next, const Branches& branches, const NewContact& c) {
   PatchMemory& m = next.contact;
   m.point.insert(m.point.end(), c.memory.begin(), c.memory.end());
   m.broken.insert(m.broken.end(), c.points.size(), 1);
-  m.point_branch.insert(m.point_branch.end(), 3 * branches.count * c.points.size(), 0.0);
+  m.point_branch.insert(m.point_branch.end(), 3 * branches.count * c.points.size(), 0.0f);
   m.mode.push_back(mode_points);
   m.largest.insert(m.largest.end(), {c.carried_opening, c.carried_slip});
   m.energy.insert(m.energy.end(), 3, 0.0);
   m.last.insert(m.last.end(), 6, 0.0);  // a fresh contact's own jump is zero where it is made
-}
-
-/// Relaxed branches for the elastic jump a fresh contact starts with.
-void relax_branches(State& next, const Branches& branches, std::size_t contact) {
-  const Patch& p = next.contacts[contact];
-  const Jump<double> j = patch_jump(p, &next.pose[pose_width * p.a], &next.pose[pose_width * p.b]);
-  for (int i = 0; i < p.point_count; ++i) {
-    const Triple<double> u = elastic_jump(p, j, patch_point(p, next.contact_points, i), next.contact, i);
-    const double x[3] = {u.x, u.y, u.z};
-    if (u.x >= 0.0) continue;
-    for (int k = 0; k < branches.count; ++k)
-      for (int c = 0; c < 3; ++c)
-        next.contact.point_branch[point_index(p, i, 3 * branches.count, 3 * k + c)] = -branches.g[k] * x[c];
-  }
 }
 
 void copy_old(const State& from, State& next, const Branches& branches, std::size_t i) {
@@ -272,7 +258,6 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     }
     append(state, branches, *entry.fresh);
     const std::size_t last = state.contacts.size() - 1;
-    relax_branches(state, branches, last);
     energy_after += patch_energy(model, state, branches, model.joints.size() + last).elastic;
   }
   state.clipped_energy() += energy_before - energy_after;

@@ -13,7 +13,8 @@ namespace {
 /// Everything a patch pass changes.
 struct PatchBackup {
   PatchMemory joint, contact;
-  Array<double> slip, branch;
+  Array<double> slip;
+  Array<float> branch;
   explicit PatchBackup(const State& s) : joint(s.joint), contact(s.contact), slip(s.slip), branch(s.branch) {}
   void restore(State& s) const { s.joint = joint, s.contact = contact, s.slip = slip, s.branch = branch; }
 };

@@ -101,18 +101,22 @@ PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t
 
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   std::vector<PatchShape> shapes;
-  using Key = std::tuple<int, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int64_t>;
-  std::vector<Key> order;  // corner class, pair of bodies, pair of cells, index
+  using Key = std::tuple<int, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int64_t>;
+  // Corner class, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open: in
+  // batches of their own those that go point by point hold up fewer of the others.
+  std::vector<Key> order;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
     const int corners = int(joint.polygon.size());
     const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
-    order.emplace_back(std::max(4, corners), std::min(a, b), std::max(a, b), joint.cell_a,
+    int facing = 2;
+    joint.normal.cwiseAbs().maxCoeff(&facing);
+    order.emplace_back(std::max(4, corners), joint.law, facing, std::min(a, b), std::max(a, b), joint.cell_a,
                        joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
   for (const Key& key : order) {
-    const std::int64_t index = std::get<5>(key);
+    const std::int64_t index = std::get<7>(key);
     Patch patch;
     shapes.push_back(joint_patch(assembly, assembly.joints[index], index, model, patch));
     patch.first_corner = std::int32_t(model.corners.size() / 2);
@@ -124,7 +128,7 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   return shapes;
 }
 
-void fill_lane(const Model& model, const Patch& patch, int lane, JointBatch& batch) {
+void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
   batch.a[lane] = patch.a;
   batch.b[lane] = patch.b;
   batch.law[lane] = patch.law;
@@ -139,8 +143,6 @@ void fill_lane(const Model& model, const Patch& patch, int lane, JointBatch& bat
   batch.area[lane] = patch.area;
   batch.ss[lane] = patch.ss;
   batch.tt[lane] = patch.tt;
-  batch.limit_slip2[lane] = model.slip_limit2(patch.area);
-  batch.limit_turn2[lane] = model.contact.reclip_angle * model.contact.reclip_angle;
 }
 
 /// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
@@ -180,7 +182,7 @@ void make_batches(Model& model, const std::vector<PatchShape>& shapes) {
     model.batch_corners.resize(model.batch_corners.size() + 2 * std::size_t(batch.corners));
     for (int lane = 0; lane < lane_count; ++lane) {
       const Patch& patch = model.joints[first + std::min(lane, batch.count - 1)];
-      fill_lane(model, patch, lane, batch);
+      fill_lane(patch, lane, batch);
       for (int c = 0; c < batch.corners; ++c) {
         const PatchPoint corner = patch_corner(patch, model.corners, std::min(c, patch.corner_count - 1));
         model.batch_corners[batch.first_corner + 2 * c][lane] = corner.s;

@@ -63,7 +63,6 @@ inline PatchPoint patch_corner(const Patch& p, const Array<double>& table, int i
 struct alignas(64) JointBatch {
   Lanes arm_a[3], arm_b[3], place[3], frame[4];
   Lanes kn, ks, area, ss, tt;
-  Lanes limit_slip2, limit_turn2;  // m2, –: squares past which the patch is clipped anew (turn in units of |2 sin(φ/2)|)
   std::int32_t a[lane_count], b[lane_count], law[lane_count];
   std::int32_t first_corner = 0;  // into Model::batch_corners
   std::int32_t corners = 4;       // most of any lane
@@ -98,6 +97,12 @@ struct Model {
   double slip_limit2(double area) const {
     return contact.reclip_slip * contact.reclip_slip * std::max(area, 0.0625 * typical_size * typical_size);
   }
+  Lanes slip_limit2(Lanes area) const {
+    const Lanes least = splat(0.0625 * typical_size * typical_size);
+    return contact.reclip_slip * contact.reclip_slip * (area > least ? area : least);
+  }
+  /// Square of the turn past which a patch is clipped anew, in units of |2 sin(φ/2)|.
+  double turn_limit2() const { return contact.reclip_angle * contact.reclip_angle; }
   double average_weight = 0.0;              // N, of a free block at 9.81 m/s2 or the case's gravity
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();

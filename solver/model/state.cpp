@@ -95,4 +95,14 @@ State initial_state(const Model& model) {
   return state;
 }
 
+void set_branches(const Model& model, State& state, int count) {
+  const std::size_t n = std::size_t(count);
+  const auto fit = [](Array<float>& branches, std::size_t size) {
+    if (branches.size() != size) branches.assign(size, 0.0f);
+  };
+  fit(state.branch, 6 * lane_count * n * model.batches.size());
+  fit(state.joint.point_branch, n * model.points.size());
+  fit(state.contact.point_branch, n * state.contact_points.size());
+}
+
 }  // namespace voussoir

@@ -9,8 +9,9 @@
 
 namespace voussoir {
 
-/// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu, traction
-/// stiffness × q. A branch stores only p = e q − g u, from which the next q = p + g u follows (docs/theory/damping.md).
+/// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu with Δu the
+/// change of the elastic jump over the step; traction stiffness × q (docs/theory/damping.md). q is kept in single precision:
+/// it is a correction of some per cent, it decays, and it is most of what a damped step reads and writes.
 constexpr int most_branches = 4;
 struct Branches {
   int count = 0;
@@ -29,13 +30,14 @@ enum PatchMode : std::uint8_t {
   mode_points = 1,   // point by point (else as six generalised springs)
   mode_broken = 2,   // intact path: the whole patch has lost its bond (or never had one)
   mode_gone = 4,     // carries nothing for good: replaced by a contact, or its bodies have parted
+  mode_open = 8,     // intact path: wholly open at the last pass
 };
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.
 struct PatchMemory {
   Array<double> point;           // 4 columns: plastic jump n, s, t (m), softening
-  Array<std::uint8_t> broken;    // 1 column
-  Array<double> point_branch;    // 3 columns a branch: p (m)
+  Array<std::uint8_t> broken;    // 1 column: 0, or 1 without bond, or 3 without bond and with empty branches
+  Array<float> point_branch;     // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;      // 1 a patch, PatchMode bits
   Array<double> largest;         // 2 a patch: opening, slip (m)
   Array<double> last;            // 6 a patch: jump at the last pass (m, rad); joints eight side by side
@@ -60,7 +62,7 @@ struct State {
 
   PatchMemory joint;       // of Model::joints
   Array<double> slip;      // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
-  Array<double> branch;    // per batch branches × 6 × 8: p of the six generalised jumps
+  Array<float> branch;     // per batch 6 × branches × 8: q of the six generalised jumps
 
   std::vector<Patch> contacts;  // found during the run, sorted by (a, b, cell_a, cell_b)
   Array<double> contact_points;   // s, t, weight
@@ -87,6 +89,15 @@ struct State {
   void unpack_contacts();
 };
 
+/// First of the eight lanes of generalised jump c in branch k of a batch, in State::branch.
+inline std::size_t branch_index(int branches, std::size_t batch, int c, int k) {
+  return lane_count * ((6 * batch + std::size_t(c)) * std::size_t(branches) + std::size_t(k));
+}
+
 /// At rest in the reference placement, bonds as the laws say, no damping branches.
 State initial_state(const Model& model);
+
+/// Gives every patch room for `count` branches. With the same number as before they are kept, else they start relaxed, q = 0.
+void set_branches(const Model& model, State& state, int count);
+
 }  // namespace voussoir

@@ -33,23 +33,28 @@ Triple<double> spin(const Body& body, const Quat<double>& q, const Triple<double
   return turn(q, times(body.inverse_inertia, turn_back(q, momentum)));
 }
 
-/// exp(½ dt ω) q, renormalised; series of sin and cos below a quarter turn a step, which keep full precision and are the
+/// exp(½ dt ω) q; series of sin and cos below a quarter turn a step, which keep full precision and are the
 /// same on every machine.
 Quat<double> rotate(const Quat<double>& q, const Triple<double>& omega, double dt) {
   const Triple<double> h = 0.5 * dt * omega;
   const double x = dot(h, h);
   double c, s;  // cos |h|, sin |h| / |h|
   if (x < 0.06) {
-    c = 1.0 - x / 2 * (1.0 - x / 12 * (1.0 - x / 30 * (1.0 - x / 56 * (1.0 - x / 90))));
-    s = 1.0 - x / 6 * (1.0 - x / 20 * (1.0 - x / 42 * (1.0 - x / 72 * (1.0 - x / 110))));
+    constexpr double c2 = 1.0 / 12, c3 = 1.0 / 30, c4 = 1.0 / 56, c5 = 1.0 / 90;
+    constexpr double s1 = 1.0 / 6, s2 = 1.0 / 20, s3 = 1.0 / 42, s4 = 1.0 / 72, s5 = 1.0 / 110;
+    c = 1.0 - 0.5 * x * (1.0 - c2 * x * (1.0 - c3 * x * (1.0 - c4 * x * (1.0 - c5 * x))));
+    s = 1.0 - s1 * x * (1.0 - s2 * x * (1.0 - s3 * x * (1.0 - s4 * x * (1.0 - s5 * x))));
   } else {
     const double a = std::sqrt(x);
     c = std::cos(a);
     s = std::sin(a) / a;
   }
-  const Quat<double> r = Quat<double>{c, s * h} * q;
-  const double norm = 1.0 / std::sqrt(r.w * r.w + dot(r.v, r.v));
-  return {norm * r.w, norm * r.v};
+  return Quat<double>{c, s * h} * q;
+}
+
+Quat<double> normalised(const Quat<double>& q) {
+  const double norm = 1.0 / std::sqrt(q.w * q.w + dot(q.v, q.v));
+  return {norm * q.w, norm * q.v};
 }
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
@@ -105,12 +110,15 @@ BodyUpdate BodyPass::update(std::size_t i) const {
     r.loss += damp_locally(local, dt, f, v);
     r.loss += damp_locally(local, dt, m, spin(body, pose_rotation(pose), l));
   }
-  if (mass_rate > 0.0) {  // centred: the mean of both half-step velocities is damped
+  if (mass_rate > 0.0) {  // centred: the mean of both half-step velocities is damped, relative to the ground's
     const double h = 0.5 * dt * mass_rate;
-    r.velocity = (1.0 / (1.0 + h)) * ((1.0 - h) * v + (dt / body.inertial_mass) * f);
+    const Vec3 ground = 0.5 * (base_velocity_now + base_velocity_next);
+    const Triple<double> base = {ground.x(), ground.y(), ground.z()};
+    r.velocity = (1.0 / (1.0 + h)) * ((1.0 - h) * v + (dt / body.inertial_mass) * f + (2.0 * h) * base);
     r.momentum = (1.0 / (1.0 + h)) * ((1.0 - h) * l + dt * m);
     const Triple<double> mean = 0.5 * (v + r.velocity), turn_mean = 0.5 * (l + r.momentum);
-    r.loss += mass_rate * dt * (body.inertial_mass * dot(mean, mean) + dot(turn_mean, spin(body, pose_rotation(pose), turn_mean)));
+    // What the body gives up: lost in the dampers, or handed to the ground they stand on.
+    r.loss += mass_rate * dt * (body.inertial_mass * dot(mean - base, mean) + dot(turn_mean, spin(body, pose_rotation(pose), turn_mean)));
   } else {
     r.velocity = v + (dt / body.inertial_mass) * f;
     r.momentum = l + dt * m;
@@ -138,7 +146,7 @@ BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
     for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
     const Quat<double> q = pose_rotation(pose);
     const Quat<double> half = rotate(q, spin(body, q, next.momentum), 0.5 * dt);
-    const Quat<double> turned = rotate(q, spin(body, half, next.momentum), dt);
+    const Quat<double> turned = normalised(rotate(q, spin(body, half, next.momentum), dt));
     pose[3] = turned.w, pose[4] = turned.v.x, pose[5] = turned.v.y, pose[6] = turned.v.z;
     report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
     const double speed2 = dot(next.velocity, next.velocity);

@@ -4,9 +4,6 @@ namespace voussoir {
 
 namespace {
 
-/// ½ stored q² of the branches after their update: q from p = e q − g u.
-double branch_jump(const Branches& b, int k, double p, double u) { return b.e[k] > 0.0 ? (p + b.g[k] * u) / b.e[k] : 0.0; }
-
 PatchEnergy intact_energy(const Model& model, const State& state, const Branches& branches, std::size_t index) {
   const Patch& patch = model.joints[index];
   const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
@@ -27,8 +24,7 @@ PatchEnergy intact_energy(const Model& model, const State& state, const Branches
   for (int c = 0; c < 6; ++c) {
     e.elastic += 0.5 * k[c] * u[c] * u[c];
     for (int b = 0; b < branches.count; ++b) {
-      const double p = state.branch[lane_count * (6 * (branches.count * batch + b) + c) + lane];
-      const double q = branch_jump(branches, b, p, u[c]);
+      const double q = state.branch[branch_index(branches.count, batch, c, b) + lane];
       e.branches += 0.5 * k[c] * branches.stored[b] * q * q;
     }
   }
@@ -54,7 +50,7 @@ PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch,
       const double k = point.weight * (c == 0 ? patch.kn : patch.ks);
       e.elastic += 0.5 * k * x[c] * x[c];
       for (int b = 0; b < branches.count; ++b) {
-        const double q = branch_jump(branches, b, memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * b + c)], x[c]);
+        const double q = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * b + c)];
         e.branches += 0.5 * k * branches.stored[b] * q * q;
       }
     }

@@ -4,7 +4,6 @@
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
-#include "solver/contact/branch_memory.h"
 #include "solver/contact/search.h"
 #include "solver/step/critical_step.h"
 
@@ -125,7 +124,7 @@ void Simulation::choose_step() {
 
 bool Simulation::gravity(const StageSettings& stage) {
   stepper_.damping = DampingAtWork{};
-  set_branches(model_, state_, Branches{}, Branches{});
+  set_branches(model_, state_, 0);
   const double tolerance = settings_.step.equilibrium_tolerance;
   if (stage.method != StageSettings::Method::relaxation) {
     equilibrium_ = newton_equilibrium(stepper_, tolerance, observers_.stop, [&](int i, double r) {
@@ -154,12 +153,12 @@ void Simulation::begin_stage(const StageSettings& stage) {
   if (position_.dt <= 0.0) choose_step();
   const bool from_rest = position_.stage == 0 || settings_.stages[position_.stage - 1].kind == StageSettings::Kind::gravity;
   if (from_rest) {  // without branches a patch pass changes nothing but what it finds: safe to look at the energy
-    set_branches(model_, state_, Branches{}, Branches{});
+    set_branches(model_, state_, 0);
     stepper_.damping = DampingAtWork{};
     stepper_.patches_only();
     state_.starting_energy() = compute_energies(stepper_, stepper_.body_pass()).total();
     const DampingAtWork damping = damping_at_work(settings_.damping, position_.dt, position_.highest);
-    set_branches(model_, state_, Branches{}, damping.branches);
+    set_branches(model_, state_, damping.branches.count);
     stepper_.damping = damping;
     log(damping.account);
   }
@@ -177,11 +176,9 @@ void Simulation::change_contacts() {
   const CriticalStep critical = critical_step(model_, state_);
   const double step = settings_.step.safety * critical.step * damping_step_factor(settings_.damping, critical.highest);
   if (step >= position_.dt) return;
-  const Branches from = stepper_.damping.branches;
   position_.dt = stepper_.dt = step;
   position_.highest = critical.highest;
   stepper_.damping = damping_at_work(settings_.damping, step, critical.highest);
-  set_branches(model_, state_, from, stepper_.damping.branches);
   log(fmt::format("t = {:.4f} s: new contacts lower the step to {:.4g} s, set by {}", state_.time(), step,
                   body_name(*assembly_, model_, critical.body)));
 }

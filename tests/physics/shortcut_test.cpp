@@ -81,13 +81,17 @@ Outcome compare(int corners, const JointLaw& law, DampingSettings::Kind damping,
   return outcome;
 }
 
+/// Of the wrench. Maxwell branches are kept in single precision: six numbers rounded on one path, three a point on the other,
+/// each to 6e-8 of a viscous stress that is up to a sixth of the elastic one and remembers some hundred roundings.
+double agreement(DampingSettings::Kind damping) { return damping == DampingSettings::Kind::maxwell ? 1e-7 : 1e-10; }
+
 class Shortcut : public testing::TestWithParam<std::tuple<int, DampingSettings::Kind>> {};
 
 TEST_P(Shortcut, SameWrenchBelowTheLimit) {
   const auto [corners, damping] = GetParam();
   const Outcome o = compare(corners, weak_bond(), damping, 2e-4, 1e-5, 21);
   EXPECT_EQ(o.points, 0);
-  EXPECT_LT(o.worst, 1e-10 * o.largest);
+  EXPECT_LT(o.worst, agreement(damping) * o.largest);
 }
 
 TEST_P(Shortcut, SameWrenchAcrossTheLimit) {
@@ -95,7 +99,7 @@ TEST_P(Shortcut, SameWrenchAcrossTheLimit) {
   const Outcome o = compare(corners, weak_bond(), damping, 5e-5, 1e-4, 22);
   EXPECT_GT(o.intact, 0);
   EXPECT_GT(o.points, 0);
-  EXPECT_LT(o.worst, 1e-10 * o.largest);
+  EXPECT_LT(o.worst, agreement(damping) * o.largest);
 }
 
 /// A joint without bond opens wholly, goes back to the intact path, closes and slides, over and over.
@@ -104,7 +108,7 @@ TEST_P(Shortcut, SameWrenchOfADryJointThatOpensAndCloses) {
   const Outcome o = compare(corners, dry_law(0.5), damping, 0.0, 1e-4, 23);
   EXPECT_TRUE(o.intact_after_points);
   EXPECT_GT(o.points, 0);
-  EXPECT_LT(o.worst, 1e-10 * o.largest);
+  EXPECT_LT(o.worst, agreement(damping) * o.largest);
 }
 
 INSTANTIATE_TEST_SUITE_P(Polygons, Shortcut,
@@ -136,8 +140,8 @@ TEST(Shortcut, SameMotionOfAnElasticWall) {
     for (std::size_t i = 2; i < bench.state.joint.energy.size(); i += 3)
       damping_loss[shortcut] += bench.state.joint.energy[i];
   }
-  EXPECT_LT((top[0] - top[1]).norm(), 1e-9 * top[0].norm());
-  EXPECT_NEAR(damping_loss[0], damping_loss[1], 1e-9 * damping_loss[0]);
+  EXPECT_LT((top[0] - top[1]).norm(), agreement(DampingSettings::Kind::maxwell) * top[0].norm());
+  EXPECT_NEAR(damping_loss[0], damping_loss[1], agreement(DampingSettings::Kind::maxwell) * damping_loss[0]);
 }
 
 }  // namespace

@@ -96,7 +96,6 @@ double largest_after(const DampingSettings& damping, double share, int steps) {
   const double omega = std::sqrt(1e9 / 2000.0);  // axial: the highest (see critical_step_test)
   bench.begin(share * 2.0 / omega * damping_step_factor(damping, omega));
   bench.place(1, {0, 0, 1e-6}, Eigen::Quaterniond::Identity());
-  set_branches(bench.model, bench.state, bench.stepper.damping.branches, bench.stepper.damping.branches);
   double largest = 0.0;
   for (int i = 0; i < steps; ++i) {
     if (!bench.run(1)) return 1e300;

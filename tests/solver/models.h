@@ -9,7 +9,6 @@
 
 #include "geometry/generator.h"
 #include "geometry/joints.h"
-#include "solver/contact/branch_memory.h"
 #include "solver/contact/make_contact.h"
 #include "solver/contact/search.h"
 #include "solver/modal/equilibrium.h"
@@ -140,7 +139,7 @@ class Bench {
     const CriticalStep critical = critical_step(model, state);
     if (dt == 0.0) dt = 0.8 * critical.step * damping_step_factor(settings.damping, critical.highest);
     const DampingAtWork damping = damping_at_work(settings.damping, dt, critical.highest);
-    set_branches(model, state, stepper.damping.branches, damping.branches);
+    set_branches(model, state, damping.branches.count);
     stepper.damping = damping;
     stepper.dt = dt;
     stepper.search_distance = search_distance(model);

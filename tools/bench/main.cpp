@@ -13,7 +13,6 @@
 #include "geometry/generator.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
-#include "solver/contact/branch_memory.h"
 #include "solver/contact/search.h"
 #include "solver/modal/equilibrium.h"
 #include "solver/step/critical_step.h"
@@ -121,7 +120,7 @@ nlohmann::json run_scene(const Scene& scene, int threads, double wall_seconds, d
   stepper.prepare();
   settle(stepper, quiet);
   stepper.damping = damping_at_work(damping, stepper.dt, critical.highest);
-  set_branches(model, state, Branches{}, stepper.damping.branches);
+  set_branches(model, state, stepper.damping.branches.count);
   const GroundMotion motion = scene.shaken ? shaking() : GroundMotion{};
   if (scene.shaken) stepper.motion = &motion;
   const std::size_t movable = std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return !b.fixed; });
