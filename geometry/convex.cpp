@@ -9,11 +9,11 @@ namespace voussoir {
 namespace {
 
 constexpr double k_parallel = 1e-8;  // sine below which two edges have one direction
-// Sine below which two edges that meet lie side by side: they do not cross, and the cross product says nothing of use. In
-// masonry every stone has such neighbours, edge along edge.
+// Sine below which two edges that meet lie side by side: they do not cross, and the cross product says nothing of use.
+// In masonry every stone has such neighbours, edge along edge.
 constexpr double k_side_by_side = 0.05;
-constexpr double k_tie = 1e-9;       // m, or of a unit vector's components
-constexpr double k_steep = 0.1;      // cosine below which a face is too steep to carry a patch
+constexpr double k_tie = 1e-9;   // m, or of a unit vector's components
+constexpr double k_steep = 0.1;  // cosine below which a face is too steep to carry a patch
 
 /// A separating axis: unit, from a to b. Face axes name the face, of a or of b.
 struct Axis {

@@ -13,8 +13,8 @@
 namespace voussoir::h5 {
 
 template <class T>
-concept Element = std::same_as<T, double> || std::same_as<T, float> || std::same_as<T, std::int64_t> || std::same_as<T, std::int32_t> ||
-    std::same_as<T, std::uint8_t>;
+concept Element = std::same_as<T, double> || std::same_as<T, float> || std::same_as<T, std::int64_t> ||
+    std::same_as<T, std::int32_t> || std::same_as<T, std::uint8_t>;
 
 using Shape = std::vector<std::size_t>;
 /// In an expected shape: any size will do.

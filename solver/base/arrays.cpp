@@ -22,7 +22,9 @@ std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed)
   return h;
 }
 
-std::uint64_t hash_text(const std::string& text) { return hash_bytes(text.data(), text.size()); }
+std::uint64_t hash_text(const std::string& text) {
+  return hash_bytes(text.data(), text.size());
+}
 
 std::uint64_t hash_arrays(const std::vector<NamedArray>& arrays) {
   std::uint64_t h = hash_text("voussoir");

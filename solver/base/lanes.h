@@ -1,5 +1,5 @@
-// Eight doubles side by side: a SIMD lane is a patch. The compiler splits them where registers are narrower, so the bits
-// do not depend on how many lanes a register has.
+// Eight doubles side by side: a SIMD lane is a patch. The compiler splits them where registers are narrower, so the
+// bits do not depend on how many lanes a register has.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -13,10 +13,16 @@ using LaneMask = long __attribute__((vector_size(8 * lane_count)));  // all bits
 
 using Singles = float __attribute__((vector_size(4 * lane_count)));  // half the bytes, where seven digits do
 
-inline Lanes widen(const Singles& x) { return __builtin_convertvector(x, Lanes); }
-inline Singles narrow(const Lanes& x) { return __builtin_convertvector(x, Singles); }
+inline Lanes widen(const Singles& x) {
+  return __builtin_convertvector(x, Lanes);
+}
+inline Singles narrow(const Lanes& x) {
+  return __builtin_convertvector(x, Singles);
+}
 
-inline Lanes splat(double x) { return Lanes{} + x; }
+inline Lanes splat(double x) {
+  return Lanes{} + x;
+}
 
 inline Lanes square_root(Lanes x) {
   Lanes r;

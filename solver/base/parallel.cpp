@@ -18,7 +18,9 @@ void ensure_passive_waiting(char** argv) {
   execv("/proc/self/exe", argv);  // returns only on failure: then the default policy stays, which is slower, not wrong
 }
 
-int available_threads() { return omp_get_num_procs(); }
+int available_threads() {
+  return omp_get_num_procs();
+}
 
 Range share(std::size_t n, int thread, int threads) {
   return {n * std::size_t(thread) / std::size_t(threads), n * std::size_t(thread + 1) / std::size_t(threads)};

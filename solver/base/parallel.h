@@ -32,7 +32,8 @@ class Barrier {
   std::atomic<int> generation_{0};
 };
 
-/// Runs `work(thread, team, barrier)` once in each of `team` threads: `threads`, or fewer where the system grants fewer.
+/// Runs `work(thread, team, barrier)` once in each of `team` threads: `threads`, or fewer where the system grants
+/// fewer.
 void run_team(int threads, const std::function<void(int, int, Barrier&)>& work);
 
 }  // namespace voussoir

@@ -1,9 +1,11 @@
-// The displacement jump of a patch from the present placements of its two bodies: exact at any rotation, no trigonometry.
+// The displacement jump of a patch from the present placements of its two bodies: exact at any rotation, no
+// trigonometry.
 //
 //   δ(r) = δc + θ' × Q r,  θ' = 2 vec(q_b q_a⁻¹),  Q = (q_a + q_b)/|q_a + q_b|
 //
-// because with P the rotation of b relative to a, R_b − R_a = P^½ Q − P^−½ Q = 2 sin(φ/2) [axis]× Q. Tractions act midway
-// between the two material points: r_mid = H Q r, H = cos(φ/2) 1 + θ'θ'ᵀ/(4(1 + cos(φ/2))) (docs/theory/joints.md).
+// because with P the rotation of b relative to a, R_b − R_a = P^½ Q − P^−½ Q = 2 sin(φ/2) [axis]× Q. Tractions act
+// midway between the two material points: r_mid = H Q r, H = cos(φ/2) 1 + θ'θ'ᵀ/(4(1 + cos(φ/2)))
+// (docs/theory/joints.md).
 #pragma once
 #include "solver/model/state.h"
 
@@ -12,17 +14,18 @@ namespace voussoir {
 /// Jump of a patch in its own turning axes (n, s, t), m and rad (twice the sine of half the angle).
 template <class T>
 struct Jump {
-  T n, s, t;          // δc
-  T rn, rs, rt;       // θ'
-  T cosine;           // of half the relative rotation
-  Quat<T> frame;      // local axes → world
-  Triple<T> place;    // midway between the two material points at the patch's centroid, m
+  T n, s, t;        // δc
+  T rn, rs, rt;     // θ'
+  T cosine;         // of half the relative rotation
+  Quat<T> frame;    // local axes → world
+  Triple<T> place;  // midway between the two material points at the patch's centroid, m
 };
 
-/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `frame` the normalised half-way rotation times the local axes.
+/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `frame` the normalised half-way rotation times the
+/// local axes.
 template <class T>
-inline Jump<T> local_jump(const Triple<T>& move_a, const Triple<T>& move_b, const Triple<T>& place, const Triple<T>& shift,
-                          const Quat<T>& relative, const Quat<T>& frame) {
+inline Jump<T> local_jump(const Triple<T>& move_a, const Triple<T>& move_b, const Triple<T>& place,
+                          const Triple<T>& shift, const Quat<T>& relative, const Quat<T>& frame) {
   Jump<T> j;
   const Triple<T> d = turn_back(frame, shift + (move_b - move_a));
   const Triple<T> r = turn_back(frame, relative.v);
@@ -40,11 +43,21 @@ struct Wrench {
   double f[3], m[3];
 };
 
-inline Quat<double> pose_rotation(const double* pose) { return {pose[3], {pose[4], pose[5], pose[6]}}; }
-inline Triple<double> pose_displacement(const double* pose) { return {pose[0], pose[1], pose[2]}; }
-inline Triple<double> triple(const double* x) { return {x[0], x[1], x[2]}; }
-inline Quat<double> quat(const double* q) { return {q[0], {q[1], q[2], q[3]}}; }
-inline Quat<double> conjugate(const Quat<double>& q) { return {q.w, {-q.v.x, -q.v.y, -q.v.z}}; }
+inline Quat<double> pose_rotation(const double* pose) {
+  return {pose[3], {pose[4], pose[5], pose[6]}};
+}
+inline Triple<double> pose_displacement(const double* pose) {
+  return {pose[0], pose[1], pose[2]};
+}
+inline Triple<double> triple(const double* x) {
+  return {x[0], x[1], x[2]};
+}
+inline Quat<double> quat(const double* q) {
+  return {q[0], {q[1], q[2], q[3]}};
+}
+inline Quat<double> conjugate(const Quat<double>& q) {
+  return {q.w, {-q.v.x, -q.v.y, -q.v.z}};
+}
 
 /// The jump of any patch, from its bodies' poses.
 inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const double* pose_b) {
@@ -69,7 +82,8 @@ inline Triple<double> point_jump(const Patch& patch, const Jump<double>& j, doub
 }
 
 /// The same less the plastic jump of point i.
-inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, const PatchPoint& at, const PatchMemory& memory, int i) {
+inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, const PatchPoint& at,
+                                   const PatchMemory& memory, int i) {
   const Triple<double> u = point_jump(patch, j, at.s, at.t);
   return {u.x - memory.point[point_index(patch, i, 4, 0)], u.y - memory.point[point_index(patch, i, 4, 1)],
           u.z - memory.point[point_index(patch, i, 4, 2)]};

@@ -1,5 +1,5 @@
-// Eight joints at a time. Lanes on the intact path are six generalised springs each; the others go point by point, the same
-// point of all eight side by side.
+// Eight joints at a time. Lanes on the intact path are six generalised springs each; the others go point by point, the
+// same point of all eight side by side.
 #include <algorithm>
 
 #include "solver/contact/patch_kernel.h"
@@ -9,7 +9,9 @@ namespace voussoir {
 
 namespace {
 
-Triple<Lanes> load(const Lanes* x) { return {x[0], x[1], x[2]}; }
+Triple<Lanes> load(const Lanes* x) {
+  return {x[0], x[1], x[2]};
+}
 
 struct LanePoses {
   Triple<Lanes> u;
@@ -18,7 +20,8 @@ struct LanePoses {
 
 LanePoses gather(const double* pose, const std::int32_t* bodies) {
   Lanes r[lane_count];
-  for (int lane = 0; lane < lane_count; ++lane) r[lane] = *reinterpret_cast<const Lanes*>(pose + pose_width * std::size_t(bodies[lane]));
+  for (int lane = 0; lane < lane_count; ++lane)
+    r[lane] = *reinterpret_cast<const Lanes*>(pose + pose_width * std::size_t(bodies[lane]));
   transpose(r);
   return {{r[0], r[1], r[2]}, {r[3], {r[4], r[5], r[6]}}};
 }
@@ -74,8 +77,8 @@ struct LaneCheck {
 };
 
 /// The elastic traction field is affine and the admissible set convex: the corners decide for the whole polygon.
-LaneCheck check_corners(const JointBatch& batch, const Lanes* corners, const LaneElastic& e, const LaneStrength& strength,
-                        LaneMask broken) {
+LaneCheck check_corners(const JointBatch& batch, const Lanes* corners, const LaneElastic& e,
+                        const LaneStrength& strength, LaneMask broken) {
   LaneMask admissible = batch.kn == batch.kn, open = admissible;
   const Lanes tension = broken ? splat(0.0) : strength.tension;
   const Lanes cohesion = broken ? strength.residual_cohesion : strength.cohesion;
@@ -94,7 +97,8 @@ LaneCheck check_corners(const JointBatch& batch, const Lanes* corners, const Lan
 }
 
 /// Largest opening and the plastic slip field of patches that are wholly open.
-void follow_open(const JointBatch& batch, const Lanes* corners, const LaneElastic& e, LaneMask open, Lanes* slip, double* largest) {
+void follow_open(const JointBatch& batch, const Lanes* corners, const LaneElastic& e, LaneMask open, Lanes* slip,
+                 double* largest) {
   for (int c = 0; c < 3; ++c) {
     const Lanes now = slip[c] + e.u[c + 1];
     slip[c] = open ? now : slip[c];
@@ -108,19 +112,21 @@ void follow_open(const JointBatch& batch, const Lanes* corners, const LaneElasti
     if (open[lane]) largest[2 * lane] = std::max(largest[2 * lane], most[lane]);
 }
 
-/// Twice the loss of a branch over the step, per unit stiffness: the work done on it by the mean of its tractions at both ends,
-/// less what its spring now holds more, (q₀ + q)(Δu − s (q − q₀)); for a dashpot alone (Rayleigh) 2 q²/g.
+/// Twice the loss of a branch over the step, per unit stiffness: the work done on it by the mean of its tractions at
+/// both ends, less what its spring now holds more, (q₀ + q)(Δu − s (q − q₀)); for a dashpot alone (Rayleigh) 2 q²/g.
 inline Lanes branch_loss(const Branches& branches, int k, Lanes then, Lanes q, Lanes du) {
   if (branches.e[k] == 0.0) return 2.0 * branches.loss[k] * q * q;
   return (then + q) * (du - branches.stored[k] * (q - then));
 }
 
-/// Elastic plus viscous generalised jump; the branches of open lanes relax, those of lanes that close start from nothing.
-LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch, const LaneElastic& e, LaneMask closed, LaneMask was_open,
-                          LaneMask keep, Singles* kept, Lanes& loss, const Lanes* du) {
+/// Elastic plus viscous generalised jump; the branches of open lanes relax, those of lanes that close start from
+/// nothing.
+LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch, const LaneElastic& e, LaneMask closed,
+                          LaneMask was_open, LaneMask keep, Singles* kept, Lanes& loss, const Lanes* du) {
   LaneElastic sum = e;
-  const Lanes stiffness[6] = {batch.kn * batch.area,                batch.ks * batch.area, batch.ks * batch.area,
-                              batch.ks * (batch.ss + batch.tt), batch.kn * batch.tt,   batch.kn * batch.ss};
+  const Lanes stiffness[6] = {batch.kn * batch.area, batch.ks * batch.area,
+                              batch.ks * batch.area, batch.ks * (batch.ss + batch.tt),
+                              batch.kn * batch.tt,   batch.kn * batch.ss};
   for (int c = 0; c < 6; ++c) {
     Lanes twice = splat(0.0);
     const Lanes change = was_open ? e.u[c] : du[c];
@@ -164,23 +170,26 @@ struct LanePoints {
   LaneMask all_open, all_broken;
 };
 
-Lanes largest(Lanes a, Lanes b) { return a > b ? a : b; }
+Lanes largest(Lanes a, Lanes b) {
+  return a > b ? a : b;
+}
 
 /// Brittle Mohr–Coulomb at one point of eight joints: BrittleLaw (solver/model/laws.h) without branches in the flow.
 struct LanePoint {
-  Lanes n, s, t;                 // elastic jump
+  Lanes n, s, t;  // elastic jump
   LaneMask elastic, open, broken;
-  Lanes friction, fracture;      // J/m2
+  Lanes friction, fracture;  // J/m2
 };
 
-LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, Lanes us, Lanes ut, const Lanes* du, LaneMask active, Lanes* memory,
-                        LaneMask was_broken) {
+LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, Lanes us, Lanes ut, const Lanes* du,
+                        LaneMask active, Lanes* memory, LaneMask was_broken) {
   const Lanes zero = splat(0.0);
   const Lanes n = un - memory[0], s = us - memory[1], t = ut - memory[2];
   const Lanes sigma = b.kn * n, shear2 = b.ks * b.ks * (s * s + t * t);
   const Lanes bonded_limit = law.cohesion - sigma * law.tangent;
   LanePoint p;
-  const LaneMask holds = ~was_broken & (sigma <= law.tension) & (bonded_limit >= 0.0) & (shear2 <= bonded_limit * bonded_limit);
+  const LaneMask holds =
+      ~was_broken & (sigma <= law.tension) & (bonded_limit >= 0.0) & (shear2 <= bonded_limit * bonded_limit);
   const LaneMask breaks = ~was_broken & ~holds;
   p.broken = was_broken | breaks;
   p.open = p.broken & (n >= zero);
@@ -197,12 +206,13 @@ LanePoint brittle_point(const JointBatch& b, const LaneStrength& law, Lanes un, 
   p.n = p.open ? zero : un - plastic_n;
   p.s = p.open ? zero : keep * s;
   p.t = p.open ? zero : keep * t;
-  // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by the
-  // traction at the end alone the ledger would leak in proportion to the step.
+  // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by
+  // the traction at the end alone the ledger would leak in proportion to the step.
   const Lanes sb = s - du[1], tb = t - du[2], nb = n - du[0];
   p.friction = p.fracture = zero;
   if (!any(active & ~p.elastic)) return p;
-  const Lanes lost_shear = 0.5 * b.ks * ((p.s + sb) * du[1] + (p.t + tb) * du[2] - (p.s * p.s + p.t * p.t) + (sb * sb + tb * tb));
+  const Lanes lost_shear =
+      0.5 * b.ks * ((p.s + sb) * du[1] + (p.t + tb) * du[2] - (p.s * p.s + p.t * p.t) + (sb * sb + tb * tb));
   const Lanes lost_normal = 0.5 * b.kn * ((p.n + nb) * du[0] - p.n * p.n + nb * nb);
   p.friction = (was_broken & ~p.elastic) ? lost_shear + b.kn * p.n * law.dilation * slip : zero;
   p.fracture = breaks ? lost_shear + lost_normal : zero;
@@ -227,7 +237,8 @@ LanePoints points_of_lanes(const Model& model, const JointBatch& b, const LaneSt
   for (int i = 0; i < b.points; ++i, point += 3, plastic += 4, broken += lane_count) {
     const Lanes s = point[0], t = point[1], w = point[2];
     const Lanes un = j.n + j.rs * t - j.rt * s, us = j.s - j.rn * t, ut = j.t + j.rn * s;
-    const Lanes du[3] = {change[0] + change[4] * t - change[5] * s, change[1] - change[3] * t, change[2] + change[3] * s};
+    const Lanes du[3] = {change[0] + change[4] * t - change[5] * s, change[1] - change[3] * t,
+                         change[2] + change[3] * s};
     const LaneMask flags = load_bytes(broken), was = (flags & 1) != 0, idle = (flags & 2) != 0;
     const Lanes normal = un - plastic[0] - du[0];  // elastic jump at the pass before
     const Lanes ub[3] = {(was & (normal > zero)) ? zero : normal, us - plastic[1] - du[1], ut - plastic[2] - du[2]};
@@ -274,7 +285,8 @@ void note_points(const LanePoints& found, LaneMask active, int count, std::size_
 }
 
 /// Patches that are wholly open and broken go back to the intact path: their plastic slip is a rigid field again.
-void to_intact(const Jump<Lanes>& j, const Branches& branches, LaneMask back, int count, std::uint8_t* mode, Lanes* slip, Singles* kept) {
+void to_intact(const Jump<Lanes>& j, const Branches& branches, LaneMask back, int count, std::uint8_t* mode,
+               Lanes* slip, Singles* kept) {
   slip[0] = back ? j.s : slip[0];
   slip[1] = back ? j.t : slip[1];
   slip[2] = back ? j.rn : slip[2];
@@ -332,8 +344,9 @@ struct BatchPass {
       for (int lane = 0; lane < batch.count; ++lane)
         if (keep[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_open) | (open[lane] ? mode_open : 0));
     Lanes loss = splat(0.0);
-    const LaneElastic v =
-        pass.branches.count ? advance_lanes(pass.branches, batch, e, closed, was_open, open | closed, kept, loss, change) : e;
+    const LaneElastic v = pass.branches.count ? advance_lanes(pass.branches, batch, e, closed, was_open, open | closed,
+                                                              kept, loss, change)
+                                              : e;
     if (pass.branches.count)
       for (int lane = 0; lane < batch.count; ++lane)
         if (closed[lane]) pass.state->joint.energy[3 * (first + lane) + 2] += loss[lane];
@@ -342,7 +355,8 @@ struct BatchPass {
 
   /// Lanes point by point; the few whose law has no lane form are left to point_patch().
   Resultant<Lanes> point_lanes(LaneMask active) {
-    const LanePoints found = points_of_lanes(*pass.model, batch, strength, jump, pass.branches, active, change, pass.state->joint);
+    const LanePoints found =
+        points_of_lanes(*pass.model, batch, strength, jump, pass.branches, active, change, pass.state->joint);
     note_points(found, active, batch.count, first, pass.state->joint);
     const LaneMask back = active & found.all_open & found.all_broken;
     if (pass.shortcut && any(back)) to_intact(jump, pass.branches, back, batch.count, mode, slip, kept);
@@ -363,8 +377,10 @@ struct BatchPass {
     const LaneMask gone = mode_mask(mode, batch.count, mode_gone);
     LaneMask live = ~gone, keep{};
     for (int lane = 0; lane < lane_count; ++lane) {
-      if (lane >= batch.count) live[lane] = 0;
-      else if (live[lane] && pass.shortcut && !(mode[lane] & mode_points)) keep[lane] = -1;
+      if (lane >= batch.count)
+        live[lane] = 0;
+      else if (live[lane] && pass.shortcut && !(mode[lane] & mode_points))
+        keep[lane] = -1;
     }
     note_change(live & ~keep & ~strength.brittle);
     Intact intact{};
@@ -374,7 +390,8 @@ struct BatchPass {
     Resultant<Lanes> by_points{};
     if (any(points)) {
       for (int lane = 0; lane < batch.count; ++lane)
-        if (points[lane] && !(mode[lane] & mode_points)) joint_to_points(*pass.model, *pass.state, pass.branches, first + lane);
+        if (points[lane] && !(mode[lane] & mode_points))
+          joint_to_points(*pass.model, *pass.state, pass.branches, first + lane);
       const LaneMask active = points & strength.brittle;
       if (any(active)) by_points = point_lanes(active);
     }
@@ -386,10 +403,11 @@ struct BatchPass {
     if (any(others))
       for (int lane = 0; lane < batch.count; ++lane)
         if (others[lane])
-          point_patch(*pass.model, pass.model->joints[first + lane], first + lane, pass.model->points, pass.state->pose.data(),
-                      pass.branches, pass.state->joint, wrench + wrench_width * lane);
-    report.reclip |= any(live & ((jump.s * jump.s + jump.t * jump.t > pass.model->slip_limit2(batch.area)) |
-                                 (jump.rn * jump.rn + jump.rs * jump.rs + jump.rt * jump.rt > pass.model->turn_limit2())));
+          point_patch(*pass.model, pass.model->joints[first + lane], first + lane, pass.model->points,
+                      pass.state->pose.data(), pass.branches, pass.state->joint, wrench + wrench_width * lane);
+    report.reclip |=
+        any(live & ((jump.s * jump.s + jump.t * jump.t > pass.model->slip_limit2(batch.area)) |
+                    (jump.rn * jump.rn + jump.rs * jump.rs + jump.rt * jump.rt > pass.model->turn_limit2())));
     counts.intact += intact.stays;
     counts.points += points;
   }
@@ -405,11 +423,19 @@ PassReport PatchPass::batches(std::size_t begin, std::size_t end) const {
   for (std::size_t k = begin; k < end; ++k) {
     const JointBatch& batch = model->batches[k];
     const std::size_t first = lane_count * k;
-    BatchPass{*this, k, batch, first, &state->joint.mode[first], lanes_jump(batch, state->pose.data()), strengths(*model, batch),
-              slip + 3 * k, branch + 6 * branches.count * k}
+    BatchPass{*this,
+              k,
+              batch,
+              first,
+              &state->joint.mode[first],
+              lanes_jump(batch, state->pose.data()),
+              strengths(*model, batch),
+              slip + 3 * k,
+              branch + 6 * branches.count * k}
         .run(report, counts);
   }
-  for (int lane = 0; lane < lane_count; ++lane) report.intact -= counts.intact[lane], report.points -= counts.points[lane];
+  for (int lane = 0; lane < lane_count; ++lane)
+    report.intact -= counts.intact[lane], report.points -= counts.points[lane];
   return report;
 }
 

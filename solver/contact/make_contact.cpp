@@ -6,7 +6,9 @@ namespace voussoir {
 
 namespace {
 
-const double* pose_of(const State& state, std::int32_t body) { return &state.pose[pose_width * std::size_t(body)]; }
+const double* pose_of(const State& state, std::int32_t body) {
+  return &state.pose[pose_width * std::size_t(body)];
+}
 
 Eigen::Quaterniond rotation_of(const State& state, std::int32_t body) {
   const double* p = pose_of(state, body);
@@ -40,7 +42,9 @@ void store(double* to, const Vec3& from) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-void store(double* to, const Eigen::Quaterniond& q) { to[0] = q.w(), to[1] = q.x(), to[2] = q.y(), to[3] = q.z(); }
+void store(double* to, const Eigen::Quaterniond& q) {
+  to[0] = q.w(), to[1] = q.x(), to[2] = q.y(), to[3] = q.z();
+}
 
 /// Arms and axes of both bodies so that the patch's own jump is zero where the bodies are now.
 void place_patch(const Model& model, const State& state, const Vec3& place, const Mat3& frame, Patch& patch) {
@@ -73,8 +77,8 @@ void fit_gap(const Meeting& m, const PatchShape& shape, Patch& patch) {
   store(patch.gap, normal.ldlt().solve(right));
 }
 
-/// The patch lies at the level where the faces are nearest: halfway up the mean gap instead, a rocking block would turn about
-/// a point above its edge.
+/// The patch lies at the level where the faces are nearest: halfway up the mean gap instead, a rocking block would turn
+/// about a point above its edge.
 void make_face_patch(const Model& model, const State& state, const Meeting& m, NewContact& contact) {
   const auto gap = [&](std::size_t i) { return m.normal.dot(m.on_b[i] - m.on_a[i]); };
   std::size_t nearest = 0;
@@ -96,15 +100,16 @@ void make_face_patch(const Model& model, const State& state, const Meeting& m, N
   contact.corners = shape.corners;
 }
 
-/// Stones laid edge along edge meet sharply from the start, by the thousand, and carry nothing there; only when they have
-/// moved well into each other do they need a contact.
+/// Stones laid edge along edge meet sharply from the start, by the thousand, and carry nothing there; only when they
+/// have moved well into each other do they need a contact.
 bool touching_as_built(const Model& model, const Patch& p) {
   const double near = model.contact.gap_tolerance;
   return separation(model.cells[p.a][p.cell_a], model.cells[p.b][p.cell_b], near) <= near;
 }
 
 /// A sharp meeting stands on a small area of its own.
-void make_point_patch(const Model& model, const State& state, const Vec3& place, const Vec3& normal, double gap, NewContact& contact) {
+void make_point_patch(const Model& model, const State& state, const Vec3& place, const Vec3& normal, double gap,
+                      NewContact& contact) {
   Mat3 frame;
   frame.col(0) = normal;
   frame.col(1) = normal.unitOrthogonal();
@@ -124,11 +129,12 @@ void make_point_patch(const Model& model, const State& state, const Vec3& place,
 
 Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell) {
   const double* p = pose_of(state, body);
-  return moved(model.cells[body][cell], rotation_of(state, body).toRotationMatrix(), model.bodies[body].centroid, Vec3(p[0], p[1], p[2]));
+  return moved(model.cells[body][cell], rotation_of(state, body).toRotationMatrix(), model.bodies[body].centroid,
+               Vec3(p[0], p[1], p[2]));
 }
 
-std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a, std::int32_t b,
-                                       std::int32_t cell_b, double within) {
+std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
+                                       std::int32_t b, std::int32_t cell_b, double within) {
   const Meeting m = meeting(placed_cell(model, state, a, cell_a), placed_cell(model, state, b, cell_b), within);
   if (m.kind == Meeting::Kind::apart || m.on_a.empty()) return std::nullopt;
   NewContact contact;
@@ -164,7 +170,8 @@ struct Carried {
 };
 
 /// Elastic tractions of the old patch about a place.
-Carried elastic_wrench(const Model& model, const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory, const Vec3& place) {
+Carried elastic_wrench(const Model& model, const State& state, const Patch& patch, const Array<double>& points,
+                       const PatchMemory& memory, const Vec3& place) {
   const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
   const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
   Carried sum;
@@ -197,7 +204,8 @@ double normal_force(const NewContact& c, double raise) {
 /// Moves the gap until the normal force is the wanted one (compression, negative).
 void match_normal_force(double wanted, NewContact& c) {
   double span = 0.0;
-  for (const PatchPoint& p : c.points) span = std::max(span, std::abs(c.patch.gap[0] + c.patch.gap[1] * p.t - c.patch.gap[2] * p.s));
+  for (const PatchPoint& p : c.points)
+    span = std::max(span, std::abs(c.patch.gap[0] + c.patch.gap[1] * p.t - c.patch.gap[2] * p.s));
   double low = -2.0 * span - 2.0 * std::abs(wanted) / (c.patch.kn * c.patch.area), high = 2.0 * span + 1e-12;
   while (normal_force(c, low) > wanted && low > -1.0) low *= 2.0;
   for (int i = 0; i < 100; ++i) {
@@ -209,7 +217,8 @@ void match_normal_force(double wanted, NewContact& c) {
 
 }  // namespace
 
-void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact) {
+void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
+                const PatchMemory& memory, NewContact& contact) {
   Patch& p = contact.patch;
   p.kn = old.kn, p.ks = old.ks, p.law = old.law;
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
@@ -217,7 +226,8 @@ void carry_over(const Model& model, const State& state, const Patch& old, const 
   const Carried carried = elastic_wrench(model, state, old, points, memory, Vec3(j.place.x, j.place.y, j.place.z));
   const Vec3 force = axes.transpose() * carried.force, moment = axes.transpose() * carried.moment;
   if (force.x() >= 0.0) return;  // nothing pressed: it starts as it lies
-  const double gap[3] = {force.x() / (p.kn * p.area), p.tt > 0 ? moment.y() / (p.kn * p.tt) : 0.0, p.ss > 0 ? moment.z() / (p.kn * p.ss) : 0.0};
+  const double gap[3] = {force.x() / (p.kn * p.area), p.tt > 0 ? moment.y() / (p.kn * p.tt) : 0.0,
+                         p.ss > 0 ? moment.z() / (p.kn * p.ss) : 0.0};
   double worst = -1e300;
   for (const PatchPoint& c : contact.corners)
     worst = std::max(worst, gap[0] + (p.ss > 0.0 ? gap[1] * c.t - gap[2] * c.s : 0.0));

@@ -8,19 +8,20 @@ namespace voussoir {
 
 /// A patch with its own points and corners, not yet placed in the state's lists.
 struct NewContact {
-  Patch patch;                       // first_point and first_corner are zero
+  Patch patch;  // first_point and first_corner are zero
   std::vector<PatchPoint> points, corners;
-  Array<double> memory;              // 4 a point, see PatchMemory::point
+  Array<double> memory;                              // 4 a point, see PatchMemory::point
   double carried_opening = 0.0, carried_slip = 0.0;  // m, largest of the patch it replaces
 };
 
 /// None when the cells are apart by more than `within` (m) or share too little to carry anything.
-std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a, std::int32_t b,
-                                       std::int32_t cell_b, double within);
+std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
+                                       std::int32_t b, std::int32_t cell_b, double within);
 
-/// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old` (with
-/// its points and memory) carries now: the force always, the moment while the new patch is wholly closed.
-void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points, const PatchMemory& memory, NewContact& contact);
+/// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
+/// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed.
+void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
+                const PatchMemory& memory, NewContact& contact);
 
 /// The cell in its present placement.
 Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell);

@@ -36,14 +36,17 @@ struct PointBefore {
 };
 
 PointBefore point_before(const PatchPoint& at, const Triple<double>& u, const double* change, const PointMemory& pm) {
-  PointBefore b{{change[0] + change[4] * at.t - change[5] * at.s, change[1] - change[3] * at.t, change[2] + change[3] * at.s}, {}};
+  PointBefore b{
+      {change[0] + change[4] * at.t - change[5] * at.s, change[1] - change[3] * at.t, change[2] + change[3] * at.s},
+      {}};
   b.elastic[0] = u.x - pm.n - b.du[0], b.elastic[1] = u.y - pm.s - b.du[1], b.elastic[2] = u.z - pm.t - b.du[2];
   if (pm.broken && b.elastic[0] >= 0.0) b.elastic[0] = b.elastic[1] = b.elastic[2] = 0.0;  // it was open
   return b;
 }
 
-/// Work done on the point's springs over the step, by the mean of the tractions at both ends, less what they now hold more:
-/// what a yielding point has lost. (By the traction at the end alone the ledger would leak in proportion to the step.)
+/// Work done on the point's springs over the step, by the mean of the tractions at both ends, less what they now hold
+/// more: what a yielding point has lost. (By the traction at the end alone the ledger would leak in proportion to the
+/// step.)
 void book_losses(const Patch& patch, const PointBefore& b, double plastic_opening, bool was_broken, PointResult& r) {
   const auto lost = [&](double k, double now, int c) {
     return 0.5 * k * ((now + b.elastic[c]) * b.du[c] - now * now + b.elastic[c] * b.elastic[c]);
@@ -53,9 +56,10 @@ void book_losses(const Patch& patch, const PointBefore& b, double plastic_openin
   r.fracture = was_broken ? 0.0 : shear + lost(patch.kn, r.n, 0);
 }
 
-/// Viscous jump of one point's branches after an elastic move to (n, s, t); the branches are emptied when the point yields.
-Triple<double> advance_branches(const Branches& branches, const Patch& patch, int i, const PointResult& r, const PointBefore& before,
-                                double weight, PatchMemory& memory, double& loss) {
+/// Viscous jump of one point's branches after an elastic move to (n, s, t); the branches are emptied when the point
+/// yields.
+Triple<double> advance_branches(const Branches& branches, const Patch& patch, int i, const PointResult& r,
+                                const PointBefore& before, double weight, PatchMemory& memory, double& loss) {
   Triple<double> viscous = {0.0, 0.0, 0.0};
   const double u[3] = {r.n, r.s, r.t};
   double* v = &viscous.x;
@@ -82,8 +86,8 @@ struct PointSums {
 };
 
 template <class Law>
-PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jump<double>& j, const Array<double>& points,
-                     const Branches& branches, const double* change, PatchMemory& memory) {
+PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jump<double>& j,
+                     const Array<double>& points, const Branches& branches, const double* change, PatchMemory& memory) {
   PointSums sums;
   Resultant<double>& q = sums.resultant;
   for (int i = 0; i < patch.point_count; ++i) {
@@ -93,7 +97,8 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
     const PointBefore before = point_before(point, u, change, pm);
     const PointMemory old = pm;
     PointResult r = Law::update(law, patch.kn, patch.ks, u.x, u.y, u.z, pm);
-    if (!r.elastic && (old.broken || law.kind == JointLaw::Kind::brittle)) book_losses(patch, before, pm.n - old.n, old.broken, r);
+    if (!r.elastic && (old.broken || law.kind == JointLaw::Kind::brittle))
+      book_losses(patch, before, pm.n - old.n, old.broken, r);
     store_memory(patch, i, pm, memory);
     double damping = 0.0;
     Triple<double> viscous = {0.0, 0.0, 0.0};
@@ -121,8 +126,8 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
 
 }  // namespace
 
-bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points, const double* pose,
-                 const Branches& branches, PatchMemory& memory, double* wrench) {
+bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points,
+                 const double* pose, const Branches& branches, PatchMemory& memory, double* wrench) {
   const Jump<double> j = patch_jump(patch, pose + pose_width * patch.a, pose + pose_width * patch.b);
   const LawConstants& law = model.laws[patch.law];
   const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
@@ -132,7 +137,8 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
     change[c] = now[c] - last;
     last = now[c];
   }
-  const PointSums sums = with_law(law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, points, branches, change, memory); });
+  const PointSums sums =
+      with_law(law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, points, branches, change, memory); });
   Triple<double> force, moment;
   world_wrench(sums.resultant, j, force, moment);
   store_wrench(force, moment, wrench);
@@ -158,7 +164,8 @@ void joint_to_points(const Model& model, State& state, const Branches& branches,
     store_memory(patch, i, {0.0, a - r * point.t, b + r * point.s, broken ? 1.0 : 0.0, broken}, state.joint);
     for (int k = 0; k < branches.count; ++k) {
       const auto row = [&](int c) -> double { return state.branch[branch_index(branches.count, batch, c, k) + lane]; };
-      const double field[3] = {row(0) + row(4) * point.t - row(5) * point.s, row(1) - row(3) * point.t, row(2) + row(3) * point.s};
+      const double field[3] = {row(0) + row(4) * point.t - row(5) * point.s, row(1) - row(3) * point.t,
+                               row(2) + row(3) * point.s};
       for (int c = 0; c < 3; ++c)
         state.joint.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)] = float(field[c]);
     }

@@ -17,7 +17,9 @@ Key key_of(const Patch& p) {
   return p.a < p.b ? Key{p.a, p.b, p.cell_a, p.cell_b} : Key{p.b, p.a, p.cell_b, p.cell_a};
 }
 
-double skin(const Model& model) { return model.contact.skin * model.typical_size; }
+double skin(const Model& model) {
+  return model.contact.skin * model.typical_size;
+}
 
 bool past_limits(const Model& model, const State& state, const Patch& p) {
   const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
@@ -43,7 +45,8 @@ struct MovedBodies {
 void mark(const State& state, std::int32_t body, State& to, MovedBodies& moved) {
   moved.flag[body] = 1;
   for (int c = 0; c < 3; ++c)
-    to.searched[7 * std::size_t(body) + c] = state.pose[pose_width * std::size_t(body) + c] - state.base_displacement()[c];
+    to.searched[7 * std::size_t(body) + c] =
+        state.pose[pose_width * std::size_t(body) + c] - state.base_displacement()[c];
   for (int c = 3; c < 7; ++c) to.searched[7 * std::size_t(body) + c] = state.pose[pose_width * std::size_t(body) + c];
 }
 
@@ -62,7 +65,7 @@ MovedBodies find_moved(const Model& model, State& state) {
 /// A contact of the next list: an old one kept as it is, or a new one.
 struct Entry {
   Key key;
-  std::int64_t old = -1;                // index in the present list
+  std::int64_t old = -1;  // index in the present list
   std::optional<NewContact> fresh;
 };
 
@@ -109,7 +112,6 @@ void copy_old(const State& from, State& next, const Branches& branches, std::siz
   copy(m.last, n.last, 6 * i, 6);
 }
 
-
 /// Joints and contacts past their limits become fresh contacts, or nothing where the cells have parted.
 struct Clipper {
   const Model& model;
@@ -117,7 +119,8 @@ struct Clipper {
   const Branches& branches;
   ContactUpdate& update;
 
-  std::optional<NewContact> clip(const Patch& old, const Array<double>& points, const PatchMemory& memory, const double* largest) {
+  std::optional<NewContact> clip(const Patch& old, const Array<double>& points, const PatchMemory& memory,
+                                 const double* largest) {
     std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
     if (fresh) {
       carry_over(model, state, old, points, memory, *fresh);
@@ -180,7 +183,9 @@ std::vector<Key> candidate_pairs(const Model& model, const State& state, const M
 
 }  // namespace
 
-double search_distance(const Model& model) { return model.contact.search ? 0.4 * skin(model) : 1e300; }
+double search_distance(const Model& model) {
+  return model.contact.search ? 0.4 * skin(model) : 1e300;
+}
 
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches) {
   ContactUpdate update;
@@ -233,7 +238,8 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     if (std::binary_search(live.begin(), live.end(), key)) continue;
     ++update.examined;
     const auto [a, b, ca, cb] = key;
-    // Bodies that a live patch holds within its limits cannot come at each other unseen: their other cells wait until they touch.
+    // Bodies that a live patch holds within its limits cannot come at each other unseen: their other cells wait until
+    // they touch.
     const double within = joined(key) ? 0.0 : skin(model);
     if (std::optional<NewContact> fresh = make_contact(model, state, a, ca, b, cb, within)) {
       entries.push_back({key, -1, std::move(fresh)});

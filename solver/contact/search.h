@@ -11,7 +11,8 @@ struct ContactUpdate {
   bool changed() const { return made + clipped + dropped > 0; }
 };
 
-/// How far any point of the body has moved, relative to the base, since its contacts were last looked for: an upper bound, m.
+/// How far any point of the body has moved, relative to the base, since its contacts were last looked for: an upper
+/// bound, m.
 inline double moved_since_search(const Model& model, const State& state, std::size_t body, const double* base) {
   const double* pose = &state.pose[pose_width * body];
   const double* from = &state.searched[7 * body];
@@ -22,14 +23,16 @@ inline double moved_since_search(const Model& model, const State& state, std::si
   return std::sqrt(d2) + 2.1 * std::sqrt(r2) * model.bodies[body].radius;
 }
 
-/// The distance (m) a body may move, relative to the base, between searches: 0.4 of the skin. Pairs farther apart than the
-/// skin when last examined cannot have met: both bodies have moved at most half a skin since (0.4 more than the 0.1 within
-/// which a body counts as not having moved).
+/// The distance (m) a body may move, relative to the base, between searches: 0.4 of the skin. Pairs farther apart than
+/// the skin when last examined cannot have met: both bodies have moved at most half a skin since (0.4 more than the 0.1
+/// within which a body counts as not having moved).
 double search_distance(const Model& model);
 
-/// Patches past their limits of slip and turn are clipped anew at every 32nd step at the earliest, so that a sliding wall
-/// does not stop the run at each step.
-inline bool may_clip_at(std::int64_t step) { return step % 32 == 0; }
+/// Patches past their limits of slip and turn are clipped anew at every 32nd step at the earliest, so that a sliding
+/// wall does not stop the run at each step.
+inline bool may_clip_at(std::int64_t step) {
+  return step % 32 == 0;
+}
 
 /// Looks for new contacts around the bodies that have moved since they were last looked at, clips anew the patches that
 /// have slid or turned past their limits (force and moment carried over), drops contacts that have parted. Serial and

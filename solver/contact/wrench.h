@@ -7,9 +7,9 @@ namespace voussoir {
 /// Sums of traction over a patch in local axes: resultant, and the moments of second order that turn with the bodies.
 template <class T>
 struct Resultant {
-  T n, s, t;               // ∫ σ, τs, τt
-  T sn, tn, st, ts;        // ∫ s σ, t σ, s τt, t τs
-  T ss, tt;                // ∫ s τs, t τt
+  T n, s, t;         // ∫ σ, τs, τt
+  T sn, tn, st, ts;  // ∫ s σ, t σ, s τt, t τs
+  T ss, tt;          // ∫ s τs, t τt
 };
 
 /// Force and moment about the world's origin on body a, with the exact arms H Q r.

@@ -19,8 +19,8 @@ struct PatchBackup {
   void restore(State& s) const { s.joint = joint, s.contact = contact, s.slip = slip, s.branch = branch; }
 };
 
-void move_bodies(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step, double share,
-                 State& state) {
+void move_bodies(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step,
+                 double share, State& state) {
   state.pose = from;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const std::int32_t at = unknowns.of_body[i];
@@ -29,7 +29,8 @@ void move_bodies(const Model& model, const Unknowns& unknowns, const Array<doubl
     for (int c = 0; c < 3; ++c) pose[c] += share * step[at + c];
     const Vec3 turn = share * step.segment<3>(at + 3);
     const double angle = turn.norm();
-    const Eigen::Quaterniond dq = angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Eigen::Quaterniond::Identity();
+    const Eigen::Quaterniond dq =
+        angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Eigen::Quaterniond::Identity();
     const Eigen::Quaterniond q = (dq * Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6])).normalized();
     pose[3] = q.w(), pose[4] = q.x(), pose[5] = q.y(), pose[6] = q.z();
   }
@@ -110,18 +111,21 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     if (progress) progress(i + 1, r.largest);
     if (i == 0) elastic_pose = state.pose;
     result.residual = std::min(result.residual, r.largest);
-    if (i >= patience && result.residual > 1e-2) break;  // joints keep changing state: it would only go round in circles
+    if (i >= patience && result.residual > 1e-2)
+      break;  // joints keep changing state: it would only go round in circles
   }
   result.converged = r.largest <= tolerance;
   if (!result.converged) {
-    // Nothing half-broken is handed on, only where the assembly would be if all its joints held: a relaxation from there
-    // overshoots far less than one from the unloaded placement, and overshooting breaks joints that rest would not.
+    // Nothing half-broken is handed on, only where the assembly would be if all its joints held: a relaxation from
+    // there overshoots far less than one from the unloaded placement, and overshooting breaks joints that rest would
+    // not.
     state.pose = elastic_pose;
     start.restore(state);
   }
   stop_motion(state);
-  result.account = fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
-                               result.converged ? "converged" : "did not converge", result.iterations, result.residual);
+  result.account =
+      fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
+                  result.converged ? "converged" : "did not converge", result.iterations, result.residual);
   return result;
 }
 

@@ -11,12 +11,12 @@ namespace voussoir {
 
 struct Equilibrium {
   bool converged = false;
-  bool relaxed = false;         // dynamic relaxation was needed
-  int iterations = 0;           // Newton
-  std::int64_t steps = 0;       // relaxation
-  double residual = 0.0;        // largest out-of-balance force over the weight of an average block
+  bool relaxed = false;    // dynamic relaxation was needed
+  int iterations = 0;      // Newton
+  std::int64_t steps = 0;  // relaxation
+  double residual = 0.0;   // largest out-of-balance force over the weight of an average block
   double first_residual = 0.0;
-  std::string account;          // one line for the log
+  std::string account;  // one line for the log
 };
 
 /// Out-of-balance force and moment of every free body (N, N m), and the largest as below.
@@ -31,14 +31,14 @@ OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns);
 /// leaves no trace in the state.
 double out_of_balance(Stepper& stepper);
 
-/// Newton: each iteration evaluates all patches from the state at the call, so that the result does not depend on the way.
-/// The stepper must have no damping branches. Where it does not converge it leaves the state at the placement of the first
-/// iteration, the elastic solution with every joint holding. Velocities are zero afterwards.
+/// Newton: each iteration evaluates all patches from the state at the call, so that the result does not depend on the
+/// way. The stepper must have no damping branches. Where it does not converge it leaves the state at the placement of
+/// the first iteration, the elastic solution with every joint holding. Velocities are zero afterwards.
 Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::atomic<bool>* stop,
                                const std::function<void(int, double)>& progress);
 
-/// Dynamic relaxation with inertia and damping of its own choice (solver/modal/relaxation.cpp). Neither the stepper's step
-/// nor its damping matters or changes; the stepper must have no damping branches. Velocities are zero afterwards.
+/// Dynamic relaxation with inertia and damping of its own choice (solver/modal/relaxation.cpp). Neither the stepper's
+/// step nor its damping matters or changes; the stepper must have no damping branches. Velocities are zero afterwards.
 Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
                   const std::function<void(std::int64_t, double)>& progress);
 

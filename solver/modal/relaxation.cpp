@@ -1,10 +1,10 @@
 // Dynamic relaxation: explicit steps in a time that means nothing, so that inertia and damping may be chosen for speed.
 //
-// Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 whatever the assembly, because a pair's stiffness is
-// at most twice its two blocks; the critical step is then at least √2 and no stiff sliver holds up the rest.
-// Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after Underwood
-// 1983). That lies above the lowest one, so that the slowest motion is damped at 0.6 to 0.8 of critical: it hardly
-// overshoots, and so little slips or opens that rest would not.
+// Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 whatever the assembly, because a pair's stiffness
+// is at most twice its two blocks; the critical step is then at least √2 and no stiff sliver holds up the rest.
+// Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after
+// Underwood 1983). That lies above the lowest one, so that the slowest motion is damped at 0.6 to 0.8 of critical: it
+// hardly overshoots, and so little slips or opens that rest would not.
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -25,7 +25,8 @@ constexpr std::int64_t round_steps = 40;  // between looks at residual and frequ
 void least_inertia(const Matrix6& k, double size, double& mass, Mat3& inertia) {
   using Solver3 = Eigen::SelfAdjointEigenSolver<Mat3>;
   mass = Solver3(k.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-  inertia = k.bottomRightCorner<3, 3>() + 1e-3 * mass * size * size * Mat3::Identity();  // a body on one point turns freely
+  inertia =
+      k.bottomRightCorner<3, 3>() + 1e-3 * mass * size * size * Mat3::Identity();  // a body on one point turns freely
   if (!(mass > 0.0)) return;
   Matrix6 m = Matrix6::Zero();
   m.topLeftCorner<3, 3>() = mass * Mat3::Identity();
@@ -73,16 +74,20 @@ struct Look {
 };
 
 /// Square of the circular frequency of the motion between two looks; not positive where it slid without resistance.
-double frequency2(const Model& model, const State& state, const Unknowns& unknowns, const Look& before, const Eigen::VectorXd& force) {
+double frequency2(const Model& model, const State& state, const Unknowns& unknowns, const Look& before,
+                  const Eigen::VectorXd& force) {
   double work = 0.0, mass = 0.0;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const std::int32_t at = unknowns.of_body[i];
     if (at < 0) continue;
     const double *p = &state.pose[pose_width * i], *o = &before.pose[pose_width * i];
     const Vec3 u(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
-    const Vec3 turn = 2.0 * (Eigen::Quaterniond(p[3], p[4], p[5], p[6]) * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
+    const Vec3 turn =
+        2.0 *
+        (Eigen::Quaterniond(p[3], p[4], p[5], p[6]) * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
     const Vec3 turn_own = rotation_of(state, i).transpose() * turn;
-    work -= u.dot(force.segment<3>(at) - before.force.segment<3>(at)) + turn.dot(force.segment<3>(at + 3) - before.force.segment<3>(at + 3));
+    work -= u.dot(force.segment<3>(at) - before.force.segment<3>(at)) +
+            turn.dot(force.segment<3>(at + 3) - before.force.segment<3>(at + 3));
     mass += model.bodies[i].inertial_mass * u.squaredNorm() + turn_own.dot(model.bodies[i].inertia * turn_own);
   }
   return mass > 0.0 ? work / mass : 0.0;
@@ -134,8 +139,9 @@ Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, c
   for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
     for (std::size_t c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
   stepper.prepare();
-  result.account = fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",
-                               result.converged ? "converged" : "did not converge", result.steps, result.residual);
+  result.account =
+      fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",
+                  result.converged ? "converged" : "did not converge", result.steps, result.residual);
   return result;
 }
 

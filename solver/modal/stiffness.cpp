@@ -49,7 +49,9 @@ const Patch& patch_at(const Model& model, const State& state, std::size_t index)
   return index < model.joints.size() ? model.joints[index] : state.contacts[index - model.joints.size()];
 }
 
-const double* pose_of(const State& state, std::int32_t body) { return &state.pose[pose_width * std::size_t(body)]; }
+const double* pose_of(const State& state, std::int32_t body) {
+  return &state.pose[pose_width * std::size_t(body)];
+}
 
 Matrix6 points_stiffness(const Model& model, const State& state, const Patch& patch, const Array<double>& points,
                          const PatchMemory& memory) {
@@ -114,7 +116,8 @@ Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch)
 }
 
 /// K of one patch for small motions of both its bodies.
-Eigen::Matrix<double, 12, 12> pair_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
+Eigen::Matrix<double, 12, 12> pair_stiffness(const Model& model, const State& state, std::size_t index,
+                                             PatchTangent kind) {
   const Matrix6x12 rows = jump_rows(model, state, patch_at(model, state, index));
   return rows.transpose() * patch_stiffness(model, state, index, kind) * rows;
 }
@@ -146,11 +149,13 @@ Pattern find_pattern(const Model& model, const State& state, const Unknowns& unk
 }
 
 std::size_t block_at(const Pattern& pattern, std::int32_t column, std::int32_t row) {
-  const auto begin = pattern.neighbour.begin() + pattern.first[column], end = pattern.neighbour.begin() + pattern.first[column + 1];
+  const auto begin = pattern.neighbour.begin() + pattern.first[column],
+             end = pattern.neighbour.begin() + pattern.first[column + 1];
   return std::size_t(std::lower_bound(begin, end, row) - pattern.neighbour.begin());
 }
 
-SparseMatrix to_columns(const Pattern& pattern, const Unknowns& unknowns, const std::vector<Matrix6>& blocks, double shift) {
+SparseMatrix to_columns(const Pattern& pattern, const Unknowns& unknowns, const std::vector<Matrix6>& blocks,
+                        double shift) {
   SparseMatrix k(unknowns.count, unknowns.count);
   std::vector<int> sizes(unknowns.count);
   for (std::size_t body = 0; body < unknowns.of_body.size(); ++body)
@@ -187,7 +192,8 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
   const std::size_t joints = model.joints.size();
   const Patch& patch = patch_at(model, state, index);
   if (index >= joints) {
-    if (kind == PatchTangent::present) return points_stiffness(model, state, patch, state.contact_points, state.contact);
+    if (kind == PatchTangent::present)
+      return points_stiffness(model, state, patch, state.contact_points, state.contact);
     return closed_stiffness(patch, state.contact_points);
   }
   if (state.joint.mode[index] & mode_gone) return Matrix6::Zero();
@@ -207,7 +213,8 @@ std::vector<Matrix6> body_stiffness(const Model& model, const State& state, Patc
   return blocks;
 }
 
-SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind, double shift) {
+SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind,
+                                double shift) {
   const Pattern pattern = find_pattern(model, state, unknowns);
   std::vector<Matrix6> blocks(pattern.neighbour.size(), Matrix6::Zero());
   const std::size_t all = model.joints.size() + state.contacts.size();
@@ -233,7 +240,8 @@ SparseMatrix assemble_stiffness(const Model& model, const State& state, const Un
   return to_columns(pattern, unknowns, blocks, shift);
 }
 
-Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns, const Eigen::VectorXd& x) {
+Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
+                               const Eigen::VectorXd& x) {
   Eigen::VectorXd y(x.size());
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const std::int32_t at = unknowns.of_body[i];

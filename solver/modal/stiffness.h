@@ -22,7 +22,8 @@ enum class PatchTangent {
 };
 
 /// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
-Eigen::Matrix<double, 6, 6> patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
+Eigen::Matrix<double, 6, 6> patch_stiffness(const Model& model, const State& state, std::size_t index,
+                                            PatchTangent kind);
 
 /// The 6 × 6 block of K that belongs to each body alone (displacement, rotation vector; world axes), fixed bodies too.
 std::vector<Eigen::Matrix<double, 6, 6>> body_stiffness(const Model& model, const State& state, PatchTangent kind);
@@ -33,6 +34,7 @@ SparseMatrix assemble_stiffness(const Model& model, const State& state, const Un
                                 double shift = 0.0);
 
 /// y = M⁻¹ x with M = diag(m 1, R Ib Rᵀ).
-Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns, const Eigen::VectorXd& x);
+Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
+                               const Eigen::VectorXd& x);
 
 }  // namespace voussoir

@@ -1,6 +1,6 @@
-// Joint laws at one point of a patch. A law is a struct with `update`: given the jump and the point's memory it returns the
-// elastic jump (traction over stiffness) and updates the memory. A new law is a new struct here (or in a file of its own)
-// and one line in with_law().
+// Joint laws at one point of a patch. A law is a struct with `update`: given the jump and the point's memory it returns
+// the elastic jump (traction over stiffness) and updates the memory. A new law is a new struct here (or in a file of
+// its own) and one line in with_law().
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace voussoir {
 /// Constants of a law at work (tangents instead of angles).
 struct LawConstants {
   JointLaw::Kind kind = JointLaw::Kind::brittle;
-  double tension = 0.0, cohesion = 0.0, tan_friction = 0.0;         // Pa, Pa, –: while bonded
-  double residual_cohesion = 0.0, residual_tan_friction = 0.0;      // Pa, –: bond lost
+  double tension = 0.0, cohesion = 0.0, tan_friction = 0.0;     // Pa, Pa, –: while bonded
+  double residual_cohesion = 0.0, residual_tan_friction = 0.0;  // Pa, –: bond lost
   double tan_dilation = 0.0;
-  double mode_1 = 0.0, mode_2 = 0.0;                                // J/m2, softening
+  double mode_1 = 0.0, mode_2 = 0.0;  // J/m2, softening
 };
 LawConstants law_constants(const JointLaw& law);
 
@@ -31,15 +31,15 @@ struct PointMemory {
 struct PointResult {
   double n = 0.0, s = 0.0, t = 0.0;
   double friction = 0.0, fracture = 0.0;
-  bool elastic = true;   // neither slid, opened nor broke in this update
-  bool open = false;     // carries nothing
+  bool elastic = true;  // neither slid, opened nor broke in this update
+  bool open = false;    // carries nothing
 };
 
 /// An unbonded point: open when pulled, else Coulomb with return to the cone along the shear direction; with a dilation
-/// angle, slip |Δus| opens the joint by |Δus| tan ψ. While it is open the plastic shear jump follows the total one, so that
-/// it closes without a shear kick.
-inline PointResult coulomb(const LawConstants& law, double kn, double ks, double un, double us, double ut, double cohesion,
-                           double tan_friction, PointMemory& memory) {
+/// angle, slip |Δus| opens the joint by |Δus| tan ψ. While it is open the plastic shear jump follows the total one, so
+/// that it closes without a shear kick.
+inline PointResult coulomb(const LawConstants& law, double kn, double ks, double un, double us, double ut,
+                           double cohesion, double tan_friction, PointMemory& memory) {
   PointResult r;
   const double n = un - memory.n;
   if (n >= 0.0) {
@@ -99,13 +99,14 @@ struct BrittleLaw {
   }
 };
 
-/// Linear softening of tension and cohesion with fracture energies GI, GII: one softening variable, driven by the plastic
-/// opening over wI = 2 GI / ft and the plastic slip over wII = 2 GII / c (after Lourenço & Rots 1997, linear instead of
-/// exponential). A branch too steep for the spring (snap-back) is brittle. Friction is not softened.
+/// Linear softening of tension and cohesion with fracture energies GI, GII: one softening variable, driven by the
+/// plastic opening over wI = 2 GI / ft and the plastic slip over wII = 2 GII / c (after Lourenço & Rots 1997, linear
+/// instead of exponential). A branch too steep for the spring (snap-back) is brittle. Friction is not softened.
 struct SofteningLaw {
   static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
                             PointMemory& memory) {
-    if (memory.broken) return coulomb(law, kn, ks, un, us, ut, law.residual_cohesion, law.residual_tan_friction, memory);
+    if (memory.broken)
+      return coulomb(law, kn, ks, un, us, ut, law.residual_cohesion, law.residual_tan_friction, memory);
     PointResult r;
     double n = un - memory.n;
     const double soft_cohesion = residual(law, memory.softening);
@@ -136,7 +137,8 @@ struct SofteningLaw {
       const double slip = (trial - limit) / (ks - slope);
       if (memory.softening + slip / width >= 1.0) return lose_bond(law, kn, ks, un, us, ut, memory);
       const double keep = 1.0 - ks * slip / trial;
-      if (!(limit >= 0.0) || keep < 0.0) return lose_bond(law, kn, ks, un, us, ut, memory);  // softer than anything left to hold
+      if (!(limit >= 0.0) || keep < 0.0)
+        return lose_bond(law, kn, ks, un, us, ut, memory);  // softer than anything left to hold
       memory.s += (1.0 - keep) * s;
       memory.t += (1.0 - keep) * t;
       memory.softening += slip / width;
@@ -187,9 +189,12 @@ struct ElasticLaw {
 template <class F>
 auto with_law(JointLaw::Kind kind, F&& use) {
   switch (kind) {
-    case JointLaw::Kind::softening: return use(SofteningLaw{});
-    case JointLaw::Kind::elastic: return use(ElasticLaw{});
-    default: return use(BrittleLaw{});
+    case JointLaw::Kind::softening:
+      return use(SofteningLaw{});
+    case JointLaw::Kind::elastic:
+      return use(ElasticLaw{});
+    default:
+      return use(BrittleLaw{});
   }
 }
 

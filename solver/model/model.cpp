@@ -63,7 +63,8 @@ void add_bodies(const Assembly& assembly, Model& model) {
     weight += block.mass * model.gravity.norm();
     ++movable;
   }
-  if (movable == 0) throw InputError("the assembly has no block that can move: every one of its {} is fixed", assembly.blocks.size());
+  if (movable == 0)
+    throw InputError("the assembly has no block that can move: every one of its {} is fixed", assembly.blocks.size());
   std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
   model.typical_size = sizes[sizes.size() / 2];
   model.average_weight = weight / movable;
@@ -74,10 +75,11 @@ void store(double* to, const Vec3& from) {
 }
 
 /// Fills everything of a joint's patch but its points; returns its shape.
-PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t index, const Model& model, Patch& patch) {
+PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t index, const Model& model,
+                       Patch& patch) {
   if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
-    throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index, joint.a,
-                     joint.b, joint.kn, joint.ks);
+    throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index,
+                     joint.a, joint.b, joint.kn, joint.ks);
   const PatchShape shape = patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
   patch.a = model.body_of_block[joint.a];
   patch.b = model.body_of_block[joint.b];
@@ -102,8 +104,8 @@ PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   std::vector<PatchShape> shapes;
   using Key = std::tuple<int, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int64_t>;
-  // Corner class, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open: in
-  // batches of their own those that go point by point hold up fewer of the others.
+  // Corner class, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
+  // in batches of their own those that go point by point hold up fewer of the others.
   std::vector<Key> order;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
@@ -177,7 +179,8 @@ void make_batches(Model& model, const std::vector<PatchShape>& shapes) {
     JointBatch batch{};
     batch.count = std::min<std::int32_t>(lane_count, joints - first);
     batch.corners = 4;
-    for (int lane = 0; lane < batch.count; ++lane) batch.corners = std::max(batch.corners, model.joints[first + lane].corner_count);
+    for (int lane = 0; lane < batch.count; ++lane)
+      batch.corners = std::max(batch.corners, model.joints[first + lane].corner_count);
     batch.first_corner = std::int32_t(model.batch_corners.size());
     model.batch_corners.resize(model.batch_corners.size() + 2 * std::size_t(batch.corners));
     for (int lane = 0; lane < lane_count; ++lane) {
@@ -194,12 +197,14 @@ void make_batches(Model& model, const std::vector<PatchShape>& shapes) {
   }
 }
 
-/// One unbonded, frictional law for each coefficient among the materials; a new contact takes the lower of its two bodies'.
+/// One unbonded, frictional law for each coefficient among the materials; a new contact takes the lower of its two
+/// bodies'.
 void add_contact_laws(Model& model) {
   for (const Model::Matter& matter : model.matter) {
     const auto same = [&](const LawConstants& law) {
-      return law.kind == JointLaw::Kind::brittle && law.tension == 0.0 && law.cohesion == 0.0 && law.residual_cohesion == 0.0 &&
-             law.tan_dilation == 0.0 && law.tan_friction == matter.tan_friction && law.residual_tan_friction == matter.tan_friction;
+      return law.kind == JointLaw::Kind::brittle && law.tension == 0.0 && law.cohesion == 0.0 &&
+             law.residual_cohesion == 0.0 && law.tan_dilation == 0.0 && law.tan_friction == matter.tan_friction &&
+             law.residual_tan_friction == matter.tan_friction;
     };
     auto found = std::find_if(model.laws.begin(), model.laws.end(), same);
     if (found == model.laws.end()) {

@@ -18,36 +18,37 @@ namespace voussoir {
 
 /// Constants of one body; the reference placement is the assembly's.
 struct Body {
-  Vec3 centroid = Vec3::Zero();         // m
-  double mass = 0.0;                    // kg, weighs and moves
-  double inertial_mass = 0.0;           // kg, moves (differs from mass only under mass scaling)
-  Mat3 inertia = Mat3::Zero();          // kg m2, reference axes, scaled like inertial_mass
+  Vec3 centroid = Vec3::Zero();  // m
+  double mass = 0.0;             // kg, weighs and moves
+  double inertial_mass = 0.0;    // kg, moves (differs from mass only under mass scaling)
+  Mat3 inertia = Mat3::Zero();   // kg m2, reference axes, scaled like inertial_mass
   Mat3 inverse_inertia = Mat3::Zero();
-  double radius = 0.0;                  // m, centroid to the farthest vertex
-  bool fixed = false;                   // moves with the ground
+  double radius = 0.0;  // m, centroid to the farthest vertex
+  bool fixed = false;   // moves with the ground
 };
 
-/// Geometry of one patch for the point-by-point path. The local axes (n, s, t) are held by both bodies: e_a and e_b turn
-/// them into each body's reference axes, so that at the placement where the patch was made R_a e_a = R_b e_b.
+/// Geometry of one patch for the point-by-point path. The local axes (n, s, t) are held by both bodies: e_a and e_b
+/// turn them into each body's reference axes, so that at the placement where the patch was made R_a e_a = R_b e_b.
 struct Patch {
-  std::int32_t a = 0, b = 0;            // bodies
+  std::int32_t a = 0, b = 0;  // bodies
   std::int32_t cell_a = 0, cell_b = 0;
-  std::int32_t law = 0;                 // index into Model::laws
+  std::int32_t law = 0;  // index into Model::laws
   // Its points are rows first_point … of tables whose rows hold `stride` patches side by side, see point_index().
   std::int32_t first_point = 0, point_count = 0, stride = 1, lane = 0;
   std::int32_t first_corner = 0, corner_count = 0;  // its polygon, for files and pictures
-  double arm_a[3] = {}, arm_b[3] = {};  // m, centroid of the body to that of the patch, reference axes
-  double place[3] = {};                 // m, X_a + arm_a
-  double shift[3] = {};                 // m, (X_b + arm_b) − (X_a + arm_a): zero for the assembly's joints
+  double arm_a[3] = {}, arm_b[3] = {};              // m, centroid of the body to that of the patch, reference axes
+  double place[3] = {};                             // m, X_a + arm_a
+  double shift[3] = {};  // m, (X_b + arm_b) − (X_a + arm_a): zero for the assembly's joints
   double e_a[4] = {1, 0, 0, 0}, e_b[4] = {1, 0, 0, 0};
-  double gap[3] = {};                   // un (m), θs, θt (rad) when the bodies are where they were when it was made
-  double kn = 0.0, ks = 0.0;            // Pa/m
+  double gap[3] = {};                     // un (m), θs, θt (rad) when the bodies are where they were when it was made
+  double kn = 0.0, ks = 0.0;              // Pa/m
   double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
 };
 
 /// Where point `i` of a patch keeps number `c` of `columns` in a table of points.
 inline std::size_t point_index(const Patch& p, int i, int columns, int c) {
-  return (std::size_t(p.first_point + i) * std::size_t(columns) + std::size_t(c)) * std::size_t(p.stride) + std::size_t(p.lane);
+  return (std::size_t(p.first_point + i) * std::size_t(columns) + std::size_t(c)) * std::size_t(p.stride) +
+         std::size_t(p.lane);
 }
 /// A point from a table of s, t, weight.
 inline PatchPoint patch_point(const Patch& p, const Array<double>& table, int i) {
@@ -75,24 +76,24 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<std::int64_t> block_of_body;
   std::vector<std::int32_t> body_of_block;
-  std::vector<std::vector<Convex>> cells;   // per body, reference placement
+  std::vector<std::vector<Convex>> cells;  // per body, reference placement
 
-  std::vector<LawConstants> laws;           // the assembly's, then the contact laws of pairs of materials
-  std::vector<Patch> joints;                // the assembly's joints in batch order
-  std::vector<std::int64_t> joint_of_patch; // index in Assembly::joints
-  Array<double> points;                     // s, t, weight of the joints' points, eight joints side by side
-  Array<double> corners;                    // s, t of the joints' corners
+  std::vector<LawConstants> laws;            // the assembly's, then the contact laws of pairs of materials
+  std::vector<Patch> joints;                 // the assembly's joints in batch order
+  std::vector<std::int64_t> joint_of_patch;  // index in Assembly::joints
+  Array<double> points;                      // s, t, weight of the joints' points, eight joints side by side
+  Array<double> corners;                     // s, t of the joints' corners
   std::size_t point_rows = 0;
-  Array<JointBatch> batches;                // batch k holds joints 8k … 8k+7
-  Array<Lanes> batch_corners;               // s, t of each corner
+  Array<JointBatch> batches;   // batch k holds joints 8k … 8k+7
+  Array<Lanes> batch_corners;  // s, t of each corner
 
   // For contacts that appear: what a patch between two bodies is made of.
   struct Matter {
     double youngs = 0.0, shear = 0.0, tan_friction = 0.0;
   };
-  std::vector<Matter> matter;               // per body
-  std::vector<std::int32_t> contact_law;    // per body: the law of an unbonded contact with its own friction
-  double typical_size = 0.0;                // m, median over bodies of volume^(1/3)
+  std::vector<Matter> matter;             // per body
+  std::vector<std::int32_t> contact_law;  // per body: the law of an unbonded contact with its own friction
+  double typical_size = 0.0;              // m, median over bodies of volume^(1/3)
   /// Square of the slip past which a patch is clipped anew, m2: small patches are allowed that of a quarter of a block.
   double slip_limit2(double area) const {
     return contact.reclip_slip * contact.reclip_slip * std::max(area, 0.0625 * typical_size * typical_size);
@@ -103,7 +104,7 @@ struct Model {
   }
   /// Square of the turn past which a patch is clipped anew, in units of |2 sin(φ/2)|.
   double turn_limit2() const { return contact.reclip_angle * contact.reclip_angle; }
-  double average_weight = 0.0;              // N, of a free block at 9.81 m/s2 or the case's gravity
+  double average_weight = 0.0;  // N, of a free block at 9.81 m/s2 or the case's gravity
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();
 };

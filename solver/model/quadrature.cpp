@@ -29,8 +29,8 @@ Lobatto lobatto(int n) {
   throw InputError("points_per_side is {}; it must be 3, 4 or 5", n);
 }
 
-/// Tensor rule on the bilinear map. A quadratic of the plane is of degree 2 in each map coordinate, the Jacobian of degree
-/// 1, and three Lobatto points integrate degree 3: exact for any convex quadrilateral.
+/// Tensor rule on the bilinear map. A quadratic of the plane is of degree 2 in each map coordinate, the Jacobian of
+/// degree 1, and three Lobatto points integrate degree 3: exact for any convex quadrilateral.
 std::vector<PatchPoint> tensor_rule(const std::vector<Vec2>& p, int per_side) {
   const Lobatto rule = lobatto(per_side);
   const Vec2 e = p[1] - p[0], f = p[3] - p[0], twist = p[0] - p[1] + p[2] - p[3];

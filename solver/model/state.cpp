@@ -19,22 +19,56 @@ namespace {
 constexpr int patch_columns = 37;
 
 void pack(const Patch& p, Array<double>& rows) {
-  const double row[patch_columns] = {
-      double(p.a), double(p.b), double(p.cell_a), double(p.cell_b), double(p.law), double(p.first_point),
-      double(p.point_count), double(p.first_corner), double(p.corner_count), p.arm_a[0], p.arm_a[1], p.arm_a[2], p.arm_b[0],
-      p.arm_b[1], p.arm_b[2], p.place[0], p.place[1], p.place[2], p.shift[0], p.shift[1], p.shift[2], p.e_a[0], p.e_a[1],
-      p.e_a[2], p.e_a[3], p.e_b[0], p.e_b[1], p.e_b[2], p.e_b[3], p.gap[0], p.gap[1], p.gap[2], p.kn, p.ks, p.area, p.ss, p.tt};
+  const double row[patch_columns] = {double(p.a),
+                                     double(p.b),
+                                     double(p.cell_a),
+                                     double(p.cell_b),
+                                     double(p.law),
+                                     double(p.first_point),
+                                     double(p.point_count),
+                                     double(p.first_corner),
+                                     double(p.corner_count),
+                                     p.arm_a[0],
+                                     p.arm_a[1],
+                                     p.arm_a[2],
+                                     p.arm_b[0],
+                                     p.arm_b[1],
+                                     p.arm_b[2],
+                                     p.place[0],
+                                     p.place[1],
+                                     p.place[2],
+                                     p.shift[0],
+                                     p.shift[1],
+                                     p.shift[2],
+                                     p.e_a[0],
+                                     p.e_a[1],
+                                     p.e_a[2],
+                                     p.e_a[3],
+                                     p.e_b[0],
+                                     p.e_b[1],
+                                     p.e_b[2],
+                                     p.e_b[3],
+                                     p.gap[0],
+                                     p.gap[1],
+                                     p.gap[2],
+                                     p.kn,
+                                     p.ks,
+                                     p.area,
+                                     p.ss,
+                                     p.tt};
   rows.insert(rows.end(), row, row + patch_columns);
 }
 
 Patch unpack(const double* r) {
   Patch p;
-  std::int32_t* whole[9] = {&p.a, &p.b, &p.cell_a, &p.cell_b, &p.law, &p.first_point, &p.point_count, &p.first_corner, &p.corner_count};
+  std::int32_t* whole[9] = {&p.a,           &p.b,           &p.cell_a,       &p.cell_b,      &p.law,
+                            &p.first_point, &p.point_count, &p.first_corner, &p.corner_count};
   for (std::int32_t* field : whole) *field = std::int32_t(*r++);
   const auto take = [&](double* to, int n) {
     for (int i = 0; i < n; ++i) to[i] = *r++;
   };
-  take(p.arm_a, 3), take(p.arm_b, 3), take(p.place, 3), take(p.shift, 3), take(p.e_a, 4), take(p.e_b, 4), take(p.gap, 3);
+  take(p.arm_a, 3), take(p.arm_b, 3), take(p.place, 3), take(p.shift, 3), take(p.e_a, 4), take(p.e_b, 4),
+      take(p.gap, 3);
   take(&p.kn, 1), take(&p.ks, 1), take(&p.area, 1), take(&p.ss, 1), take(&p.tt, 1);
   return p;
 }
@@ -89,7 +123,8 @@ State initial_state(const Model& model) {
   state.joint.resize(model.joints.size(), lane_count * model.point_rows);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const LawConstants& law = model.laws[model.joints[i].law];
-    const bool bondless = law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
+    const bool bondless =
+        law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
     if (bondless) state.joint.mode[i] |= mode_broken;
   }
   return state;

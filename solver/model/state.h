@@ -1,5 +1,5 @@
-// The state of a run: everything that changes, and nothing that can be recomputed. Its arrays are what a checkpoint holds
-// and what the state hash covers.
+// The state of a run: everything that changes, and nothing that can be recomputed. Its arrays are what a checkpoint
+// holds and what the state hash covers.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace voussoir {
 
-/// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu with Δu the
-/// change of the elastic jump over the step; traction stiffness × q (docs/theory/damping.md). q is kept in single precision:
-/// it is a correction of some per cent, it decays, and it is most of what a damped step reads and writes.
+/// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu with Δu
+/// the change of the elastic jump over the step; traction stiffness × q (docs/theory/damping.md). q is kept in single
+/// precision: it is a correction of some per cent, it decays, and it is most of what a damped step reads and writes.
 constexpr int most_branches = 4;
 struct Branches {
   int count = 0;
@@ -27,21 +27,21 @@ struct Branches {
 
 /// How a patch is being computed.
 enum PatchMode : std::uint8_t {
-  mode_points = 1,   // point by point (else as six generalised springs)
-  mode_broken = 2,   // intact path: the whole patch has lost its bond (or never had one)
-  mode_gone = 4,     // carries nothing for good: replaced by a contact, or its bodies have parted
-  mode_open = 8,     // intact path: wholly open at the last pass
+  mode_points = 1,  // point by point (else as six generalised springs)
+  mode_broken = 2,  // intact path: the whole patch has lost its bond (or never had one)
+  mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted
+  mode_open = 8,    // intact path: wholly open at the last pass
 };
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.
 struct PatchMemory {
-  Array<double> point;           // 4 columns: plastic jump n, s, t (m), softening
-  Array<std::uint8_t> broken;    // 1 column: 0, or 1 without bond, or 3 without bond and with empty branches
-  Array<float> point_branch;     // 3 columns a branch: q (m)
-  Array<std::uint8_t> mode;      // 1 a patch, PatchMode bits
-  Array<double> largest;         // 2 a patch: opening, slip (m)
-  Array<double> last;            // 6 a patch: jump at the last pass (m, rad); joints eight side by side
-  Array<double> energy;          // 3 a patch: friction, fracture, damping (J)
+  Array<double> point;         // 4 columns: plastic jump n, s, t (m), softening
+  Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and with empty branches
+  Array<float> point_branch;   // 3 columns a branch: q (m)
+  Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
+  Array<double> largest;       // 2 a patch: opening, slip (m)
+  Array<double> last;          // 6 a patch: jump at the last pass (m, rad); joints eight side by side
+  Array<double> energy;        // 3 a patch: friction, fracture, damping (J)
   void resize(std::size_t patches, std::size_t points);
 };
 
@@ -49,8 +49,9 @@ constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unus
 constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base, loss by body damping (J)
 
 struct State {
-  // scalars: time, base velocity and displacement (3 + 3), energies of contacts that are gone (friction, fracture, damping),
-  // elastic energy that new clippings of patches took out, energy at the start of the motion, largest energy term so far
+  // scalars: time, base velocity and displacement (3 + 3), energies of contacts that are gone (friction, fracture,
+  // damping), elastic energy that new clippings of patches took out, energy at the start of the motion, largest energy
+  // term so far
   Array<double> scalars = Array<double>(13, 0.0);
   Array<std::int64_t> counters = Array<std::int64_t>(3, 0);  // steps, contact searches, contacts made
 
@@ -60,15 +61,15 @@ struct State {
   Array<double> searched;  // 7 a body: displacement relative to the base (m) and quaternion when its contacts were last
                            // looked for
 
-  PatchMemory joint;       // of Model::joints
-  Array<double> slip;      // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
-  Array<float> branch;     // per batch 6 × branches × 8: q of the six generalised jumps
+  PatchMemory joint;    // of Model::joints
+  Array<double> slip;   // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
+  Array<float> branch;  // per batch 6 × branches × 8: q of the six generalised jumps
 
-  std::vector<Patch> contacts;  // found during the run, sorted by (a, b, cell_a, cell_b)
+  std::vector<Patch> contacts;    // found during the run, sorted by (a, b, cell_a, cell_b)
   Array<double> contact_points;   // s, t, weight
   Array<double> contact_corners;  // s, t
   PatchMemory contact;
-  Array<double> contact_rows;     // the contacts as numbers, for files
+  Array<double> contact_rows;  // the contacts as numbers, for files
 
   double& time() { return scalars[0]; }
   double time() const { return scalars[0]; }
@@ -97,7 +98,8 @@ inline std::size_t branch_index(int branches, std::size_t batch, int c, int k) {
 /// At rest in the reference placement, bonds as the laws say, no damping branches.
 State initial_state(const Model& model);
 
-/// Gives every patch room for `count` branches. With the same number as before they are kept, else they start relaxed, q = 0.
+/// Gives every patch room for `count` branches. With the same number as before they are kept, else they start relaxed,
+/// q = 0.
 void set_branches(const Model& model, State& state, int count);
 
 }  // namespace voussoir

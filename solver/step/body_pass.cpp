@@ -9,7 +9,9 @@ namespace voussoir {
 Incidence find_incidence(const Model& model, const State& state) {
   Incidence incidence;
   const std::size_t joints = model.joints.size(), all = joints + state.contacts.size();
-  const auto patch = [&](std::size_t i) -> const Patch& { return i < joints ? model.joints[i] : state.contacts[i - joints]; };
+  const auto patch = [&](std::size_t i) -> const Patch& {
+    return i < joints ? model.joints[i] : state.contacts[i - joints];
+  };
   incidence.first.assign(model.bodies.size() + 1, 0);
   for (std::size_t i = 0; i < all; ++i) ++incidence.first[patch(i).a + 1], ++incidence.first[patch(i).b + 1];
   for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
@@ -57,10 +59,12 @@ Quat<double> normalised(const Quat<double>& q) {
   return {norm * q.w, norm * q.v};
 }
 
-double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
+double sign(double x) {
+  return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
+}
 
-/// Cundall's local damping: each component of the out-of-balance force is cut where it speeds the body up and raised where
-/// it slows it down. Returns the loss over the step.
+/// Cundall's local damping: each component of the out-of-balance force is cut where it speeds the body up and raised
+/// where it slows it down. Returns the loss over the step.
 double damp_locally(double share, double dt, Triple<double>& force, const Triple<double>& velocity) {
   double loss = 0.0;
   double* f = &force.x;
@@ -118,7 +122,9 @@ BodyUpdate BodyPass::update(std::size_t i) const {
     r.momentum = (1.0 / (1.0 + h)) * ((1.0 - h) * l + dt * m);
     const Triple<double> mean = 0.5 * (v + r.velocity), turn_mean = 0.5 * (l + r.momentum);
     // What the body gives up: lost in the dampers, or handed to the ground they stand on.
-    r.loss += mass_rate * dt * (body.inertial_mass * dot(mean - base, mean) + dot(turn_mean, spin(body, pose_rotation(pose), turn_mean)));
+    r.loss +=
+        mass_rate * dt *
+        (body.inertial_mass * dot(mean - base, mean) + dot(turn_mean, spin(body, pose_rotation(pose), turn_mean)));
   } else {
     r.velocity = v + (dt / body.inertial_mass) * f;
     r.momentum = l + dt * m;

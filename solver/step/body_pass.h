@@ -9,22 +9,22 @@ namespace voussoir {
 
 /// Patches of each body in ascending order: 2 × slot, plus 1 where the body is the patch's second one.
 struct Incidence {
-  std::vector<std::int32_t> first;    // per body, and one past the end
+  std::vector<std::int32_t> first;  // per body, and one past the end
   std::vector<std::int32_t> patches;
 };
 Incidence find_incidence(const Model& model, const State& state);
 
 /// Out-of-balance force and moment about the centroid (gravity included), and the velocities that follow.
 struct BodyUpdate {
-  Triple<double> force, moment;   // N, N m, of the patches and gravity
-  Triple<double> velocity;        // m/s at the next half step
-  Triple<double> momentum;        // kg m2/s at the next half step
-  double loss = 0.0;              // J, body damping over this step
+  Triple<double> force, moment;  // N, N m, of the patches and gravity
+  Triple<double> velocity;       // m/s at the next half step
+  Triple<double> momentum;       // kg m2/s at the next half step
+  double loss = 0.0;             // J, body damping over this step
 };
 
 struct BodyReport {
-  bool search = false;            // some body has moved far enough for a new search of contacts
-  std::int32_t runaway = -1;      // lowest body whose velocity is not finite or past any sense
+  bool search = false;        // some body has moved far enough for a new search of contacts
+  std::int32_t runaway = -1;  // lowest body whose velocity is not finite or past any sense
   void merge(const BodyReport& other) {
     search |= other.search;
     if (other.runaway >= 0 && (runaway < 0 || other.runaway < runaway)) runaway = other.runaway;
@@ -36,13 +36,13 @@ struct BodyPass {
   State* state = nullptr;
   const Incidence* incidence = nullptr;
   const double* wrenches = nullptr;
-  double dt = 0.0;                            // s
-  double mass_rate = 0.0;                     // 1/s, Rayleigh
-  double local = 0.0;                         // Cundall
-  double search_distance = 1e300;             // m
-  Vec3 base_velocity_now = Vec3::Zero();      // at the last half step
-  Vec3 base_velocity_next = Vec3::Zero();     // at the next half step
-  Vec3 base_displacement_next = Vec3::Zero(); // at the next step
+  double dt = 0.0;                             // s
+  double mass_rate = 0.0;                      // 1/s, Rayleigh
+  double local = 0.0;                          // Cundall
+  double search_distance = 1e300;              // m
+  Vec3 base_velocity_now = Vec3::Zero();       // at the last half step
+  Vec3 base_velocity_next = Vec3::Zero();      // at the next half step
+  Vec3 base_displacement_next = Vec3::Zero();  // at the next step
 
   BodyUpdate update(std::size_t body) const;
   BodyReport bodies(std::size_t begin, std::size_t end) const;

@@ -18,7 +18,8 @@ Eigen::VectorXd scattered(Eigen::Index n) {
   return x;
 }
 
-void name_the_fastest(const Model& model, const State& state, const Unknowns& unknowns, const Eigen::VectorXd& x, CriticalStep& result) {
+void name_the_fastest(const Model& model, const State& state, const Unknowns& unknowns, const Eigen::VectorXd& x,
+                      CriticalStep& result) {
   double most = -1.0;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const std::int32_t at = unknowns.of_body[i];
@@ -93,8 +94,10 @@ MassScaling scale_mass(Model& model, const State& state, double step, double lim
     }
     scaling.share = added / total;
     if (scaling.share > limit)
-      throw InputError("mass scaling to a step of {:.3g} s would add {:.2f} % of the mass, more than mass_scaling_limit = {:.2f} %; "
-                       "lower mass_scaling_step or raise the limit", step, 100 * scaling.share, 100 * limit);
+      throw InputError(
+          "mass scaling to a step of {:.3g} s would add {:.2f} % of the mass, more than mass_scaling_limit = {:.2f} %; "
+          "lower mass_scaling_step or raise the limit",
+          step, 100 * scaling.share, 100 * limit);
   }
   return scaling;
 }

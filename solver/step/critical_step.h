@@ -5,10 +5,10 @@
 namespace voussoir {
 
 struct CriticalStep {
-  double step = 0.0;            // s, undamped
-  double highest = 0.0;         // rad/s
-  std::int32_t body = -1;       // the body that moves most in the highest mode
-  std::int64_t patch = -1;      // its patch that is strained most there
+  double step = 0.0;        // s, undamped
+  double highest = 0.0;     // rad/s
+  std::int32_t body = -1;   // the body that moves most in the highest mode
+  std::int64_t patch = -1;  // its patch that is strained most there
 };
 
 /// Rayleigh quotient after at most 200 power iterations, stopped when it grows by less than 1e-4 in ten. It approaches
@@ -16,11 +16,11 @@ struct CriticalStep {
 CriticalStep critical_step(const Model& model, const State& state);
 
 struct MassScaling {
-  double share = 0.0;           // added inertia over the mass of all free bodies
-  std::int64_t bodies = 0;      // scaled ones
+  double share = 0.0;       // added inertia over the mass of all free bodies
+  std::int64_t bodies = 0;  // scaled ones
 };
-/// Raises inertia, never weight, of the bodies whose own bound (Gershgorin over its patches) asks for a step below `step`
-/// until the assembly's critical step reaches it. Throws InputError when the added share would pass `limit`.
+/// Raises inertia, never weight, of the bodies whose own bound (Gershgorin over its patches) asks for a step below
+/// `step` until the assembly's critical step reaches it. Throws InputError when the added share would pass `limit`.
 MassScaling scale_mass(Model& model, const State& state, double step, double limit);
 
 }  // namespace voussoir

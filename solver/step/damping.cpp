@@ -60,7 +60,9 @@ double maxwell_ratio(const MaxwellFit& fit, double frequency) {
   return 0.5 * k.imag() / k.real();
 }
 
-double maxwell_stiffening(const MaxwellFit& fit, double frequency) { return complex_stiffness(fit, frequency).real(); }
+double maxwell_stiffening(const MaxwellFit& fit, double frequency) {
+  return complex_stiffness(fit, frequency).real();
+}
 
 MaxwellFit fit_maxwell(double ratio, std::array<double, 2> band, int branches) {
   Eigen::VectorXd x = first_guess(ratio, band, branches), r = residual(x, ratio, band);
@@ -135,8 +137,9 @@ DampingAtWork rayleigh_at_work(const DampingSettings& settings, double step, dou
   // Central differences with a lagged damping force: stable below 2/ω (√(1 + ξ²) − ξ) (Belytschko 1983).
   const double xi = 0.5 * beta * highest;
   work.step_factor = std::sqrt(1.0 + xi * xi) - xi;
-  work.account = fmt::format("Rayleigh damping: mass term {:.4f} 1/s, stiffness term {:.3e} s; {:.2f} % at {} and {} Hz",
-                             work.mass_rate, beta, 100 * settings.ratio, settings.band[0], settings.band[1]);
+  work.account =
+      fmt::format("Rayleigh damping: mass term {:.4f} 1/s, stiffness term {:.3e} s; {:.2f} % at {} and {} Hz",
+                  work.mass_rate, beta, 100 * settings.ratio, settings.band[0], settings.band[1]);
   return work;
 }
 
@@ -144,12 +147,15 @@ DampingAtWork rayleigh_at_work(const DampingSettings& settings, double step, dou
 
 DampingAtWork damping_at_work(const DampingSettings& settings, double step, double highest) {
   switch (settings.kind) {
-    case DampingSettings::Kind::maxwell: return maxwell_at_work(settings, step);
-    case DampingSettings::Kind::rayleigh: return rayleigh_at_work(settings, step, highest);
+    case DampingSettings::Kind::maxwell:
+      return maxwell_at_work(settings, step);
+    case DampingSettings::Kind::rayleigh:
+      return rayleigh_at_work(settings, step, highest);
     case DampingSettings::Kind::local: {
       DampingAtWork work;
       work.local = settings.coefficient;
-      // A force that slows a body down is raised by the coefficient: the assembly is that much stiffer half of the time.
+      // A force that slows a body down is raised by the coefficient: the assembly is that much stiffer half of the
+      // time.
       work.step_factor = 1.0 / std::sqrt(1.0 + work.local);
       work.account = fmt::format("local damping, {:.2f} of the out-of-balance force", work.local);
       return work;

@@ -10,8 +10,8 @@ namespace voussoir {
 
 /// Branches of relative stiffness α and relaxation frequency f beside a unit spring.
 struct MaxwellFit {
-  std::vector<double> stiffness;   // α_j, of the elastic stiffness
-  std::vector<double> frequency;   // f_j, Hz
+  std::vector<double> stiffness;       // α_j, of the elastic stiffness
+  std::vector<double> frequency;       // f_j, Hz
   double lowest = 0.0, highest = 0.0;  // damping ratio over the band: the ripple
 };
 
@@ -19,7 +19,8 @@ struct MaxwellFit {
 double maxwell_ratio(const MaxwellFit& fit, double frequency);
 /// Stiffness factor |Re| at `frequency`: undamped frequencies rise by its square root.
 double maxwell_stiffening(const MaxwellFit& fit, double frequency);
-/// Least squares of the ratio over the band, frequencies spaced evenly in their logarithm (Gauss–Newton with step control).
+/// Least squares of the ratio over the band, frequencies spaced evenly in their logarithm (Gauss–Newton with step
+/// control).
 MaxwellFit fit_maxwell(double ratio, std::array<double, 2> band, int branches);
 
 /// Damping as the step uses it.

@@ -18,8 +18,9 @@ PatchEnergy intact_energy(const Model& model, const State& state, const Branches
     }
     if (open) return {};
   }
-  const double k[6] = {patch.kn * patch.area,                patch.ks * patch.area, patch.ks * patch.area,
-                       patch.ks * (patch.ss + patch.tt), patch.kn * patch.tt,   patch.kn * patch.ss};
+  const double k[6] = {patch.kn * patch.area, patch.ks * patch.area,
+                       patch.ks * patch.area, patch.ks * (patch.ss + patch.tt),
+                       patch.kn * patch.tt,   patch.kn * patch.ss};
   PatchEnergy e;
   for (int c = 0; c < 6; ++c) {
     e.elastic += 0.5 * k[c] * u[c] * u[c];
@@ -31,8 +32,8 @@ PatchEnergy intact_energy(const Model& model, const State& state, const Branches
   return e;
 }
 
-PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch, const Array<double>& points, const PatchMemory& memory, const State& state,
-                          const Branches& branches) {
+PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch, const Array<double>& points,
+                          const PatchMemory& memory, const State& state, const Branches& branches) {
   const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
   PatchEnergy e;
   for (int i = 0; i < patch.point_count; ++i) {
@@ -44,7 +45,8 @@ PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch,
       const LawConstants& law = model.laws[patch.law];
       const double limit = law.residual_cohesion - patch.kn * u.x * law.residual_tan_friction;
       const double shear = patch.ks * std::hypot(u.y, u.z);
-      if (yielding && law.kind != JointLaw::Kind::elastic && shear > limit) x[1] *= limit / shear, x[2] *= limit / shear;
+      if (yielding && law.kind != JointLaw::Kind::elastic && shear > limit)
+        x[1] *= limit / shear, x[2] *= limit / shear;
     }
     for (int c = 0; c < 3; ++c) {
       const double k = point.weight * (c == 0 ? patch.kn : patch.ks);
@@ -79,7 +81,8 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
     return;
   }
   e.body_damping += 0.5 * next.loss;
-  // ½ v⁻·M v⁺: with this product, not with the square of the mean, the leapfrog keeps the energy of a linear system exactly.
+  // ½ v⁻·M v⁺: with this product, not with the square of the mean, the leapfrog keeps the energy of a linear system
+  // exactly.
   const Triple<double> before = turn_back(pose_rotation(pose), triple(motion + 3));
   const Triple<double> after = turn_back(pose_rotation(pose), next.momentum);
   e.kinetic += 0.5 * body.inertial_mass * dot(triple(motion), next.velocity) +
@@ -89,12 +92,15 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
 
 }  // namespace
 
-PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index, bool yielding) {
+PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index,
+                         bool yielding) {
   if (index >= model.joints.size())
-    return points_energy(model, yielding, state.contacts[index - model.joints.size()], state.contact_points, state.contact, state, branches);
+    return points_energy(model, yielding, state.contacts[index - model.joints.size()], state.contact_points,
+                         state.contact, state, branches);
   const std::uint8_t mode = state.joint.mode[index];
   if (mode & mode_gone) return {};
-  if (mode & mode_points) return points_energy(model, yielding, model.joints[index], model.points, state.joint, state, branches);
+  if (mode & mode_points)
+    return points_energy(model, yielding, model.joints[index], model.points, state.joint, state, branches);
   return intact_energy(model, state, branches, index);
 }
 

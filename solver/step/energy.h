@@ -6,15 +6,15 @@ namespace voussoir {
 
 struct Energies {
   double kinetic = 0.0;
-  double gravitational = 0.0;   // relative to the reference placement
-  double elastic = 0.0;         // in joints
-  double damping_springs = 0.0; // in Maxwell branches
-  double friction = 0.0;        // dissipated
-  double fracture = 0.0;        // lost with bonds
-  double joint_damping = 0.0;   // dissipated by branches
-  double body_damping = 0.0;    // dissipated by local and mass damping
-  double clipping = 0.0;        // elastic energy that new clippings of patches took out (or, negative, put in)
-  double base_work = 0.0;       // done by the moving ground
+  double gravitational = 0.0;    // relative to the reference placement
+  double elastic = 0.0;          // in joints
+  double damping_springs = 0.0;  // in Maxwell branches
+  double friction = 0.0;         // dissipated
+  double fracture = 0.0;         // lost with bonds
+  double joint_damping = 0.0;    // dissipated by branches
+  double body_damping = 0.0;     // dissipated by local and mass damping
+  double clipping = 0.0;         // elastic energy that new clippings of patches took out (or, negative, put in)
+  double base_work = 0.0;        // done by the moving ground
   double stored() const { return kinetic + gravitational + elastic + damping_springs; }
   double lost() const { return friction + fracture + joint_damping + body_damping + clipping; }
   /// stored + lost − base work: constant in exact arithmetic.
@@ -28,6 +28,7 @@ struct PatchEnergy {
   double elastic = 0.0, branches = 0.0;
 };
 /// `yielding`: between a patch pass and the next, shear past the cone is cut back to it, as the next pass will do.
-PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index, bool yielding = false);
+PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index,
+                         bool yielding = false);
 
 }  // namespace voussoir

@@ -8,16 +8,21 @@ namespace voussoir {
 
 namespace {
 
-const double* pose_of(const State& state, std::int32_t body) { return &state.pose[pose_width * std::size_t(body)]; }
+const double* pose_of(const State& state, std::int32_t body) {
+  return &state.pose[pose_width * std::size_t(body)];
+}
 
-Vec3 vector(const Triple<double>& x) { return {x.x, x.y, x.z}; }
+Vec3 vector(const Triple<double>& x) {
+  return {x.x, x.y, x.z};
+}
 
 struct Tractions {
   double area = 0.0, normal = 0.0, s = 0.0, t = 0.0, bonded = 0.0, opening = 0.0, slip = 0.0;
 };
 
 /// Elastic tractions and openings over the points of a patch.
-Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<double>& points, const PatchMemory& memory) {
+Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<double>& points,
+                          const PatchMemory& memory) {
   Tractions sum;
   for (int i = 0; i < p.point_count; ++i) {
     const PatchPoint point = patch_point(p, points, i);
@@ -28,7 +33,8 @@ Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<dou
     if (!broken) sum.bonded += w;
     if (broken) sum.opening = std::max(sum.opening, point_jump(p, j, point.s, point.t).x);
     if (broken && u.x >= 0.0) continue;
-    sum.slip = std::max(sum.slip, std::hypot(memory.point[point_index(p, i, 4, 1)], memory.point[point_index(p, i, 4, 2)]));
+    sum.slip =
+        std::max(sum.slip, std::hypot(memory.point[point_index(p, i, 4, 1)], memory.point[point_index(p, i, 4, 2)]));
     sum.normal += w * p.kn * u.x;
     sum.s += w * p.ks * u.y;
     sum.t += w * p.ks * u.z;
@@ -36,7 +42,8 @@ Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<dou
   return sum;
 }
 
-Tractions intact_tractions(const Model& model, const State& state, const Patch& p, const Jump<double>& j, std::size_t index) {
+Tractions intact_tractions(const Model& model, const State& state, const Patch& p, const Jump<double>& j,
+                           std::size_t index) {
   Tractions sum;
   const bool broken = state.joint.mode[index] & mode_broken;
   const double* slip = &state.slip[3 * lane_count * (index / lane_count) + index % lane_count];
@@ -57,8 +64,8 @@ Tractions intact_tractions(const Model& model, const State& state, const Patch& 
   return sum;
 }
 
-PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<double>& j, const Tractions& sum, const Array<double>& corners,
-                             const double* largest) {
+PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<double>& j, const Tractions& sum,
+                             const Array<double>& corners, const double* largest) {
   PatchSnapshot s;
   s.a = model.block_of_body[p.a];
   s.b = model.block_of_body[p.b];
@@ -109,7 +116,8 @@ Snapshot make_snapshot(const Model& model, const State& state) {
     snapshot.velocity.emplace_back(v[0], v[1], v[2]);
   }
   snapshot.patches.resize(model.joints.size());
-  for (std::size_t i = 0; i < model.joints.size(); ++i) snapshot.patches[model.joint_of_patch[i]] = joint_snapshot(model, state, i);
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    snapshot.patches[model.joint_of_patch[i]] = joint_snapshot(model, state, i);
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Patch& p = state.contacts[i];
     const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));

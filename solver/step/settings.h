@@ -11,16 +11,16 @@ namespace voussoir {
 struct DampingSettings {
   enum class Kind { none, maxwell, rayleigh, local };
   Kind kind = Kind::maxwell;
-  double ratio = 0.02;                        // share of critical; maxwell, rayleigh
-  std::array<double, 2> band = {0.5, 12.0};   // Hz; maxwell, rayleigh (the two frequencies where the ratio is exact)
-  int branches = 3;                           // maxwell
-  double coefficient = 0.8;                   // local (Cundall): share of the out-of-balance force
+  double ratio = 0.02;                       // share of critical; maxwell, rayleigh
+  std::array<double, 2> band = {0.5, 12.0};  // Hz; maxwell, rayleigh (the two frequencies where the ratio is exact)
+  int branches = 3;                          // maxwell
+  double coefficient = 0.8;                  // local (Cundall): share of the out-of-balance force
 };
 
 /// Base acceleration on a uniform time grid, linear in between, zero before and after.
 struct GroundMotion {
-  double dt = 0.0;                  // s
-  std::vector<Vec3> acceleration;   // m/s2, world axes; the first sample is at t = 0
+  double dt = 0.0;                 // s
+  std::vector<Vec3> acceleration;  // m/s2, world axes; the first sample is at t = 0
   double duration() const { return acceleration.empty() ? 0.0 : dt * double(acceleration.size() - 1); }
 };
 
@@ -35,28 +35,28 @@ struct StageSettings {
 };
 
 struct ContactSettings {
-  int points_per_side = 3;        // 3, 4 or 5: Gauss-Lobatto points of quadrilateral patches
-  double gap_tolerance = 1e-4;    // m: faces closer than this start in contact
-  double skin = 0.04;             // neighbour list, share of the median block size
-  double reclip_slip = 0.05;      // share of the patch size
-  double reclip_angle = 0.05;     // rad
-  bool search = true;             // look for contacts that appear during the run
+  int points_per_side = 3;      // 3, 4 or 5: Gauss-Lobatto points of quadrilateral patches
+  double gap_tolerance = 1e-4;  // m: faces closer than this start in contact
+  double skin = 0.04;           // neighbour list, share of the median block size
+  double reclip_slip = 0.05;    // share of the patch size
+  double reclip_angle = 0.05;   // rad
+  bool search = true;           // look for contacts that appear during the run
 };
 
 struct StepSettings {
-  double time_step = 0.0;         // s; 0: safety × critical
+  double time_step = 0.0;  // s; 0: safety × critical
   double safety = 0.8;
-  double mass_scaling_limit = 0.0;  // largest allowed added share of mass (inertia only); 0: off
-  double mass_scaling_step = 0.0;   // s: the step mass scaling aims for
+  double mass_scaling_limit = 0.0;      // largest allowed added share of mass (inertia only); 0: off
+  double mass_scaling_step = 0.0;       // s: the step mass scaling aims for
   double equilibrium_tolerance = 1e-6;  // out-of-balance force over the weight of an average block
-  bool intact_shortcut = true;    // off: every patch takes the point-by-point path (verification)
+  bool intact_shortcut = true;          // off: every patch takes the point-by-point path (verification)
 };
 
 struct OutputSettings {
-  double checkpoint_every = 5.0;        // s of simulated time
-  double checkpoint_wall = 600.0;       // s of wall time
-  double fields_every = 0.5;            // s of simulated time; 0: only at the end of stages
-  double history_every = 0.005;         // s of simulated time
+  double checkpoint_every = 5.0;   // s of simulated time
+  double checkpoint_wall = 600.0;  // s of wall time
+  double fields_every = 0.5;       // s of simulated time; 0: only at the end of stages
+  double history_every = 0.005;    // s of simulated time
 };
 
 struct SolverSettings {

@@ -13,10 +13,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
 
 constexpr std::size_t least_joints_per_thread = 500;  // below, the hand-over costs more than the share saves
-constexpr double runaway_balance = 10.0;              // the energy balance is off by ten times its largest term: give up
+constexpr double runaway_balance = 10.0;  // the energy balance is off by ten times its largest term: give up
 
 int useful_threads(int wanted, const Model& model) {
   const int most = std::max<int>(1, int(model.joints.size() / least_joints_per_thread));
@@ -31,7 +33,10 @@ std::string body_name(const Assembly& assembly, const Model& model, std::int32_t
 }  // namespace
 
 Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers)
-    : assembly_(&assembly), settings_(settings), observers_(std::move(observers)), model_(build_model(assembly, settings)),
+    : assembly_(&assembly),
+      settings_(settings),
+      observers_(std::move(observers)),
+      model_(build_model(assembly, settings)),
       state_(initial_state(model_)) {
   stepper_.model = &model_;
   stepper_.state = &state_;
@@ -57,7 +62,8 @@ void Simulation::report_progress(bool force, const std::string& note) {
   Progress p;
   p.stage = position_.stage < std::int64_t(settings_.stages.size()) ? settings_.stages[position_.stage].label : "end";
   p.end = end_time();
-  p.timed = position_.stage >= std::int64_t(settings_.stages.size()) || settings_.stages[position_.stage].duration > 0.0;
+  p.timed =
+      position_.stage >= std::int64_t(settings_.stages.size()) || settings_.stages[position_.stage].duration > 0.0;
   p.time = p.timed ? state_.time() : position_.stage_start;  // relaxation is no time
   p.share = p.end > 0.0 ? p.time / p.end : 1.0;
   const double wall = seconds_since(started_);
@@ -99,9 +105,10 @@ double Simulation::contact_bound() const {
 
 void Simulation::choose_step() {
   if (settings_.step.mass_scaling_step > 0.0) {
-    const MassScaling scaling = scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
-    log(fmt::format("mass scaling: inertia of {} blocks raised, {:.3f} % of the mass added (weights unchanged)", scaling.bodies,
-                    100 * scaling.share));
+    const MassScaling scaling =
+        scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+    log(fmt::format("mass scaling: inertia of {} blocks raised, {:.3f} % of the mass added (weights unchanged)",
+                    scaling.bodies, 100 * scaling.share));
   }
   const CriticalStep critical = critical_step(model_, state_);
   if (critical.highest <= 0.0 && settings_.step.time_step <= 0.0)
@@ -109,17 +116,18 @@ void Simulation::choose_step() {
   const double factor = damping_step_factor(settings_.damping, critical.highest);
   const double limit = critical.highest > 0.0 ? critical.step * factor : 1e300;
   if (settings_.step.time_step > limit)
-    throw InputError("[analysis] time_step = {:.4g} s is above the critical step of {:.4g} s ({:.4g} s undamped, × {:.3f} for "
-                     "damping), set by {}: lower it, or leave it out for {} × critical",
-                     settings_.step.time_step, limit, critical.step, factor, body_name(*assembly_, model_, critical.body),
-                     settings_.step.safety);
+    throw InputError(
+        "[analysis] time_step = {:.4g} s is above the critical step of {:.4g} s ({:.4g} s undamped, × {:.3f} for "
+        "damping), set by {}: lower it, or leave it out for {} × critical",
+        settings_.step.time_step, limit, critical.step, factor, body_name(*assembly_, model_, critical.body),
+        settings_.step.safety);
   position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
   position_.highest = critical.highest;
   position_.stiffest = contact_bound();
   stepper_.dt = position_.dt;
   if (critical.body < 0) return;
-  log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s", critical.step,
-                  body_name(*assembly_, model_, critical.body), factor, position_.dt));
+  log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s",
+                  critical.step, body_name(*assembly_, model_, critical.body), factor, position_.dt));
 }
 
 bool Simulation::gravity(const StageSettings& stage) {
@@ -134,7 +142,8 @@ bool Simulation::gravity(const StageSettings& stage) {
   }
   const bool stopped = observers_.stop && observers_.stop->load();
   if (!equilibrium_.converged && !stopped && stage.method != StageSettings::Method::newton) {
-    if (stage.method == StageSettings::Method::automatic) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
+    if (stage.method == StageSettings::Method::automatic)
+      log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
     equilibrium_ = relax(stepper_, tolerance, 400000, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
@@ -151,7 +160,8 @@ void Simulation::begin_stage(const StageSettings& stage) {
   position_.stage_start = state_.time();
   if (stage.kind == StageSettings::Kind::gravity) return;
   if (position_.dt <= 0.0) choose_step();
-  const bool from_rest = position_.stage == 0 || settings_.stages[position_.stage - 1].kind == StageSettings::Kind::gravity;
+  const bool from_rest =
+      position_.stage == 0 || settings_.stages[position_.stage - 1].kind == StageSettings::Kind::gravity;
   if (from_rest) {  // without branches a patch pass changes nothing but what it finds: safe to look at the energy
     set_branches(model_, state_, 0);
     stepper_.damping = DampingAtWork{};
@@ -188,8 +198,8 @@ void Simulation::sample(const BodyPass& pass) {
   s.time = state_.time();
   s.energies = compute_energies(stepper_, pass);
   const Energies& e = s.energies;
-  for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.joint_damping, e.body_damping,
-                      std::abs(e.base_work)})
+  for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.joint_damping,
+                      e.body_damping, std::abs(e.base_work)})
     state_.largest_energy() = std::max(state_.largest_energy(), term);
   if (state_.largest_energy() > 0.0) s.balance_error = (e.total() - state_.starting_energy()) / state_.largest_energy();
   worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));
@@ -203,7 +213,9 @@ void Simulation::sample(const BodyPass& pass) {
 namespace {
 
 /// The next multiple of `every` after `time` (s); never when `every` is zero.
-double next_multiple(double time, double every) { return every > 0.0 ? (std::floor(time / every + 1e-9) + 1.0) * every : 1e300; }
+double next_multiple(double time, double every) {
+  return every > 0.0 ? (std::floor(time / every + 1e-9) + 1.0) * every : 1e300;
+}
 
 }  // namespace
 
@@ -223,14 +235,22 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     const double next = std::min({stop_at, fields_at, save_at});
     // In pieces short enough for the progress line and the checkpoint by wall time.
     const auto left = std::max<std::int64_t>(1, std::int64_t(std::ceil((next - state_.time()) / stepper_.dt - 1e-6)));
-    const std::int64_t piece = std::min<std::int64_t>(left, std::max<std::int64_t>(50, 4000000 / std::int64_t(model_.joints.size() + 1)));
-    last_ = stepper_.advance(state_.step() + piece, every, [&](const BodyPass& pass) { sample(pass); }, observers_.stop);
+    const std::int64_t piece =
+        std::min<std::int64_t>(left, std::max<std::int64_t>(50, 4000000 / std::int64_t(model_.joints.size() + 1)));
+    last_ = stepper_.advance(
+        state_.step() + piece, every, [&](const BodyPass& pass) { sample(pass); }, observers_.stop);
     if (last_.outcome == StepOutcome::runaway || exploded_) {
       failure_ = last_.outcome == StepOutcome::runaway
-                     ? fmt::format("at t = {:.4f} s {} moves faster than 1000 m/s or not at a finite speed; lower [analysis] safety or "
-                                   "time_step, and look at its joints", state_.time(), body_name(*assembly_, model_, last_.runaway_body))
-                     : fmt::format("at t = {:.4f} s the energy balance is off by {:.0f} times its largest term; lower [analysis] safety "
-                                   "or time_step", state_.time(), worst_balance_);
+                     ? fmt::format(
+                           "at t = {:.4f} s {} moves faster than 1000 m/s or not at a finite speed; lower [analysis] "
+                           "safety or "
+                           "time_step, and look at its joints",
+                           state_.time(), body_name(*assembly_, model_, last_.runaway_body))
+                     : fmt::format(
+                           "at t = {:.4f} s the energy balance is off by {:.0f} times its largest term; lower "
+                           "[analysis] safety "
+                           "or time_step",
+                           state_.time(), worst_balance_);
       return RunEnd::failed;
     }
     if (last_.outcome == StepOutcome::contacts) change_contacts();
@@ -246,7 +266,8 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
       saved_ = Clock::now();
     }
     report_progress(false, fmt::format("{:.1f} % of patches point by point",
-                                       100.0 * double(last_.points) / double(std::max<std::int64_t>(1, last_.points + last_.intact))));
+                                       100.0 * double(last_.points) /
+                                           double(std::max<std::int64_t>(1, last_.points + last_.intact))));
   }
   return state_.time() >= end - 1e-9 * stepper_.dt ? RunEnd::finished : RunEnd::interrupted;
 }
@@ -258,7 +279,8 @@ RunEnd Simulation::run(double until) {
     stepper_.prepare();
   }
   // A checkpoint before anything else: whatever happens in the first stage, there is something to resume from.
-  if (position_.stage == 0 && position_.stage_begun == 0.0 && observers_.checkpoint) observers_.checkpoint(*this, false);
+  if (position_.stage == 0 && position_.stage_begun == 0.0 && observers_.checkpoint)
+    observers_.checkpoint(*this, false);
   while (position_.stage < std::int64_t(settings_.stages.size())) {
     const StageSettings& stage = settings_.stages[position_.stage];
     log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));

@@ -29,7 +29,7 @@ struct Progress {
 struct Sample {
   double time = 0.0;
   Energies energies;
-  double balance_error = 0.0;    // of the energy balance, over the largest term so far
+  double balance_error = 0.0;  // of the energy balance, over the largest term so far
   Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
   std::int64_t contacts = 0;
 };
@@ -48,11 +48,11 @@ enum class RunEnd { finished, interrupted, failed };
 /// What must be known beside the state's arrays to go on exactly where a run stopped.
 struct RunPosition {
   std::int64_t stage = 0;
-  double stage_start = 0.0;      // s
-  double dt = 0.0;               // s
-  double highest = 0.0;          // rad/s, of the intact assembly
-  double stiffest = 0.0;         // 1/s2, see Simulation::contact_bound
-  double stage_begun = 0.0;      // 1 once the present stage has its step and damping
+  double stage_start = 0.0;  // s
+  double dt = 0.0;           // s
+  double highest = 0.0;      // rad/s, of the intact assembly
+  double stiffest = 0.0;     // 1/s2, see Simulation::contact_bound
+  double stage_begun = 0.0;  // 1 once the present stage has its step and damping
 };
 
 class Simulation {
@@ -71,11 +71,11 @@ class Simulation {
   const State& state() const { return state_; }
   const RunPosition& position() const { return position_; }
   const SolverSettings& settings() const { return settings_; }
-  const std::string& failure() const { return failure_; }      // after RunEnd::failed
+  const std::string& failure() const { return failure_; }  // after RunEnd::failed
   const Equilibrium& equilibrium() const { return equilibrium_; }
   int threads() const { return stepper_.threads; }
-  double end_time() const;                                      // s, of all stages
-  double worst_balance() const { return worst_balance_; }      // largest share so far
+  double end_time() const;                                                               // s, of all stages
+  double worst_balance() const { return worst_balance_; }                                // largest share so far
   void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }  // of the part before a restart
   std::int64_t intact_patches() const { return last_.intact; }
   std::int64_t point_patches() const { return last_.points; }

@@ -1,4 +1,5 @@
-// The state of a run at one instant, in the terms files and pictures use. Made by the solver, written by io, drawn by viz.
+// The state of a run at one instant, in the terms files and pictures use. Made by the solver, written by io, drawn by
+// viz.
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -11,23 +12,23 @@ namespace voussoir {
 /// One patch: polygon and tractions at present. Patches 0 … joints−1 are the assembly's joints in their order; contacts
 /// found during the run follow.
 struct PatchSnapshot {
-  std::int64_t a = 0, b = 0;      // blocks
-  Polygon polygon;                // m, present position (midway between the two blocks' faces)
-  Vec3 normal = Vec3::Zero();     // unit, present, from a to b
-  double area = 0.0;              // m2
-  double opening = 0.0, slip = 0.0;                  // m, largest over the patch's points now (opening >= 0; slip is plastic)
-  double largest_opening = 0.0, largest_slip = 0.0;  // m, since the start
+  std::int64_t a = 0, b = 0;         // blocks
+  Polygon polygon;                   // m, present position (midway between the two blocks' faces)
+  Vec3 normal = Vec3::Zero();        // unit, present, from a to b
+  double area = 0.0;                 // m2
+  double opening = 0.0, slip = 0.0;  // m, largest over the patch's points now (opening >= 0; slip is plastic)
+  double largest_opening = 0.0, largest_slip = 0.0;    // m, since the start
   double normal_traction = 0.0, shear_traction = 0.0;  // Pa, mean over the patch; tension positive
-  double bonded = 1.0;            // share of the patch's area whose bond holds (0 for joints that never had one)
-  bool had_bond = false;          // the joint started with tensile strength or cohesion
+  double bonded = 1.0;    // share of the patch's area whose bond holds (0 for joints that never had one)
+  bool had_bond = false;  // the joint started with tensile strength or cohesion
 };
 
 struct Snapshot {
-  double time = 0.0;                               // s since the start of the run
-  Vec3 base_displacement = Vec3::Zero();           // m
-  std::vector<Vec3> displacement;                  // m, of each block's centroid since the assembly
-  std::vector<Eigen::Quaterniond> rotation;        // since the assembly
-  std::vector<Vec3> velocity;                      // m/s
+  double time = 0.0;                         // s since the start of the run
+  Vec3 base_displacement = Vec3::Zero();     // m
+  std::vector<Vec3> displacement;            // m, of each block's centroid since the assembly
+  std::vector<Eigen::Quaterniond> rotation;  // since the assembly
+  std::vector<Vec3> velocity;                // m/s
   std::vector<PatchSnapshot> patches;
 };
 

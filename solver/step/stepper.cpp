@@ -41,7 +41,9 @@ BodyPass Stepper::body_pass() const {
 
 namespace {
 
-PatchPass patch_pass(Stepper& s) { return {s.model, s.state, s.damping.branches, s.wrenches.data(), s.shortcut}; }
+PatchPass patch_pass(Stepper& s) {
+  return {s.model, s.state, s.damping.branches, s.wrenches.data(), s.shortcut};
+}
 
 /// The base's next velocity and displacement, from the acceleration at the present time.
 void move_base(const Stepper& s, double time, BodyPass& pass) {
@@ -67,10 +69,12 @@ struct alignas(64) Found {
 
 }  // namespace
 
-PassReport Stepper::patches_only() { return patch_share(patch_pass(*this), 0, 1); }
+PassReport Stepper::patches_only() {
+  return patch_share(patch_pass(*this), 0, 1);
+}
 
-Advance Stepper::advance(std::int64_t target, std::int64_t sample_every, const std::function<void(const BodyPass&)>& sample,
-                         const std::atomic<bool>* stop) {
+Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
+                         const std::function<void(const BodyPass&)>& sample, const std::atomic<bool>* stop) {
   Advance result;
   if (state->step() >= target) return result;
   std::vector<Found> found(std::size_t(threads), Found{});
@@ -108,14 +112,15 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every, const s
       BodyReport all_bodies;
       for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies);
       all_patches.reclip &= may_clip_at(step);
-      const bool decide = all_patches.reclip || all_bodies.search || all_bodies.runaway >= 0 || found[0].stop || step == target;
+      const bool decide =
+          all_patches.reclip || all_bodies.search || all_bodies.runaway >= 0 || found[0].stop || step == target;
       if (!decide) continue;
       if (thread == 0) {
         result.intact = all_patches.intact;
         result.points = all_patches.points;
         result.reclip = all_patches.reclip;
         result.runaway_body = all_bodies.runaway;
-        result.outcome = all_bodies.runaway >= 0                      ? StepOutcome::runaway
+        result.outcome = all_bodies.runaway >= 0                   ? StepOutcome::runaway
                          : all_patches.reclip || all_bodies.search ? StepOutcome::contacts
                          : found[0].stop && step != target         ? StepOutcome::interrupted
                                                                    : StepOutcome::reached;

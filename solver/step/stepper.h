@@ -19,8 +19,8 @@ enum class StepOutcome {
 struct Advance {
   StepOutcome outcome = StepOutcome::reached;
   std::int32_t runaway_body = -1;
-  bool reclip = false;                 // contacts: because a patch has slid or turned past its limit
-  std::int64_t intact = 0, points = 0; // patches of the last step on either path
+  bool reclip = false;                  // contacts: because a patch has slid or turned past its limit
+  std::int64_t intact = 0, points = 0;  // patches of the last step on either path
 };
 
 /// What a step works with. The stepper owns only scratch memory; everything that must survive is in the state.
@@ -28,20 +28,21 @@ struct Stepper {
   const Model* model = nullptr;
   State* state = nullptr;
   DampingAtWork damping;
-  double dt = 0.0;                      // s
+  double dt = 0.0;  // s
   int threads = 1;
   bool shortcut = true;
-  const GroundMotion* motion = nullptr; // none: the base keeps its velocity
-  double motion_start = 0.0;            // s, time of the motion's first sample
-  double search_distance = 1e300;       // m, see BodyPass
+  const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
+  double motion_start = 0.0;             // s, time of the motion's first sample
+  double search_distance = 1e300;        // m, see BodyPass
 
   Incidence incidence;
   Array<double> wrenches;
 
   /// Rebuilds what depends on the list of contacts. Call after it changes and before the first advance().
   void prepare();
-  /// Steps until state->step() is `target` or something has to be decided. Every `sample_every` steps `sample` is called,
-  /// by one thread, between the two passes: positions and patches are at this step, velocities at the half step before.
+  /// Steps until state->step() is `target` or something has to be decided. Every `sample_every` steps `sample` is
+  /// called, by one thread, between the two passes: positions and patches are at this step, velocities at the half step
+  /// before.
   Advance advance(std::int64_t target, std::int64_t sample_every, const std::function<void(const BodyPass&)>& sample,
                   const std::atomic<bool>* stop);
   /// The first pass alone, serially: wrenches at the present placement (used by the static solver and for reports).
@@ -49,8 +50,8 @@ struct Stepper {
   BodyPass body_pass() const;
 };
 
-/// The plain serial step, written as the loop it stands for: every patch in order adds its wrench to both bodies, then every
-/// body moves. The oracle that the two passes must equal bit for bit.
+/// The plain serial step, written as the loop it stands for: every patch in order adds its wrench to both bodies, then
+/// every body moves. The oracle that the two passes must equal bit for bit.
 void serial_step(Stepper& stepper);
 
 Vec3 base_acceleration(const GroundMotion* motion, double time);

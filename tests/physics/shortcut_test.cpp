@@ -81,9 +81,12 @@ Outcome compare(int corners, const JointLaw& law, DampingSettings::Kind damping,
   return outcome;
 }
 
-/// Of the wrench. Maxwell branches are kept in single precision: six numbers rounded on one path, three a point on the other,
-/// each to 6e-8 of a viscous stress that is up to a sixth of the elastic one and remembers some hundred roundings.
-double agreement(DampingSettings::Kind damping) { return damping == DampingSettings::Kind::maxwell ? 1e-7 : 1e-10; }
+/// Of the wrench. Maxwell branches are kept in single precision: six numbers rounded on one path, three a point on the
+/// other, each to 6e-8 of a viscous stress that is up to a sixth of the elastic one and remembers some hundred
+/// roundings.
+double agreement(DampingSettings::Kind damping) {
+  return damping == DampingSettings::Kind::maxwell ? 1e-7 : 1e-10;
+}
 
 class Shortcut : public testing::TestWithParam<std::tuple<int, DampingSettings::Kind>> {};
 

@@ -21,12 +21,14 @@ namespace voussoir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
 
 struct Scene {
   std::string name, help;
   std::function<Assembly()> build;
-  double step = 0.0;      // s; 0: 0.8 × critical
+  double step = 0.0;  // s; 0: 0.8 × critical
   bool maxwell = false;
   bool shaken = false;
 };
@@ -53,9 +55,11 @@ const std::vector<Scene>& scenes() {
       {"wall-105", "dry wall of 105 blocks at rest", [] { return wall(10, false); }, 2.5e-5},
       {"wall-1040", "dry wall of 1040 blocks at rest", [] { return wall(32, false); }, 2.5e-5},
       {"wall-1040-bonded", "the same, bonded: all joints intact", [] { return wall(32, true); }, 2.5e-5},
-      {"wall-1040-shaken", "dry wall of 1040 blocks under base motion, Maxwell damping", [] { return wall(32, false); }, 2.5e-5, true, true},
+      {"wall-1040-shaken", "dry wall of 1040 blocks under base motion, Maxwell damping", [] { return wall(32, false); },
+       2.5e-5, true, true},
       {"cs1", "CS1 at full size under base motion, Maxwell damping", [] { return bridge(1.0); }, 0.0, true, true},
-      {"cs1-2", "CS1 at block_scale = 2 under base motion, Maxwell damping", [] { return bridge(2.0); }, 0.0, true, true}};
+      {"cs1-2", "CS1 at block_scale = 2 under base motion, Maxwell damping", [] { return bridge(2.0); }, 0.0, true,
+       true}};
   return list;
 }
 
@@ -81,9 +85,13 @@ double bytes_per_step(const Model& model, const State& state, double points_shar
   const auto bytes = [](const auto& array) { return double(array.size() * sizeof(array[0])); };
   const double once = bytes(model.batches) + bytes(model.batch_corners) + bytes(state.joint.mode);
   const double intact = 2.0 * (bytes(state.slip) + bytes(state.branch)) * (1.0 - points_share);
-  const double points = (bytes(model.points) + 2.0 * (bytes(state.joint.point) + bytes(state.joint.broken) + bytes(state.joint.point_branch))) * points_share;
-  const double wrenches = 3.0 * 8.0 * wrench_width * double(model.joints.size() + state.contacts.size());  // written once, read twice
-  const double bodies = 8.0 * double(model.bodies.size()) * (3.0 * pose_width + 2.0 * motion_width) + double(sizeof(Body) * model.bodies.size());
+  const double points = (bytes(model.points) + 2.0 * (bytes(state.joint.point) + bytes(state.joint.broken) +
+                                                      bytes(state.joint.point_branch))) *
+                        points_share;
+  const double wrenches =
+      3.0 * 8.0 * wrench_width * double(model.joints.size() + state.contacts.size());  // written once, read twice
+  const double bodies = 8.0 * double(model.bodies.size()) * (3.0 * pose_width + 2.0 * motion_width) +
+                        double(sizeof(Body) * model.bodies.size());
   return once + intact + points + wrenches + bodies;
 }
 
@@ -92,7 +100,8 @@ GroundMotion shaking() {
   motion.dt = 0.005;
   for (int i = 0; i <= 4000; ++i) {
     const double t = 0.005 * i;
-    motion.acceleration.push_back({2.5 * std::sin(9.0 * t) * std::sin(2.1 * t), 2.5 * std::sin(11.0 * t) * std::cos(1.7 * t), 0.0});
+    motion.acceleration.push_back(
+        {2.5 * std::sin(9.0 * t) * std::sin(2.1 * t), 2.5 * std::sin(11.0 * t) * std::cos(1.7 * t), 0.0});
   }
   return motion;
 }
@@ -123,7 +132,8 @@ nlohmann::json run_scene(const Scene& scene, int threads, double wall_seconds, d
   set_branches(model, state, stepper.damping.branches.count);
   const GroundMotion motion = scene.shaken ? shaking() : GroundMotion{};
   if (scene.shaken) stepper.motion = &motion;
-  const std::size_t movable = std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return !b.fixed; });
+  const std::size_t movable =
+      std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return !b.fixed; });
   const auto piece = std::max<std::int64_t>(20, 2000000 / std::int64_t(movable));
   stepper.advance(state.step() + piece / 4, 1, nullptr, nullptr);  // warm caches, settled threads
   std::vector<double> times;
@@ -148,17 +158,28 @@ nlohmann::json run_scene(const Scene& scene, int threads, double wall_seconds, d
   const double step = times[times.size() / 2];
   const double share = double(intact) / double(std::max<std::int64_t>(1, intact + points));
   const double bytes = bytes_per_step(model, state, 1.0 - share);
-  return {{"blocks", movable}, {"joints", model.joints.size()}, {"steps", steps}, {"threads", threads},
-          {"us_per_block_step", 1e6 * step / double(movable)}, {"ns_per_joint_step", 1e9 * step / double(model.joints.size())},
-          {"intact_share", share}, {"bytes_per_step", bytes}, {"copy_bandwidth", bandwidth},
-          {"contacts", state.contacts.size()}, {"limit_share", bytes / bandwidth / step}, {"sim_seconds_per_wall_second", stepper.dt / step}, {"time_step", stepper.dt}};
+  return {{"blocks", movable},
+          {"joints", model.joints.size()},
+          {"steps", steps},
+          {"threads", threads},
+          {"us_per_block_step", 1e6 * step / double(movable)},
+          {"ns_per_joint_step", 1e9 * step / double(model.joints.size())},
+          {"intact_share", share},
+          {"bytes_per_step", bytes},
+          {"copy_bandwidth", bandwidth},
+          {"contacts", state.contacts.size()},
+          {"limit_share", bytes / bandwidth / step},
+          {"sim_seconds_per_wall_second", stepper.dt / step},
+          {"time_step", stepper.dt}};
 }
 
 int run(int argc, char** argv) {
   namespace po = boost::program_options;
   po::options_description described("voussoir-bench [SCENE…] [--threads N]: microseconds a block and step");
-  described.add_options()("help,h", "this text")("list", "the scenes")("threads,j", po::value<int>()->default_value(1), "threads")(
-      "seconds", po::value<double>()->default_value(5.0), "least wall time a scene")("output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
+  described.add_options()("help,h", "this text")("list", "the scenes")(
+      "threads,j", po::value<int>()->default_value(1), "threads")("seconds", po::value<double>()->default_value(5.0),
+                                                                  "least wall time a scene")(
+      "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
       "scene", po::value<std::vector<std::string>>(), "scenes (default: all)")("quiet,q", "no table");
   po::positional_options_description places;
   places.add("scene", -1);
@@ -182,17 +203,22 @@ int run(int argc, char** argv) {
   const bool quiet = values.count("quiet") > 0;
   const double bandwidth = copy_bandwidth(threads);
   if (!quiet)
-    fmt::print("copy bandwidth {:.1f} GB/s on {} thread(s)\n{:<18} {:>7} {:>7} {:>8} {:>12} {:>12} {:>8} {:>10} {:>8} {:>10}\n", bandwidth / 1e9, threads,
-               "scene", "blocks", "joints", "steps", "µs/block-st.", "ns/joint-st.", "intact", "MB/step", "of limit", "sim s/s");
+    fmt::print(
+        "copy bandwidth {:.1f} GB/s on {} thread(s)\n{:<18} {:>7} {:>7} {:>8} {:>12} {:>12} {:>8} {:>10} {:>8} "
+        "{:>10}\n",
+        bandwidth / 1e9, threads, "scene", "blocks", "joints", "steps", "µs/block-st.", "ns/joint-st.", "intact",
+        "MB/step", "of limit", "sim s/s");
   nlohmann::json all = nlohmann::json::object();
   for (const std::string& name : wanted) {
     const auto found = std::find_if(scenes().begin(), scenes().end(), [&](const Scene& s) { return s.name == name; });
     if (found == scenes().end()) throw InputError("unknown scene '{}'; voussoir-bench --list names them", name);
     const nlohmann::json r = all[name] = run_scene(*found, threads, values["seconds"].as<double>(), bandwidth, quiet);
     if (!quiet)
-      fmt::print("{:<18} {:>7} {:>7} {:>8} {:>12.3f} {:>12.1f} {:>7.1f}% {:>10.2f} {:>7.1f}% {:>10.4f}\n", name, r["blocks"].get<int>(), r["joints"].get<int>(),
-                 r["steps"].get<long>(), r["us_per_block_step"].get<double>(), r["ns_per_joint_step"].get<double>(), 100 * r["intact_share"].get<double>(),
-                 1e-6 * r["bytes_per_step"].get<double>(), 100 * r["limit_share"].get<double>(), r["sim_seconds_per_wall_second"].get<double>());
+      fmt::print("{:<18} {:>7} {:>7} {:>8} {:>12.3f} {:>12.1f} {:>7.1f}% {:>10.2f} {:>7.1f}% {:>10.4f}\n", name,
+                 r["blocks"].get<int>(), r["joints"].get<int>(), r["steps"].get<long>(),
+                 r["us_per_block_step"].get<double>(), r["ns_per_joint_step"].get<double>(),
+                 100 * r["intact_share"].get<double>(), 1e-6 * r["bytes_per_step"].get<double>(),
+                 100 * r["limit_share"].get<double>(), r["sim_seconds_per_wall_second"].get<double>());
   }
   std::ofstream(values["output"].as<std::string>() + "/bench.json") << all.dump(2) << "\n";
   return 0;

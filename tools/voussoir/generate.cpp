@@ -36,13 +36,15 @@ void print_assembly_table(const Assembly& assembly) {
     if (largest < 0 || b.mass > assembly.blocks[largest].mass) largest = std::int64_t(i);
   }
   fmt::print("{:<12} {:>8} {:>8} {:>12}\n", "component", "blocks", "fixed", "mass (t)");
-  for (const auto& [name, row] : rows) fmt::print("{:<12} {:>8} {:>8} {:>12.2f}\n", name, row.blocks, row.fixed, row.mass / 1000.0);
-  fmt::print("{} blocks, {} joints, {:.2f} t that can move\n", assembly.blocks.size(), assembly.joints.size(), mass / 1000.0);
+  for (const auto& [name, row] : rows)
+    fmt::print("{:<12} {:>8} {:>8} {:>12.2f}\n", name, row.blocks, row.fixed, row.mass / 1000.0);
+  fmt::print("{} blocks, {} joints, {:.2f} t that can move\n", assembly.blocks.size(), assembly.joints.size(),
+             mass / 1000.0);
   for (const auto& [word, i] : {std::pair{"smallest", smallest}, std::pair{"largest", largest}})
     if (i >= 0) {
       const Block& b = assembly.blocks[i];
-      fmt::print("{} block: number {} ({}), {:.1f} kg at ({:.2f}, {:.2f}, {:.2f}) m\n", word, i, component_names()[std::size_t(b.component)],
-                 b.mass, b.centroid.x(), b.centroid.y(), b.centroid.z());
+      fmt::print("{} block: number {} ({}), {:.1f} kg at ({:.2f}, {:.2f}, {:.2f}) m\n", word, i,
+                 component_names()[std::size_t(b.component)], b.mass, b.centroid.x(), b.centroid.y(), b.centroid.z());
     }
   fmt::print("surface not covered by joints: {:.3f} m2\n", uncovered_surface(assembly));
 }
@@ -51,7 +53,8 @@ namespace {
 
 int generate(const std::vector<std::string>& arguments) {
   CommandLine line("generate", "generate CASE [-o FILE]", "voussoir generate cases/cs1-f.toml -o cs1.h5");
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"), "assembly file (default: the case's name with .h5)")(
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"),
+                               "assembly file (default: the case's name with .h5)")(
       "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave");
   line.positional = {"CASE"};
   options::variables_map values;
@@ -66,7 +69,8 @@ int generate(const std::vector<std::string>& arguments) {
   const Case c = read_case(file, CaseUse::geometry);
   const Assembly assembly = make_assembly(c);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string to = values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";
+  const std::string to =
+      values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";
   write_assembly(to, assembly);
   if (values.count("quiet")) return 0;
   print_assembly_table(assembly);
@@ -76,6 +80,8 @@ int generate(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-Verb generate_verb() { return {"generate", "geometry to a block assembly, with its joints", generate}; }
+Verb generate_verb() {
+  return {"generate", "geometry to a block assembly, with its joints", generate};
+}
 
 }  // namespace voussoir

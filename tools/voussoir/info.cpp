@@ -1,7 +1,8 @@
 // voussoir info.
+#include "io/hdf5/info.h"
+
 #include <fmt/format.h>
 
-#include "io/hdf5/info.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {
@@ -19,6 +20,8 @@ int info(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-Verb info_verb() { return {"info", "says what a case, assembly, checkpoint, history or record file holds", info}; }
+Verb info_verb() {
+  return {"info", "says what a case, assembly, checkpoint, history or record file holds", info};
+}
 
 }  // namespace voussoir

@@ -39,14 +39,17 @@ void draw_charts(const std::string& images, const Assembly& assembly, const Hist
     (point.axis == 0 ? keystones : spandrels).push_back(channel(history, point.group, path, 1e3));
   }
   if (!keystones.empty())
-    plot_lines(keystones, "time (s)", "longitudinal displacement relative to the base (mm)", "Keystones", images + "/keystones.png");
+    plot_lines(keystones, "time (s)", "longitudinal displacement relative to the base (mm)", "Keystones",
+               images + "/keystones.png");
   if (!spandrels.empty())
-    plot_lines(spandrels, "time (s)", "transverse displacement relative to the base (mm)", "Spandrel walls", images + "/spandrels.png");
+    plot_lines(spandrels, "time (s)", "transverse displacement relative to the base (mm)", "Spandrel walls",
+               images + "/spandrels.png");
 }
 
 }  // namespace
 
-std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot, const History& history) {
+std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot,
+                          const History& history) {
   try {
     draw_state(directory + "/images", assembly, snapshot);
     draw_charts(directory + "/images", assembly, history);

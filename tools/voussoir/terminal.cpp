@@ -31,7 +31,8 @@ void ProgressLine::show(const Progress& p) {
   shown_ = now;
   last_stage_ = p.stage;
   std::string line = p.stage;
-  if (p.timed) line += fmt::format("  t = {:.2f} of {:.2f} s  {:3.0f} %", p.time, p.end, 100.0 * std::min(p.share, 1.0));
+  if (p.timed)
+    line += fmt::format("  t = {:.2f} of {:.2f} s  {:3.0f} %", p.time, p.end, 100.0 * std::min(p.share, 1.0));
   if (p.speed > 0.0) line += fmt::format("  {:.3g} s/s  {} left", p.speed, duration_text(std::max(p.left, 0.0)));
   if (!p.note.empty()) line += "  " + p.note;
   if (terminal_) {

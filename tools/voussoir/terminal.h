@@ -1,4 +1,5 @@
-// What a person sees while a run goes on: one line that keeps changing on a terminal, a line every few seconds elsewhere.
+// What a person sees while a run goes on: one line that keeps changing on a terminal, a line every few seconds
+// elsewhere.
 #pragma once
 #include <chrono>
 

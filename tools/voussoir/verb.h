@@ -9,8 +9,8 @@ namespace voussoir {
 
 struct Verb {
   std::string name;
-  std::string summary;                                          // one line
-  std::function<int(const std::vector<std::string>&)> run;      // arguments after the verb; returns the exit status
+  std::string summary;                                      // one line
+  std::function<int(const std::vector<std::string>&)> run;  // arguments after the verb; returns the exit status
 };
 
 const std::vector<Verb>& verbs();
@@ -26,10 +26,10 @@ namespace options = boost::program_options;
 
 /// What every verb understands: --help, --threads N, --quiet, and its positional arguments.
 struct CommandLine {
-  std::string verb, usage, example;      // usage without the program's name: "run CASE [-o DIR]"
+  std::string verb, usage, example;  // usage without the program's name: "run CASE [-o DIR]"
   options::options_description described{"Options"};
-  std::vector<std::string> positional;   // names of the positional arguments, in order
-  std::vector<std::string> required;     // those that must be there
+  std::vector<std::string> positional;  // names of the positional arguments, in order
+  std::vector<std::string> required;    // those that must be there
   CommandLine(std::string verb_name, std::string usage_text, std::string example_text);
   /// False when help was asked for (and printed). Throws InputError for anything that does not fit.
   bool parse(const std::vector<std::string>& arguments, options::variables_map& values);

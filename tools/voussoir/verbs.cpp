@@ -1,5 +1,3 @@
-#include "tools/voussoir/verb.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,18 +5,21 @@
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "tools/voussoir/verb.h"
 
 namespace voussoir {
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(), run_verb(), resume_verb(), render_verb()};
+  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(),
+                                         run_verb(),      resume_verb(), render_verb()};
   return list;
 }
 
 CommandLine::CommandLine(std::string verb_name, std::string usage_text, std::string example_text)
     : verb(std::move(verb_name)), usage(std::move(usage_text)), example(std::move(example_text)) {
   described.add_options()("help,h", "this text")("threads,j", options::value<int>()->value_name("N"),
-                                                 "threads (default: all the machine offers)")("quiet,q", "no progress, no tables");
+                                                 "threads (default: all the machine offers)")("quiet,q",
+                                                                                              "no progress, no tables");
 }
 
 bool CommandLine::parse(const std::vector<std::string>& arguments, options::variables_map& values) {
