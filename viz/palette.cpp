@@ -15,14 +15,15 @@ Colour mixture(const Colour& a, const Colour& b, double share_of_b) {
 }  // namespace
 
 Colour line_colour(std::size_t index) {
-  static constexpr std::array<Colour, 8> colours = {{{0.000, 0.447, 0.698},    // blue
-                                                     {0.835, 0.369, 0.000},    // vermilion
-                                                     {0.000, 0.620, 0.451},    // bluish green
-                                                     {0.800, 0.475, 0.655},    // reddish purple
-                                                     {0.902, 0.624, 0.000},    // orange
-                                                     {0.337, 0.706, 0.914},    // sky blue
-                                                     {0.000, 0.000, 0.000},    // black
-                                                     {0.700, 0.650, 0.100}}};  // yellow, darkened for white paper
+  static constexpr std::array<Colour, kLineColours> colours = {
+      {{0.000, 0.447, 0.698},    // blue
+       {0.835, 0.369, 0.000},    // vermilion
+       {0.000, 0.620, 0.451},    // bluish green
+       {0.800, 0.475, 0.655},    // reddish purple
+       {0.902, 0.624, 0.000},    // orange
+       {0.337, 0.706, 0.914},    // sky blue
+       {0.000, 0.000, 0.000},    // black
+       {0.700, 0.650, 0.100}}};  // yellow, darkened for white paper
   return colours[index % colours.size()];
 }
 

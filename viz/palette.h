@@ -10,6 +10,7 @@ namespace voussoir {
 
 using Colour = std::array<double, 3>;  // red, green, blue, 0…1
 
+constexpr std::size_t kLineColours = 8;
 /// The eight colours of Okabe & Ito (2008), for lines; indices beyond the last begin again.
 Colour line_colour(std::size_t index);
 

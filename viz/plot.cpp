@@ -105,11 +105,46 @@ Legend lay_out_legend(const std::vector<Series>& series, double letter, double l
   return legend;
 }
 
+using Path = std::vector<std::pair<double, double>>;
+
+/// Once the colours are used up, lines are dashed.
+bool dashed(std::size_t index) {
+  return index / kLineColours % 2 == 1;
+}
+
+/// The pieces of a line that dashes leave, `on` and `off` long (pixels).
+std::vector<Path> dashes(const Path& line, double on, double off) {
+  std::vector<Path> pieces;
+  bool drawing = false;
+  double left = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    auto [x, y] = line[i];
+    const auto [x1, y1] = line[i + 1];
+    for (double length = std::hypot(x1 - x, y1 - y); length > 0.0;) {
+      if (left <= 0.0) {
+        drawing = !drawing, left = drawing ? on : off;
+        if (drawing) pieces.push_back({{x, y}});
+      }
+      const double part = std::min(left, length);
+      x += (x1 - x) * part / length, y += (y1 - y) * part / length;
+      left -= part, length -= part;
+      if (drawing) pieces.back().emplace_back(x, y);
+    }
+  }
+  return pieces;
+}
+
+void draw_line(Overlay& overlay, const Path& line, std::size_t index, double width, double letter) {
+  if (!dashed(index)) return overlay.polyline(line, width, line_colour(index));
+  for (const Path& piece : dashes(line, 0.5 * letter, 0.3 * letter))
+    if (piece.size() > 1) overlay.polyline(piece, width, line_colour(index));
+}
+
 void draw_legend(Overlay& overlay, const Layout& layout, const Legend& legend, const std::vector<Series>& series) {
   const double s = layout.letter;
   for (const auto& entry : legend.entries) {
     const double y = layout.legend - 1.6 * s * entry.row;
-    overlay.line(entry.x, y + 0.6 * s, entry.x + 2.0 * s, y + 0.6 * s, 0.16 * s, line_colour(entry.series));
+    draw_line(overlay, {{entry.x, y + 0.6 * s}, {entry.x + 2.0 * s, y + 0.6 * s}}, entry.series, 0.16 * s, s);
     overlay.text(entry.x + 2.5 * s, y, series[entry.series].name, s);
   }
 }
@@ -145,15 +180,15 @@ void draw_border(Overlay& overlay, const Layout& l) {
   overlay.line(l.left, l.bottom, l.left, l.top, 1.2);
 }
 
-void draw_series(Overlay& overlay, const Layout& layout, const Series& full, const Colour& colour,
+void draw_series(Overlay& overlay, const Layout& layout, const Series& full, std::size_t index,
                  const PlotOptions& options) {
   const Series series = thinned(full);
-  std::vector<std::pair<double, double>> run;
+  Path run;
   const double dot = 0.28 * layout.letter;
   const auto finish_run = [&] {
-    if (run.size() > 1) overlay.polyline(run, 0.1 * layout.letter, colour);
+    if (run.size() > 1) draw_line(overlay, run, index, 0.1 * layout.letter, layout.letter);
     if (options.markers || run.size() == 1)
-      for (const auto& [x, y] : run) overlay.disc(x, y, dot, colour);
+      for (const auto& [x, y] : run) overlay.disc(x, y, dot, line_colour(index));
     run.clear();
   };
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -193,7 +228,7 @@ void plot_lines(const std::vector<Series>& series, const std::string& x_label, c
   renderer->SetBackground(1, 1, 1);
   Overlay overlay(renderer);
   draw_frame(overlay, layout, x_label, y_label, options.title);
-  for (std::size_t i = 0; i < series.size(); ++i) draw_series(overlay, layout, series[i], line_colour(i), options);
+  for (std::size_t i = 0; i < series.size(); ++i) draw_series(overlay, layout, series[i], i, options);
   draw_border(overlay, layout);
   draw_legend(overlay, layout, legend, series);
   const auto window = offscreen_window(options.width, options.height);

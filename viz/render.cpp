@@ -7,12 +7,14 @@
 #include <vtkIdList.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "io/vtk/files.h"
 #include "io/vtk/grid.h"
@@ -100,16 +102,40 @@ void add_lights(vtkRenderer* renderer, const View& view) {
   add(0.8, -0.1, 1.2, 0.50 * strength);
 }
 
-vtkSmartPointer<vtkPoints> used_points(vtkPolyData* faces) {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
+/// What the picture is fitted to: all but the stones that have gone farther than a share of the whole's size. One that
+/// fell off and is still falling would make a dot of the bridge.
+struct Content {
+  vtkSmartPointer<vtkPoints> points = vtkSmartPointer<vtkPoints>::New();
+  std::set<vtkIdType> gone;  // blocks
+};
+
+double diagonal(vtkPoints* points) {
+  double box[6];
+  points->GetBounds(box);
+  return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
+}
+
+Content content_of(vtkPolyData* faces, vtkPolyData* undeformed, double amplification) {
+  constexpr double far = 0.1;
+  vtkDataArray* displacement = faces->GetPointData()->GetArray("displacement_of_point");
+  vtkDataArray* block = faces->GetCellData()->GetArray("block");
+  const double reach = far * diagonal(undeformed->GetPoints());
+  Content content;
+  content.points->SetDataTypeToDouble();
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
     faces->GetPolys()->GetCellAtId(c, corners);
-    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
-      points->InsertNextPoint(faces->GetPoint(corners->GetId(k)));
+    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
+      Vec3 d = Vec3::Zero();
+      if (displacement) displacement->GetTuple(corners->GetId(k), d.data());
+      if (std::abs(amplification) * d.norm() > reach)
+        content.gone.insert(block ? vtkIdType(block->GetComponent(c, 0)) : c);
+      else
+        content.points->InsertNextPoint(faces->GetPoint(corners->GetId(k)));
+    }
   }
-  return points;
+  if (content.points->GetNumberOfPoints() == 0) content.points->DeepCopy(undeformed->GetPoints());
+  return content;
 }
 
 bool has_component(vtkDataArray* component, const std::string& name) {
@@ -118,7 +144,7 @@ bool has_component(vtkDataArray* component, const std::string& name) {
   return false;
 }
 
-Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool cracks) {
+Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool cracks, std::size_t gone) {
   Words words;
   words.title = options.title;
   if (vtkDataArray* time = blocks->GetFieldData()->GetArray("TimeValue"))
@@ -131,7 +157,12 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
     for (const std::string& name : options.hide)
       if (has_component(component, name)) left_out.push_back(name);
   if (!left_out.empty()) words.hidden = fmt::format("hidden: {}", fmt::join(left_out, ", "));
-  if (cracks) words.cracks = fmt::format("bond lost, or opened or slipped > {:g} mm", options.crack_mm);
+  if (gone > 0)
+    words.hidden +=
+        fmt::format("{}{} {} far off", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
+  if (cracks)
+    words.cracks = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:g} mm", options.crack_mm)
+                                          : std::string("bond lost, opened or slipped");
   return words;
 }
 
@@ -164,6 +195,8 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
                 double lift) {
   CrackRule rule;
   rule.opening = rule.slip = 1e-3 * options.crack_mm;
+  // After an earthquake most bonds are lost somewhere; what one would see is what has moved.
+  if (options.crack_mm > 0.0) rule.bonded = 0.0;
   const auto cracks = crack_patches(joints, hidden, options.amplification, rule);
   if (cracks->GetNumberOfPolys() == 0) return;
   add_crack_faces(renderer, cracks);
@@ -173,12 +206,6 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
 /// Thinner lines for more stones, so that a whole bridge does not turn black.
 double outline_width(vtkPolyData* faces) {
   return std::clamp(0.9 * std::pow(3000.0 / double(faces->GetNumberOfPolys()), 0.2), 0.5, 0.9);
-}
-
-double diagonal(vtkPoints* points) {
-  double box[6];
-  points->GetBounds(box);
-  return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
 }
 
 }  // namespace
@@ -197,19 +224,21 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
   const Display display;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  const auto points = used_points(faces);
+  const auto undeformed = deformed_faces(blocks, hidden, 0.0);
+  const Content content = content_of(faces, undeformed, options.amplification);
+  vtkPoints* points = content.points;
   Sheet sheet = make_sheet(options, view, points);
   place_camera(renderer, view, points, sheet);
   add_lights(renderer, view);
   const double lift = 1e-3 * diagonal(points);
   add_faces(renderer, faces);
   add_lines(renderer, outlines(faces), outline_width(faces), kOutline, lift);
-  if (options.undeformed) add_lines(renderer, outlines(deformed_faces(blocks, hidden, 0.0)), 0.8, kFaint, -lift);
+  if (options.undeformed) add_lines(renderer, outlines(undeformed), 0.8, kFaint, -lift);
   if (cracks) add_cracks(renderer, joints, hidden, options, 2.0 * lift);
   renderer->ResetCameraClippingRange();
 
   Overlay overlay(renderer);
-  draw_annotation(overlay, sheet, view, colouring, words_of(blocks, options, cracks));
+  draw_annotation(overlay, sheet, view, colouring, words_of(blocks, options, cracks, content.gone.size()));
   const auto window = offscreen_window(sheet.width, sheet.height);
   window->AddRenderer(renderer);
   write_png(window, png);

@@ -15,7 +15,7 @@ struct RenderOptions {
   double amplification = 2.0;      // of the displacements relative to the base; 1: true, 0: undeformed
   std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone
   bool cracks = true;              // mark the joints that lost their bond, opened or slipped
-  double crack_mm = 0.1;           // mm: a joint that opened or slipped more counts as cracked
+  double crack_mm = 1.0;           // mm: a joint that opened or slipped more counts as cracked; 0: or lost its bond
   std::vector<std::string> hide = {"backfill"};  // components left out
   std::string view = "oblique";                  // front, side, plan, oblique
   int width = 1800, height = 1000;               // pixels; height 0: as the content needs

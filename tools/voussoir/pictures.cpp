@@ -11,7 +11,6 @@ namespace {
 
 void draw_state(const std::string& images, const Assembly& assembly, const Snapshot& snapshot) {
   RenderOptions o;
-  o.crack_mm = 1.0;  // hair cracks are everywhere after an earthquake; these are the ones one would see
   for (const char* view : {"oblique", "front"}) {
     o.view = view;
     for (const char* colour : {"opening", "slip"}) {
