@@ -215,10 +215,29 @@ void match_normal_force(double wanted, NewContact& c) {
   c.patch.gap[0] += 0.5 * (low + high);
 }
 
-}  // namespace
+/// Of a contact where it is made: its own jump is zero.
+double elastic_energy(const NewContact& c) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    const PatchPoint& p = c.points[i];
+    const double n = c.patch.gap[0] + c.patch.gap[1] * p.t - c.patch.gap[2] * p.s;
+    const double s = c.memory[4 * i + 1], t = c.memory[4 * i + 2];
+    if (n < 0.0) sum += 0.5 * p.weight * (c.patch.kn * n * n + c.patch.ks * (s * s + t * t));
+  }
+  return sum;
+}
 
-void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
-                const PatchMemory& memory, NewContact& contact) {
+/// The same force on less area holds more energy: a patch that has shrunk since it was made would speed its blocks up.
+void limit_energy(double most, NewContact& c) {
+  const double now = elastic_energy(c);
+  if (now <= most) return;
+  const double factor = std::sqrt(std::max(most, 0.0) / now);
+  for (double& g : c.patch.gap) g *= factor;
+  for (std::size_t i = 0; i < c.points.size(); ++i) c.memory[4 * i + 1] *= factor, c.memory[4 * i + 2] *= factor;
+}
+
+void match_tractions(const Model& model, const State& state, const Patch& old, const Array<double>& points,
+                     const PatchMemory& memory, NewContact& contact) {
   Patch& p = contact.patch;
   p.kn = old.kn, p.ks = old.ks, p.law = old.law;
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
@@ -247,6 +266,14 @@ void carry_over(const Model& model, const State& state, const Patch& old, const 
     contact.memory[4 * i + 1] = -(force.y() / (p.ks * area) - twist * q.t);
     contact.memory[4 * i + 2] = -(force.z() / (p.ks * area) + twist * q.s);
   }
+}
+
+}  // namespace
+
+void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
+                const PatchMemory& memory, double energy, NewContact& contact) {
+  match_tractions(model, state, old, points, memory, contact);
+  limit_energy(energy, contact);
 }
 
 }  // namespace voussoir

@@ -19,9 +19,11 @@ std::optional<NewContact> make_contact(const Model& model, const State& state, s
                                        std::int32_t b, std::int32_t cell_b, double within);
 
 /// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
-/// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed.
+/// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed. Where
+/// that would take more elastic energy than the old patch holds (`energy`, J), all tractions are lowered until it does
+/// not.
 void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
-                const PatchMemory& memory, NewContact& contact);
+                const PatchMemory& memory, double energy, NewContact& contact);
 
 /// The cell in its present placement.
 Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell);

@@ -120,10 +120,10 @@ struct Clipper {
   ContactUpdate& update;
 
   std::optional<NewContact> clip(const Patch& old, const Array<double>& points, const PatchMemory& memory,
-                                 const double* largest) {
+                                 double energy, const double* largest) {
     std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
     if (fresh) {
-      carry_over(model, state, old, points, memory, *fresh);
+      carry_over(model, state, old, points, memory, energy, *fresh);
       fresh->carried_opening = largest[0];
       fresh->carried_slip = largest[1];
       ++update.clipped;
@@ -198,8 +198,9 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     if ((state.joint.mode[i] & mode_gone) || !past_limits(model, state, model.joints[i])) continue;
     const Patch& old = model.joints[i];
     if (!(state.joint.mode[i] & mode_points)) joint_to_points(model, state, branches, i);
-    energy_before += patch_energy(model, state, branches, i, true).elastic;
-    std::optional<NewContact> fresh = clipper.clip(old, model.points, state.joint, &state.joint.largest[2 * i]);
+    const double energy = patch_energy(model, state, branches, i, true).elastic;
+    energy_before += energy;
+    std::optional<NewContact> fresh = clipper.clip(old, model.points, state.joint, energy, &state.joint.largest[2 * i]);
     state.joint.mode[i] |= mode_gone;
     mark(state, old.a, state, moved), mark(state, old.b, state, moved);
     if (fresh) entries.push_back({key_of(old), -1, std::move(fresh)});
@@ -211,11 +212,11 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
       entries.push_back({key_of(old), std::int64_t(i), std::nullopt});
       continue;
     }
-    const PatchEnergy e = patch_energy(model, state, branches, model.joints.size() + i, true);
-    energy_before += e.elastic;
+    const double energy = patch_energy(model, state, branches, model.joints.size() + i, true).elastic;
+    energy_before += energy;
     std::optional<NewContact> fresh;
     if (clip)
-      fresh = clipper.clip(old, state.contact_points, state.contact, &state.contact.largest[2 * i]);
+      fresh = clipper.clip(old, state.contact_points, state.contact, energy, &state.contact.largest[2 * i]);
     else
       ++update.dropped;
     retire(state, i);
