@@ -1,6 +1,8 @@
 // A run that was stopped, in whatever way, and gone on with equals one that never was.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -42,6 +44,21 @@ TEST(Resume, UntilAndOnEqualsOneRun) {
   }
   ASSERT_EQ(resume(folder, "parts").status, 0);
   expect_same_run(folder / "whole", folder / "parts");
+}
+
+/// Two programs in one folder would write over each other.
+TEST(Resume, NotWhileAnotherHoldsTheFolder) {
+  Folder folder;
+  write_wall(folder);
+  run_whole(folder, "wall.toml", "run", {"--until", "0.2"});
+  const int held = open((folder / "run").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  ASSERT_EQ(flock(held, LOCK_EX), 0);
+  const auto before = contents(folder / "run");
+  expect_error(resume(folder, "run"), 2, {"run is in use by another voussoir"});
+  expect_error(voussoir({"run", "wall.toml", "-o", "run", "--overwrite"}, {.folder = folder.path()}), 2, {"in use"});
+  EXPECT_EQ(contents(folder / "run"), before);
+  close(held);
+  EXPECT_EQ(resume(folder, "run").status, 0);
 }
 
 TEST(Resume, AFinishedRunStaysAsItIs) {

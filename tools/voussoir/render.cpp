@@ -107,7 +107,8 @@ int render(const std::vector<std::string>& arguments) {
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
       "hide", options::value<std::string>()->default_value("backfill"),
       "components left out, by commas; none: show all")("no-cracks", "do not mark cracked joints")(
-      "crack", options::value<double>()->default_value(1.0), "opening or slip that counts as a crack, mm; 0: a lost bond too")(
+      "crack", options::value<double>()->default_value(1.0),
+      "opening or slip that counts as a crack, mm; 0: a lost bond too")(
       "range", options::value<double>()->default_value(0.0), "top of the colour scale, mm; 0: from the data")(
       "width", options::value<int>()->default_value(1800), "pixels")(
       "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(

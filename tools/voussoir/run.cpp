@@ -5,6 +5,7 @@
 
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
+#include "tools/voussoir/directory_lock.h"
 #include "tools/voussoir/run_session.h"
 #include "tools/voussoir/verb.h"
 
@@ -39,7 +40,7 @@ void say_begun(const RunRequest& wanted, const std::string& from) {
 }
 
 /// A fresh run directory with the resolved case and the assembly. An existing run is never overwritten unasked.
-void prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
+DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
   std::error_code failed;  // a name that cannot be looked up names no run
   if (fs::exists(directory + "/case.toml", failed) && !overwrite)
     throw InputError(
@@ -51,6 +52,7 @@ void prepare_directory(const Case& c, const std::string& directory, bool overwri
   fs::create_directories(directory, failed);
   if (failed)
     throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+  DirectoryLock lock(directory);
   if (overwrite)
     for (const char* old :
          {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
@@ -58,6 +60,7 @@ void prepare_directory(const Case& c, const std::string& directory, bool overwri
         throw RunError("cannot remove {}/{}: {}; choose another folder with -o DIR", directory, old, failed.message());
   write_assembly(directory + "/assembly.h5", assembly);
   write_resolved_case(c, directory);
+  return lock;
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -75,7 +78,7 @@ int run(const std::vector<std::string>& arguments) {
   const RunRequest wanted = request(values, directory);
   say_begun(wanted, file);
   const Case c = read_case(file);
-  prepare_directory(c, directory, values.count("overwrite") > 0);
+  const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0);
   return RunSession(wanted).run();
 }
 
@@ -91,6 +94,7 @@ int resume(const std::vector<std::string>& arguments) {
     throw InputError("{} is no run directory: it has no case.toml; give the folder that voussoir run wrote", directory);
   const RunRequest wanted = request(values, directory);
   say_begun(wanted, directory);
+  const DirectoryLock lock(directory);
   RunSession session(wanted);
   session.resume();
   return session.run();
