@@ -57,12 +57,23 @@ void run_team(int threads, const std::function<void(int, int, Barrier&)>& work) 
     work(0, 1, barrier.emplace(1));
     return;
   }
+  // These order what OpenMP's fork, barrier and join order anyway, in words that the thread sanitizer understands.
+  // Static, so that they are never made anew while a thread of the team before still looks.
+  static std::atomic<int> begun, ready, ended;
+  begun.fetch_add(1, std::memory_order_release);
 #pragma omp parallel num_threads(threads)
   {
-#pragma omp single
-    barrier.emplace(omp_get_num_threads());  // the runtime may grant fewer than asked for
+    begun.load(std::memory_order_acquire);
+    if (omp_get_thread_num() == 0) {
+      barrier.emplace(omp_get_num_threads());  // the runtime may grant fewer than asked for
+      ready.fetch_add(1, std::memory_order_release);
+    }
+#pragma omp barrier
+    ready.load(std::memory_order_acquire);
     work(omp_get_thread_num(), omp_get_num_threads(), *barrier);
+    ended.fetch_add(1, std::memory_order_release);
   }
+  ended.load(std::memory_order_acquire);
 }
 
 }  // namespace voussoir
