@@ -1,6 +1,7 @@
 // Blocks that slide, and blocks that must not.
 #include "solver/motion/pulse.h"
 #include "solver/step/simulation.h"
+#include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -79,6 +80,10 @@ TEST(Sliding, UnderARectangularPulse) {
     for (const auto& [time, u] : history)
       if (std::abs(u) < slip - 2e-5) stop = time;  // μ g t²/2 before the stop: 4.5 ms for 2e-5 m
     EXPECT_NEAR(stop + 0.0045, 0.750, 0.005 * 0.750);
+    const std::string what = std::string("Sliding block, rectangular pulse, ") +
+                             (kind == DampingSettings::Kind::none ? "undamped" : "Maxwell");
+    measured(what + ": slip", 0.33097, slip, "m");
+    measured(what + ": stops at", 0.750, stop + 0.0045, "s");
   }
 }
 
@@ -97,10 +102,14 @@ TEST(Sliding, UnderOneFullSine) {
     const auto history = slide(settings, 0.2, youngs);
     double largest = 0.0;
     for (const auto& [time, u] : history) largest = std::max(largest, std::abs(u));
-    const double error = std::abs(std::abs(history.back().second) - 0.001574);
+    const double residual = std::abs(history.back().second), error = std::abs(residual - 0.001574);
     EXPECT_NEAR(largest, 0.031442, 0.01 * 0.031442);
     EXPECT_LT(error, before);
     before = error;
+    char what[60];
+    std::snprintf(what, sizeof what, "Sliding block, full sine, kn = %.0e Pa/m", 10 * youngs);
+    measured(std::string(what) + ": largest", 0.031442, largest, "m");
+    measured(std::string(what) + ": residual", 0.001574, residual, "m");
   }
   EXPECT_LT(before, 0.01 * 0.031442);
 }
@@ -123,6 +132,7 @@ TEST(Incline, BlockAcceleratesAsCoulombSays) {
   }
   const double a = (u[0] - 2 * u[1] + u[2]) / std::pow(double(steps) * bench.stepper.dt, 2);
   EXPECT_NEAR(a, 1.5062, 0.005 * 1.5062);
+  measured("Block on an incline: acceleration", 1.5062, a, "m/s2");
   EXPECT_GT(u[2], 0.3) << "far enough to be clipped anew many times";
   EXPECT_GT(bench.state.counters[1], 10) << "and it was";
   EXPECT_LT(std::abs(bench.displacement(1).y()), 1e-3 * u[2]);

@@ -1,5 +1,6 @@
 // The elastic stiffness of one joint on any convex polygon: A kn, A ks, kn I about both axes, ks J (elementary beam
 // theory), by the intact path and point by point.
+#include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -77,9 +78,22 @@ Vec3 expected_moment(const Section& s, const Vec3& n, const Vec3& turn) {
   return -kn * cross * s.second * cross.transpose() * turn - ks * s.second.trace() * n * n.dot(turn);
 }
 
+/// Largest relative errors of forces (kn A, ks A) and of moments (kn I, ks J).
+struct Errors {
+  double force = 0.0, moment = 0.0;
+  void take(double of_force, double of_moment) {
+    force = std::max(force, of_force);
+    moment = std::max(moment, of_moment);
+  }
+  void say(const std::string& joint) const {
+    measured("Stiffness of a joint, " + joint + ": kn A, ks A", 0.0, force, "relative");
+    measured("Stiffness of a joint, " + joint + ": kn I, ks J", 0.0, moment, "relative");
+  }
+};
+
 /// Axial, shear, bending about both principal axes, torsion. The stored energy of a turn φ is ½ k I (2 sin(φ/2))², so
 /// that the moment is k I sin φ at any angle: a finite angle keeps rounding out of the comparison.
-void check_stiffness(const Polygon& polygon, std::mt19937& random, bool shortcut) {
+void check_stiffness(const Polygon& polygon, std::mt19937& random, bool shortcut, Errors& errors) {
   SolverSettings settings = undamped();
   settings.step.intact_shortcut = shortcut;
   const Eigen::Quaterniond rotation = random_rotation(random);
@@ -103,6 +117,7 @@ void check_stiffness(const Polygon& polygon, std::mt19937& random, bool shortcut
     const Vec3 moment = expected_moment(s, axes.col(0), turn);
     EXPECT_LT((turned.moment - moment).norm(), 2e-12 * moment.norm()) << (c == 0 ? "torsion" : "bending");
     EXPECT_LT(turned.force.norm(), 2e-12 * moment.norm() / size);
+    errors.take((moved.force - force).norm() / force.norm(), (turned.moment - moment).norm() / moment.norm());
   }
   // Any motion: to first order, superposed.
   for (int i = 0; i < 10; ++i) {
@@ -116,19 +131,25 @@ void check_stiffness(const Polygon& polygon, std::mt19937& random, bool shortcut
 
 TEST(JointStiffness, OfSquareAndTriangle) {
   std::mt19937 random(3);
+  Errors square, triangle;
   for (bool shortcut : {true, false}) {
-    check_stiffness({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, random, shortcut);
-    check_stiffness({{0, 0, 0}, {2, 0.1, 0}, {0.3, 0.7, 0}}, random, shortcut);
+    check_stiffness({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, random, shortcut, square);
+    check_stiffness({{0, 0, 0}, {2, 0.1, 0}, {0.3, 0.7, 0}}, random, shortcut, triangle);
   }
+  square.say("square");
+  triangle.say("triangle");
 }
 
 TEST(JointStiffness, OfRandomPolygons) {
   std::mt19937 random(4);
-  for (int corners = 3; corners <= 9; ++corners)
+  for (int corners = 3; corners <= 9; ++corners) {
+    Errors errors;
     for (int repeat = 0; repeat < 3; ++repeat) {
       const Polygon polygon = random_polygon(corners, random);
-      for (bool shortcut : {true, false}) check_stiffness(polygon, random, shortcut);
+      for (bool shortcut : {true, false}) check_stiffness(polygon, random, shortcut, errors);
     }
+    errors.say("three irregular polygons of " + std::to_string(corners) + " corners");
+  }
 }
 
 /// The wrench is the gradient of the stored energy at finite rotations, so that springs neither make nor destroy

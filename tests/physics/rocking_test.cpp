@@ -1,4 +1,5 @@
 // The rocking block of Housner (1963): 0.6 × 2.4 m, α = 0.24498, p = √(3 g/(4 R)) = 2.43847 /s.
+#include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -66,6 +67,9 @@ TEST(Rocking, QuarterPeriod) {
     const std::vector<double> times = crossings(share, 1.1 * expected);
     ASSERT_FALSE(times.empty()) << share;
     EXPECT_NEAR(times[0], expected, 0.01 * expected) << share;
+    char what[60];
+    std::snprintf(what, sizeof what, "Free rocking from %.1f alpha: four quarter cycles", share);
+    measured(what, 4 * expected, 4 * times[0], "s");
   }
 }
 
@@ -103,6 +107,7 @@ TEST(Rocking, UpliftAccelerationOfTheBase) {
       lifted = base_acceleration(&ramp, bench->state.time()).x() / 9.81;
   }));
   EXPECT_NEAR(lifted, 0.25, 0.01 * 0.25);
+  measured("Rocking block: uplift", 0.25, lifted, "g");
 }
 
 }  // namespace

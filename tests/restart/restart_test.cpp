@@ -6,6 +6,7 @@
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/motion/synthesis.h"
 #include "solver/step/simulation.h"
+#include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -77,12 +78,17 @@ std::uint64_t in_pieces(const Assembly& assembly, const SolverSettings& settings
 
 TEST(Restart, GivesTheSameBits) {
   const Assembly assembly = weak_wall(4, 5);
+  int runs = 0, equal = 0;
   for (auto damping : {DampingSettings::Kind::maxwell, DampingSettings::Kind::rayleigh, DampingSettings::Kind::none}) {
     const SolverSettings settings = shaken(damping);
     const std::uint64_t whole = in_one_go(assembly, settings, 2);
-    EXPECT_EQ(in_pieces(assembly, settings, {0.3}), whole) << int(damping);
-    EXPECT_EQ(in_pieces(assembly, settings, {0.1, 0.55, 0.85, 1.0}), whole) << int(damping);
+    for (const std::vector<double>& stops : {std::vector<double>{0.3}, std::vector<double>{0.1, 0.55, 0.85, 1.0}}) {
+      const std::uint64_t pieces = in_pieces(assembly, settings, stops);
+      EXPECT_EQ(pieces, whole) << int(damping);
+      ++runs, equal += pieces == whole;
+    }
   }
+  measured("Stopped 1 or 4 times and resumed with 1 to 3 threads: equal state_hash", runs, equal, "runs");
 }
 
 /// Large enough for the threads to share.
@@ -93,7 +99,10 @@ TEST(Restart, GivesTheSameBitsWithOtherThreads) {
   settings.stages[1].duration = 0.35;
   Simulation whole(assembly, settings, 1, {});
   ASSERT_EQ(whole.run(), RunEnd::finished) << whole.failure();
-  EXPECT_EQ(in_pieces(assembly, settings, {0.12, 0.25}), hash_arrays(whole.state().arrays()));
+  const std::uint64_t pieces = in_pieces(assembly, settings, {0.12, 0.25}), hash = hash_arrays(whole.state().arrays());
+  EXPECT_EQ(pieces, hash);
+  measured("Wall of 24 x 24, stopped twice and resumed with 1 to 3 threads: equal state_hash", 1, pieces == hash,
+           "runs");
 }
 
 /// Mass scaling is not in the state: it must come out the same again.
@@ -130,11 +139,14 @@ TEST(Restart, FromEveryCheckpointOfARun) {
   ASSERT_EQ(whole.run(), RunEnd::finished) << whole.failure();
   const std::uint64_t hash = hash_arrays(whole.state().arrays());
   ASSERT_GE(kept.size(), 8u);  // five within the stages, four at their ends
+  int equal = 0;
   for (const Kept& k : kept) {
     EXPECT_EQ(k.simulation->run(), RunEnd::finished) << k.time;
-    EXPECT_EQ(hash_arrays(k.simulation->state().arrays()), hash)
-        << "from t = " << k.time << ", stage " << k.simulation->position().stage;
+    const std::uint64_t resumed = hash_arrays(k.simulation->state().arrays());
+    EXPECT_EQ(resumed, hash) << "from t = " << k.time << ", stage " << k.simulation->position().stage;
+    equal += resumed == hash;
   }
+  measured("Resumed at every checkpoint of a run: equal state_hash", double(kept.size()), equal, "checkpoints");
 }
 
 /// A stop flag set in the middle of a step's piece.
@@ -193,7 +205,9 @@ TEST(Restart, FromACheckpointFile) {
   q.stage_begun = read.numbers.at("stage_begun");
   second.restore(q);
   ASSERT_EQ(second.run(), RunEnd::finished);
-  EXPECT_EQ(hash_arrays(second.state().arrays()), in_one_go(assembly, settings, 1));
+  const std::uint64_t resumed = hash_arrays(second.state().arrays()), whole = in_one_go(assembly, settings, 1);
+  EXPECT_EQ(resumed, whole);
+  measured("Resumed from a checkpoint file: equal state_hash", 1, resumed == whole, "runs");
   std::filesystem::remove_all(folder);
 }
 
