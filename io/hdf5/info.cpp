@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "io/case/case.h"
@@ -157,14 +158,48 @@ std::string describe_record(const std::string& path) {
   return out.text;
 }
 
+std::string first_lines(const std::string& text, int count) {
+  std::size_t end = 0;
+  for (int i = 0; i < count && end != std::string::npos; ++i) end = text.find('\n', end + (i > 0));
+  return text.substr(0, end);
+}
+
+/// Its case, its assembly, how far its history goes and its newest good checkpoint.
+std::string describe_run(const std::string& path) {
+  Lines out;
+  out.add("{}: run directory", path);
+  out.add("{}", describe_case(path + "/case.toml"));
+  std::error_code ignored;
+  if (std::filesystem::exists(path + "/assembly.h5", ignored))
+    out.add("{}", first_lines(describe_assembly(path + "/assembly.h5"), 2));
+  if (std::filesystem::exists(path + "/history.h5", ignored))
+    out.add("{}", first_lines(describe_history(path + "/history.h5"), 2));
+  for (const std::string& checkpoint : list_checkpoints(path + "/checkpoints")) try {
+      out.add("{}", first_lines(describe_checkpoint(checkpoint), 2));
+      break;
+    } catch (const std::runtime_error& damaged) {
+      out.add("{}", damaged.what());
+    }
+  std::ifstream summary(path + "/summary.json");
+  const std::string text{std::istreambuf_iterator<char>(summary), {}};
+  if (text.find("\"finished\": true") != std::string::npos)
+    out.add("it has ended; its numbers are in {}/summary.json", path);
+  else
+    out.add("it has not ended; go on with: voussoir resume {}", path);
+  return out.text;
+}
+
 }  // namespace
 
 std::string describe_file(const std::string& path) {
   std::error_code ignored;  // a name that cannot be looked up names no file
   if (!std::filesystem::exists(path, ignored)) throw InputError("cannot read {}: there is no such file", path);
+  if (std::filesystem::exists(path + "/case.toml", ignored)) return describe_run(path);
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("cannot read {}: it is not a file", path);
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".toml") return describe_case(path);
+  if (extension == ".json")
+    throw InputError("{} is plain text; read it as it is (docs/formats.md says what is in it)", path);
   if (!h5::File::is_hdf5(path)) {
     if (extension == ".h5") throw InputError("{} is not an HDF5 file (or its beginning is damaged)", path);
     return describe_record(path);

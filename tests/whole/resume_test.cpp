@@ -53,12 +53,15 @@ TEST(Resume, NotWhileAnotherHoldsTheFolder) {
   run_whole(folder, "wall.toml", "run", {"--until", "0.2"});
   const int held = open((folder / "run").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   ASSERT_EQ(flock(held, LOCK_EX), 0);
+  const auto info = [&] { return voussoir({"info", "run"}, {.folder = folder.path()}).out; };
+  EXPECT_NE(info().find("voussoir resume run"), std::string::npos) << info();
   const auto before = contents(folder / "run");
   expect_error(resume(folder, "run"), 2, {"run is in use by another voussoir"});
   expect_error(voussoir({"run", "wall.toml", "-o", "run", "--overwrite"}, {.folder = folder.path()}), 2, {"in use"});
   EXPECT_EQ(contents(folder / "run"), before);
   close(held);
   EXPECT_EQ(resume(folder, "run").status, 0);
+  EXPECT_NE(info().find("it has ended"), std::string::npos) << info();
 }
 
 TEST(Resume, AFinishedRunStaysAsItIs) {

@@ -10,7 +10,7 @@ namespace voussoir {
 namespace {
 
 int info(const std::vector<std::string>& arguments) {
-  CommandLine line("info", "info FILE", "voussoir info demo/checkpoints/00005.000.h5");
+  CommandLine line("info", "info FILE", "voussoir info demo");
   line.positional = line.required = {"FILE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
