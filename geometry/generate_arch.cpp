@@ -56,6 +56,7 @@ void lay_springing(Layout& layout, const Vec3& in, const Vec3& out, const Vec3& 
                    bool left, double width, int part) {
   Polygon wedge = left ? Polygon{beyond_in, in, out, beyond_out} : Polygon{in, beyond_in, beyond_out, out};
   for (Vec3& p : wedge) p.y() = -0.5 * width;
+  layout.groups[left ? "springing left" : "springing right"] = {std::int64_t(layout.stones.size())};
   lay_stone(layout, {make_prism(wedge, {0.0, width, 0.0})}, {Component::base, part, 0, Vec3::Ones()}, Vec3::Ones(),
             false);
 }

@@ -19,6 +19,7 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
   for (int i = 0; i < n; ++i) lay(Component::block, i);
   lay(Component::base, -1);
   layout.groups["top"] = {n - 1};
+  layout.groups["base"] = {n};
 
   Assembly assembly = assemble(std::move(layout), in_order(defaults, in), {}, in.gap_tolerance);
   assign_stiffness(assembly, uniform_rules(in), in);

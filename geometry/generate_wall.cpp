@@ -16,6 +16,7 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
   for (std::size_t i = 0; i < layout.stones.size(); ++i) {
     if (bounding_box(layout.stones[i].cells[0]).high.z() > height - 0.5 * block.z()) top.push_back(std::int64_t(i));
   }
+  layout.groups["base"] = {std::int64_t(layout.stones.size())};
   const Vec3 low(0.0, -half, -block.z()), high(length, half, 0.0);
   lay_stone(layout, {make_box(low, high)}, {Component::base, 0, 0, high - low}, high - low, false);
 

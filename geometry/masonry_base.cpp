@@ -1,4 +1,6 @@
 // Fixed blocks: one base under each support, and one restraint over each end face of a restrained bridge.
+#include <fmt/format.h>
+
 #include "geometry/masonry_parts.h"
 
 namespace voussoir {
@@ -11,6 +13,7 @@ void lay_bases(Layout& layout, const Bridge& bridge) {
     const double z = bridge.support_base(support);
     const Vec3 low(bridge.support_start(support) - grow_x, -half, z - bridge.base_depth);
     const Vec3 high(bridge.support_end(support) + grow_x, half, z);
+    layout.groups[fmt::format("base {}", support_name(bridge, support))] = {std::int64_t(layout.stones.size())};
     lay_stone(layout, {make_box(low, high)}, {Component::base, support, bridge.masonry, high - low}, high - low, false);
   }
 }
@@ -25,6 +28,7 @@ void lay_restraints(Layout& layout, const Bridge& bridge) {
     const Polygon lower = {{x, -foot, z0}, {x, -top, z1}, {x, top, z1}, {x, foot, z0}};
     const Polygon upper = {{x, -top, z1}, {x, -top, z2}, {x, top, z2}, {x, top, z1}};
     const Vec3 size(bridge.restraint_depth, 2.0 * top, z2 - z0);
+    layout.groups[end == 0 ? "restraint left" : "restraint right"] = {std::int64_t(layout.stones.size())};
     lay_stone(layout, {make_prism(lower, sweep), make_prism(upper, sweep)},
               {Component::restraint, end, bridge.masonry, size}, size, false);
   }

@@ -65,6 +65,9 @@ std::vector<Band> spandrel_courses(const Bridge& bridge);
 /// walls is laid in.
 std::vector<Band> interior_bands(const Bridge& bridge);
 
+/// "abutment left", "pier 0", …, "abutment right".
+std::string support_name(const Bridge& bridge, int support);
+
 void lay_vaults(Layout& layout, const Bridge& bridge);  // sets layout.rings; groups "keystone i"
 void lay_piers(Layout& layout, const Bridge& bridge);
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them
@@ -72,8 +75,8 @@ void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y
 void lay_backing(Layout& layout, const Bridge& bridge);
 void lay_backfill(Layout& layout, const Bridge& bridge);
 void lay_parapets(Layout& layout, const Bridge& bridge);
-void lay_bases(Layout& layout, const Bridge& bridge);
-void lay_restraints(Layout& layout, const Bridge& bridge);
+void lay_bases(Layout& layout, const Bridge& bridge);       // groups "base pier 0" …
+void lay_restraints(Layout& layout, const Bridge& bridge);  // groups "restraint left" and "restraint right"
 
 /// A support in solid courses. Its plan at the top is [x0, x1] x [-half_width, half_width]; faces are battered outwards
 /// going down by the given slopes (left, right, and both sides across).

@@ -7,13 +7,13 @@
 
 namespace voussoir {
 
-namespace {
-
 std::string support_name(const Bridge& bridge, int support) {
   if (support == 0) return "abutment left";
   if (support == bridge.spans) return "abutment right";
   return fmt::format("pier {}", support - 1);
 }
+
+namespace {
 
 double middle_of(const Stone& stone) {
   const Box box = bounding_box(stone.cells[0]);

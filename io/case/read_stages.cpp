@@ -172,11 +172,31 @@ void read_motion(TableReader& table, const Case& c, StageSettings& stage, Motion
   stage.motion = motion_of(table, source);
 }
 
+void read_drives(TableReader& table, StageSettings& stage) {
+  for (TableReader& sub : table.tables("drive")) {
+    Drive drive;
+    drive.group = sub.required_text("group");
+    if (sub.has("velocity") && sub.has("displacement"))
+      sub.fail("velocity", "and 'displacement' are both given: keep one");
+    if (!sub.has("velocity") && !sub.has("displacement"))
+      sub.missing("displacement", "[x, y, z] in m, from rest to rest over the stage; or 'velocity', constant, in m/s");
+    drive.velocity = sub.vector("velocity", Vec3::Zero());
+    drive.displacement = sub.vector("displacement", Vec3::Zero());
+    if (!(drive.velocity.norm() <= 10.0)) sub.fail("velocity", "is above 10 m/s: look at its unit");
+    if (!(drive.displacement.norm() <= 10.0 * stage.duration))
+      sub.fail("displacement", "asks for more than 10 m/s on average: look at its unit");
+    sub.finish();
+    stage.drives.push_back(drive);
+  }
+}
+
 /// Keys that only other kinds of stage have get a message of their own instead of "unknown".
 void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
   if (kind == StageSettings::Kind::gravity) {
     if (table.has("duration"))
       table.fail("duration", "has no meaning in a gravity stage, which ends in equilibrium: remove it");
+    if (table.has("drive"))
+      table.fail("drive", "has no meaning in a gravity stage, which takes no time: drive in a free or motion stage");
   } else if (table.has("method")) {
     table.fail("method", "belongs to a gravity stage: remove it");
   }
@@ -201,7 +221,10 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
     else
       stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, stage, source);
-    const char* plain = stage.kind == StageSettings::Kind::gravity ? "gravity" : "free vibration";
+    if (stage.kind != StageSettings::Kind::gravity) read_drives(table, stage);
+    const char* plain = stage.kind == StageSettings::Kind::gravity ? "gravity"
+                        : stage.drives.empty()                     ? "free vibration"
+                                                                   : "driven blocks";
     stage.label = table.text("label", stage.kind == StageSettings::Kind::motion ? label_of(source) : plain);
     table.finish();
     c.settings.stages.push_back(std::move(stage));

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "geometry/polyhedron.h"
-#include "io/case/suggestion.h"
+#include "solver/base/suggestion.h"
 
 namespace voussoir {
 

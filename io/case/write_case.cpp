@@ -141,6 +141,18 @@ void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) 
   out.set_flag("correct", source.correct);
 }
 
+void write_drives(TomlText& out, const std::vector<Drive>& drives) {
+  std::vector<std::string> texts;
+  for (const Drive& d : drives) {
+    const bool constant = !d.velocity.isZero(0.0);
+    const Vec3& v = constant ? d.velocity : d.displacement;
+    texts.push_back(fmt::format("{{ group = {}, {} = [{}, {}, {}] }}", quoted(d.group),
+                                constant ? "velocity" : "displacement", number_text(v.x()), number_text(v.y()),
+                                number_text(v.z())));
+  }
+  if (!texts.empty()) out.raw("drive", fmt::format("[{}]", fmt::join(texts, ", ")));
+}
+
 void write_stages(TomlText& out, const Case& c) {
   for (std::size_t i = 0; i < c.settings.stages.size(); ++i) {
     const StageSettings& stage = c.settings.stages[i];
@@ -152,6 +164,7 @@ void write_stages(TomlText& out, const Case& c) {
     else
       out.set("duration", stage.duration);
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
+    write_drives(out, stage.drives);
   }
 }
 

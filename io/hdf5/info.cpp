@@ -58,6 +58,7 @@ std::string describe_case(const std::string& path) {
     out.add("  stage {}: {}", i + 1, stage.label);
     if (stage.duration > 0.0) out.text += fmt::format(", {} s", stage.duration);
     if (stage.kind == StageSettings::Kind::motion) out.text += "; " + motion_text(stage.motion);
+    for (const Drive& d : stage.drives) out.text += fmt::format("; drives \"{}\"", d.group);
   }
   if (c.settings.stages.empty()) out.add("  no stages: good for generate and modal, not for run");
   out.add("  {} sensors", c.sensors.size());

@@ -1,4 +1,4 @@
-#include "io/case/suggestion.h"
+#include "solver/base/suggestion.h"
 
 #include <fmt/format.h>
 

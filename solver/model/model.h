@@ -24,7 +24,7 @@ struct Body {
   Mat3 inertia = Mat3::Zero();   // kg m2, reference axes, scaled like inertial_mass
   Mat3 inverse_inertia = Mat3::Zero();
   double radius = 0.0;  // m, centroid to the farthest vertex
-  bool fixed = false;   // moves with the ground
+  bool fixed = false;   // moves with the ground, or as a stage drives it
 };
 
 /// Geometry of one patch for the point-by-point path. The local axes (n, s, t) are held by both bodies: e_a and e_b

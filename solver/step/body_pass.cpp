@@ -101,7 +101,8 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   if (body.fixed) {
     r.force = f;
     r.moment = m;
-    r.velocity = {base_velocity_next.x(), base_velocity_next.y(), base_velocity_next.z()};
+    const Vec3 v = prescribed_velocity(i);
+    r.velocity = {v.x(), v.y(), v.z()};
     r.momentum = {0, 0, 0};
     return r;
   }
@@ -139,17 +140,16 @@ BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
     double* pose = &state->pose[pose_width * i];
     double* motion = &state->motion[motion_width * i];
     const BodyUpdate next = update(i);
+    // The ground supplies what the patches take of a fixed body, over the mean of both half steps.
+    if (body.fixed) motion[6] -= 0.5 * dt * dot(next.force, triple(motion) + next.velocity);
     motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;
+    for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
     if (body.fixed) {
-      // The ground supplies what the patches take, over the mean of both half steps.
-      const Vec3 mean = 0.5 * (base_velocity_now + base_velocity_next);
-      motion[6] -= dt * (next.force.x * mean.x() + next.force.y * mean.y() + next.force.z * mean.z());
-      for (int c = 0; c < 3; ++c) pose[c] = base_displacement_next[c];
+      report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
       continue;
     }
     motion[3] = next.momentum.x, motion[4] = next.momentum.y, motion[5] = next.momentum.z;
     motion[7] += next.loss;
-    for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
     const Quat<double> q = pose_rotation(pose);
     const Quat<double> half = rotate(q, spin(body, q, next.momentum), 0.5 * dt);
     const Quat<double> turned = normalised(rotate(q, spin(body, half, next.momentum), dt));

@@ -40,10 +40,17 @@ struct BodyPass {
   double mass_rate = 0.0;                      // 1/s, Rayleigh
   double local = 0.0;                          // Cundall
   double search_distance = 1e300;              // m
+  const Array<std::int32_t>* drive = nullptr;  // of each body, which of drive_velocity is its own or -1; empty: none
+  std::vector<Vec3> drive_velocity;            // relative to the ground, at the next half step
   Vec3 base_velocity_now = Vec3::Zero();       // at the last half step
   Vec3 base_velocity_next = Vec3::Zero();      // at the next half step
   Vec3 base_displacement_next = Vec3::Zero();  // at the next step
 
+  /// Of a fixed body at the next half step.
+  Vec3 prescribed_velocity(std::size_t body) const {
+    const std::int32_t which = drive->empty() ? -1 : (*drive)[body];
+    return which < 0 ? base_velocity_next : base_velocity_next + drive_velocity[std::size_t(which)];
+  }
   BodyUpdate update(std::size_t body) const;
   BodyReport bodies(std::size_t begin, std::size_t end) const;
 };

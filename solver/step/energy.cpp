@@ -76,8 +76,7 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
   e.body_damping += motion[7];
   const BodyUpdate next = pass.update(i);
   if (body.fixed) {  // the half step that leads up to now; the other half is added with the step itself
-    const Vec3& v = pass.base_velocity_now;
-    e.base_work -= 0.5 * pass.dt * (next.force.x * v.x() + next.force.y * v.y() + next.force.z * v.z());
+    e.base_work -= 0.5 * pass.dt * dot(next.force, triple(motion));
     return;
   }
   e.body_damping += 0.5 * next.loss;

@@ -24,14 +24,26 @@ struct GroundMotion {
   double duration() const { return acceleration.empty() ? 0.0 : dt * double(acceleration.size() - 1); }
 };
 
+/// Fixed blocks that are moved without turning: a settling support, a loading plate. Relative to the ground.
+struct Drive {
+  std::string group;                 // of the assembly; all its blocks are fixed
+  Vec3 velocity = Vec3::Zero();      // m/s, constant from the stage's first step to its last
+  Vec3 displacement = Vec3::Zero();  // m, over the stage, from rest to rest
+
+  /// Where the blocks are `time` (s) after the beginning of a stage of this duration (s). The displacement follows
+  /// the cycloid x = D (τ − sin 2πτ / 2π): velocity and acceleration vanish at both ends.
+  Vec3 at(double time, double duration) const;
+};
+
 struct StageSettings {
   enum class Kind { gravity, motion, free };
   enum class Method { automatic, newton, relaxation };  // gravity only
   Kind kind = Kind::gravity;
   Method method = Method::automatic;
-  double duration = 0.0;  // s; motion and free
-  GroundMotion motion;    // motion only: scaled, in m/s2
-  std::string label;      // for logs: "gravity", "motion (pulse sine y)", …
+  double duration = 0.0;      // s; motion and free
+  GroundMotion motion;        // motion only: scaled, in m/s2
+  std::vector<Drive> drives;  // motion and free; no group twice
+  std::string label;          // for logs: "gravity", "motion (pulse sine y)", …
 };
 
 struct ContactSettings {

@@ -6,6 +6,7 @@
 #include "solver/base/parallel.h"
 #include "solver/contact/search.h"
 #include "solver/step/critical_step.h"
+#include "solver/step/drive.h"
 
 namespace voussoir {
 
@@ -38,6 +39,7 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
       observers_(std::move(observers)),
       model_(build_model(assembly, settings)),
       state_(initial_state(model_)) {
+  check_drives(assembly, settings_.stages);
   stepper_.model = &model_;
   stepper_.state = &state_;
   stepper_.shortcut = settings.step.intact_shortcut;
@@ -101,6 +103,10 @@ double Simulation::contact_bound() const {
     if (!(state_.joint.mode[i] & mode_gone)) add(model_.joints[i]);
   for (const Patch& p : state_.contacts) add(p);
   return *std::max_element(bound.begin(), bound.end());
+}
+
+void Simulation::check() {
+  if (settings_.step.time_step > 0.0 || settings_.step.mass_scaling_step > 0.0) choose_step();
 }
 
 void Simulation::choose_step() {
@@ -205,7 +211,7 @@ void Simulation::sample(const BodyPass& pass) {
   worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));
   if (!(std::abs(s.balance_error) < runaway_balance)) exploded_ = true;
   s.base_displacement = state_.base_displacement();
-  s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.motion_start);
+  s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.stage_start);
   s.contacts = std::int64_t(state_.contacts.size());
   if (observers_.history) observers_.history(*this, s);
 }
@@ -219,12 +225,21 @@ double next_multiple(double time, double every) {
 
 }  // namespace
 
+void Simulation::drive(const StageSettings& stage) {
+  stepper_.drives = stage.drives;
+  stepper_.drive.assign(stage.drives.empty() ? 0 : model_.bodies.size(), -1);
+  for (std::size_t i = 0; i < stage.drives.size(); ++i)
+    for (std::int64_t block : assembly_->groups.at(stage.drives[i].group))
+      stepper_.drive[std::size_t(model_.body_of_block[block])] = std::int32_t(i);
+}
+
 RunEnd Simulation::timed(const StageSettings& stage, double until) {
   started_ = Clock::now();
   started_time_ = state_.time();
   const OutputSettings& output = settings_.output;
   stepper_.motion = stage.kind == StageSettings::Kind::motion ? &stage.motion : nullptr;
-  stepper_.motion_start = position_.stage_start;
+  stepper_.stage_start = position_.stage_start;
+  stepper_.stage_duration = stage.duration;
   const double end = position_.stage_start + stage.duration;
   const double stop_at = until >= 0.0 ? std::min(until, end) : end;
   while (state_.time() < stop_at - 1e-9 * stepper_.dt) {
@@ -285,6 +300,7 @@ RunEnd Simulation::run(double until) {
     const StageSettings& stage = settings_.stages[position_.stage];
     log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));
     if (position_.stage_begun == 0.0) begin_stage(stage);
+    drive(stage);
     if (stage.kind == StageSettings::Kind::gravity) {
       if (!gravity(stage)) return observers_.stop && observers_.stop->load() ? RunEnd::interrupted : RunEnd::failed;
     } else {

@@ -60,6 +60,8 @@ class Simulation {
   /// `threads` as asked for; fewer are used where the model is too small to share.
   Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers);
 
+  /// Throws InputError for a step of the user's own that this assembly does not bear; before anything is written.
+  void check();
   /// Goes on from a checkpoint: call after the state's arrays have been read into state() and unpacked.
   void restore(const RunPosition& position);
   /// Runs the remaining stages, to `until` (s of simulated time; negative: all).
@@ -83,6 +85,7 @@ class Simulation {
  private:
   void begin_stage(const StageSettings& stage);
   bool gravity(const StageSettings& stage);
+  void drive(const StageSettings& stage);
   RunEnd timed(const StageSettings& stage, double until);
   void change_contacts();
   void sample(const BodyPass& pass);

@@ -34,6 +34,8 @@ BodyPass Stepper::body_pass() const {
   pass.mass_rate = damping.mass_rate;
   pass.local = damping.local;
   pass.search_distance = search_distance;
+  pass.drive = &drive;
+  pass.drive_velocity.assign(drives.size(), Vec3::Zero());
   pass.base_velocity_now = state->base_velocity();
   pass.base_displacement_next = state->base_displacement();
   return pass;
@@ -45,11 +47,17 @@ PatchPass patch_pass(Stepper& s) {
   return {s.model, s.state, s.damping.branches, s.wrenches.data(), s.shortcut};
 }
 
-/// The base's next velocity and displacement, from the acceleration at the present time.
+/// The base's next velocity and displacement, from the acceleration at the present time; the driven blocks' next
+/// velocities, from where they have to be.
 void move_base(const Stepper& s, double time, BodyPass& pass) {
-  const Vec3 a = base_acceleration(s.motion, time - s.motion_start);
+  const double since = time - s.stage_start;
+  const Vec3 a = base_acceleration(s.motion, since);
   pass.base_velocity_next = pass.base_velocity_now + s.dt * a;
   pass.base_displacement_next += s.dt * pass.base_velocity_next;
+  for (std::size_t i = 0; i < s.drives.size(); ++i) {
+    const Drive& d = s.drives[i];
+    pass.drive_velocity[i] = (d.at(since + s.dt, s.stage_duration) - d.at(since, s.stage_duration)) / s.dt;
+  }
 }
 
 PassReport patch_share(const PatchPass& pass, int thread, int threads) {

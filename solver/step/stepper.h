@@ -32,7 +32,10 @@ struct Stepper {
   int threads = 1;
   bool shortcut = true;
   const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
-  double motion_start = 0.0;             // s, time of the motion's first sample
+  double stage_start = 0.0;              // s, time of the motion's first sample
+  double stage_duration = 0.0;           // s
+  std::vector<Drive> drives;             // of the stage
+  Array<std::int32_t> drive;             // of each body, see BodyPass
   double search_distance = 1e300;        // m, see BodyPass
 
   Incidence incidence;

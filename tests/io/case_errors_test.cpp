@@ -20,7 +20,27 @@ const std::string head = "[bridge]\ngenerator = \"wall\"\n";                  //
 const std::string gravity = "[[stage]]\nkind = \"gravity\"\n";                // two lines
 const std::string motion = "[[stage]]\nkind = \"motion\"\nduration = 2.0\n";  // three lines
 
+const std::string free_stage = "[[stage]]\nkind = \"free\"\nduration = 2.0\n";  // three lines
+
 const std::vector<Wrong> table = {
+    {"DriveWithoutWay",
+     head + free_stage + "drive = [{ group = \"base\" }]\n",
+     {"c.toml:6:", "needs 'displacement'", "or 'velocity'"}},
+    {"DriveWithTwoWays",
+     head + free_stage + "drive = [{ group = \"base\", velocity = [0, 0, 1], displacement = [0, 0, 1] }]\n",
+     {"c.toml:6: 'velocity'", "'displacement' are both given"}},
+    {"DriveTooFast",
+     head + free_stage + "drive = [{ group = \"base\", velocity = [0, 0, 11] }]\n",
+     {"c.toml:6: 'velocity'", "above 10 m/s", "unit"}},
+    {"DriveTooFar",
+     head + free_stage + "drive = [{ group = \"base\", displacement = [0, 0, 21] }]\n",
+     {"c.toml:6: 'displacement'", "10 m/s", "unit"}},
+    {"DriveNotFinite",
+     head + free_stage + "drive = [{ group = \"base\", displacement = [0, 0, nan] }]\n",
+     {"c.toml:6: 'displacement'", "finite"}},
+    {"DriveUnderGravity",
+     head + gravity + "drive = [{ group = \"base\", velocity = [0, 0, 1] }]\n",
+     {"c.toml:5: 'drive'", "takes no time"}},
     {"UnknownKey",
      head + "[damping]\nrtaio = 0.1\n",
      {"c.toml:4: unknown key 'rtaio' in [damping]: did you mean 'ratio'?"}},

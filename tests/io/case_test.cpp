@@ -178,6 +178,24 @@ TEST_F(CaseFile, HashSeesTheCaseAndTheRecords) {
   EXPECT_NE(read_case(folder.write("case.toml", full)).hash, hash);
 }
 
+TEST_F(CaseFile, DrivesSurviveResolving) {
+  const std::string text =
+      "[bridge]\ngenerator = \"arch\"\n[[stage]]\nkind = \"free\"\nduration = 2.0\ndrive = [{ group = \"springing "
+      "left\", "
+      "displacement = [0.1, -0.2, 0.3] }, { group = \"springing right\", velocity = [0.01, 0.02, 0.03] }]\n";
+  const Case c = parse_case(text, folder / "case.toml");
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const std::vector<Drive>& drives = one->settings.stages.at(0).drives;
+    ASSERT_EQ(drives.size(), 2u);
+    EXPECT_EQ(drives[0].group, "springing left");
+    EXPECT_EQ(drives[0].displacement, Vec3(0.1, -0.2, 0.3));
+    EXPECT_EQ(drives[0].velocity, Vec3(0, 0, 0));
+    EXPECT_EQ(drives[1].velocity, Vec3(0.01, 0.02, 0.03));
+  }
+}
+
 TEST_F(CaseFile, DefaultsOfEveryGeneratorSurviveResolving) {
   for (const Generator& generator : generators()) {
     const std::string text = "[bridge]\ngenerator = \"" + generator.name + "\"\n[[stage]]\nkind = \"gravity\"\n";

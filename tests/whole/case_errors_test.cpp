@@ -159,10 +159,17 @@ TEST(CaseErrors, SensorsOffTheStructure) {
 }
 
 TEST(CaseErrors, AStepThatIsTooLarge) {
-  Folder folder;
-  folder.write("bad.toml", exchanged(case_text({}), "[output]", "[analysis]\ntime_step = 0.01\n[output]"));
-  expect_error(voussoir({"run", "bad.toml", "-o", "run"}, {.folder = folder.path()}), 2,
-               {"time_step = 0.01 s", "critical step", "block"});
+  expect_refused_with("[output]", "[analysis]\ntime_step = 0.01\n[output]",
+                      {"time_step = 0.01 s", "critical step", "block"});
+}
+
+TEST(CaseErrors, DrivesOfWhatIsNotThereOrFree) {
+  const auto refuse = [](const std::string& group, const std::vector<std::string>& pieces) {
+    expect_refused_with("duration = 0.5",
+                        "duration = 0.5\ndrive = [{ group = \"" + group + "\", velocity = [0.1, 0, 0] }]", pieces);
+  };
+  refuse("bse", {"'bse'", "did you mean 'base'?"});
+  refuse("top", {"'top'", "free"});
 }
 
 TEST(CaseErrors, ThePlaceOfOutputCannotBeMade) {

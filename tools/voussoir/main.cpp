@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <new>
 
-#include "io/case/suggestion.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "solver/base/suggestion.h"
 #include "tools/voussoir/verb.h"
 
 namespace {

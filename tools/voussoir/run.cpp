@@ -49,6 +49,11 @@ DirectoryLock prepare_directory(const Case& c, const std::string& directory, boo
         directory, directory);
   // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
   const Assembly assembly = make_assembly(c);
+  try {
+    Simulation(assembly, c.settings, 1, {}).check();
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", c.path, error.what());
+  }
   fs::create_directories(directory, failed);
   if (failed)
     throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
