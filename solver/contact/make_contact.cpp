@@ -10,11 +10,6 @@ const double* pose_of(const State& state, std::int32_t body) {
   return &state.pose[pose_width * std::size_t(body)];
 }
 
-Eigen::Quaterniond rotation_of(const State& state, std::int32_t body) {
-  const double* p = pose_of(state, body);
-  return {p[3], p[4], p[5], p[6]};
-}
-
 /// Shares of the smaller body's face that a sharp contact stands on, and below which an overlap carries nothing.
 constexpr double point_share = 0.01, least_share = 0.01;
 
@@ -51,7 +46,8 @@ void place_patch(const Model& model, const State& state, const Vec3& place, cons
   const Eigen::Quaterniond e(frame);
   const auto arm = [&](std::int32_t body) -> Vec3 {
     const double* p = pose_of(state, body);
-    return rotation_of(state, body).conjugate() * (place - model.bodies[body].centroid - Vec3(p[0], p[1], p[2]));
+    return rotation_of(state, std::size_t(body)).conjugate() *
+           (place - model.bodies[body].centroid - Vec3(p[0], p[1], p[2]));
   };
   const Vec3 arm_a = arm(patch.a), arm_b = arm(patch.b);
   const Vec3 at_a = model.bodies[patch.a].centroid + arm_a;
@@ -59,8 +55,8 @@ void place_patch(const Model& model, const State& state, const Vec3& place, cons
   store(patch.arm_b, arm_b);
   store(patch.place, at_a);
   store(patch.shift, model.bodies[patch.b].centroid + arm_b - at_a);
-  store(patch.e_a, rotation_of(state, patch.a).conjugate() * e);
-  store(patch.e_b, rotation_of(state, patch.b).conjugate() * e);
+  store(patch.e_a, rotation_of(state, std::size_t(patch.a)).conjugate() * e);
+  store(patch.e_b, rotation_of(state, std::size_t(patch.b)).conjugate() * e);
 }
 
 /// Gap of the two faces as an affine field over the patch: least squares over the corners (both faces are plane).
@@ -129,8 +125,8 @@ void make_point_patch(const Model& model, const State& state, const Vec3& place,
 
 Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell) {
   const double* p = pose_of(state, body);
-  return moved(model.cells[body][cell], rotation_of(state, body).toRotationMatrix(), model.bodies[body].centroid,
-               Vec3(p[0], p[1], p[2]));
+  return moved(model.cells[body][cell], rotation_of(state, std::size_t(body)).toRotationMatrix(),
+               model.bodies[body].centroid, Vec3(p[0], p[1], p[2]));
 }
 
 std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,

@@ -136,7 +136,7 @@ struct Clipper {
 
 Box placed_box(const Model& model, const State& state, std::int32_t body, const Convex& cell) {
   const double* p = &state.pose[pose_width * std::size_t(body)];
-  const Mat3 r = Eigen::Quaterniond(p[3], p[4], p[5], p[6]).toRotationMatrix();
+  const Mat3 r = rotation_of(state, std::size_t(body)).toRotationMatrix();
   const Vec3 c = model.bodies[body].centroid, u(p[0], p[1], p[2]);
   Box box;
   for (const Vec3& v : cell.vertices) {

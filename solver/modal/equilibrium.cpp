@@ -1,9 +1,9 @@
 #include "solver/modal/equilibrium.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/CholmodSupport>
 
-#include "solver/base/error.h"
-#include "solver/contact/search.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
@@ -34,11 +34,6 @@ void move_bodies(const Model& model, const Unknowns& unknowns, const Array<doubl
     const Eigen::Quaterniond q = (dq * Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6])).normalized();
     pose[3] = q.w(), pose[4] = q.x(), pose[5] = q.y(), pose[6] = q.z();
   }
-}
-
-void stop_motion(State& state) {
-  for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
-    for (int c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
 }
 
 using Cholesky = Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>;

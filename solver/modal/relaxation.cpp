@@ -3,8 +3,8 @@
 // Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 whatever the assembly, because a pair's stiffness
 // is at most twice its two blocks; the critical step is then at least √2 and no stiff sliver holds up the rest.
 // Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after
-// Underwood 1983). That lies above the lowest one, so that the slowest motion is damped at 0.6 to 0.8 of critical: it
-// hardly overshoots, and so little slips or opens that rest would not.
+// Underwood 1983). That lies above the lowest frequency, so that the slowest motion is damped at 0.6 of critical or
+// more: it hardly overshoots, and so little slips or opens that rest would not.
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -36,11 +36,6 @@ void least_inertia(const Matrix6& k, double size, double& mass, Mat3& inertia) {
   mass *= most, inertia *= most;
 }
 
-Mat3 rotation_of(const State& state, std::size_t body) {
-  const double* p = &state.pose[pose_width * body];
-  return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).toRotationMatrix();
-}
-
 /// A body that nothing touches falls by a small share of a block's size in the first step.
 void hang_freely(const Model& model, Body& body) {
   const double factor = std::max(model.gravity.norm(), 1.0) / (1e-4 * model.typical_size);
@@ -59,7 +54,7 @@ void choose_inertia(bool again, State& state, Model& model) {
     least_inertia(blocks[i], model.typical_size, mass, inertia);
     if (!again && mass <= 0.0) hang_freely(model, body);
     if (mass <= 0.0 || (again && mass < 1.0001 * body.inertial_mass)) continue;
-    const Mat3 r = rotation_of(state, i);
+    const Mat3 r = rotation_of(state, i).toRotationMatrix();
     body.inertial_mass = mass;
     body.inertia = r.transpose() * inertia * r;
     body.inverse_inertia = body.inertia.inverse();
@@ -82,10 +77,9 @@ double frequency2(const Model& model, const State& state, const Unknowns& unknow
     if (at < 0) continue;
     const double *p = &state.pose[pose_width * i], *o = &before.pose[pose_width * i];
     const Vec3 u(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
-    const Vec3 turn =
-        2.0 *
-        (Eigen::Quaterniond(p[3], p[4], p[5], p[6]) * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
-    const Vec3 turn_own = rotation_of(state, i).transpose() * turn;
+    const Eigen::Quaterniond now = rotation_of(state, i);
+    const Vec3 turn = 2.0 * (now * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
+    const Vec3 turn_own = now.conjugate() * turn;
     work -= u.dot(force.segment<3>(at) - before.force.segment<3>(at)) +
             turn.dot(force.segment<3>(at + 3) - before.force.segment<3>(at + 3));
     mass += model.bodies[i].inertial_mass * u.squaredNorm() + turn_own.dot(model.bodies[i].inertia * turn_own);
@@ -136,8 +130,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, c
   result.steps = state.step() - first;
   state.step() = first;  // relaxation is no time
   state.time() = time;
-  for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
-    for (std::size_t c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
+  stop_motion(state);
   stepper.prepare();
   result.account =
       fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",

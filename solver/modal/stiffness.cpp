@@ -247,8 +247,7 @@ Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unk
     const std::int32_t at = unknowns.of_body[i];
     if (at < 0) continue;
     const Body& body = model.bodies[i];
-    const Quat<double> q = pose_rotation(pose_of(state, std::int32_t(i)));
-    const Mat3 r = Eigen::Quaterniond(q.w, q.v.x, q.v.y, q.v.z).toRotationMatrix();
+    const Mat3 r = rotation_of(state, i).toRotationMatrix();
     y.segment<3>(at) = x.segment<3>(at) / body.inertial_mass;
     y.segment<3>(at + 3) = r * (body.inverse_inertia * (r.transpose() * x.segment<3>(at + 3)));
   }

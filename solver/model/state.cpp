@@ -110,6 +110,12 @@ void State::unpack_contacts() {
     contacts.push_back(unpack(&contact_rows[i]));
 }
 
+void stop_motion(State& state) {
+  for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
+    for (std::size_t c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
+  state.base_velocity().setZero();
+}
+
 State initial_state(const Model& model) {
   State state;
   const std::size_t n = model.bodies.size();

@@ -90,6 +90,15 @@ struct State {
   void unpack_contacts();
 };
 
+/// Of a body since its reference placement.
+inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {
+  const double* p = &state.pose[pose_width * body];
+  return {p[3], p[4], p[5], p[6]};
+}
+
+/// All bodies and the base at rest.
+void stop_motion(State& state);
+
 /// First of the eight lanes of generalised jump c in branch k of a batch, in State::branch.
 inline std::size_t branch_index(int branches, std::size_t batch, int c, int k) {
   return lane_count * ((6 * batch + std::size_t(c)) * std::size_t(branches) + std::size_t(k));

@@ -164,7 +164,7 @@ bool Simulation::gravity(const StageSettings& stage) {
 /// Step, damping branches and the energy at the start; once a stage, before its first step.
 void Simulation::begin_stage(const StageSettings& stage) {
   position_.stage_start = state_.time();
-  if (stage.kind == StageSettings::Kind::gravity) return;
+  if (stage.kind == StageSettings::Kind::gravity) return stop_motion(state_);
   if (position_.dt <= 0.0) choose_step();
   const bool from_rest =
       position_.stage == 0 || settings_.stages[position_.stage - 1].kind == StageSettings::Kind::gravity;

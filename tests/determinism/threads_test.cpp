@@ -16,14 +16,6 @@ GroundMotion strong_motion(double duration) {
   return motion;
 }
 
-Assembly weak_wall(int length, int courses) {
-  Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
-  JointLaw law = dry_law(0.6);
-  law.tension = 2e4, law.cohesion = 3e4;
-  set_law(assembly, law);
-  return assembly;
-}
-
 /// A wall that is shaken to pieces by a stepper with so many threads, contacts looked for as a run does.
 std::uint64_t shaken_wall(int threads, DampingSettings::Kind damping, bool shortcut, std::int64_t steps,
                           std::size_t* contacts = nullptr) {

@@ -12,14 +12,6 @@
 namespace voussoir::test {
 namespace {
 
-Assembly weak_wall(int length, int courses) {
-  Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
-  JointLaw law = dry_law(0.6);
-  law.tension = 2e4, law.cohesion = 3e4;
-  set_law(assembly, law);
-  return assembly;
-}
-
 /// Gravity, a strong motion, a pause, a second motion: damage and new contacts in every part.
 SolverSettings shaken(DampingSettings::Kind damping) {
   SyntheticSettings synthetic;

@@ -82,6 +82,15 @@ inline void set_law(Assembly& assembly, const JointLaw& law) {
   for (Joint& joint : assembly.joints) joint.law = 0;
 }
 
+/// A wall that a strong motion shakes to pieces.
+inline Assembly weak_wall(int length, int courses) {
+  Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
+  JointLaw law = dry_law(0.6);
+  law.tension = 2e4, law.cohesion = 3e4;
+  set_law(assembly, law);
+  return assembly;
+}
+
 /// Settings without damping.
 inline SolverSettings undamped(const Vec3& gravity = Vec3::Zero()) {
   SolverSettings settings;
