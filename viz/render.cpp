@@ -161,7 +161,7 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
     words.hidden +=
         fmt::format("{}{} {} far off", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
   if (cracks)
-    words.cracks = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:g} mm", options.crack_mm)
+    words.cracks = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
                                           : std::string("bond lost, opened or slipped");
   return words;
 }

@@ -10,7 +10,7 @@
 namespace voussoir {
 
 const std::vector<std::string>& stage_kinds() {
-  static const std::vector<std::string> names = {"gravity", "motion", "free"};
+  static const std::vector<std::string> names = {"gravity", "motion", "free", "collapse"};
   return names;
 }
 
@@ -190,16 +190,70 @@ void read_drives(TableReader& table, StageSettings& stage) {
   }
 }
 
+void read_loads(TableReader& table, StageSettings& stage) {
+  if (!table.has("load")) return;
+  Loads loads;
+  for (TableReader& sub : table.tables("load")) {
+    if (sub.has("acceleration") == sub.has("group"))
+      sub.fail("needs either 'acceleration' (m/s2, of all free blocks) or 'group' and 'force' (N)");
+    if (sub.has("acceleration")) {
+      loads.acceleration += sub.vector("acceleration", Vec3::Zero());
+    } else {
+      ForceLoad load;
+      load.group = sub.required_text("group");
+      if (!sub.has("force")) sub.missing("force", "[x, y, z] in N, on the whole group");
+      load.force = sub.vector("force", Vec3::Zero());
+      if (sub.has("at")) load.at = sub.vector("at", Vec3::Zero());
+      loads.forces.push_back(load);
+    }
+    sub.finish();
+  }
+  if (!(loads.acceleration.norm() <= largest_peak)) table.fail("load", "is above 1e4 m/s2: look at its unit");
+  stage.loads = loads;
+}
+
+void read_collapse(TableReader& table, StageSettings& stage) {
+  CollapseSettings& s = stage.collapse;
+  if (table.has("tilt")) {
+    s.tilt = table.vector("tilt", Vec3::Zero());
+    if (s.tilt->norm() < 1e-9) table.fail("tilt", "has no direction: give the axis about which gravity turns");
+  }
+  if (s.tilt && stage.loads) table.fail("tilt", "and 'load' are both given: keep one");
+  if (!s.tilt && !stage.loads)
+    table.missing("load", "the pattern that is multiplied, for instance [{ acceleration = [9.81, 0, 0] }]; or 'tilt'");
+  s.to = table.number("to", s.to, {0.0, 1e12, "", true});
+  s.tolerance = table.number("tolerance", 1e-3 * s.to, {1e-6 * s.to, 0.25 * s.to, ""});
+  s.displacement = table.number("displacement", s.displacement, {1e-6, 10.0, "", true});
+  s.confirm = table.number("confirm", s.confirm, {0.0, 1e4, "s"});
+}
+
+const char* plain_label(const StageSettings& stage) {
+  switch (stage.kind) {
+    case StageSettings::Kind::gravity:
+      return "gravity";
+    case StageSettings::Kind::collapse:
+      return "collapse";
+    default:
+      return stage.drives.empty() ? "free vibration" : "driven blocks";
+  }
+}
+
 /// Keys that only other kinds of stage have get a message of their own instead of "unknown".
 void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
-  if (kind == StageSettings::Kind::gravity) {
+  const std::string& name = stage_kinds()[std::size_t(kind)];
+  if (kind == StageSettings::Kind::gravity || kind == StageSettings::Kind::collapse) {
+    const char* why = kind == StageSettings::Kind::gravity ? "ends in equilibrium" : "takes no simulated time";
     if (table.has("duration"))
-      table.fail("duration", "has no meaning in a gravity stage, which ends in equilibrium: remove it");
+      table.fail("duration", "has no meaning in a " + name + " stage, which " + why + ": remove it");
     if (table.has("drive"))
-      table.fail("drive", "has no meaning in a gravity stage, which takes no time: drive in a free or motion stage");
-  } else if (table.has("method")) {
-    table.fail("method", "belongs to a gravity stage: remove it");
+      table.fail("drive",
+                 "has no meaning in a " + name + " stage, which takes no time: drive in a free or motion stage");
   }
+  if (kind != StageSettings::Kind::gravity && table.has("method"))
+    table.fail("method", "belongs to a gravity stage: remove it");
+  if (kind != StageSettings::Kind::collapse)
+    for (const char* key : {"to", "tilt", "tolerance", "displacement", "confirm"})
+      if (table.has(key)) table.fail(key, "belongs to a collapse stage: set kind = \"collapse\" or remove it");
   if (kind == StageSettings::Kind::motion) return;
   for (const char* key : {"record", "pulse", "synthetic", "scale", "units", "correct", "dt"})
     if (table.has(key)) table.fail(key, "belongs to a motion stage: set kind = \"motion\" or remove it");
@@ -218,14 +272,16 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
     refuse_foreign_keys(table, stage.kind);
     if (stage.kind == StageSettings::Kind::gravity)
       stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0));
-    else
-      stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
+    if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, stage, source);
-    if (stage.kind != StageSettings::Kind::gravity) read_drives(table, stage);
-    const char* plain = stage.kind == StageSettings::Kind::gravity ? "gravity"
-                        : stage.drives.empty()                     ? "free vibration"
-                                                                   : "driven blocks";
-    stage.label = table.text("label", stage.kind == StageSettings::Kind::motion ? label_of(source) : plain);
+    if (stage.timed()) read_drives(table, stage);
+    read_loads(table, stage);
+    if (stage.kind == StageSettings::Kind::collapse) {
+      read_collapse(table, stage);
+      if (&table != &tables.back()) table.fail("kind", "is \"collapse\": such a stage must be the last");
+    }
+    stage.label =
+        table.text("label", stage.kind == StageSettings::Kind::motion ? label_of(source) : plain_label(stage));
     table.finish();
     c.settings.stages.push_back(std::move(stage));
     c.motions.push_back(std::move(source));

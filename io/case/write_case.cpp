@@ -141,16 +141,36 @@ void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) 
   out.set_flag("correct", source.correct);
 }
 
+std::string list_text(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
+}
+
 void write_drives(TomlText& out, const std::vector<Drive>& drives) {
   std::vector<std::string> texts;
   for (const Drive& d : drives) {
     const bool constant = !d.velocity.isZero(0.0);
-    const Vec3& v = constant ? d.velocity : d.displacement;
-    texts.push_back(fmt::format("{{ group = {}, {} = [{}, {}, {}] }}", quoted(d.group),
-                                constant ? "velocity" : "displacement", number_text(v.x()), number_text(v.y()),
-                                number_text(v.z())));
+    texts.push_back(fmt::format("{{ group = {}, {} = {} }}", quoted(d.group), constant ? "velocity" : "displacement",
+                                list_text(constant ? d.velocity : d.displacement)));
   }
   if (!texts.empty()) out.raw("drive", fmt::format("[{}]", fmt::join(texts, ", ")));
+}
+
+void write_loads(TomlText& out, const Loads& loads) {
+  std::vector<std::string> texts;
+  if (!loads.acceleration.isZero(0.0))
+    texts.push_back(fmt::format("{{ acceleration = {} }}", list_text(loads.acceleration)));
+  for (const ForceLoad& load : loads.forces)
+    texts.push_back(fmt::format("{{ group = {}, force = {}{} }}", quoted(load.group), list_text(load.force),
+                                load.at ? ", at = " + list_text(*load.at) : ""));
+  out.raw("load", fmt::format("[{}]", fmt::join(texts, ", ")));
+}
+
+void write_collapse(TomlText& out, const CollapseSettings& collapse) {
+  if (collapse.tilt) out.raw("tilt", list_text(*collapse.tilt));
+  out.set("to", collapse.to);
+  out.set("tolerance", collapse.tolerance);
+  out.set("displacement", collapse.displacement);
+  out.set("confirm", collapse.confirm);
 }
 
 void write_stages(TomlText& out, const Case& c) {
@@ -159,12 +179,12 @@ void write_stages(TomlText& out, const Case& c) {
     out.heading("[[stage]]");
     out.set("kind", stage_kinds()[std::size_t(stage.kind)]);
     out.set("label", stage.label);
-    if (stage.kind == StageSettings::Kind::gravity)
-      out.set("method", gravity_methods()[std::size_t(stage.method)]);
-    else
-      out.set("duration", stage.duration);
+    if (stage.kind == StageSettings::Kind::gravity) out.set("method", gravity_methods()[std::size_t(stage.method)]);
+    if (stage.timed()) out.set("duration", stage.duration);
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
     write_drives(out, stage.drives);
+    if (stage.loads) write_loads(out, *stage.loads);
+    if (stage.kind == StageSettings::Kind::collapse) write_collapse(out, stage.collapse);
   }
 }
 

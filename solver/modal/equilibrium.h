@@ -12,6 +12,7 @@ namespace voussoir {
 struct Equilibrium {
   bool converged = false;
   bool relaxed = false;    // dynamic relaxation was needed
+  bool lost = false;       // it went past its limit of displacement
   int iterations = 0;      // Newton
   std::int64_t steps = 0;  // relaxation
   double residual = 0.0;   // largest out-of-balance force over the weight of an average block
@@ -37,9 +38,19 @@ double out_of_balance(Stepper& stepper);
 Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::atomic<bool>* stop,
                                const std::function<void(int, double)>& progress);
 
+/// When a relaxation gives up.
+struct RelaxationLimits {
+  std::int64_t steps = 400000;
+  double displacement = 1e300;  // m, of any point of a body since the beginning
+};
+
 /// Dynamic relaxation with inertia and damping of its own choice (solver/modal/relaxation.cpp). Neither the stepper's
 /// step nor its damping matters or changes; the stepper must have no damping branches. Velocities are zero afterwards.
-Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
+Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& limits, const std::atomic<bool>* stop,
                   const std::function<void(std::int64_t, double)>& progress);
+
+/// Largest displacement of any body between two placements (rows of State::pose), m: of the centroid, plus the turn
+/// (radians) times the distance to the farthest vertex. Good for turns below half a radian.
+double largest_displacement(const Model& model, const Array<double>& from, const Array<double>& to);
 
 }  // namespace voussoir

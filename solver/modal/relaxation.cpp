@@ -89,7 +89,20 @@ double frequency2(const Model& model, const State& state, const Unknowns& unknow
 
 }  // namespace
 
-Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, const std::atomic<bool>* stop,
+double largest_displacement(const Model& model, const Array<double>& from, const Array<double>& to) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const double *p = &from[pose_width * i], *q = &to[pose_width * i];
+    const double u = Vec3(q[0] - p[0], q[1] - p[1], q[2] - p[2]).norm();
+    const Vec3 turn =
+        2.0 *
+        (Eigen::Quaterniond(q[3], q[4], q[5], q[6]) * Eigen::Quaterniond(p[3], p[4], p[5], p[6]).conjugate()).vec();
+    largest = std::max(largest, u + turn.norm() * model.bodies[i].radius);
+  }
+  return largest;
+}
+
+Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& limits, const std::atomic<bool>* stop,
                   const std::function<void(std::int64_t, double)>& progress) {
   State& state = *stepper.state;
   Model model = *stepper.model;  // as heavy as before, but with inertia of its own
@@ -103,16 +116,19 @@ Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, c
   relaxing.dt = 1.3;  // s of no meaning
   relaxing.prepare();
   const std::int64_t first = state.step();
+  const Array<double> start = state.pose;
   const double time = state.time();
 
   Equilibrium result;
   result.relaxed = true;
   OutOfBalance now = out_of_balance(relaxing, unknowns);
   result.residual = result.first_residual = now.largest;
-  while (state.step() - first < most_steps && !(stop && stop->load()) && result.residual >= tolerance) {
+  while (state.step() - first < limits.steps && !(stop && stop->load()) && result.residual >= tolerance) {
     const Look before = {state.pose, now.force};
     const Advance a = relaxing.advance(state.step() + round_steps, 1, nullptr, stop);
-    if (a.outcome == StepOutcome::runaway) break;
+    result.lost =
+        a.outcome == StepOutcome::runaway || largest_displacement(model, start, state.pose) > limits.displacement;
+    if (result.lost) break;
     if (a.outcome == StepOutcome::contacts) {
       const ContactUpdate update = update_contacts(model, state, relaxing.damping.branches);
       if (update.made + update.clipped > 0) choose_inertia(true, state, model);
@@ -126,7 +142,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, std::int64_t most_steps, c
     relaxing.damping.mass_rate = 1.2 * std::sqrt(std::clamp(w2, 1e-8, 1.0));
     if (progress) progress(state.step() - first, result.residual);
   }
-  result.converged = result.residual < tolerance;
+  result.converged = result.residual < tolerance && !result.lost;
   result.steps = state.step() - first;
   state.step() = first;  // relaxation is no time
   state.time() = time;

@@ -60,7 +60,8 @@ void add_bodies(const Assembly& assembly, Model& model) {
     model.matter.push_back({material.youngs_modulus, material.shear_modulus, std::tan(material.friction_angle)});
     if (block.fixed) continue;
     sizes.push_back(std::cbrt(block.mass / material.density));
-    weight += block.mass * model.gravity.norm();
+    // Without gravity other loads are measured by what the blocks would weigh.
+    weight += block.mass * (model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm());
     ++movable;
   }
   if (movable == 0)

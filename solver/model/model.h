@@ -104,7 +104,7 @@ struct Model {
   }
   /// Square of the turn past which a patch is clipped anew, in units of |2 sin(φ/2)|.
   double turn_limit2() const { return contact.reclip_angle * contact.reclip_angle; }
-  double average_weight = 0.0;  // N, of a free block at 9.81 m/s2 or the case's gravity
+  double average_weight = 0.0;  // N, of a free block under the case's gravity, or 9.81 m/s2 without any
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();
 };

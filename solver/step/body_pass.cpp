@@ -79,6 +79,12 @@ double damp_locally(double share, double dt, Triple<double>& force, const Triple
 
 }  // namespace
 
+double load_work(const BodyPass& pass, std::size_t i, const BodyUpdate& next, const Triple<double>& velocity,
+                 const Triple<double>& momentum) {
+  const Triple<double> omega = spin(pass.model->bodies[i], pose_rotation(&pass.state->pose[pose_width * i]), momentum);
+  return 0.5 * pass.dt * (dot(next.load, velocity) + dot(next.load_moment, omega));
+}
+
 BodyUpdate BodyPass::update(std::size_t i) const {
   const Body& body = model->bodies[i];
   const double* pose = &state->pose[pose_width * i];
@@ -108,6 +114,11 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   }
   const Vec3& g = model->gravity;
   f = f + body.mass * Triple<double>{g.x(), g.y(), g.z()};
+  if (loads) {
+    loads->act(*model, *state, i, load_share, r.load, r.load_moment);
+    f = f + r.load;
+    m = m + r.load_moment;
+  }
   r.force = f;
   r.moment = m;
   const Triple<double> v = triple(motion), l = triple(motion + 3);
@@ -140,8 +151,11 @@ BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
     double* pose = &state->pose[pose_width * i];
     double* motion = &state->motion[motion_width * i];
     const BodyUpdate next = update(i);
-    // The ground supplies what the patches take of a fixed body, over the mean of both half steps.
-    if (body.fixed) motion[6] -= 0.5 * dt * dot(next.force, triple(motion) + next.velocity);
+    // The ground supplies what the patches take of a fixed body, over the mean of both half steps; likewise the loads.
+    if (body.fixed)
+      motion[6] -= 0.5 * dt * dot(next.force, triple(motion) + next.velocity);
+    else if (loads)
+      motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
     motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;
     for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
     if (body.fixed) {

@@ -4,6 +4,7 @@
 // the half step from a predicted half rotation (Fincham 1992), the quaternion by the exponential map.
 #pragma once
 #include "solver/contact/patch_kernel.h"
+#include "solver/step/loads.h"
 
 namespace voussoir {
 
@@ -14,12 +15,13 @@ struct Incidence {
 };
 Incidence find_incidence(const Model& model, const State& state);
 
-/// Out-of-balance force and moment about the centroid (gravity included), and the velocities that follow.
+/// Out-of-balance force and moment about the centroid (gravity and loads included), and the velocities that follow.
 struct BodyUpdate {
-  Triple<double> force, moment;  // N, N m, of the patches and gravity
-  Triple<double> velocity;       // m/s at the next half step
-  Triple<double> momentum;       // kg m2/s at the next half step
-  double loss = 0.0;             // J, body damping over this step
+  Triple<double> force, moment;                              // N, N m, of the patches, gravity and loads
+  Triple<double> velocity;                                   // m/s at the next half step
+  Triple<double> momentum;                                   // kg m2/s at the next half step
+  double loss = 0.0;                                         // J, body damping over this step
+  Triple<double> load = {0, 0, 0}, load_moment = {0, 0, 0};  // the loads' part of force and moment
 };
 
 struct BodyReport {
@@ -42,6 +44,8 @@ struct BodyPass {
   double search_distance = 1e300;              // m
   const Array<std::int32_t>* drive = nullptr;  // of each body, which of drive_velocity is its own or -1; empty: none
   std::vector<Vec3> drive_velocity;            // relative to the ground, at the next half step
+  const LoadsAtWork* loads = nullptr;          // none: nothing beside gravity
+  double load_share = 1.0;                     // at this step
   Vec3 base_velocity_now = Vec3::Zero();       // at the last half step
   Vec3 base_velocity_next = Vec3::Zero();      // at the next half step
   Vec3 base_displacement_next = Vec3::Zero();  // at the next step
@@ -54,5 +58,9 @@ struct BodyPass {
   BodyUpdate update(std::size_t body) const;
   BodyReport bodies(std::size_t begin, std::size_t end) const;
 };
+
+/// Work of the loads on a body over half a step at this velocity and angular momentum, J.
+double load_work(const BodyPass& pass, std::size_t body, const BodyUpdate& next, const Triple<double>& velocity,
+                 const Triple<double>& momentum);
 
 }  // namespace voussoir

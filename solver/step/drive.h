@@ -5,6 +5,11 @@
 
 namespace voussoir {
 
+/// The blocks of a group. Throws InputError "`who` the group '…'" with the nearest name when there is none; `fixed`: of
+/// the groups of fixed blocks, else of those of free ones.
+const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::string& name, const std::string& who,
+                                          bool fixed);
+
 /// Throws InputError when a stage drives a group that the assembly does not have, a block that is not fixed, or a block
 /// twice.
 void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages);

@@ -72,14 +72,15 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
   const Body& body = stepper.model->bodies[i];
   const double* motion = &stepper.state->motion[motion_width * i];
   const double* pose = &stepper.state->pose[pose_width * i];
-  e.base_work += motion[6];
+  e.external_work += motion[6];
   e.body_damping += motion[7];
   const BodyUpdate next = pass.update(i);
   if (body.fixed) {  // the half step that leads up to now; the other half is added with the step itself
-    e.base_work -= 0.5 * pass.dt * dot(next.force, triple(motion));
+    e.external_work -= 0.5 * pass.dt * dot(next.force, triple(motion));
     return;
   }
   e.body_damping += 0.5 * next.loss;
+  if (pass.loads) e.external_work += load_work(pass, i, next, triple(motion), triple(motion + 3));
   // ½ v⁻·M v⁺: with this product, not with the square of the mean, the leapfrog keeps the energy of a linear system
   // exactly.
   const Triple<double> before = turn_back(pose_rotation(pose), triple(motion + 3));

@@ -14,11 +14,11 @@ struct Energies {
   double joint_damping = 0.0;    // dissipated by branches
   double body_damping = 0.0;     // dissipated by local and mass damping
   double clipping = 0.0;         // elastic energy that new clippings of patches took out (or, negative, put in)
-  double base_work = 0.0;        // done by the moving ground
+  double external_work = 0.0;    // done by the moving ground, driven blocks and loads
   double stored() const { return kinetic + gravitational + elastic + damping_springs; }
   double lost() const { return friction + fracture + joint_damping + body_damping + clipping; }
-  /// stored + lost − base work: constant in exact arithmetic.
-  double total() const { return stored() + lost() - base_work; }
+  /// stored + lost − external work: constant in exact arithmetic.
+  double total() const { return stored() + lost() - external_work; }
 };
 
 /// At a sampling point of the step (positions and patches at this step; `pass` knows the velocities to come).

@@ -1,6 +1,7 @@
 // What a case asks of the solver, as plain data with the defaults of the documentation. Times in s, SI throughout.
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,15 +36,42 @@ struct Drive {
   Vec3 at(double time, double duration) const;
 };
 
+/// A dead force on a group of free blocks, shared by mass at their centroids, or at a point of a single block.
+struct ForceLoad {
+  std::string group;
+  Vec3 force = Vec3::Zero();  // N, in all
+  std::optional<Vec3> at;     // m, in the reference placement; moves with the block
+};
+
+/// What acts on the free blocks beside gravity.
+struct Loads {
+  Vec3 acceleration = Vec3::Zero();  // m/s2, added to gravity
+  std::vector<ForceLoad> forces;
+};
+
+/// How the multiplier of a load pattern is raised until equilibrium is lost.
+struct CollapseSettings {
+  double to = 1.0;             // the multiplier is looked for between 0 and this
+  double tolerance = 1e-3;     // width of the bracket
+  double displacement = 0.02;  // share of the median block size past which equilibrium is lost
+  double confirm = 2.0;        // s: time in which the confirming dynamic runs raise the load; 0: none
+  std::optional<Vec3> tilt;    // axis about which gravity is turned instead, by the arc tangent of the multiplier
+};
+
 struct StageSettings {
-  enum class Kind { gravity, motion, free };
+  enum class Kind { gravity, motion, free, collapse };
   enum class Method { automatic, newton, relaxation };  // gravity only
   Kind kind = Kind::gravity;
   Method method = Method::automatic;
   double duration = 0.0;      // s; motion and free
   GroundMotion motion;        // motion only: scaled, in m/s2
   std::vector<Drive> drives;  // motion and free; no group twice
+  /// At the end of the stage and until another stage has some; none: as the stages before have left them. Of a collapse
+  /// stage: the pattern that the multiplier multiplies.
+  std::optional<Loads> loads;
+  CollapseSettings collapse;  // collapse only
   std::string label;          // for logs: "gravity", "motion (pulse sine y)", …
+  bool timed() const { return kind == Kind::motion || kind == Kind::free; }
 };
 
 struct ContactSettings {

@@ -5,8 +5,10 @@
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "solver/contact/search.h"
+#include "solver/step/confirm.h"
 #include "solver/step/critical_step.h"
 #include "solver/step/drive.h"
+#include "solver/step/loads.h"
 
 namespace voussoir {
 
@@ -19,6 +21,7 @@ double seconds_since(Clock::time_point t) {
 }
 
 constexpr std::size_t least_joints_per_thread = 500;  // below, the hand-over costs more than the share saves
+constexpr double confirm_margin = 0.02;   // of the multiplier: dynamic runs confirm it from below and from above
 constexpr double runaway_balance = 10.0;  // the energy balance is off by ten times its largest term: give up
 
 int useful_threads(int wanted, const Model& model) {
@@ -40,6 +43,8 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
       model_(build_model(assembly, settings)),
       state_(initial_state(model_)) {
   check_drives(assembly, settings_.stages);
+  for (std::size_t i = 0; i < settings_.stages.size(); ++i)
+    loads_at_work(assembly, model_, {}, loads_at({}, settings_.stages[i], model_.gravity, 1.0));
   stepper_.model = &model_;
   stepper_.state = &state_;
   stepper_.shortcut = settings.step.intact_shortcut;
@@ -52,6 +57,10 @@ double Simulation::end_time() const {
   double end = 0.0;
   for (const StageSettings& stage : settings_.stages) end += stage.duration;
   return end;
+}
+
+bool Simulation::stopped() const {
+  return observers_.stop && observers_.stop->load();
 }
 
 void Simulation::log(const std::string& text) const {
@@ -146,11 +155,10 @@ bool Simulation::gravity(const StageSettings& stage) {
     });
     log(equilibrium_.account);
   }
-  const bool stopped = observers_.stop && observers_.stop->load();
-  if (!equilibrium_.converged && !stopped && stage.method != StageSettings::Method::newton) {
+  if (!equilibrium_.converged && !stopped() && stage.method != StageSettings::Method::newton) {
     if (stage.method == StageSettings::Method::automatic)
       log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
-    equilibrium_ = relax(stepper_, tolerance, 400000, observers_.stop, [&](std::int64_t step, double r) {
+    equilibrium_ = relax(stepper_, tolerance, RelaxationLimits{}, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
     log(equilibrium_.account);
@@ -161,13 +169,43 @@ bool Simulation::gravity(const StageSettings& stage) {
   return equilibrium_.converged;
 }
 
+/// True unless stopped: an assembly that bears the whole load is an answer too.
+bool Simulation::collapse(const StageSettings& stage) {
+  stepper_.damping = DampingAtWork{};
+  set_branches(model_, state_, 0);
+  const Loads base = loads_after(settings_.stages, std::size_t(position_.stage));
+  const auto loads = [&](double multiplier) { return loads_at(base, stage, model_.gravity, multiplier); };
+  collapse_ = find_collapse(
+      stepper_, stage.collapse, settings_.step.equilibrium_tolerance,
+      [&](double multiplier) { return loads_at_work(*assembly_, model_, {}, loads(multiplier)); }, observers_.stop,
+      [&](const CollapseTry& one, double residual) {
+        report_progress(false, fmt::format("multiplier {:.5g}, step {}: out-of-balance {:.1e}", one.multiplier,
+                                           one.steps, residual));
+      });
+  if (stopped()) return false;
+  log(collapse_.account);
+  log(mechanism_text(*assembly_, collapse_.mechanism));
+  if (!collapse_.found || stage.collapse.confirm <= 0.0) return true;
+  for (const bool above : {false, true}) {
+    const double multiplier = (above ? 1.0 + confirm_margin : 1.0 - confirm_margin) * collapse_.multiplier;
+    SolverSettings settings = settings_;
+    settings.stages.resize(std::size_t(position_.stage));
+    const bool moves = moves_away(*assembly_, settings, loads(multiplier), stage.collapse.confirm,
+                                  stage.collapse.displacement * model_.typical_size, stepper_.threads, observers_.stop);
+    if (stopped()) return false;
+    (above ? collapse_.falls_above : collapse_.stands_below) = moves == above;
+    log(fmt::format("dynamic run with the multiplier raised to {:.5g}: {}{}", multiplier,
+                    moves ? "it moves away" : "it stands", moves == above ? "" : " (not as the static solver says)"));
+  }
+  return true;
+}
+
 /// Step, damping branches and the energy at the start; once a stage, before its first step.
 void Simulation::begin_stage(const StageSettings& stage) {
   position_.stage_start = state_.time();
-  if (stage.kind == StageSettings::Kind::gravity) return stop_motion(state_);
+  if (!stage.timed()) return stop_motion(state_);
   if (position_.dt <= 0.0) choose_step();
-  const bool from_rest =
-      position_.stage == 0 || settings_.stages[position_.stage - 1].kind == StageSettings::Kind::gravity;
+  const bool from_rest = position_.stage == 0 || !settings_.stages[std::size_t(position_.stage - 1)].timed();
   if (from_rest) {  // without branches a patch pass changes nothing but what it finds: safe to look at the energy
     set_branches(model_, state_, 0);
     stepper_.damping = DampingAtWork{};
@@ -205,7 +243,7 @@ void Simulation::sample(const BodyPass& pass) {
   s.energies = compute_energies(stepper_, pass);
   const Energies& e = s.energies;
   for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.joint_damping,
-                      e.body_damping, std::abs(e.base_work)})
+                      e.body_damping, std::abs(e.external_work)})
     state_.largest_energy() = std::max(state_.largest_energy(), term);
   if (state_.largest_energy() > 0.0) s.balance_error = (e.total() - state_.starting_energy()) / state_.largest_energy();
   worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));
@@ -225,7 +263,12 @@ double next_multiple(double time, double every) {
 
 }  // namespace
 
-void Simulation::drive(const StageSettings& stage) {
+/// What a stage does to the assembly: drives and loads.
+void Simulation::impose(const StageSettings& stage) {
+  const auto at = std::size_t(position_.stage);
+  const Loads before = at > 0 ? loads_after(settings_.stages, at - 1) : Loads{};
+  stepper_.loads = loads_at_work(*assembly_, model_, before, loads_after(settings_.stages, at));
+  stepper_.stage_duration = stage.duration;
   stepper_.drives = stage.drives;
   stepper_.drive.assign(stage.drives.empty() ? 0 : model_.bodies.size(), -1);
   for (std::size_t i = 0; i < stage.drives.size(); ++i)
@@ -239,7 +282,6 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
   const OutputSettings& output = settings_.output;
   stepper_.motion = stage.kind == StageSettings::Kind::motion ? &stage.motion : nullptr;
   stepper_.stage_start = position_.stage_start;
-  stepper_.stage_duration = stage.duration;
   const double end = position_.stage_start + stage.duration;
   const double stop_at = until >= 0.0 ? std::min(until, end) : end;
   while (state_.time() < stop_at - 1e-9 * stepper_.dt) {
@@ -269,7 +311,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
       return RunEnd::failed;
     }
     if (last_.outcome == StepOutcome::contacts) change_contacts();
-    if (last_.outcome == StepOutcome::interrupted || (observers_.stop && observers_.stop->load())) {
+    if (last_.outcome == StepOutcome::interrupted || stopped()) {
       if (observers_.checkpoint) observers_.checkpoint(*this, false);
       return RunEnd::interrupted;
     }
@@ -299,10 +341,11 @@ RunEnd Simulation::run(double until) {
   while (position_.stage < std::int64_t(settings_.stages.size())) {
     const StageSettings& stage = settings_.stages[position_.stage];
     log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));
+    impose(stage);
     if (position_.stage_begun == 0.0) begin_stage(stage);
-    drive(stage);
-    if (stage.kind == StageSettings::Kind::gravity) {
-      if (!gravity(stage)) return observers_.stop && observers_.stop->load() ? RunEnd::interrupted : RunEnd::failed;
+    if (!stage.timed()) {
+      const bool done = stage.kind == StageSettings::Kind::gravity ? gravity(stage) : collapse(stage);
+      if (!done) return stopped() ? RunEnd::interrupted : RunEnd::failed;
     } else {
       const RunEnd end = timed(stage, until);
       if (end != RunEnd::finished) return end;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "solver/modal/equilibrium.h"
+#include "solver/modal/collapse.h"
 #include "solver/step/energy.h"
 #include "solver/step/stepper.h"
 
@@ -75,6 +75,7 @@ class Simulation {
   const SolverSettings& settings() const { return settings_; }
   const std::string& failure() const { return failure_; }  // after RunEnd::failed
   const Equilibrium& equilibrium() const { return equilibrium_; }
+  const Collapse& collapse() const { return collapse_; }  // of a collapse stage, empty without
   int threads() const { return stepper_.threads; }
   double end_time() const;                                                               // s, of all stages
   double worst_balance() const { return worst_balance_; }                                // largest share so far
@@ -85,7 +86,9 @@ class Simulation {
  private:
   void begin_stage(const StageSettings& stage);
   bool gravity(const StageSettings& stage);
-  void drive(const StageSettings& stage);
+  bool collapse(const StageSettings& stage);
+  void impose(const StageSettings& stage);
+  bool stopped() const;
   RunEnd timed(const StageSettings& stage, double until);
   void change_contacts();
   void sample(const BodyPass& pass);
@@ -102,6 +105,7 @@ class Simulation {
   Stepper stepper_;
   RunPosition position_;
   Equilibrium equilibrium_;
+  Collapse collapse_;
   std::string failure_;
   Advance last_;
   double worst_balance_ = 0.0;

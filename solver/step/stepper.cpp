@@ -34,6 +34,7 @@ BodyPass Stepper::body_pass() const {
   pass.mass_rate = damping.mass_rate;
   pass.local = damping.local;
   pass.search_distance = search_distance;
+  if (!loads.none()) pass.loads = &loads;
   pass.drive = &drive;
   pass.drive_velocity.assign(drives.size(), Vec3::Zero());
   pass.base_velocity_now = state->base_velocity();
@@ -48,12 +49,13 @@ PatchPass patch_pass(Stepper& s) {
 }
 
 /// The base's next velocity and displacement, from the acceleration at the present time; the driven blocks' next
-/// velocities, from where they have to be.
+/// velocities, from where they have to be; the present share of the loads.
 void move_base(const Stepper& s, double time, BodyPass& pass) {
   const double since = time - s.stage_start;
   const Vec3 a = base_acceleration(s.motion, since);
   pass.base_velocity_next = pass.base_velocity_now + s.dt * a;
   pass.base_displacement_next += s.dt * pass.base_velocity_next;
+  if (pass.loads && s.stage_duration > 0.0) pass.load_share = eased(since, s.stage_duration);
   for (std::size_t i = 0; i < s.drives.size(); ++i) {
     const Drive& d = s.drives[i];
     pass.drive_velocity[i] = (d.at(since + s.dt, s.stage_duration) - d.at(since, s.stage_duration)) / s.dt;

@@ -36,6 +36,7 @@ struct Stepper {
   double stage_duration = 0.0;           // s
   std::vector<Drive> drives;             // of the stage
   Array<std::int32_t> drive;             // of each body, see BodyPass
+  LoadsAtWork loads;                     // of the stage, eased over its duration; at once in equilibrium
   double search_distance = 1e300;        // m, see BodyPass
 
   Incidence incidence;

@@ -196,6 +196,31 @@ TEST_F(CaseFile, DrivesSurviveResolving) {
   }
 }
 
+TEST_F(CaseFile, LoadsAndCollapseSurviveResolving) {
+  const std::string text =
+      "[bridge]\ngenerator = \"arch\"\n[[stage]]\nkind = \"gravity\"\nload = [{ acceleration = [0.1, 0, 0] }]\n"
+      "[[stage]]\nkind = \"free\"\nduration = 1.0\nload = []\n"
+      "[[stage]]\nkind = \"collapse\"\nto = 2.0\ndisplacement = 0.05\nconfirm = 0.0\n"
+      "load = [{ group = \"voussoir 3\", force = [1, 2, 3], at = [4, 5, 6] }, { group = \"keystone 0\", force = [7, 8, "
+      "9] }]\n";
+  const Case c = parse_case(text, folder / "case.toml");
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const std::vector<StageSettings>& stages = one->settings.stages;
+    EXPECT_EQ(stages.at(0).loads->acceleration, Vec3(0.1, 0, 0));
+    EXPECT_TRUE(stages.at(1).loads->forces.empty());
+    ASSERT_EQ(stages.at(2).loads->forces.size(), 2u);
+    EXPECT_EQ(stages[2].loads->forces[0].at, Vec3(4, 5, 6));
+    EXPECT_FALSE(stages[2].loads->forces[1].at);
+    EXPECT_EQ(stages[2].loads->forces[1].force, Vec3(7, 8, 9));
+    EXPECT_EQ(stages[2].collapse.to, 2.0);
+    EXPECT_EQ(stages[2].collapse.tolerance, 2e-3);
+    EXPECT_EQ(stages[2].collapse.displacement, 0.05);
+    EXPECT_EQ(stages[2].collapse.confirm, 0.0);
+  }
+}
+
 TEST_F(CaseFile, DefaultsOfEveryGeneratorSurviveResolving) {
   for (const Generator& generator : generators()) {
     const std::string text = "[bridge]\ngenerator = \"" + generator.name + "\"\n[[stage]]\nkind = \"gravity\"\n";

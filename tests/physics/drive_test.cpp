@@ -44,7 +44,7 @@ struct Ledger {
     Observers all;
     all.history = [this](const Simulation&, const Sample& s) {
       worst = std::max(worst, std::abs(s.balance_error));
-      work = s.energies.base_work;
+      work = s.energies.external_work;
     };
     return all;
   }

@@ -39,7 +39,7 @@ TEST(Equilibrium, OfAColumnByNewton) {
 TEST(Equilibrium, OfAColumnByRelaxation) {
   Bench bench(column(), undamped({0, 0, -g}));
   bench.begin();
-  const Equilibrium e = relax(bench.stepper, 1e-6, 400000, nullptr, nullptr);
+  const Equilibrium e = relax(bench.stepper, 1e-6, {}, nullptr, nullptr);
   EXPECT_TRUE(e.converged);
   for (int i = 0; i < 10; ++i)
     EXPECT_NEAR(bench.displacement(i).z(), hand_solution(i), 1e-4 * std::abs(hand_solution(9))) << i;

@@ -109,7 +109,7 @@ GroundMotion shaking() {
 void settle(Stepper& stepper, bool quiet) {
   const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr, nullptr);
   if (newton.converged) return;
-  const Equilibrium relaxed = relax(stepper, 1e-4, 60000, nullptr, nullptr);
+  const Equilibrium relaxed = relax(stepper, 1e-4, {.steps = 60000}, nullptr, nullptr);
   if (!quiet) fmt::print(stderr, "  {}\n", relaxed.account);
 }
 

@@ -20,6 +20,22 @@ void draw_state(const std::string& images, const Assembly& assembly, const Snaps
   }
 }
 
+/// The assembly on its way down, displacements enlarged to a third of a block.
+void draw_mechanism(const std::string& images, const Simulation& run, const Snapshot& snapshot) {
+  const Model& model = run.model();
+  const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
+  const StageSettings& stage = run.settings().stages.back();
+  RenderOptions o;
+  o.view = "front";
+  o.colour = "displacement";
+  o.amplification = std::max(1.0, std::round(model.typical_size / 3.0 / moved));
+  o.crack_mm = 30.0 * stage.collapse.displacement * model.typical_size;
+  o.undeformed = true;
+  o.hide = {};
+  o.title = fmt::format("Beyond multiplier {:.4g}", run.collapse().multiplier);
+  render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
+}
+
 Series channel(const History& history, const std::string& name, const std::string& path, double factor) {
   Series s{name, history.time(), history.values(path)};
   for (double& y : s.y) y *= factor;
@@ -29,7 +45,7 @@ Series channel(const History& history, const std::string& name, const std::strin
 void draw_charts(const std::string& images, const Assembly& assembly, const History& history) {
   if (history.rows() < 2) return;
   std::vector<Series> energies;
-  for (const char* name : {"kinetic", "elastic", "friction", "fracture", "joint_damping", "base_work"})
+  for (const char* name : {"kinetic", "elastic", "friction", "fracture", "joint_damping", "external_work"})
     energies.push_back(channel(history, name, std::string("energy/") + name, 1e-3));
   plot_lines(energies, "time (s)", "energy (kJ)", "Energy", images + "/energy.png");
   std::vector<Series> keystones, spandrels;
@@ -47,11 +63,13 @@ void draw_charts(const std::string& images, const Assembly& assembly, const Hist
 
 }  // namespace
 
-std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot,
+std::string make_pictures(const std::string& directory, const Simulation& run, const Snapshot& snapshot,
                           const History& history) {
+  const std::string images = directory + "/images";
   try {
-    draw_state(directory + "/images", assembly, snapshot);
-    draw_charts(directory + "/images", assembly, history);
+    draw_state(images, run.assembly(), snapshot);
+    if (run.collapse().found) draw_mechanism(images, run, snapshot);
+    draw_charts(images, run.assembly(), history);
     return {};
   } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn
     return e.what();

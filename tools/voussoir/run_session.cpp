@@ -7,12 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "io/vtk/folder.h"
 #include "solver/base/error.h"
+#include "solver/step/loads.h"
 #include "solver/step/make_snapshot.h"
 
 namespace voussoir {
@@ -38,7 +40,7 @@ const std::vector<std::pair<std::string, double Energies::*>>& energy_columns() 
       {"joint_damping", &Energies::joint_damping},
       {"body_damping", &Energies::body_damping},
       {"clipping", &Energies::clipping},
-      {"base_work", &Energies::base_work}};
+      {"external_work", &Energies::external_work}};
   return columns;
 }
 
@@ -280,6 +282,45 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
+/// An earlier part of the run's; empty when there is none.
+nlohmann::json summary_of(const std::string& file) {
+  std::ifstream in(file);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
+/// How far the multiplier went, and which joints move beyond.
+nlohmann::json collapse_json(const Simulation& run) {
+  const Collapse& c = run.collapse();
+  const StageSettings& stage = run.settings().stages.back();
+  nlohmann::json json = {{"found", c.found},
+                         {"multiplier", c.multiplier},
+                         {"above", c.found ? nlohmann::json(c.above) : nlohmann::json()},
+                         {"tries", c.tries.size()},
+                         {"mechanism", nlohmann::json::array()},
+                         {"stands_below", c.stands_below ? nlohmann::json(*c.stands_below) : nlohmann::json()},
+                         {"falls_above", c.falls_above ? nlohmann::json(*c.falls_above) : nlohmann::json()}};
+  if (stage.collapse.tilt) json["tilt_degrees"] = std::atan(c.multiplier) * 180.0 / std::numbers::pi;
+  const Loads loads = loads_at({}, stage, run.model().gravity, c.multiplier);
+  double weight = 0.0;
+  for (const Body& body : run.model().bodies)
+    if (!body.fixed) weight += body.mass * run.model().gravity.norm();
+  Vec3 force = Vec3::Zero();
+  for (const ForceLoad& load : loads.forces) force += load.force;
+  json["force"] = force.norm();
+  json["force_over_weight"] = weight > 0.0 ? force.norm() / weight : 0.0;
+  json["acceleration_over_gravity"] = loads.acceleration.norm() / std::max(run.model().gravity.norm(), 1e-300);
+  for (const MechanismJoint& joint : c.mechanism)
+    json["mechanism"].push_back({{"a", joint.a},
+                                 {"b", joint.b},
+                                 {"kind", joint.slides ? "slide" : "hinge"},
+                                 {"edge", edge_name(run.assembly(), joint)},
+                                 {"place", {joint.place.x(), joint.place.y(), joint.place.z()}},
+                                 {"opening", joint.opening},
+                                 {"slip", joint.slip}});
+  return json;
+}
+
 }  // namespace
 
 void RunSession::write_summary(RunEnd end) {
@@ -307,6 +348,10 @@ void RunSession::write_summary(RunEnd end) {
                            {"out_of_balance", e.residual}}},
                          {"demand", demand_json(assembly_, history_)},
                          {"damage", damage_json(assembly_, snapshot)}};
+  if (!run.collapse().tries.empty())
+    json["collapse"] = collapse_json(run);
+  else if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
+    json["collapse"] = before["collapse"];  // found before a restart
   write_atomically(path("summary.json"), json.dump(2) + "\n");
 }
 
@@ -344,7 +389,7 @@ int RunSession::run() {
                   end == RunEnd::finished ? "done" : "paused", simulation_->state().time(), simulation_->state().step(),
                   duration_text(wall), simulation_->worst_balance()));
   if (end == RunEnd::finished && request_.pictures) {
-    const std::string missing = make_pictures(request_.directory, assembly_,
+    const std::string missing = make_pictures(request_.directory, *simulation_,
                                               make_snapshot(simulation_->model(), simulation_->state()), history_);
     log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
   }

@@ -64,7 +64,7 @@ struct DemandPoint {
 std::vector<DemandPoint> demand_points(const Assembly& assembly);
 
 /// Pictures of the end state and charts of the history in DIR/images. Returns what could not be made, empty if all was.
-std::string make_pictures(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot,
+std::string make_pictures(const std::string& directory, const Simulation& run, const Snapshot& snapshot,
                           const History& history);
 
 }  // namespace voussoir

@@ -1,0 +1,15 @@
+// A dynamic second opinion on static collapse loads.
+#pragma once
+#include <atomic>
+
+#include "geometry/assembly.h"
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+/// Runs the settings' stages, raises the loads to `loads` within `rise` seconds (eased) and holds them twice as long,
+/// with the settings' damping. True when a body moves by more than `limit` (m) while they are held, or the run fails.
+bool moves_away(const Assembly& assembly, const SolverSettings& settings, const Loads& loads, double rise, double limit,
+                int threads, const std::atomic<bool>* stop);
+
+}  // namespace voussoir

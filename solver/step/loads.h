@@ -1,0 +1,41 @@
+// Dead loads of a stage: an acceleration of all free blocks and forces on groups of them.
+#pragma once
+#include "solver/model/state.h"
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+/// A force that keeps its direction, on a point that moves with its body.
+struct PointLoad {
+  std::int32_t body = 0;
+  Vec3 arm = Vec3::Zero();                      // m, from the centroid, reference axes
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  // N
+};
+
+/// What acts beside gravity: each load rises from one value to another as `share` goes from 0 to 1.
+struct LoadsAtWork {
+  Vec3 acceleration_from = Vec3::Zero(), acceleration_to = Vec3::Zero();  // m/s2, on all free bodies
+  std::vector<PointLoad> points;                                          // by body
+  Array<std::int32_t> first;  // point load of each body, and one past the end; empty: no point loads
+
+  bool none() const { return first.empty() && acceleration_from.isZero(0.0) && acceleration_to.isZero(0.0); }
+  /// On one body at its present placement: force (N) and moment about its centroid (N m), world axes.
+  void act(const Model& model, const State& state, std::size_t body, double share, Triple<double>& force,
+           Triple<double>& moment) const;
+};
+
+/// Share of the way from rest to rest: the cycloid τ − sin 2πτ / 2π, τ = time / duration held between 0 and 1.
+double eased(double time, double duration);
+
+/// What acts at the end of a stage: its own loads, or those that an earlier one has left.
+Loads loads_after(const std::vector<StageSettings>& stages, std::size_t stage);
+
+/// Throws InputError for a group that the assembly does not have, that holds a fixed block, or that has more than one
+/// block where the force has a point. Forces on a group are shared in proportion to mass.
+LoadsAtWork loads_at_work(const Assembly& assembly, const Model& model, const Loads& from, const Loads& to);
+
+/// What acts in a collapse stage at a multiplier: `base` and the multiplied pattern, or gravity turned about the
+/// stage's axis by the arc tangent of the multiplier.
+Loads loads_at(const Loads& base, const StageSettings& stage, const Vec3& gravity, double multiplier);
+
+}  // namespace voussoir
