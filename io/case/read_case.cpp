@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/case/checks.h"
 #include "io/case/case.h"
 #include "io/case/degrees.h"
 #include "io/case/sections.h"
@@ -163,16 +164,19 @@ void read_joints(TableReader& root, Case& c) {
   }
 }
 
+toml::table parse_toml(const std::string& text, const std::string& path) {
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw InputError("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description());
+  }
+}
+
 Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   Case c;
   c.path = path;
   c.text = text;
-  toml::table table;
-  try {
-    table = toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    throw InputError("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description());
-  }
+  const toml::table table = parse_toml(text, path);
   TableReader root(table, path, "the case");
   read_bridge(root, c);
   read_materials(root, c);
@@ -180,6 +184,7 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   read_settings(root, c);
   read_stages(root, c, use);
   read_sensors(root, c);
+  read_checks(root);  // of no concern to a run, but a wrong one is said
   root.finish();
   c.hash = hash_text(resolved_text(c));
   for (const MotionSource& motion : c.motions)

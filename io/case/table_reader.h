@@ -22,6 +22,9 @@ struct Limits {
   bool above = false;  // low itself is not allowed
 };
 
+/// Throws InputError "FILE:LINE: not valid TOML: …".
+toml::table parse_toml(const std::string& text, const std::string& path);
+
 /// One table of a case file. It remembers which keys were asked for, so that finish() finds the keys nobody knows. All
 /// errors are InputError "FILE:LINE: …".
 class TableReader {

@@ -3,9 +3,8 @@
 
 #include <filesystem>
 
-#include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
-#include "tools/voussoir/directory_lock.h"
+#include "tools/voussoir/run_directory.h"
 #include "tools/voussoir/run_session.h"
 #include "tools/voussoir/verb.h"
 
@@ -37,35 +36,6 @@ void add_run_options(CommandLine& line) {
 /// Said before the first second is over: large cases take longer to build.
 void say_begun(const RunRequest& wanted, const std::string& from) {
   if (!wanted.quiet) fmt::print(stderr, "reading {}\n", from);
-}
-
-/// A fresh run directory with the resolved case and the assembly. An existing run is never overwritten unasked.
-DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
-  std::error_code failed;  // a name that cannot be looked up names no run
-  if (fs::exists(directory + "/case.toml", failed) && !overwrite)
-    throw InputError(
-        "{} already holds a run; go on with it (voussoir resume {}), choose another folder (-o DIR), or give "
-        "--overwrite",
-        directory, directory);
-  // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
-  const Assembly assembly = make_assembly(c);
-  try {
-    Simulation(assembly, c.settings, 1, {}).check();
-  } catch (const InputError& error) {
-    throw InputError("{}: {}", c.path, error.what());
-  }
-  fs::create_directories(directory, failed);
-  if (failed)
-    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
-  DirectoryLock lock(directory);
-  if (overwrite)
-    for (const char* old :
-         {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
-      if (fs::remove_all(fs::path(directory) / old, failed); failed)
-        throw RunError("cannot remove {}/{}: {}; choose another folder with -o DIR", directory, old, failed.message());
-  write_assembly(directory + "/assembly.h5", assembly);
-  write_resolved_case(c, directory);
-  return lock;
 }
 
 int run(const std::vector<std::string>& arguments) {

@@ -282,6 +282,23 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
+/// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
+/// 1e-5 of the largest.
+nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const Sensor& sensor : assembly.sensors) {
+    const std::vector<double>& u = history.values("sensors/" + sensor.id + "/displacement");
+    if (u.empty()) continue;
+    double largest = 0.0;
+    for (double x : u) largest = std::max(largest, std::abs(x));
+    std::size_t last = u.size();
+    while (last > 0 && std::abs(u[last - 1] - u.back()) <= 1e-5 * largest) --last;
+    json[sensor.id] = {
+        {"largest", largest}, {"residual", u.back()}, {"moves_until", last > 0 ? history.time()[last - 1] : 0.0}};
+  }
+  return json;
+}
+
 /// An earlier part of the run's; empty when there is none.
 nlohmann::json summary_of(const std::string& file) {
   std::ifstream in(file);
@@ -347,6 +364,7 @@ void RunSession::write_summary(RunEnd end) {
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}},
                          {"demand", demand_json(assembly_, history_)},
+                         {"sensors", sensors_json(assembly_, history_)},
                          {"damage", damage_json(assembly_, snapshot)}};
   if (!run.collapse().tries.empty())
     json["collapse"] = collapse_json(run);

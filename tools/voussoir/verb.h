@@ -21,6 +21,7 @@ Verb info_verb();
 Verb run_verb();
 Verb resume_verb();
 Verb render_verb();
+Verb check_verb();
 
 namespace options = boost::program_options;
 
@@ -30,6 +31,7 @@ struct CommandLine {
   options::options_description described{"Options"};
   std::vector<std::string> positional;  // names of the positional arguments, in order
   std::vector<std::string> required;    // those that must be there
+  std::string rest;                     // name of the list of all further positional arguments; empty: none allowed
   CommandLine(std::string verb_name, std::string usage_text, std::string example_text);
   /// False when help was asked for (and printed). Throws InputError for anything that does not fit.
   bool parse(const std::vector<std::string>& arguments, options::variables_map& values);

@@ -10,8 +10,8 @@
 namespace voussoir {
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(),
-                                         run_verb(),      resume_verb(), render_verb()};
+  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(), run_verb(),
+                                         resume_verb(),   render_verb(), check_verb()};
   return list;
 }
 
@@ -30,6 +30,10 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
   for (const std::string& name : positional) {
     hidden.add_options()(name.c_str(), options::value<std::string>());
     places.add(name.c_str(), 1);
+  }
+  if (!rest.empty()) {
+    hidden.add_options()(rest.c_str(), options::value<std::vector<std::string>>());
+    places.add(rest.c_str(), -1);
   }
   all.add(hidden);
   try {

@@ -1,0 +1,41 @@
+#include "tools/voussoir/run_directory.h"
+
+#include <filesystem>
+
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+#include "solver/step/simulation.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
+  std::error_code failed;  // a name that cannot be looked up names no run
+  if (fs::exists(directory + "/case.toml", failed) && !overwrite)
+    throw InputError(
+        "{} already holds a run; go on with it (voussoir resume {}), choose another folder (-o DIR), or give "
+        "--overwrite",
+        directory, directory);
+  // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
+  const Assembly assembly = make_assembly(c);
+  try {
+    Simulation(assembly, c.settings, 1, {}).check();
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", c.path, error.what());
+  }
+  fs::create_directories(directory, failed);
+  if (failed)
+    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+  DirectoryLock lock(directory);
+  if (overwrite)
+    for (const char* old :
+         {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
+      if (fs::remove_all(fs::path(directory) / old, failed); failed)
+        throw RunError("cannot remove {}/{}: {}; choose another folder with -o DIR", directory, old, failed.message());
+  write_assembly(directory + "/assembly.h5", assembly);
+  write_resolved_case(c, directory);
+  return lock;
+}
+
+}  // namespace voussoir

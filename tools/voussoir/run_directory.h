@@ -1,0 +1,12 @@
+// Run directories: how they begin.
+#pragma once
+#include "io/case/case.h"
+#include "tools/voussoir/directory_lock.h"
+
+namespace voussoir {
+
+/// A fresh run directory with the resolved case and the assembly, locked. An existing run is never overwritten unasked.
+/// Throws InputError, before anything is written, for what the case asks of its assembly and cannot be; RunError.
+DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite);
+
+}  // namespace voussoir
