@@ -12,12 +12,16 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
   const Vec3 half(0.5 * in("width"), 0.5 * in("depth"), 0.0);
   const double height = in("block_height");
   Layout layout;
-  const auto lay = [&](Component component, int i) {
+  for (int i = 0; i < n; ++i) {
     const Vec3 low(-half.x(), -half.y(), i * height), high(half.x(), half.y(), (i + 1) * height);
-    lay_stone(layout, {make_box(low, high)}, {component, 0, 0, high - low}, high - low, false);
-  };
-  for (int i = 0; i < n; ++i) lay(Component::block, i);
-  lay(Component::base, -1);
+    lay_stone(layout, {make_box(low, high)}, {Component::block, 0, 0, high - low}, high - low, false);
+  }
+  const auto or_as_wide = [](double wanted, double own) { return 0.5 * (wanted > 0.0 ? wanted : 2.0 * own); };
+  const Vec3 plinth(or_as_wide(in("base_width"), half.x()), or_as_wide(in("base_depth"), half.y()), 0.0);
+  const Vec3 low(-plinth.x(), -plinth.y(), -height), high(plinth.x(), plinth.y(), 0.0);
+  lay_stone(layout, {make_box(low, high)}, {Component::base, 0, 0, high - low}, high - low, false);
+  layout.groups["all"] = {};
+  for (int i = 0; i < n; ++i) layout.groups["all"].push_back(i);
   layout.groups["top"] = {n - 1};
   layout.groups["base"] = {n};
 
@@ -31,11 +35,13 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
 Generator column_generator() {
   Generator generator;
   generator.name = "column";
-  generator.help = "Stack of equal blocks on a fixed one of the same size; all joints, the base's too, are alike";
+  generator.help = "Stack of equal blocks on a fixed one; all joints, the base's too, are alike";
   generator.parameters = {{"blocks", 10.0, 1.0, 100000.0, "-", "number of moving blocks", true},
                           {"width", 1.0, 0.001, 100.0, "m", "along x, about x = 0"},
                           {"depth", 1.0, 0.001, 100.0, "m", "along y, about y = 0"},
                           {"block_height", 0.4, 0.001, 100.0, "m", "height of each block"},
+                          {"base_width", 0.0, 0.0, 1000.0, "m", "of the fixed block; 0: as the others"},
+                          {"base_depth", 0.0, 0.0, 1000.0, "m", "of the fixed block; 0: as the others"},
                           {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
                           {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};

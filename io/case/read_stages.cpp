@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/case/degrees.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/records/columns.h"
@@ -190,6 +191,21 @@ void read_drives(TableReader& table, StageSettings& stage) {
   }
 }
 
+void read_placements(TableReader& table, StageSettings& stage) {
+  for (TableReader& sub : table.tables("place")) {
+    Placement p;
+    p.group = sub.required_text("group");
+    p.move = sub.vector("move", p.move);
+    p.angle = to_radians(sub.number("angle", 0.0, {-180.0, 180.0, "degrees"}));
+    p.axis = sub.vector("axis", p.axis);
+    p.through = sub.vector("through", p.through);
+    if (p.axis.norm() < 1e-9) sub.fail("axis", "has no direction");
+    if (p.angle != 0.0 && !sub.has("through")) sub.missing("through", "a point of the axis, [x, y, z] in m");
+    sub.finish();
+    stage.placements.push_back(p);
+  }
+}
+
 void read_loads(TableReader& table, StageSettings& stage) {
   if (!table.has("load")) return;
   Loads loads;
@@ -245,6 +261,8 @@ void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
     const char* why = kind == StageSettings::Kind::gravity ? "ends in equilibrium" : "takes no simulated time";
     if (table.has("duration"))
       table.fail("duration", "has no meaning in a " + name + " stage, which " + why + ": remove it");
+    if (table.has("place"))
+      table.fail("place", "has no meaning in a " + name + " stage: place blocks in a free or motion stage");
     if (table.has("drive"))
       table.fail("drive",
                  "has no meaning in a " + name + " stage, which takes no time: drive in a free or motion stage");
@@ -274,7 +292,7 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
       stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0));
     if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, stage, source);
-    if (stage.timed()) read_drives(table, stage);
+    if (stage.timed()) read_drives(table, stage), read_placements(table, stage);
     read_loads(table, stage);
     if (stage.kind == StageSettings::Kind::collapse) {
       read_collapse(table, stage);

@@ -155,6 +155,14 @@ void write_drives(TomlText& out, const std::vector<Drive>& drives) {
   if (!texts.empty()) out.raw("drive", fmt::format("[{}]", fmt::join(texts, ", ")));
 }
 
+void write_placements(TomlText& out, const std::vector<Placement>& placements) {
+  std::vector<std::string> texts;
+  for (const Placement& p : placements)
+    texts.push_back(fmt::format("{{ group = {}, move = {}, angle = {}, axis = {}, through = {} }}", quoted(p.group),
+                                list_text(p.move), degrees_text(p.angle), list_text(p.axis), list_text(p.through)));
+  if (!texts.empty()) out.raw("place", fmt::format("[{}]", fmt::join(texts, ", ")));
+}
+
 void write_loads(TomlText& out, const Loads& loads) {
   std::vector<std::string> texts;
   if (!loads.acceleration.isZero(0.0))
@@ -183,6 +191,7 @@ void write_stages(TomlText& out, const Case& c) {
     if (stage.timed()) out.set("duration", stage.duration);
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
     write_drives(out, stage.drives);
+    write_placements(out, stage.placements);
     if (stage.loads) write_loads(out, *stage.loads);
     if (stage.kind == StageSettings::Kind::collapse) write_collapse(out, stage.collapse);
   }

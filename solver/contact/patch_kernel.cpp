@@ -52,8 +52,12 @@ void book_losses(const Patch& patch, const PointBefore& b, double plastic_openin
     return 0.5 * k * ((now + b.elastic[c]) * b.du[c] - now * now + b.elastic[c] * b.elastic[c]);
   };
   const double shear = lost(patch.ks, r.s, 1) + lost(patch.ks, r.t, 2);
-  r.friction = was_broken ? shear + (r.open ? 0.0 : patch.kn * r.n * plastic_opening) : 0.0;
-  r.fracture = was_broken ? 0.0 : shear + lost(patch.kn, r.n, 0);
+  if (was_broken) {
+    r.friction = shear + (r.open ? 0.0 : patch.kn * r.n * plastic_opening);
+    r.fracture = 0.0;
+  } else {  // what the law calls friction is friction, the rest went with the bond
+    r.fracture = shear + lost(patch.kn, r.n, 0) - r.friction;
+  }
 }
 
 /// Viscous jump of one point's branches after an elastic move to (n, s, t); the branches are emptied when the point
@@ -97,8 +101,7 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
     const PointBefore before = point_before(point, u, change, pm);
     const PointMemory old = pm;
     PointResult r = Law::update(law, patch.kn, patch.ks, u.x, u.y, u.z, pm);
-    if (!r.elastic && (old.broken || law.kind == JointLaw::Kind::brittle))
-      book_losses(patch, before, pm.n - old.n, old.broken, r);
+    if (!r.elastic) book_losses(patch, before, pm.n - old.n, old.broken, r);
     store_memory(patch, i, pm, memory);
     double damping = 0.0;
     Triple<double> viscous = {0.0, 0.0, 0.0};

@@ -43,4 +43,20 @@ void check_drives(const Assembly& assembly, const std::vector<StageSettings>& st
   }
 }
 
+void check_placements(const Assembly& assembly, const std::vector<StageSettings>& stages) {
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    for (const Placement& p : stages[i].placements) {
+      if (i > 0 && stages[i - 1].timed())
+        throw InputError(
+            "stage '{}' places the group '{}', but the blocks may be moving then: place them in the first "
+            "stage, or in one after a gravity stage",
+            stages[i].label, p.group);
+      for (std::int64_t block : group_of(assembly, p.group, "stage '" + stages[i].label + "' places", false))
+        if (assembly.blocks[std::size_t(block)].fixed)
+          throw InputError(
+              "stage '{}' places the group '{}', but its block {} is fixed: only free blocks can be placed",
+              stages[i].label, p.group, block);
+    }
+}
+
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Fixed blocks that the stages of a run move.
+// Fixed blocks that the stages of a run move, and free ones that they put somewhere else.
 #pragma once
 #include "geometry/assembly.h"
 #include "solver/step/settings.h"
@@ -13,5 +13,8 @@ const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::s
 /// Throws InputError when a stage drives a group that the assembly does not have, a block that is not fixed, or a block
 /// twice.
 void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages);
+
+/// The same for placements: of free blocks, in stages that begin from rest (the first, or after one without time).
+void check_placements(const Assembly& assembly, const std::vector<StageSettings>& stages);
 
 }  // namespace voussoir

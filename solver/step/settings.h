@@ -49,6 +49,15 @@ struct Loads {
   std::vector<ForceLoad> forces;
 };
 
+/// Blocks that are put somewhere else before a stage begins, as one rigid body: to be let go from there.
+struct Placement {
+  std::string group;         // of free blocks
+  Vec3 move = Vec3::Zero();  // m
+  double angle = 0.0;        // rad, about an axis; before the move
+  Vec3 axis = Vec3::UnitY();
+  Vec3 through = Vec3::Zero();  // m, a point of the axis in the present placement
+};
+
 /// How the multiplier of a load pattern is raised until equilibrium is lost.
 struct CollapseSettings {
   double to = 1.0;             // the multiplier is looked for between 0 and this
@@ -63,9 +72,10 @@ struct StageSettings {
   enum class Method { automatic, newton, relaxation };  // gravity only
   Kind kind = Kind::gravity;
   Method method = Method::automatic;
-  double duration = 0.0;      // s; motion and free
-  GroundMotion motion;        // motion only: scaled, in m/s2
-  std::vector<Drive> drives;  // motion and free; no group twice
+  double duration = 0.0;              // s; motion and free
+  GroundMotion motion;                // motion only: scaled, in m/s2
+  std::vector<Drive> drives;          // motion and free; no group twice
+  std::vector<Placement> placements;  // motion and free, from rest
   /// At the end of the stage and until another stage has some; none: as the stages before have left them. Of a collapse
   /// stage: the pattern that the multiplier multiplies.
   std::optional<Loads> loads;

@@ -43,6 +43,7 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
       model_(build_model(assembly, settings)),
       state_(initial_state(model_)) {
   check_drives(assembly, settings_.stages);
+  check_placements(assembly, settings_.stages);
   for (std::size_t i = 0; i < settings_.stages.size(); ++i)
     loads_at_work(assembly, model_, {}, loads_at({}, settings_.stages[i], model_.gravity, 1.0));
   stepper_.model = &model_;
@@ -200,6 +201,25 @@ bool Simulation::collapse(const StageSettings& stage) {
   return true;
 }
 
+/// Moves blocks before a stage begins; what they leave or meet is looked for at once.
+void Simulation::place(const StageSettings& stage) {
+  for (const Placement& p : stage.placements) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(p.angle, p.axis.normalized()));
+    for (std::int64_t block : group_of(*assembly_, p.group, "stage '" + stage.label + "' places", false)) {
+      const auto i = std::size_t(model_.body_of_block[std::size_t(block)]);
+      double* pose = &state_.pose[pose_width * i];
+      const Vec3 centre = model_.bodies[i].centroid + Vec3(pose[0], pose[1], pose[2]);
+      const Vec3 u = p.through + turn * (centre - p.through) + p.move - model_.bodies[i].centroid;
+      const Eigen::Quaterniond q = (turn * rotation_of(state_, i)).normalized();
+      pose[0] = u.x(), pose[1] = u.y(), pose[2] = u.z();
+      pose[3] = q.w(), pose[4] = q.x(), pose[5] = q.y(), pose[6] = q.z();
+    }
+  }
+  if (stage.placements.empty() || !model_.contact.search) return;
+  update_contacts(model_, state_, stepper_.damping.branches);
+  stepper_.prepare();
+}
+
 /// Step, damping branches and the energy at the start; once a stage, before its first step.
 void Simulation::begin_stage(const StageSettings& stage) {
   position_.stage_start = state_.time();
@@ -209,6 +229,7 @@ void Simulation::begin_stage(const StageSettings& stage) {
   if (from_rest) {  // without branches a patch pass changes nothing but what it finds: safe to look at the energy
     set_branches(model_, state_, 0);
     stepper_.damping = DampingAtWork{};
+    place(stage);
     stepper_.patches_only();
     state_.starting_energy() = compute_energies(stepper_, stepper_.body_pass()).total();
     const DampingAtWork damping = damping_at_work(settings_.damping, position_.dt, position_.highest);

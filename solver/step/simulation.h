@@ -88,6 +88,7 @@ class Simulation {
   bool gravity(const StageSettings& stage);
   bool collapse(const StageSettings& stage);
   void impose(const StageSettings& stage);
+  void place(const StageSettings& stage);
   bool stopped() const;
   RunEnd timed(const StageSettings& stage, double until);
   void change_contacts();

@@ -196,6 +196,24 @@ TEST_F(CaseFile, DrivesSurviveResolving) {
   }
 }
 
+TEST_F(CaseFile, PlacementsSurviveResolving) {
+  const std::string text =
+      "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"free\"\nduration = 2.0\nplace = [{ group = \"top\", "
+      "move = [0.1, 0.2, 0.3], angle = 7.0, axis = [1, 2, 3], through = [4, 5, 6] }, { group = \"all\" }]\n";
+  const Case c = parse_case(text, folder / "case.toml");
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const std::vector<Placement>& placements = one->settings.stages.at(0).placements;
+    ASSERT_EQ(placements.size(), 2u);
+    EXPECT_EQ(placements[0].move, Vec3(0.1, 0.2, 0.3));
+    EXPECT_NEAR(placements[0].angle, 7.0 * 3.14159265358979 / 180.0, 1e-14);
+    EXPECT_EQ(placements[0].axis, Vec3(1, 2, 3));
+    EXPECT_EQ(placements[0].through, Vec3(4, 5, 6));
+    EXPECT_EQ(placements[1].angle, 0.0);
+  }
+}
+
 TEST_F(CaseFile, LoadsAndCollapseSurviveResolving) {
   const std::string text =
       "[bridge]\ngenerator = \"arch\"\n[[stage]]\nkind = \"gravity\"\nload = [{ acceleration = [0.1, 0, 0] }]\n"

@@ -163,6 +163,14 @@ TEST(CaseErrors, AStepThatIsTooLarge) {
                       {"time_step = 0.01 s", "critical step", "block"});
 }
 
+TEST(CaseErrors, PlacementsOfWhatIsNotThereOrFixed) {
+  const auto refuse = [](const std::string& group, const std::vector<std::string>& pieces) {
+    expect_refused_with("duration = 0.5", "duration = 0.5\nplace = [{ group = \"" + group + "\" }]", pieces);
+  };
+  refuse("tpo", {"'tpo'", "did you mean 'top'?"});
+  refuse("base", {"'base'", "fixed"});
+}
+
 TEST(CaseErrors, DrivesOfWhatIsNotThereOrFree) {
   const auto refuse = [](const std::string& group, const std::vector<std::string>& pieces) {
     expect_refused_with("duration = 0.5",

@@ -59,6 +59,8 @@ std::vector<Channel> history_channels(const Assembly& assembly) {
   for (const Sensor& sensor : assembly.sensors) {
     channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
     channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
+    for (char axis : {'x', 'y', 'z'})
+      channels.push_back({fmt::format("sensors/{}/rotation_{}", sensor.id, axis), "rad"});
   }
   return channels;
 }
@@ -83,6 +85,12 @@ double sensor_velocity(const Simulation& run, const Sensor& sensor) {
   const Vec3 spin = q * (b.inverse_inertia * (q.conjugate() * momentum));
   const Vec3 arm = q * (sensor.position - b.centroid);
   return sensor.direction.dot(Vec3(motion[0], motion[1], motion[2]) + spin.cross(arm));
+}
+
+/// Rotation vector of a sensor's block since the reference placement, rad.
+Vec3 sensor_rotation(const Simulation& run, const Sensor& sensor) {
+  const Eigen::AngleAxisd turn(rotation_of(run.state(), std::size_t(run.model().body_of_block[sensor.block])));
+  return turn.angle() * turn.axis();
 }
 
 }  // namespace
@@ -142,6 +150,8 @@ void RunSession::append_history(const Sample& s) {
     const Vec3 u = relative_displacement(simulation_->model(), simulation_->state(), sensor.block, sensor.position);
     row.push_back(sensor.direction.dot(u));
     row.push_back(sensor_velocity(*simulation_, sensor));
+    const Vec3 turn = sensor_rotation(*simulation_, sensor);
+    for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
   }
   history_.append(row);
 }
@@ -283,7 +293,8 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
 }
 
 /// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
-/// 1e-5 of the largest.
+/// 1e-5 of the largest; first_zero (s): when it first changed sign (linear between rows, 0 when it never did). Of its
+/// block: largest rotation (rad), and whether it ended more than 45° from where it stood.
 nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
   nlohmann::json json = nlohmann::json::object();
   for (const Sensor& sensor : assembly.sensors) {
@@ -293,8 +304,23 @@ nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
     for (double x : u) largest = std::max(largest, std::abs(x));
     std::size_t last = u.size();
     while (last > 0 && std::abs(u[last - 1] - u.back()) <= 1e-5 * largest) --last;
-    json[sensor.id] = {
-        {"largest", largest}, {"residual", u.back()}, {"moves_until", last > 0 ? history.time()[last - 1] : 0.0}};
+    double first_zero = 0.0, turned = 0.0, most_turned = 0.0;
+    for (std::size_t i = 1; i < u.size() && first_zero == 0.0; ++i)
+      if (u[i - 1] * u[i] < 0.0)
+        first_zero = history.time()[i - 1] + u[i - 1] / (u[i - 1] - u[i]) * (history.time()[i] - history.time()[i - 1]);
+    std::array<const std::vector<double>*, 3> turn;
+    for (int c = 0; c < 3; ++c)
+      turn[std::size_t(c)] = &history.values(fmt::format("sensors/{}/rotation_{}", sensor.id, "xyz"[c]));
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      turned = Vec3((*turn[0])[i], (*turn[1])[i], (*turn[2])[i]).norm();
+      most_turned = std::max(most_turned, turned);
+    }
+    json[sensor.id] = {{"largest", largest},
+                       {"residual", u.back()},
+                       {"moves_until", last > 0 ? history.time()[last - 1] : 0.0},
+                       {"first_zero", first_zero},
+                       {"largest_rotation", most_turned},
+                       {"overturned", turned > 0.25 * std::numbers::pi}};
   }
   return json;
 }

@@ -1,0 +1,78 @@
+// Softening joints pulled and sheared through to the end by a driven plate: what they dissipate is the fracture energy
+// times their area, with a stiff plate, and with one so soft that the joint snaps back.
+#include <fmt/format.h>
+
+#include "solver/step/simulation.h"
+#include "tests/solver/measured.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+constexpr double kn = 1e10, ks = 4e9, GI = 50.0, GII = 200.0;  // Pa/m, J/m2
+
+/// A flat block between a base, on a softening joint of 2 m2, and a plate on a spring of so many Pa/m.
+Assembly between_base_and_plate(double spring) {
+  Assembly assembly = stone(2000.0);
+  add_box(assembly, {0, 0, -1}, {2, 1, 0}, true);
+  add_box(assembly, {0, 0, 0}, {2, 1, 0.02});
+  add_box(assembly, {0, 0, 0.02}, {2, 1, 1}, true);
+  assembly.groups["plate"] = {2};
+  JointLaw softening = dry_law(0.5);
+  softening.kind = JointLaw::Kind::softening;
+  softening.tension = 2e5, softening.cohesion = 4e5;
+  softening.fracture_energy = {GI, GII};
+  assembly = joined(std::move(assembly), kn, ks, softening);
+  assembly.laws.push_back(elastic_law());
+  for (Joint& joint : assembly.joints)
+    if (joint.a == 2 || joint.b == 2) joint.kn = joint.ks = spring, joint.law = 1;
+  return assembly;
+}
+
+struct Pulled {
+  double fracture = 0.0, balance = 0.0;
+};
+
+/// The plate goes so far in a second.
+Pulled pull(double spring, const Vec3& way, double step) {
+  StageSettings stage, rest;
+  stage.kind = rest.kind = StageSettings::Kind::free;
+  stage.duration = 1.0, rest.duration = 0.05;
+  stage.drives = {{"plate", Vec3::Zero(), way}};
+  SolverSettings settings = undamped();
+  settings.step.time_step = step;
+  settings.stages = {stage, rest};
+  Pulled result;
+  Observers observers;
+  observers.history = [&](const Simulation&, const Sample& s) { result.fracture = s.energies.fracture; };
+  const Assembly assembly = between_base_and_plate(spring);
+  Simulation run(assembly, settings, 1, observers);
+  EXPECT_EQ(run.run(), RunEnd::finished) << run.failure();
+  result.balance = run.worst_balance();
+  return result;
+}
+
+/// A spring softer than the softening branch (4e8 Pa/m in tension, 8e8 in shear) drives the joint through it in a snap:
+/// at the critical step within three steps, with 1.8 and 1.3 % too much dissipated. So that is tested at a third of it.
+constexpr double critical = 0.0, third = 3e-5;  // s; 0: the program's choice
+
+TEST(Softening, DissipatesGIInTension) {
+  for (const auto& [spring, step] : {std::pair{1e11, critical}, std::pair{1e8, third}}) {
+    const Pulled p = pull(spring, {0, 0, 5e-3}, step);
+    measured(fmt::format("fracture energy in tension, spring of {:g} Pa/m", spring), 2.0 * GI, p.fracture, "J");
+    EXPECT_NEAR(p.fracture, 2.0 * GI, 0.01 * 2.0 * GI) << spring;
+    EXPECT_LT(p.balance, 1e-2) << spring;
+  }
+}
+
+TEST(Softening, DissipatesGIIInShear) {
+  for (const auto& [spring, step] : {std::pair{1e11, critical}, std::pair{2e8, third}}) {
+    const Pulled p = pull(spring, {8e-3, 0, 0}, step);
+    measured(fmt::format("fracture energy in shear, spring of {:g} Pa/m", spring), 2.0 * GII, p.fracture, "J");
+    EXPECT_NEAR(p.fracture, 2.0 * GII, 0.01 * 2.0 * GII) << spring;
+    EXPECT_LT(p.balance, 1e-2) << spring;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir::test
