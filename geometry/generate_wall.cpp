@@ -16,6 +16,11 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
   for (std::size_t i = 0; i < layout.stones.size(); ++i) {
     if (bounding_box(layout.stones[i].cells[0]).high.z() > height - 0.5 * block.z()) top.push_back(std::int64_t(i));
   }
+  if (const double beam = in("beam_height"); beam > 0.0) {
+    layout.groups["beam"] = {std::int64_t(layout.stones.size())};
+    const Vec3 from(0.0, -half, height), to(length, half, height + beam);
+    lay_stone(layout, {make_box(from, to)}, {Component::restraint, 0, 0, to - from}, to - from, false);
+  }
   layout.groups["base"] = {std::int64_t(layout.stones.size())};
   const Vec3 low(0.0, -half, -block.z()), high(length, half, 0.0);
   lay_stone(layout, {make_box(low, high)}, {Component::base, 0, 0, high - low}, high - low, false);
@@ -38,6 +43,7 @@ Generator wall_generator() {
                           {"block_length", 0.60, 0.001, 20.0, "m", "along the wall (x)"},
                           {"block_height", 0.50, 0.001, 20.0, "m", "course height (z)"},
                           {"thickness", 0.45, 0.001, 20.0, "m", "of the wall (y), one block"},
+                          {"beam_height", 0.0, 0.0, 20.0, "m", "of a fixed loading beam over the top course; 0: none"},
                           {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
                           {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};

@@ -33,6 +33,22 @@ struct MotionSource {
   SyntheticSettings synthetic;
 };
 
+/// A curve from elsewhere beside a plotted one, in the plot's units: two columns of text.
+struct MeasuredCurve {
+  std::string file, label;
+  std::string text;  // the file's; empty when there is no such file
+};
+
+/// A picture to draw at the end of a run: one history channel over another.
+struct PlotSpec {
+  std::string name;                       // of the file in images/, without .png
+  std::string title, label = "computed";  // above the chart; in the legend
+  std::string x = "time", y;              // channels
+  double x_factor = 1.0, y_factor = 1.0;  // to the plot's units
+  std::string x_label, y_label;           // empty: the channel and, without a factor, its unit
+  std::vector<MeasuredCurve> measured;
+};
+
 struct Case {
   std::string path, text;          // the file and its contents
   std::string generator;           // name, or empty when the assembly comes from a file
@@ -41,7 +57,9 @@ struct Case {
   SolverSettings settings;
   std::vector<MotionSource> motions;  // one per stage of settings
   std::vector<SensorSpec> sensors;
-  std::uint64_t hash = 0;  // of the resolved text and the records: equal for a case and its resolved copy
+  std::vector<PlotSpec> plots;
+  std::uint64_t hash =
+      0;  // of the resolved text without plots, and the records: equal for a case and its resolved copy
 };
 
 /// What a case is read for: a case for geometry or modes may have no [[stage]].

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/case/checks.h"
 #include "io/case/case.h"
+#include "io/case/checks.h"
 #include "io/case/degrees.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
@@ -184,9 +184,10 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   read_settings(root, c);
   read_stages(root, c, use);
   read_sensors(root, c);
-  read_checks(root);  // of no concern to a run, but a wrong one is said
+  read_checks(root);                     // of no concern to a run, but a wrong one is said
+  c.hash = hash_text(resolved_text(c));  // before the plots, which change nothing in a run
+  read_plots(root, c);
   root.finish();
-  c.hash = hash_text(resolved_text(c));
   for (const MotionSource& motion : c.motions)
     for (const std::string& record : motion.texts) c.hash = hash_bytes(record.data(), record.size(), c.hash);
   return c;

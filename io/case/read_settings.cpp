@@ -73,6 +73,28 @@ Vec3 read_direction(TableReader& table) {
   return std::abs(length - 1.0) < 1e-12 ? v : Vec3(v / length);
 }
 
+void read_guides(TableReader& root, std::vector<Guide>& guides) {
+  for (TableReader& table : root.tables("guide")) {
+    Guide guide;
+    guide.group = table.required_text("group");
+    guide.turn = table.flag("turn", false);
+    if (!table.has("free") && !guide.turn)
+      table.missing("free", R"(the axes along which the group may move, such as ["z"], or 'turn' = true)");
+    for (const std::string& axis : table.has("free") ? table.texts("free") : std::vector<std::string>{}) {
+      const std::size_t c = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;
+      if (c == std::string::npos)
+        table.fail("free", fmt::format(R"(holds "{}": must be "x", "y" or "z", or a list of them)", axis));
+      guide.free[c] = true;
+    }
+    for (const Guide& other : guides)
+      if (other.group == guide.group)
+        table.fail("group",
+                   fmt::format("is \"{}\", which another [[guide]] has: name all its axes in one", guide.group));
+    table.finish();
+    guides.push_back(std::move(guide));
+  }
+}
+
 }  // namespace
 
 void read_settings(TableReader& root, Case& c) {
@@ -80,6 +102,7 @@ void read_settings(TableReader& root, Case& c) {
   if (auto table = root.table("analysis", "[analysis]")) read_analysis(*table, c.settings);
   if (auto table = root.table("contact", "[contact]")) read_contact(*table, c.settings.contact);
   if (auto table = root.table("damping", "[damping]")) read_damping(*table, c.settings.damping);
+  read_guides(root, c.settings.guides);
   if (auto table = root.table("output", "[output]")) read_output(*table, c.settings.output);
   c.generator_input.gap_tolerance = c.settings.contact.gap_tolerance;
 }

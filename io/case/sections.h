@@ -11,11 +11,15 @@ void read_joints(TableReader& root, Case& c);
 void read_settings(TableReader& root, Case& c);  // analysis, contact, damping, output
 void read_stages(TableReader& root, Case& c, CaseUse use);
 void read_sensors(TableReader& root, Case& c);
+void read_plots(TableReader& root, Case& c);
 
 /// `name` as seen from the folder of the file `beside`, unless it is absolute.
 std::string relative_to(const std::string& beside, const std::string& name);
 /// Name of the copy of a record in a run directory: motion_<stage>_<axis>.txt, stages counted from 1.
 std::string motion_file_name(std::size_t stage, int axis);
+
+/// Name of the copy of a measured curve in a run directory, both counted from 0.
+std::string measured_file_name(std::size_t plot, std::size_t curve);
 
 inline constexpr const char* axis_names[] = {"x", "y", "z"};
 

@@ -181,6 +181,18 @@ void write_collapse(TomlText& out, const CollapseSettings& collapse) {
   out.set("confirm", collapse.confirm);
 }
 
+void write_guides(TomlText& out, const std::vector<Guide>& guides) {
+  for (const Guide& guide : guides) {
+    std::vector<std::string> ways;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (guide.free[c]) ways.push_back(quoted(axis_names[c]));
+    out.heading("[[guide]]");
+    out.set("group", guide.group);
+    out.raw("free", fmt::format("[{}]", fmt::join(ways, ", ")));
+    out.set_flag("turn", guide.turn);
+  }
+}
+
 void write_stages(TomlText& out, const Case& c) {
   for (std::size_t i = 0; i < c.settings.stages.size(); ++i) {
     const StageSettings& stage = c.settings.stages[i];
@@ -197,6 +209,30 @@ void write_stages(TomlText& out, const Case& c) {
   }
 }
 
+/// A curve that was read stands beside the resolved case; one that was not there keeps the name it was looked for by.
+void write_plots(TomlText& out, const std::vector<PlotSpec>& plots) {
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const PlotSpec& plot = plots[i];
+    out.heading("[[plot]]");
+    for (const auto& [key, text] : {std::pair{"name", &plot.name},
+                                    {"title", &plot.title},
+                                    {"label", &plot.label},
+                                    {"x", &plot.x},
+                                    {"y", &plot.y},
+                                    {"x_label", &plot.x_label},
+                                    {"y_label", &plot.y_label}})
+      out.set(key, *text);
+    out.set("x_factor", plot.x_factor);
+    out.set("y_factor", plot.y_factor);
+    for (std::size_t k = 0; k < plot.measured.size(); ++k) {
+      const MeasuredCurve& curve = plot.measured[k];
+      out.heading("[[plot.measured]]");
+      out.set("file", curve.text.empty() ? curve.file : measured_file_name(i, k));
+      out.set("label", curve.label);
+    }
+  }
+}
+
 }  // namespace
 
 std::string resolved_text(const Case& c) {
@@ -204,6 +240,7 @@ std::string resolved_text(const Case& c) {
   write_bridge(out, c);
   write_joints(out, c);
   write_settings(out, c.settings);
+  write_guides(out, c.settings.guides);
   write_stages(out, c);
   for (const SensorSpec& sensor : c.sensors) {
     out.heading("[[sensor]]");
@@ -211,6 +248,7 @@ std::string resolved_text(const Case& c) {
     out.raw("position", vector_text(sensor.position));
     out.raw("direction", vector_text(sensor.direction));
   }
+  write_plots(out, c.plots);
   return out.text_;
 }
 
@@ -220,6 +258,10 @@ void write_resolved_case(const Case& c, const std::string& directory) {
     for (int axis = 0; axis < 3; ++axis)
       if (!c.motions[i].files[std::size_t(axis)].empty())
         write_atomically((folder / motion_file_name(i, axis)).string(), c.motions[i].texts[std::size_t(axis)]);
+  for (std::size_t i = 0; i < c.plots.size(); ++i)
+    for (std::size_t k = 0; k < c.plots[i].measured.size(); ++k)
+      if (const std::string& text = c.plots[i].measured[k].text; !text.empty())
+        write_atomically((folder / measured_file_name(i, k)).string(), text);
   write_atomically((folder / "case.toml").string(), resolved_text(c));
 }
 

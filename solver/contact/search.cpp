@@ -163,7 +163,7 @@ std::vector<Key> candidate_pairs(const Model& model, const State& state, const M
   const auto consider = [&](std::size_t i, std::size_t j) {
     const auto [a, ca] = owner[i];
     const auto [b, cb] = owner[j];
-    if (a == b || (model.bodies[a].fixed && model.bodies[b].fixed) || !(moved.flag[a] || moved.flag[b])) return;
+    if (a == b || (model.bodies[a].still() && model.bodies[b].still()) || !(moved.flag[a] || moved.flag[b])) return;
     pairs.push_back(a < b ? Key{a, b, ca, cb} : Key{b, a, cb, ca});
   };
   std::vector<std::size_t> few;

@@ -50,9 +50,12 @@ OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns) {
     const std::int32_t at = unknowns.of_body[i];
     if (at < 0) continue;
     const BodyUpdate u = pass.update(i);
-    r.force.segment<6>(at) << u.force.x, u.force.y, u.force.z, u.moment.x, u.moment.y, u.moment.z;
-    r.largest = std::max(r.largest, std::sqrt(dot(u.force, u.force)));
-    r.largest = std::max(r.largest, std::sqrt(dot(u.moment, u.moment)) / size);
+    Eigen::Matrix<double, 6, 1> force;
+    force << u.force.x, u.force.y, u.force.z, u.moment.x, u.moment.y, u.moment.z;
+    for (int c = 0; c < 6; ++c)
+      if (stepper.model->bodies[i].held(c)) force[c] = 0.0;
+    r.force.segment<6>(at) = force;
+    r.largest = std::max({r.largest, force.head<3>().norm(), force.tail<3>().norm() / size});
   }
   r.largest /= std::max(stepper.model->average_weight, 1e-300);
   return r;

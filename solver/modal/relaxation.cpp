@@ -48,7 +48,7 @@ void choose_inertia(bool again, State& state, Model& model) {
   const std::vector<Matrix6> blocks = body_stiffness(model, state, PatchTangent::intact);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Body& body = model.bodies[i];
-    if (body.fixed) continue;
+    if (body.still()) continue;
     double mass = 0.0;
     Mat3 inertia;
     least_inertia(blocks[i], model.typical_size, mass, inertia);

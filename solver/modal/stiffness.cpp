@@ -118,7 +118,11 @@ Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch)
 /// K of one patch for small motions of both its bodies.
 Eigen::Matrix<double, 12, 12> pair_stiffness(const Model& model, const State& state, std::size_t index,
                                              PatchTangent kind) {
-  const Matrix6x12 rows = jump_rows(model, state, patch_at(model, state, index));
+  const Patch& patch = patch_at(model, state, index);
+  Matrix6x12 rows = jump_rows(model, state, patch);
+  for (const auto& [body, column] : {std::pair{patch.a, 0}, std::pair{patch.b, 6}})
+    for (int c = 0; c < 6; ++c)
+      if (!model.bodies[body].still() && model.bodies[body].held(c)) rows.col(column + c).setZero();
   return rows.transpose() * patch_stiffness(model, state, index, kind) * rows;
 }
 
@@ -182,8 +186,8 @@ SparseMatrix to_columns(const Pattern& pattern, const Unknowns& unknowns, const 
 Unknowns number_unknowns(const Model& model) {
   Unknowns unknowns;
   for (const Body& body : model.bodies) {
-    unknowns.of_body.push_back(body.fixed ? -1 : unknowns.count);
-    if (!body.fixed) unknowns.count += 6;
+    unknowns.of_body.push_back(body.still() ? -1 : unknowns.count);
+    if (!body.still()) unknowns.count += 6;
   }
   return unknowns;
 }
@@ -250,6 +254,8 @@ Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unk
     const Mat3 r = rotation_of(state, i).toRotationMatrix();
     y.segment<3>(at) = x.segment<3>(at) / body.inertial_mass;
     y.segment<3>(at + 3) = r * (body.inverse_inertia * (r.transpose() * x.segment<3>(at + 3)));
+    for (int c = 0; c < 6; ++c)
+      if (body.held(c)) y[at + c] = 0.0;
   }
   return y;
 }

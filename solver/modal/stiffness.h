@@ -9,9 +9,10 @@ namespace voussoir {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;  // symmetric ones hold their lower triangle
 
-/// Unknowns: six a free body (displacement, rotation vector; world axes, at the centroid), in body order.
+/// Unknowns: six a free body (displacement, rotation vector; world axes, at the centroid), in body order. A guided body
+/// has six too; where it is held K is zero and so are forces and accelerations.
 struct Unknowns {
-  std::vector<std::int32_t> of_body;  // first unknown of each body, −1 where fixed
+  std::vector<std::int32_t> of_body;  // first unknown of each body, −1 where all of it is fixed
   std::int32_t count = 0;
 };
 Unknowns number_unknowns(const Model& model);

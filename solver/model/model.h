@@ -23,8 +23,13 @@ struct Body {
   double inertial_mass = 0.0;    // kg, moves (differs from mass only under mass scaling)
   Mat3 inertia = Mat3::Zero();   // kg m2, reference axes, scaled like inertial_mass
   Mat3 inverse_inertia = Mat3::Zero();
-  double radius = 0.0;  // m, centroid to the farthest vertex
-  bool fixed = false;   // moves with the ground, or as a stage drives it
+  double radius = 0.0;         // m, centroid to the farthest vertex
+  bool fixed = false;          // moves with the ground, or as a stage drives it
+  std::uint8_t free_ways = 0;  // of a fixed body: bit c is set where a guide lets it move along axis c
+  bool turns = false;          // of a fixed body: a guide lets it turn
+  /// Whether displacement (c < 3) or rotation c is prescribed.
+  bool held(int c) const { return fixed && !(c < 3 ? free_ways >> c & 1 : turns); }
+  bool still() const { return fixed && free_ways == 0 && !turns; }
 };
 
 /// Geometry of one patch for the point-by-point path. The local axes (n, s, t) are held by both bodies: e_a and e_b

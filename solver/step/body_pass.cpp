@@ -85,6 +85,57 @@ double load_work(const BodyPass& pass, std::size_t i, const BodyUpdate& next, co
   return 0.5 * pass.dt * (dot(next.load, velocity) + dot(next.load_moment, omega));
 }
 
+/// The rotational half of a step under a moment, which damping changes.
+void BodyPass::turn(std::size_t i, Triple<double> m, BodyUpdate& r) const {
+  const Body& body = model->bodies[i];
+  const double* pose = &state->pose[pose_width * i];
+  const Triple<double> l = triple(&state->motion[motion_width * i + 3]);
+  if (local > 0.0) r.loss += damp_locally(local, dt, m, spin(body, pose_rotation(pose), l));
+  const double h = 0.5 * dt * mass_rate;  // centred: the mean of both half steps is damped
+  if (h == 0.0) {
+    r.momentum = l + dt * m;
+    return;
+  }
+  r.momentum = (1.0 / (1.0 + h)) * ((1.0 - h) * l + dt * m);
+  const Triple<double> mean = 0.5 * (l + r.momentum);
+  r.loss += mass_rate * dt * dot(mean, spin(body, pose_rotation(pose), mean));
+}
+
+/// A fixed body goes where it is told to; along the axes that a guide leaves free, and turning where it may, as
+/// patches, gravity and loads take it.
+BodyUpdate BodyPass::held_update(std::size_t i, const Triple<double>& patches, const Triple<double>& moment) const {
+  const Body& body = model->bodies[i];
+  BodyUpdate r;
+  r.force = patches;
+  r.moment = moment;
+  r.momentum = {0, 0, 0};
+  const Vec3 prescribed = prescribed_velocity(i);
+  r.velocity = {prescribed.x(), prescribed.y(), prescribed.z()};
+  if (body.still()) return r;
+  Triple<double> load = {0, 0, 0}, load_moment = {0, 0, 0};
+  if (loads) loads->act(*model, *state, i, load_share, load, load_moment);
+  const double* motion = &state->motion[motion_width * i];
+  const double h = 0.5 * dt * mass_rate;
+  for (int c = 0; c < 3; ++c) {
+    if (body.held(c)) continue;
+    const double v = motion[c], base = 0.5 * (base_velocity_now[c] + base_velocity_next[c]);
+    (&r.load.x)[c] = (&load.x)[c];
+    double& f = (&r.force.x)[c];
+    f += body.mass * model->gravity[c] + (&load.x)[c];
+    const double cut = local * std::abs(f) * sign(v);
+    const double next = ((1.0 - h) * v + dt / body.inertial_mass * (f - cut) + 2.0 * h * base) / (1.0 + h);
+    const double mean = 0.5 * (v + next);
+    r.loss += dt * cut * v + mass_rate * dt * body.inertial_mass * (mean - base) * mean;
+    (&r.velocity.x)[c] = next;
+  }
+  if (body.turns) {
+    r.load_moment = load_moment;
+    r.moment = r.moment + load_moment;
+    turn(i, r.moment, r);
+  }
+  return r;
+}
+
 BodyUpdate BodyPass::update(std::size_t i) const {
   const Body& body = model->bodies[i];
   const double* pose = &state->pose[pose_width * i];
@@ -104,14 +155,7 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   }
   const Triple<double> x = {body.centroid.x() + pose[0], body.centroid.y() + pose[1], body.centroid.z() + pose[2]};
   m = m - cross(x, f);
-  if (body.fixed) {
-    r.force = f;
-    r.moment = m;
-    const Vec3 v = prescribed_velocity(i);
-    r.velocity = {v.x(), v.y(), v.z()};
-    r.momentum = {0, 0, 0};
-    return r;
-  }
+  if (body.fixed) return held_update(i, f, m);
   const Vec3& g = model->gravity;
   f = f + body.mass * Triple<double>{g.x(), g.y(), g.z()};
   if (loads) {
@@ -121,26 +165,20 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   }
   r.force = f;
   r.moment = m;
-  const Triple<double> v = triple(motion), l = triple(motion + 3);
-  if (local > 0.0) {
-    r.loss += damp_locally(local, dt, f, v);
-    r.loss += damp_locally(local, dt, m, spin(body, pose_rotation(pose), l));
-  }
+  const Triple<double> v = triple(motion);
+  if (local > 0.0) r.loss += damp_locally(local, dt, f, v);
   if (mass_rate > 0.0) {  // centred: the mean of both half-step velocities is damped, relative to the ground's
     const double h = 0.5 * dt * mass_rate;
     const Vec3 ground = 0.5 * (base_velocity_now + base_velocity_next);
     const Triple<double> base = {ground.x(), ground.y(), ground.z()};
     r.velocity = (1.0 / (1.0 + h)) * ((1.0 - h) * v + (dt / body.inertial_mass) * f + (2.0 * h) * base);
-    r.momentum = (1.0 / (1.0 + h)) * ((1.0 - h) * l + dt * m);
-    const Triple<double> mean = 0.5 * (v + r.velocity), turn_mean = 0.5 * (l + r.momentum);
+    const Triple<double> mean = 0.5 * (v + r.velocity);
     // What the body gives up: lost in the dampers, or handed to the ground they stand on.
-    r.loss +=
-        mass_rate * dt *
-        (body.inertial_mass * dot(mean - base, mean) + dot(turn_mean, spin(body, pose_rotation(pose), turn_mean)));
+    r.loss += mass_rate * dt * body.inertial_mass * dot(mean - base, mean);
   } else {
     r.velocity = v + (dt / body.inertial_mass) * f;
-    r.momentum = l + dt * m;
   }
+  turn(i, m, r);
   return r;
 }
 
@@ -151,19 +189,20 @@ BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
     double* pose = &state->pose[pose_width * i];
     double* motion = &state->motion[motion_width * i];
     const BodyUpdate next = update(i);
-    // The ground supplies what the patches take of a fixed body, over the mean of both half steps; likewise the loads.
-    if (body.fixed)
-      motion[6] -= 0.5 * dt * dot(next.force, triple(motion) + next.velocity);
-    else if (loads)
+    // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
+    // the loads.
+    for (int c = 0; c < 3; ++c)
+      if (body.held(c)) motion[6] -= 0.5 * dt * (&next.force.x)[c] * (motion[c] + (&next.velocity.x)[c]);
+    if (loads && !body.still())
       motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
     motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;
+    motion[3] = next.momentum.x, motion[4] = next.momentum.y, motion[5] = next.momentum.z;
+    motion[7] += next.loss;
     for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
-    if (body.fixed) {
+    if (body.held(3)) {
       report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
       continue;
     }
-    motion[3] = next.momentum.x, motion[4] = next.momentum.y, motion[5] = next.momentum.z;
-    motion[7] += next.loss;
     const Quat<double> q = pose_rotation(pose);
     const Quat<double> half = rotate(q, spin(body, q, next.momentum), 0.5 * dt);
     const Quat<double> turned = normalised(rotate(q, spin(body, half, next.momentum), dt));

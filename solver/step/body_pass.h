@@ -56,6 +56,8 @@ struct BodyPass {
     return which < 0 ? base_velocity_next : base_velocity_next + drive_velocity[std::size_t(which)];
   }
   BodyUpdate update(std::size_t body) const;
+  void turn(std::size_t body, Triple<double> moment, BodyUpdate& update) const;
+  BodyUpdate held_update(std::size_t body, const Triple<double>& patches, const Triple<double>& moment) const;
   BodyReport bodies(std::size_t begin, std::size_t end) const;
 };
 

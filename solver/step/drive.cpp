@@ -27,7 +27,40 @@ const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::s
   throw InputError("{} the group '{}', which the assembly does not have{}", who, name, suggestion(name, known));
 }
 
-void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages) {
+void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Model& model) {
+  for (const Guide& guide : guides)
+    for (std::int64_t block : group_of(assembly, guide.group, "a [[guide]] is for", true)) {
+      if (!assembly.blocks[std::size_t(block)].fixed)
+        throw InputError(
+            "a [[guide]] is for the group '{}', but its block {} is free already: only fixed blocks are guided",
+            guide.group, block);
+      Body& body = model.bodies[std::size_t(model.body_of_block[std::size_t(block)])];
+      for (int c = 0; c < 3; ++c)
+        if (guide.free[std::size_t(c)]) body.free_ways |= std::uint8_t(1 << c);
+      body.turns |= guide.turn;
+    }
+}
+
+std::vector<std::string> names_held(const SolverSettings& settings) {
+  std::set<std::string> names;
+  for (const Guide& guide : settings.guides) names.insert(guide.group);
+  for (const StageSettings& stage : settings.stages)
+    for (const Drive& drive : stage.drives) names.insert(drive.group);
+  return {names.begin(), names.end()};
+}
+
+void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages,
+                  const std::vector<Guide>& guides) {
+  for (const StageSettings& stage : stages)
+    for (const Drive& drive : stage.drives)
+      for (const Guide& guide : guides)
+        for (std::size_t c = 0; c < 3; ++c)
+          if (guide.group == drive.group && guide.free[c] &&
+              (drive.velocity[long(c)] != 0.0 || drive.displacement[long(c)] != 0.0))
+            throw InputError(
+                "stage '{}' drives the group '{}' along {}, but a [[guide]] leaves it free there: set that number "
+                "to 0, or hold it",
+                stage.label, drive.group, "xyz"[c]);
   for (const StageSettings& stage : stages) {
     std::set<std::int64_t> driven;
     for (const Drive& drive : stage.drives)

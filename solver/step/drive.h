@@ -1,7 +1,7 @@
 // Fixed blocks that the stages of a run move, and free ones that they put somewhere else.
 #pragma once
 #include "geometry/assembly.h"
-#include "solver/step/settings.h"
+#include "solver/model/model.h"
 
 namespace voussoir {
 
@@ -10,9 +10,15 @@ namespace voussoir {
 const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::string& name, const std::string& who,
                                           bool fixed);
 
-/// Throws InputError when a stage drives a group that the assembly does not have, a block that is not fixed, or a block
-/// twice.
-void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages);
+/// Throws InputError when a stage drives a group that the assembly does not have, a block that is not fixed, a block
+/// twice, or one along an axis on which it is free.
+void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages, const std::vector<Guide>& guides);
+
+/// Lets fixed bodies move where guides say so. Throws InputError for groups that are not there or not fixed.
+void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Model& model);
+
+/// Names of the groups that are guided or driven, each once, in the order of their names.
+std::vector<std::string> names_held(const SolverSettings& settings);
 
 /// The same for placements: of free blocks, in stages that begin from rest (the first, or after one without time).
 void check_placements(const Assembly& assembly, const std::vector<StageSettings>& stages);

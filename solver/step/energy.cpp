@@ -75,19 +75,22 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
   e.external_work += motion[6];
   e.body_damping += motion[7];
   const BodyUpdate next = pass.update(i);
-  if (body.fixed) {  // the half step that leads up to now; the other half is added with the step itself
-    e.external_work -= 0.5 * pass.dt * dot(next.force, triple(motion));
-    return;
-  }
+  // The half step that leads up to now; the other half is added with the step itself.
+  for (int c = 0; c < 3; ++c)
+    if (body.held(c)) e.external_work -= 0.5 * pass.dt * (&next.force.x)[c] * motion[c];
+  if (body.still()) return;
   e.body_damping += 0.5 * next.loss;
   if (pass.loads) e.external_work += load_work(pass, i, next, triple(motion), triple(motion + 3));
   // ½ v⁻·M v⁺: with this product, not with the square of the mean, the leapfrog keeps the energy of a linear system
   // exactly.
   const Triple<double> before = turn_back(pose_rotation(pose), triple(motion + 3));
   const Triple<double> after = turn_back(pose_rotation(pose), next.momentum);
-  e.kinetic += 0.5 * body.inertial_mass * dot(triple(motion), next.velocity) +
-               0.5 * Vec3(before.x, before.y, before.z).dot(body.inverse_inertia * Vec3(after.x, after.y, after.z));
-  e.gravitational -= body.mass * stepper.model->gravity.dot(Vec3(pose[0], pose[1], pose[2]));
+  for (int c = 0; c < 3; ++c) {
+    if (body.held(c)) continue;
+    e.kinetic += 0.5 * body.inertial_mass * motion[c] * (&next.velocity.x)[c];
+    e.gravitational -= body.mass * stepper.model->gravity[c] * pose[c];
+  }
+  e.kinetic += 0.5 * Vec3(before.x, before.y, before.z).dot(body.inverse_inertia * Vec3(after.x, after.y, after.z));
 }
 
 }  // namespace

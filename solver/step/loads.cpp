@@ -49,9 +49,10 @@ void add_points(const Assembly& assembly, const Model& model, const ForceLoad& l
   for (std::int64_t block : blocks) mass += assembly.blocks[block].mass;
   for (std::int64_t block : blocks) {
     const Block& b = assembly.blocks[block];
-    if (b.fixed)
-      throw InputError("a load acts on the group '{}', but its block {} is fixed: only free blocks can be loaded",
-                       load.group, block);
+    if (model.bodies[std::size_t(model.body_of_block[std::size_t(block)])].still())
+      throw InputError(
+          "a load acts on the group '{}', but its block {} is fixed: only free and guided blocks can be loaded",
+          load.group, block);
     PointLoad point;
     point.body = model.body_of_block[block];
     if (load.at) point.arm = *load.at - b.centroid;

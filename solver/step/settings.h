@@ -49,6 +49,14 @@ struct Loads {
   std::vector<ForceLoad> forces;
 };
 
+/// Fixed blocks that are free to move along some axes, or to turn about their centroids: a loading beam that is kept
+/// level, or is hinged.
+struct Guide {
+  std::string group;                                 // of the assembly; all its blocks are fixed
+  std::array<bool, 3> free = {false, false, false};  // along x, y, z
+  bool turn = false;
+};
+
 /// Blocks that are put somewhere else before a stage begins, as one rigid body: to be let go from there.
 struct Placement {
   std::string group;         // of free blocks
@@ -114,6 +122,7 @@ struct SolverSettings {
   DampingSettings damping;
   ContactSettings contact;
   StepSettings step;
+  std::vector<Guide> guides;
   std::vector<StageSettings> stages;
   OutputSettings output;
 };

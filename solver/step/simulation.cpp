@@ -42,10 +42,12 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
       observers_(std::move(observers)),
       model_(build_model(assembly, settings)),
       state_(initial_state(model_)) {
-  check_drives(assembly, settings_.stages);
+  apply_guides(assembly, settings_.guides, model_);
+  check_drives(assembly, settings_.stages, settings_.guides);
   check_placements(assembly, settings_.stages);
   for (std::size_t i = 0; i < settings_.stages.size(); ++i)
     loads_at_work(assembly, model_, {}, loads_at({}, settings_.stages[i], model_.gravity, 1.0));
+  held_groups_ = names_held(settings_);
   stepper_.model = &model_;
   stepper_.state = &state_;
   stepper_.shortcut = settings.step.intact_shortcut;
@@ -103,7 +105,7 @@ double Simulation::contact_bound() const {
   const auto add = [&](const Patch& p) {
     for (const auto& [body, arm] : {std::pair{p.a, p.arm_a}, std::pair{p.b, p.arm_b}}) {
       const Body& b = model_.bodies[body];
-      if (b.fixed) continue;
+      if (b.still()) continue;
       const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
       const double inertia = b.inertia.diagonal().minCoeff();
       bound[body] += std::max(p.kn, p.ks) * (p.area / b.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
@@ -258,6 +260,18 @@ void Simulation::change_contacts() {
                   body_name(*assembly_, model_, critical.body)));
 }
 
+/// What holds or drives a group, along the axes on which it is held, N.
+Vec3 Simulation::reaction(const BodyPass& pass, const std::string& group) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::int64_t block : assembly_->groups.at(group)) {
+    const auto i = std::size_t(model_.body_of_block[std::size_t(block)]);
+    const Triple<double> f = pass.update(i).force;
+    for (int c = 0; c < 3; ++c)
+      if (model_.bodies[i].held(c)) sum[c] -= (&f.x)[c];
+  }
+  return sum;
+}
+
 void Simulation::sample(const BodyPass& pass) {
   Sample s;
   s.time = state_.time();
@@ -272,6 +286,7 @@ void Simulation::sample(const BodyPass& pass) {
   s.base_displacement = state_.base_displacement();
   s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.stage_start);
   s.contacts = std::int64_t(state_.contacts.size());
+  for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
   if (observers_.history) observers_.history(*this, s);
 }
 

@@ -32,6 +32,7 @@ struct Sample {
   double balance_error = 0.0;  // of the energy balance, over the largest term so far
   Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
   std::int64_t contacts = 0;
+  std::vector<Vec3> reactions;  // N, of held_groups(): what holds or drives them
 };
 
 struct Observers {
@@ -75,6 +76,8 @@ class Simulation {
   const SolverSettings& settings() const { return settings_; }
   const std::string& failure() const { return failure_; }  // after RunEnd::failed
   const Equilibrium& equilibrium() const { return equilibrium_; }
+  /// Groups that are guided or driven: whose reactions a Sample holds.
+  const std::vector<std::string>& held_groups() const { return held_groups_; }
   const Collapse& collapse() const { return collapse_; }  // of a collapse stage, empty without
   int threads() const { return stepper_.threads; }
   double end_time() const;                                                               // s, of all stages
@@ -89,6 +92,7 @@ class Simulation {
   bool collapse(const StageSettings& stage);
   void impose(const StageSettings& stage);
   void place(const StageSettings& stage);
+  Vec3 reaction(const BodyPass& pass, const std::string& group) const;
   bool stopped() const;
   RunEnd timed(const StageSettings& stage, double until);
   void change_contacts();
@@ -107,6 +111,7 @@ class Simulation {
   RunPosition position_;
   Equilibrium equilibrium_;
   Collapse collapse_;
+  std::vector<std::string> held_groups_;
   std::string failure_;
   Advance last_;
   double worst_balance_ = 0.0;

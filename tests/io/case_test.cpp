@@ -5,6 +5,7 @@
 
 #include "io/case/degrees.h"
 #include "io/hdf5/assembly_file.h"
+#include "io/records/curve.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 
@@ -194,6 +195,68 @@ TEST_F(CaseFile, DrivesSurviveResolving) {
     EXPECT_EQ(drives[0].velocity, Vec3(0, 0, 0));
     EXPECT_EQ(drives[1].velocity, Vec3(0.01, 0.02, 0.03));
   }
+}
+
+TEST_F(CaseFile, GuidesSurviveResolving) {
+  const std::string text =
+      "[bridge]\ngenerator = \"arch\"\n[[guide]]\ngroup = \"springing left\"\nfree = [\"z\", \"x\"]\n[[guide]]\ngroup "
+      "= "
+      "\"springing right\"\nturn = true\n[[stage]]\nkind = \"gravity\"\n";
+  const Case c = parse_case(text, folder / "case.toml");
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const std::vector<Guide>& guides = one->settings.guides;
+    ASSERT_EQ(guides.size(), 2u);
+    EXPECT_EQ(guides[0].group, "springing left");
+    EXPECT_EQ(guides[0].free, (std::array<bool, 3>{true, false, true}));
+    EXPECT_FALSE(guides[0].turn);
+    EXPECT_TRUE(guides[1].turn);
+  }
+}
+
+/// A plot changes nothing in a run, so not its hash either; a measured curve goes along with the resolved case, and one
+/// that is not there is no error.
+TEST_F(CaseFile, PlotsSurviveResolving) {
+  const std::string plain = "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"gravity\"\n";
+  folder.write("there.csv", "Test unit,1\nmm,kN\n0,0\n0.5,1e1,extra\n\n1, 12\n");
+  const std::string file = folder.write(
+      "case.toml", plain +
+                       "[[plot]]\nname = \"force\"\ny = \"energy/kinetic\"\ny_factor = 0.001\nmeasured = [{ file = "
+                       "\"there.csv\", label = \"test 1\" }, { file = \"elsewhere.csv\" }]\n");
+  const Case c = read_case(file);
+  EXPECT_EQ(c.hash, parse_case(plain, "plain.toml").hash);
+  std::filesystem::create_directory(folder / "run");
+  write_resolved_case(c, folder / "run");
+  const Case copy = read_case(folder / "run/case.toml");
+  ASSERT_EQ(copy.plots.size(), 1u);
+  const PlotSpec& plot = copy.plots[0];
+  EXPECT_EQ(plot.name, "force");
+  EXPECT_EQ(plot.x, "time");
+  EXPECT_EQ(plot.y_factor, 0.001);
+  ASSERT_EQ(plot.measured.size(), 2u);
+  EXPECT_EQ(plot.measured[0].label, "test 1");
+  EXPECT_EQ(plot.measured[0].text, c.plots[0].measured[0].text);
+  EXPECT_EQ(plot.measured[1].label, "elsewhere");
+  EXPECT_TRUE(plot.measured[1].text.empty());
+}
+
+TEST_F(CaseFile, MeasuredCurvesAreTwoColumnsUnderHeadings) {
+  const Curve curve = parse_curve("Test unit,SW.1\n[mm],[kN]\n# note\n0;0\n0.5\t1e1 7\r\n\n+1, -12\n", "a.csv");
+  EXPECT_EQ(curve.x, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(curve.y, (std::vector<double>{0, 10, -12}));
+  const auto refused = [](const std::string& text, const std::string& word) {
+    try {
+      parse_curve(text, "a.csv");
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  refused("0,0\n1,nan\n", "a.csv:2:");
+  refused("0,0\n1\n", "a.csv:2:");
+  refused("mm,kN\n", "0 lines that begin with two numbers");
+  refused("", "0 lines");
 }
 
 TEST_F(CaseFile, PlacementsSurviveResolving) {

@@ -1,6 +1,8 @@
 // The pictures every finished run leaves behind.
 #include <fmt/format.h>
 
+#include "io/records/curve.h"
+#include "tools/voussoir/history_rows.h"
 #include "tools/voussoir/run_session.h"
 #include "viz/plot.h"
 #include "viz/render.h"
@@ -61,15 +63,43 @@ void draw_charts(const std::string& images, const Assembly& assembly, const Hist
                images + "/spandrels.png");
 }
 
+/// A label as given, or the channel with its unit.
+std::string axis_label(const std::string& label, const std::string& name, double factor, const History& history) {
+  if (!label.empty()) return label;
+  for (const Channel& channel : history.channels())
+    if (channel.path == name)
+      return factor == 1.0 ? fmt::format("{} ({})", name, channel.unit)
+                           : fmt::format("{} ({:g} {})", name, 1.0 / factor, channel.unit);
+  return name;
+}
+
+void draw_plot(const std::string& images, const PlotSpec& plot, const History& history) {
+  if (history.rows() < 2) return;
+  std::vector<Series> series;
+  for (const MeasuredCurve& measured : plot.measured)
+    if (!measured.text.empty()) {
+      Curve curve = parse_curve(measured.text, measured.file);
+      series.push_back({measured.label, std::move(curve.x), std::move(curve.y)});
+    }
+  Series computed{plot.label, history.values(plot.x), history.values(plot.y)};
+  for (double& x : computed.x) x *= plot.x_factor;
+  for (double& y : computed.y) y *= plot.y_factor;
+  series.push_back(std::move(computed));
+  plot_lines(series, axis_label(plot.x_label, plot.x, plot.x_factor, history),
+             axis_label(plot.y_label, plot.y, plot.y_factor, history), plot.title,
+             fmt::format("{}/{}.png", images, plot.name));
+}
+
 }  // namespace
 
-std::string make_pictures(const std::string& directory, const Simulation& run, const Snapshot& snapshot,
+std::string make_pictures(const std::string& directory, const Case& c, const Simulation& run, const Snapshot& snapshot,
                           const History& history) {
   const std::string images = directory + "/images";
   try {
     draw_state(images, run.assembly(), snapshot);
     if (run.collapse().found) draw_mechanism(images, run, snapshot);
     draw_charts(images, run.assembly(), history);
+    for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
     return {};
   } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn
     return e.what();

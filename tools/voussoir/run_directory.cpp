@@ -1,14 +1,32 @@
 #include "tools/voussoir/run_directory.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
+#include "solver/base/suggestion.h"
 #include "solver/step/simulation.h"
+#include "tools/voussoir/history_rows.h"
 
 namespace voussoir {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Throws InputError for a plot of something that the run does not record.
+void check_plots(const Case& c, const std::vector<Channel>& channels) {
+  std::vector<std::string> known;
+  for (const Channel& channel : channels) known.push_back(channel.path);
+  for (const PlotSpec& plot : c.plots)
+    for (const std::string& name : {plot.x, plot.y})
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError("plot '{}' is of '{}', which this run does not record{}", plot.name, name,
+                         suggestion(name, known));
+}
+
+}  // namespace
 
 DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
   std::error_code failed;  // a name that cannot be looked up names no run
@@ -20,7 +38,9 @@ DirectoryLock prepare_directory(const Case& c, const std::string& directory, boo
   // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
   const Assembly assembly = make_assembly(c);
   try {
-    Simulation(assembly, c.settings, 1, {}).check();
+    Simulation run(assembly, c.settings, 1, {});
+    run.check();
+    check_plots(c, history_channels(assembly, run.held_groups()));
   } catch (const InputError& error) {
     throw InputError("{}: {}", c.path, error.what());
   }

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "io/vtk/folder.h"
 #include "solver/base/error.h"
-#include "solver/step/loads.h"
 #include "solver/step/make_snapshot.h"
+#include "tools/voussoir/history_rows.h"
+#include "tools/voussoir/summary.h"
 
 namespace voussoir {
 
@@ -29,81 +29,7 @@ void ask_to_stop(int) {
   stop_flag.store(true);
 }
 
-const std::vector<std::pair<std::string, double Energies::*>>& energy_columns() {
-  static const std::vector<std::pair<std::string, double Energies::*>> columns = {
-      {"kinetic", &Energies::kinetic},
-      {"gravitational", &Energies::gravitational},
-      {"elastic", &Energies::elastic},
-      {"damping_springs", &Energies::damping_springs},
-      {"friction", &Energies::friction},
-      {"fracture", &Energies::fracture},
-      {"joint_damping", &Energies::joint_damping},
-      {"body_damping", &Energies::body_damping},
-      {"clipping", &Energies::clipping},
-      {"external_work", &Energies::external_work}};
-  return columns;
-}
-
-std::string demand_channel(const DemandPoint& point) {
-  return fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);
-}
-
-std::vector<Channel> history_channels(const Assembly& assembly) {
-  std::vector<Channel> channels = {{"time", "s"}};
-  for (const auto& column : energy_columns()) channels.push_back({"energy/" + column.first, "J"});
-  channels.push_back({"energy/balance_error", "-"});
-  for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/displacement_{}", axis), "m"});
-  for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/acceleration_{}", axis), "m/s2"});
-  channels.push_back({"contacts", "-"});
-  for (const DemandPoint& point : demand_points(assembly)) channels.push_back({demand_channel(point), "m"});
-  for (const Sensor& sensor : assembly.sensors) {
-    channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
-    channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
-    for (char axis : {'x', 'y', 'z'})
-      channels.push_back({fmt::format("sensors/{}/rotation_{}", sensor.id, axis), "rad"});
-  }
-  return channels;
-}
-
-/// Mean over the group's blocks of the displacement of their centroids relative to base and gravity state.
-double group_displacement(const Simulation& run, const DemandPoint& point) {
-  const std::vector<std::int64_t>& blocks = run.assembly().groups.at(point.group);
-  double sum = 0.0;
-  for (std::int64_t b : blocks)
-    sum += relative_displacement(run.model(), run.state(), b, run.assembly().blocks[b].centroid)[point.axis];
-  return sum / double(blocks.size());
-}
-
-/// Velocity of a sensor's point along its direction at the last half step, m/s.
-double sensor_velocity(const Simulation& run, const Sensor& sensor) {
-  const std::int32_t body = run.model().body_of_block[sensor.block];
-  const double* motion = &run.state().motion[motion_width * std::size_t(body)];
-  const double* pose = &run.state().pose[pose_width * std::size_t(body)];
-  const Eigen::Quaterniond q(pose[3], pose[4], pose[5], pose[6]);
-  const Body& b = run.model().bodies[body];
-  const Vec3 momentum(motion[3], motion[4], motion[5]);
-  const Vec3 spin = q * (b.inverse_inertia * (q.conjugate() * momentum));
-  const Vec3 arm = q * (sensor.position - b.centroid);
-  return sensor.direction.dot(Vec3(motion[0], motion[1], motion[2]) + spin.cross(arm));
-}
-
-/// Rotation vector of a sensor's block since the reference placement, rad.
-Vec3 sensor_rotation(const Simulation& run, const Sensor& sensor) {
-  const Eigen::AngleAxisd turn(rotation_of(run.state(), std::size_t(run.model().body_of_block[sensor.block])));
-  return turn.angle() * turn.axis();
-}
-
 }  // namespace
-
-std::vector<DemandPoint> demand_points(const Assembly& assembly) {
-  std::vector<DemandPoint> points;
-  for (const auto& [name, blocks] : assembly.groups) {
-    if (blocks.empty()) continue;
-    if (name.starts_with("keystone")) points.push_back({name, 0});
-    if (name.starts_with("spandrel")) points.push_back({name, 1});
-  }
-  return points;
-}
 
 RunSession::RunSession(const RunRequest& request)
     : request_(request),
@@ -113,7 +39,7 @@ RunSession::RunSession(const RunRequest& request)
       progress_(request.quiet),
       vtk_(request.directory) {
   simulation_ = std::make_unique<Simulation>(assembly_, case_.settings, request.threads, observers());
-  history_ = History(path("history.h5"), history_channels(assembly_));
+  history_ = History(path("history.h5"), history_channels(assembly_, simulation_->held_groups()));
 }
 
 void RunSession::log(const std::string& text) {
@@ -139,21 +65,7 @@ Observers RunSession::observers() {
 }
 
 void RunSession::append_history(const Sample& s) {
-  std::vector<double> row = {s.time};
-  for (const auto& column : energy_columns()) row.push_back(s.energies.*column.second);
-  row.push_back(s.balance_error);
-  for (int c = 0; c < 3; ++c) row.push_back(s.base_displacement[c]);
-  for (int c = 0; c < 3; ++c) row.push_back(s.base_acceleration[c]);
-  row.push_back(double(s.contacts));
-  for (const DemandPoint& point : demand_points(assembly_)) row.push_back(group_displacement(*simulation_, point));
-  for (const Sensor& sensor : assembly_.sensors) {
-    const Vec3 u = relative_displacement(simulation_->model(), simulation_->state(), sensor.block, sensor.position);
-    row.push_back(sensor.direction.dot(u));
-    row.push_back(sensor_velocity(*simulation_, sensor));
-    const Vec3 turn = sensor_rotation(*simulation_, sensor);
-    for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
-  }
-  history_.append(row);
+  history_.append(history_row(*simulation_, s));
 }
 
 /// Of the last gravity stage, whether it ran now or before a restart.
@@ -250,81 +162,6 @@ void RunSession::go_on_from(CheckpointHeader& header) {
 
 namespace {
 
-nlohmann::json demand_json(const Assembly& assembly, const History& history) {
-  nlohmann::json demand = {{"places", nlohmann::json::object()}};
-  std::map<std::string, std::pair<double, double>> sums;
-  std::map<std::string, int> counts;
-  for (const DemandPoint& point : demand_points(assembly)) {
-    const std::vector<double>& values = history.values(demand_channel(point));
-    double largest = 0.0;
-    for (double v : values) largest = std::max(largest, std::abs(v));
-    const double residual = values.empty() ? 0.0 : values.back();
-    demand["places"][point.group] = {
-        {"axis", std::string(1, "xyz"[point.axis])}, {"largest", largest}, {"residual", residual}};
-    const std::string kind = point.axis == 0 ? "keystone_x" : "spandrel_y";
-    sums[kind].first += largest;
-    sums[kind].second += std::abs(residual);
-    ++counts[kind];
-  }
-  for (const auto& [kind, sum] : sums)
-    demand[kind] = {{"largest_mean", sum.first / counts[kind]}, {"residual_mean", sum.second / counts[kind]}};
-  return demand;
-}
-
-/// Per component: share of the area of its bonded joints whose bond is lost, largest opening and slip (m).
-nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
-  struct Damage {
-    double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0;
-  };
-  std::map<std::string, Damage> damage;
-  for (const PatchSnapshot& p : snapshot.patches)
-    for (std::int64_t block : {p.a, p.b}) {
-      Damage& d = damage[component_names()[std::size_t(assembly.blocks[block].component)]];
-      if (p.had_bond) d.bonded += p.area, d.broken += p.area * (1.0 - p.bonded);
-      d.opening = std::max(d.opening, p.largest_opening);
-      d.slip = std::max(d.slip, p.largest_slip);
-    }
-  nlohmann::json json = nlohmann::json::object();
-  for (const auto& [name, d] : damage)
-    json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0},
-                  {"largest_opening", d.opening},
-                  {"largest_slip", d.slip}};
-  return json;
-}
-
-/// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
-/// 1e-5 of the largest; first_zero (s): when it first changed sign (linear between rows, 0 when it never did). Of its
-/// block: largest rotation (rad), and whether it ended more than 45° from where it stood.
-nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
-  nlohmann::json json = nlohmann::json::object();
-  for (const Sensor& sensor : assembly.sensors) {
-    const std::vector<double>& u = history.values("sensors/" + sensor.id + "/displacement");
-    if (u.empty()) continue;
-    double largest = 0.0;
-    for (double x : u) largest = std::max(largest, std::abs(x));
-    std::size_t last = u.size();
-    while (last > 0 && std::abs(u[last - 1] - u.back()) <= 1e-5 * largest) --last;
-    double first_zero = 0.0, turned = 0.0, most_turned = 0.0;
-    for (std::size_t i = 1; i < u.size() && first_zero == 0.0; ++i)
-      if (u[i - 1] * u[i] < 0.0)
-        first_zero = history.time()[i - 1] + u[i - 1] / (u[i - 1] - u[i]) * (history.time()[i] - history.time()[i - 1]);
-    std::array<const std::vector<double>*, 3> turn;
-    for (int c = 0; c < 3; ++c)
-      turn[std::size_t(c)] = &history.values(fmt::format("sensors/{}/rotation_{}", sensor.id, "xyz"[c]));
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      turned = Vec3((*turn[0])[i], (*turn[1])[i], (*turn[2])[i]).norm();
-      most_turned = std::max(most_turned, turned);
-    }
-    json[sensor.id] = {{"largest", largest},
-                       {"residual", u.back()},
-                       {"moves_until", last > 0 ? history.time()[last - 1] : 0.0},
-                       {"first_zero", first_zero},
-                       {"largest_rotation", most_turned},
-                       {"overturned", turned > 0.25 * std::numbers::pi}};
-  }
-  return json;
-}
-
 /// An earlier part of the run's; empty when there is none.
 nlohmann::json summary_of(const std::string& file) {
   std::ifstream in(file);
@@ -332,43 +169,10 @@ nlohmann::json summary_of(const std::string& file) {
   return json.is_object() ? json : nlohmann::json::object();
 }
 
-/// How far the multiplier went, and which joints move beyond.
-nlohmann::json collapse_json(const Simulation& run) {
-  const Collapse& c = run.collapse();
-  const StageSettings& stage = run.settings().stages.back();
-  nlohmann::json json = {{"found", c.found},
-                         {"multiplier", c.multiplier},
-                         {"above", c.found ? nlohmann::json(c.above) : nlohmann::json()},
-                         {"tries", c.tries.size()},
-                         {"mechanism", nlohmann::json::array()},
-                         {"stands_below", c.stands_below ? nlohmann::json(*c.stands_below) : nlohmann::json()},
-                         {"falls_above", c.falls_above ? nlohmann::json(*c.falls_above) : nlohmann::json()}};
-  if (stage.collapse.tilt) json["tilt_degrees"] = std::atan(c.multiplier) * 180.0 / std::numbers::pi;
-  const Loads loads = loads_at({}, stage, run.model().gravity, c.multiplier);
-  double weight = 0.0;
-  for (const Body& body : run.model().bodies)
-    if (!body.fixed) weight += body.mass * run.model().gravity.norm();
-  Vec3 force = Vec3::Zero();
-  for (const ForceLoad& load : loads.forces) force += load.force;
-  json["force"] = force.norm();
-  json["force_over_weight"] = weight > 0.0 ? force.norm() / weight : 0.0;
-  json["acceleration_over_gravity"] = loads.acceleration.norm() / std::max(run.model().gravity.norm(), 1e-300);
-  for (const MechanismJoint& joint : c.mechanism)
-    json["mechanism"].push_back({{"a", joint.a},
-                                 {"b", joint.b},
-                                 {"kind", joint.slides ? "slide" : "hinge"},
-                                 {"edge", edge_name(run.assembly(), joint)},
-                                 {"place", {joint.place.x(), joint.place.y(), joint.place.z()}},
-                                 {"opening", joint.opening},
-                                 {"slip", joint.slip}});
-  return json;
-}
-
 }  // namespace
 
 void RunSession::write_summary(RunEnd end) {
   Simulation& run = *simulation_;
-  const Snapshot snapshot = make_snapshot(run.model(), run.state());
   const double wall =
       before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   const Equilibrium& e = equilibrium();
@@ -388,14 +192,11 @@ void RunSession::write_summary(RunEnd end) {
                           {{"converged", e.converged},
                            {"newton_iterations", e.iterations},
                            {"relaxation_steps", e.steps},
-                           {"out_of_balance", e.residual}}},
-                         {"demand", demand_json(assembly_, history_)},
-                         {"sensors", sensors_json(assembly_, history_)},
-                         {"damage", damage_json(assembly_, snapshot)}};
-  if (!run.collapse().tries.empty())
-    json["collapse"] = collapse_json(run);
-  else if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
-    json["collapse"] = before["collapse"];  // found before a restart
+                           {"out_of_balance", e.residual}}}};
+  json.update(summary_of_state(run, make_snapshot(run.model(), run.state()), history_));
+  if (!json.contains("collapse"))
+    if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
+      json["collapse"] = before["collapse"];  // found before a restart
   write_atomically(path("summary.json"), json.dump(2) + "\n");
 }
 
@@ -433,7 +234,11 @@ int RunSession::run() {
                   end == RunEnd::finished ? "done" : "paused", simulation_->state().time(), simulation_->state().step(),
                   duration_text(wall), simulation_->worst_balance()));
   if (end == RunEnd::finished && request_.pictures) {
-    const std::string missing = make_pictures(request_.directory, *simulation_,
+    for (const PlotSpec& plot : case_.plots)
+      for (const MeasuredCurve& curve : plot.measured)
+        if (curve.text.empty())
+          log(fmt::format("{}.png goes without {}: there is no such file", plot.name, curve.file));
+    const std::string missing = make_pictures(request_.directory, case_, *simulation_,
                                               make_snapshot(simulation_->model(), simulation_->state()), history_);
     log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
   }

@@ -55,16 +55,9 @@ class RunSession {
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// Points whose largest displacement is a demand: the groups of the assembly named "keystone …" (x) and "spandrel …"
-/// (y).
-struct DemandPoint {
-  std::string group;
-  int axis = 0;
-};
-std::vector<DemandPoint> demand_points(const Assembly& assembly);
-
-/// Pictures of the end state and charts of the history in DIR/images. Returns what could not be made, empty if all was.
-std::string make_pictures(const std::string& directory, const Simulation& run, const Snapshot& snapshot,
+/// Pictures of the end state and charts of the history (the usual ones, and the plots of the case) in DIR/images.
+/// Returns what could not be made, empty if all was.
+std::string make_pictures(const std::string& directory, const Case& c, const Simulation& run, const Snapshot& snapshot,
                           const History& history);
 
 }  // namespace voussoir

@@ -1,0 +1,146 @@
+#include "tools/voussoir/summary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/step/loads.h"
+#include "tools/voussoir/history_rows.h"
+
+namespace voussoir {
+
+namespace {
+
+nlohmann::json demand_json(const Assembly& assembly, const History& history) {
+  nlohmann::json demand = {{"places", nlohmann::json::object()}};
+  std::map<std::string, std::pair<double, double>> sums;
+  std::map<std::string, int> counts;
+  for (const DemandPoint& point : demand_points(assembly)) {
+    const std::vector<double>& values = history.values(demand_channel(point));
+    double largest = 0.0;
+    for (double v : values) largest = std::max(largest, std::abs(v));
+    const double residual = values.empty() ? 0.0 : values.back();
+    demand["places"][point.group] = {
+        {"axis", std::string(1, "xyz"[point.axis])}, {"largest", largest}, {"residual", residual}};
+    const std::string kind = point.axis == 0 ? "keystone_x" : "spandrel_y";
+    sums[kind].first += largest;
+    sums[kind].second += std::abs(residual);
+    ++counts[kind];
+  }
+  for (const auto& [kind, sum] : sums)
+    demand[kind] = {{"largest_mean", sum.first / counts[kind]}, {"residual_mean", sum.second / counts[kind]}};
+  return demand;
+}
+
+/// Per component: share of the area of its bonded joints whose bond is lost, largest opening and slip (m).
+nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
+  struct Damage {
+    double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0;
+  };
+  std::map<std::string, Damage> damage;
+  for (const PatchSnapshot& p : snapshot.patches)
+    for (std::int64_t block : {p.a, p.b}) {
+      Damage& d = damage[component_names()[std::size_t(assembly.blocks[block].component)]];
+      if (p.had_bond) d.bonded += p.area, d.broken += p.area * (1.0 - p.bonded);
+      d.opening = std::max(d.opening, p.largest_opening);
+      d.slip = std::max(d.slip, p.largest_slip);
+    }
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [name, d] : damage)
+    json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0},
+                  {"largest_opening", d.opening},
+                  {"largest_slip", d.slip}};
+  return json;
+}
+
+/// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
+/// 1e-5 of the largest; first_zero (s): when it first changed sign (linear between rows, 0 when it never did). Of its
+/// block: largest rotation (rad), and whether it ended more than 45° from where it stood.
+nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const Sensor& sensor : assembly.sensors) {
+    const std::vector<double>& u = history.values("sensors/" + sensor.id + "/displacement");
+    if (u.empty()) continue;
+    double largest = 0.0;
+    for (double x : u) largest = std::max(largest, std::abs(x));
+    std::size_t last = u.size();
+    while (last > 0 && std::abs(u[last - 1] - u.back()) <= 1e-5 * largest) --last;
+    double first_zero = 0.0, turned = 0.0, most_turned = 0.0;
+    for (std::size_t i = 1; i < u.size() && first_zero == 0.0; ++i)
+      if (u[i - 1] * u[i] < 0.0)
+        first_zero = history.time()[i - 1] + u[i - 1] / (u[i - 1] - u[i]) * (history.time()[i] - history.time()[i - 1]);
+    std::array<const std::vector<double>*, 3> turn;
+    for (int c = 0; c < 3; ++c)
+      turn[std::size_t(c)] = &history.values(fmt::format("sensors/{}/rotation_{}", sensor.id, "xyz"[c]));
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      turned = Vec3((*turn[0])[i], (*turn[1])[i], (*turn[2])[i]).norm();
+      most_turned = std::max(most_turned, turned);
+    }
+    json[sensor.id] = {{"largest", largest},
+                       {"residual", u.back()},
+                       {"moves_until", last > 0 ? history.time()[last - 1] : 0.0},
+                       {"first_zero", first_zero},
+                       {"largest_rotation", most_turned},
+                       {"overturned", turned > 0.25 * std::numbers::pi}};
+  }
+  return json;
+}
+
+/// Of each guided or driven group: what held it along x, y and z (N) at most, at least and at the end.
+nlohmann::json reactions_json(const std::vector<std::string>& groups, const History& history) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const std::string& group : groups)
+    for (char axis : {'x', 'y', 'z'}) {
+      const std::vector<double>& f = history.values(fmt::format("reactions/{}_{}", group, axis));
+      if (f.empty()) continue;
+      json[group][std::string(1, axis)] = {
+          {"highest", std::ranges::max(f)}, {"lowest", std::ranges::min(f)}, {"last", f.back()}};
+    }
+  return json;
+}
+
+/// How far the multiplier went, and which joints move beyond.
+nlohmann::json collapse_json(const Simulation& run) {
+  const Collapse& c = run.collapse();
+  const StageSettings& stage = run.settings().stages.back();
+  nlohmann::json json = {{"found", c.found},
+                         {"multiplier", c.multiplier},
+                         {"above", c.found ? nlohmann::json(c.above) : nlohmann::json()},
+                         {"tries", c.tries.size()},
+                         {"mechanism", nlohmann::json::array()},
+                         {"stands_below", c.stands_below ? nlohmann::json(*c.stands_below) : nlohmann::json()},
+                         {"falls_above", c.falls_above ? nlohmann::json(*c.falls_above) : nlohmann::json()}};
+  if (stage.collapse.tilt) json["tilt_degrees"] = std::atan(c.multiplier) * 180.0 / std::numbers::pi;
+  const Loads loads = loads_at({}, stage, run.model().gravity, c.multiplier);
+  double weight = 0.0;
+  for (const Body& body : run.model().bodies)
+    if (!body.fixed) weight += body.mass * run.model().gravity.norm();
+  Vec3 force = Vec3::Zero();
+  for (const ForceLoad& load : loads.forces) force += load.force;
+  json["force"] = force.norm();
+  json["force_over_weight"] = weight > 0.0 ? force.norm() / weight : 0.0;
+  json["acceleration_over_gravity"] = loads.acceleration.norm() / std::max(run.model().gravity.norm(), 1e-300);
+  for (const MechanismJoint& joint : c.mechanism)
+    json["mechanism"].push_back({{"a", joint.a},
+                                 {"b", joint.b},
+                                 {"kind", joint.slides ? "slide" : "hinge"},
+                                 {"edge", edge_name(run.assembly(), joint)},
+                                 {"place", {joint.place.x(), joint.place.y(), joint.place.z()}},
+                                 {"opening", joint.opening},
+                                 {"slip", joint.slip}});
+  return json;
+}
+
+}  // namespace
+
+nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
+  nlohmann::json json = {{"demand", demand_json(run.assembly(), history)},
+                         {"sensors", sensors_json(run.assembly(), history)},
+                         {"reactions", reactions_json(run.held_groups(), history)},
+                         {"damage", damage_json(run.assembly(), snapshot)}};
+  if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
+  return json;
+}
+
+}  // namespace voussoir
