@@ -16,6 +16,8 @@ forbid "geometry" "solver/(model|contact|fill|effects|motion|step|modal)/|io/|vi
 forbid "solver" "io/|viz/|tools/" "solver never includes io, viz or tools"
 forbid "io" "viz/|tools/" "io is up-river of viz and tools"
 forbid "viz" "tools/" "viz is up-river of tools"
+forbid "tools/ladder" "viz/|io/vtk/|tools/(voussoir|bench)/" "tools/ladder is up-river of the programs and knows no pictures"
+forbid "geometry solver io viz tools" "tests/" "nothing but tests includes tests"
 forbid "geometry solver io/case io/hdf5 io/records tools" "vtk" "VTK belongs in io/vtk and viz"
 forbid "geometry solver/model solver/contact solver/fill solver/effects solver/motion solver/step solver/modal io viz tools" "omp\.h" "OpenMP belongs in solver/base"
 if grep -rnE '#pragma omp' geometry solver/[!b]* io viz tools --include='*.h' --include='*.cpp'; then

@@ -43,6 +43,8 @@ std::vector<Check> read_checks(TableReader& root) {
     c.tolerance = table.required_number(c.absolute ? "within" : "tolerance", {0.0, 1e300, ""});
     if (!c.absolute && c.expected == 0.0) table.fail("tolerance", "is a share of zero: give 'within' instead");
     c.slow = table.flag("slow", false);
+    if (table.has("miss") && (c.miss = table.required_text("miss")).empty())
+      table.fail("miss", "gives no reason: say why the case is known to miss the expected value");
     table.table("set", "set");
     table.finish();
     checks.push_back(c);

@@ -16,6 +16,7 @@ struct Check {
   double tolerance = 0.0;  // share of the expected value, or in its unit
   bool absolute = false;   // the tolerance is in the value's unit
   bool slow = false;       // only in the long ladder
+  std::string miss;        // why it is known to be outside its tolerance; empty: it should be within
   std::string text;        // the case (TOML) that is run for it: the file's, with the check's `set` merged in
 };
 

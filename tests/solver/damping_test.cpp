@@ -1,37 +1,10 @@
-// The damping models apart from any structure.
+// The damping models apart from any structure (the design table: tools/ladder/maxwell_fit.cpp).
 #include "solver/step/damping.h"
 
-#include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
 namespace {
-
-/// Design table (validation ladder, A): three branches, 2 % on 0.5–12 Hz.
-TEST(MaxwellFit, GivesThePublishedBranches) {
-  const MaxwellFit fit = fit_maxwell(0.02, {0.5, 12.0}, 3);
-  const double stiffness[3] = {0.0611, 0.0425, 0.0689}, frequency[3] = {0.446, 2.498, 14.28};
-  ASSERT_EQ(fit.stiffness.size(), 3u);
-  for (int j = 0; j < 3; ++j) {
-    EXPECT_NEAR(fit.stiffness[j], stiffness[j], 0.01 * stiffness[j]);
-    EXPECT_NEAR(fit.frequency[j], frequency[j], 0.01 * frequency[j]);
-  }
-}
-
-TEST(MaxwellFit, RipplesAsPublished) {
-  const MaxwellFit fit = fit_maxwell(0.02, {0.5, 12.0}, 3);
-  double lowest = 1.0, highest = 0.0;
-  for (double f = 0.5; f <= 12.0; f *= 1.0005) {
-    lowest = std::min(lowest, maxwell_ratio(fit, f));
-    highest = std::max(highest, maxwell_ratio(fit, f));
-  }
-  EXPECT_NEAR(lowest, 0.01976, 0.003 * 0.01976);
-  EXPECT_NEAR(highest, 0.02011, 0.003 * 0.02011);
-  measured("Maxwell, three branches: least ratio of the fit", 0.01976, lowest, "-");
-  measured("Maxwell, three branches: greatest ratio of the fit", 0.02011, highest, "-");
-  EXPECT_NEAR(fit.lowest, lowest, 1e-6);
-  EXPECT_NEAR(fit.highest, highest, 1e-6);
-}
 
 /// One branch by hand: k(iω) = 1 + α x/(1 + x), x = iω/ω1; at ω = ω1 it is 1 + α (1 + i)/2.
 TEST(MaxwellFit, RatioOfOneBranchHasItsClosedForm) {

@@ -1,7 +1,11 @@
-// voussoir check: exit status, table, check.json, and what it says of wrong checks.
+// voussoir check: exit status, tables, check.json, known misses, names of rungs, and what it says of wrong checks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "tests/whole/cases.h"
 #include "tests/whole/program.h"
@@ -55,7 +59,9 @@ TEST(Check, ChangesOfTheCaseAreMergedIn) {
 TEST(Check, SaysWhatIsWrong) {
   Folder folder;
   const Surroundings there{.folder = folder.path()};
-  expect_error(voussoir({"check", "nothing"}, there), 2, {"nothing", "--list"});
+  expect_error(voussoir({"check", "nothing"}, there), 2, {"nothing", "--list", "expected one of", "oppenheim"});
+  expect_error(voussoir({"check", "axial-chian"}, there), 2, {"'axial-chian'", "did you mean 'axial-chain'?"});
+  expect_error(voussoir({"check", "opppenheim"}, there), 2, {"did you mean 'oppenheim'?"});
   folder.write("none.toml", case_text({}));
   expect_error(voussoir({"check", "none.toml"}, there), 2, {"none.toml", "no [[check]]"});
   folder.write("place.toml", tipping("0.5", "collapse.multiplicator"));
@@ -63,6 +69,79 @@ TEST(Check, SaysWhatIsWrong) {
   folder.write("zero.toml", tipping("0.0"));
   for (const char* verb : {"check", "run", "info"})
     expect_error(voussoir({verb, "zero.toml"}, there), 2, {"zero.toml:", "share of zero", "'within'"});
+}
+
+TEST(Check, AKnownMissIsSaidAndDoesNotFail) {
+  Folder folder;
+  const Surroundings there{.folder = folder.path()};
+  folder.write("known.toml", tipping("0.6") + "miss = \"the block is too tall\"\n");
+  const Outcome known = voussoir({"check", "known.toml", "-o", "runs"}, there);
+  EXPECT_EQ(known.status, 0) << known.err;
+  EXPECT_NE(known.out.find("known: the block is too tall"), std::string::npos) << known.out;
+  EXPECT_NE(known.out.find("0 of 1 quantities within their tolerance, 1 known miss\n"), std::string::npos) << known.out;
+  EXPECT_EQ(known.out.find("MISS"), std::string::npos) << known.out;
+  const nlohmann::json rows = nlohmann::json::parse(bytes_of(folder / "runs/check.json"));
+  EXPECT_EQ(rows.at(0).at("known_miss"), "the block is too tall");
+  EXPECT_FALSE(rows[0]["pass"].get<bool>());
+
+  folder.write("both.toml", tipping("0.6") + "miss = \"too tall\"\n[[check]]\nquantity = \"steps\"\nvalue = " +
+                                "\"steps\"\nexpected = -1\nwithin = 0\nsource = \"nonsense\"\n");
+  const Outcome both = voussoir({"check", "both.toml"}, there);
+  EXPECT_EQ(both.status, 1) << "a known miss excuses no other one";
+  EXPECT_NE(both.out.find("0 of 2 quantities within their tolerance, 1 known miss\n"), std::string::npos) << both.out;
+
+  folder.write("mended.toml", tipping("0.5") + "miss = \"too tall\"\n");
+  const Outcome mended = voussoir({"check", "mended.toml"}, there);
+  EXPECT_EQ(mended.status, 0);
+  EXPECT_NE(mended.out.find("`miss` can be taken out"), std::string::npos) << mended.out;
+
+  folder.write("why.toml", tipping("0.6") + "miss = \"\"\n");
+  for (const char* verb : {"check", "run"})
+    expect_error(voussoir({verb, "why.toml"}, there), 2, {"why.toml:", "'miss'", "no reason"});
+}
+
+TEST(Check, WritesAMarkdownTable) {
+  Folder folder;
+  const Surroundings there{.folder = folder.path()};
+  folder.write("known.toml", tipping("0.6") + "miss = \"left | right\"\n");
+  const Outcome outcome = voussoir({"check", "known.toml", "free-spin", "--table", "found.md", "-q"}, there);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  const std::string table = bytes_of(folder / "found.md");
+  EXPECT_EQ(table.find("Printed by `voussoir check` on 2"), 0u) << table;
+  EXPECT_TRUE(table.find(", commit ") < table.find("\n") || table.find(", version ") < table.find("\n")) << table;
+  for (const char* piece : {"| rung | quantity | expected | got | error | tolerance | result | source |\n| --- |",
+                            "| known | tips | 0.6 | ", "| miss: left \\| right | statics |\n",
+                            "| free-spin | largest change of energy in 100 turns | 0 | ", "| ok |"})
+    EXPECT_NE(table.find(piece), std::string::npos) << piece << "\n" << table;
+  expect_error(voussoir({"check", "free-spin", "--table", "none/found.md"}, there), 2, {"--table", "no folder none"});
+}
+
+TEST(Check, CaseTomlHasItsFoldersName) {
+  Folder folder;
+  std::filesystem::create_directory(folder / "tipping");
+  folder.write("tipping/case.toml", tipping("0.5"));
+  for (const auto& [place, file] : {std::pair{"", "tipping/case.toml"}, std::pair{"/tipping", "./case.toml"}}) {
+    const Outcome outcome = voussoir({"check", file}, {.folder = folder.path() + place});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\ntipping "), std::string::npos) << outcome.out;
+  }
+}
+
+/// Every file of tools/ladder is a rung of its name (CTest calls them so), and they stand before the cases.
+TEST(Check, ListsTheElementsOfTheMethodFirst) {
+  const Outcome outcome = voussoir({"check", "--list"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::set<std::string> listed, files;
+  for (const auto& entry : std::filesystem::directory_iterator(VOUSSOIR_SOURCE_DIR "/tools/ladder")) {
+    std::string name = entry.path().stem().string();
+    std::replace(name.begin(), name.end(), '_', '-');
+    if (entry.path().extension() == ".cpp" && name != "rungs") files.insert(name);
+  }
+  std::istringstream lines(outcome.out);
+  for (std::string line; listed.size() < files.size() && std::getline(lines, line);)
+    listed.insert(line.substr(0, line.find(' ')));
+  EXPECT_EQ(listed, files);
 }
 
 }  // namespace

@@ -1,15 +1,19 @@
-// voussoir check: runs cases that say what they should give, and compares.
+// voussoir check: climbs the validation ladder, whose rungs are elements of the method (tools/ladder) and cases that
+// say what they should give, and compares.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/case/checks.h"
 #include "io/hdf5/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/suggestion.h"
+#include "tools/ladder/rung.h"
+#include "tools/voussoir/check_table.h"
 #include "tools/voussoir/run_directory.h"
 #include "tools/voussoir/run_session.h"
 #include "tools/voussoir/verb.h"
@@ -20,15 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Row {
-  std::string name;  // of the rung
-  Check check;
-  double got = std::nan("");
-  std::string trouble;  // why there is no value
-  double error() const { return check.absolute ? got - check.expected : got / check.expected - 1.0; }
-  bool pass() const { return trouble.empty() && std::abs(error()) <= check.tolerance; }
-};
-
 /// Where the rungs of the ladder are: beside the present folder, or in the source tree the program was built from.
 std::string ladder_folder() {
   std::error_code ignored;
@@ -36,26 +31,62 @@ std::string ladder_folder() {
   return fs::is_directory(here, ignored) ? here : VOUSSOIR_SOURCE_DIR "/" + here;
 }
 
-std::vector<std::string> rung_files(const std::vector<std::string>& names) {
-  const std::string folder = ladder_folder();
+/// A rung's name is its file's; case.toml stands for its folder.
+std::string rung_name(const std::string& file) {
+  const fs::path path(file);
+  if (path.filename() != "case.toml") return path.stem().string();
+  std::error_code ignored;
+  return fs::weakly_canonical(path, ignored).parent_path().filename().string();
+}
+
+/// The rungs that are cases, in alphabetical order.
+std::vector<std::string> ladder_files() {
   std::vector<std::string> files;
   std::error_code ignored;
-  for (const std::string& name : names) {
-    const std::string rung = folder + "/" + name + ".toml";
-    if (fs::is_regular_file(name, ignored)) {
-      files.push_back(name);
-    } else if (fs::is_regular_file(rung, ignored)) {
-      files.push_back(rung);
-    } else {
-      throw InputError("there is no case file {} and no rung {}; voussoir check --list names the rungs", name, rung);
-    }
-  }
-  if (!names.empty()) return files;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
+  for (const auto& entry : fs::directory_iterator(ladder_folder(), ignored))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
-  if (files.empty()) throw InputError("there is no validation case in {}; name a case file with [[check]]", folder);
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// One step of the ladder: an element of the method, or a case file with [[check]].
+struct Step {
+  const ladder::Rung* rung = nullptr;
+  std::string file;  // where there is no rung
+};
+
+/// The whole ladder: elements of the method first, then cases.
+std::vector<Step> all_steps() {
+  std::vector<Step> steps;
+  for (const ladder::Rung& rung : ladder::rungs()) steps.push_back({&rung, {}});
+  const std::vector<std::string> files = ladder_files();
+  if (files.empty())
+    throw InputError("there is no validation case in {}; name a case file with [[check]]", ladder_folder());
+  for (const std::string& file : files) steps.push_back({nullptr, file});
+  return steps;
+}
+
+Step find_step(const std::string& name) {
+  std::vector<std::string> known;
+  for (const ladder::Rung& rung : ladder::rungs()) {
+    if (rung.name == name) return {&rung, {}};
+    known.push_back(rung.name);
+  }
+  std::error_code ignored;
+  if (fs::is_regular_file(name, ignored)) return {nullptr, name};
+  for (const std::string& file : ladder_files()) {
+    if (rung_name(file) == name) return {nullptr, file};
+    known.push_back(rung_name(file));
+  }
+  throw InputError("there is no case file and no rung '{}' (voussoir check --list says what each is){}", name,
+                   suggestion(name, known));
+}
+
+std::vector<Step> steps_asked(const std::vector<std::string>& names) {
+  if (names.empty()) return all_steps();
+  std::vector<Step> steps;
+  for (const std::string& name : names) steps.push_back(find_step(name));
+  return steps;
 }
 
 /// The number at a place like "collapse.multiplier"; true counts as 1, false as 0.
@@ -101,23 +132,30 @@ nlohmann::json run_summary(const std::string& text, const std::string& file, con
   return nlohmann::json::parse(in);
 }
 
+/// How it is to be climbed.
+struct Climb {
+  std::string folder;  // for the runs
+  int threads = 1;
+  bool slow_too = false;
+};
+
 /// All checks of one file; those with the same case share a run.
-std::vector<Row> climb(const std::string& file, const std::string& folder, int threads, bool slow_too) {
-  const std::string name = fs::path(file).stem().string();
-  std::vector<Row> rows;
+std::vector<CheckRow> climb_case(const std::string& file, const Climb& how) {
+  const std::string name = rung_name(file);
+  std::vector<CheckRow> rows;
   std::map<std::string, nlohmann::json> summaries;
   const std::vector<Check> checks = read_checks(file);
   if (checks.empty()) throw InputError("{} has no [[check]]: nothing to compare", file);
   for (const Check& check : checks) {
-    if (check.slow && !slow_too) continue;
-    Row row{name, check, std::nan(""), {}};
+    if (check.slow && !how.slow_too) continue;
+    CheckRow row{name, {check}, {}};
     try {
       auto found = summaries.find(check.text);
       if (found == summaries.end()) {
-        const std::string directory = fmt::format("{}/{}_{}", folder, name, summaries.size() + 1);
-        found = summaries.emplace(check.text, run_summary(check.text, file, directory, threads)).first;
+        const std::string directory = fmt::format("{}/{}_{}", how.folder, name, summaries.size() + 1);
+        found = summaries.emplace(check.text, run_summary(check.text, file, directory, how.threads)).first;
       }
-      row.got = value_at(found->second, check.value);
+      row.finding.got = value_at(found->second, check.value);
     } catch (const RunError& error) {
       row.trouble = error.what();
     }
@@ -126,37 +164,17 @@ std::vector<Row> climb(const std::string& file, const std::string& folder, int t
   return rows;
 }
 
-std::string error_text(const Row& row) {
-  if (!row.trouble.empty()) return "none";
-  return row.check.absolute ? fmt::format("{:+.2g}", row.error()) : fmt::format("{:+.2f} %", 100.0 * row.error());
-}
-
-std::string tolerance_text(const Check& check) {
-  return check.absolute ? fmt::format("{:.3g}", check.tolerance) : fmt::format("{:.3g} %", 100.0 * check.tolerance);
-}
-
-void print_row(const Row& row) {
-  const Check& c = row.check;
-  fmt::print("{:<22} {:<46} {:>11.5g} {:>11.5g} {:<6} {:>10} {:>8}  {}\n", row.name, c.quantity, c.expected, row.got,
-             c.unit, error_text(row), tolerance_text(c), row.pass() ? "ok" : "MISS");
-  if (!row.trouble.empty()) fmt::print("  {}\n", row.trouble);
-  std::fflush(stdout);
-}
-
-nlohmann::json to_json(const std::vector<Row>& rows) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Row& row : rows)
-    list.push_back({{"name", row.name},
-                    {"quantity", row.check.quantity},
-                    {"unit", row.check.unit},
-                    {"expected", row.check.expected},
-                    {"got", row.trouble.empty() ? nlohmann::json(row.got) : nlohmann::json()},
-                    {"error", row.trouble.empty() ? nlohmann::json(row.error()) : nlohmann::json(row.trouble)},
-                    {"tolerance", row.check.tolerance},
-                    {"absolute", row.check.absolute},
-                    {"source", row.check.source},
-                    {"pass", row.pass()}});
-  return list;
+std::vector<CheckRow> climb_rung(const ladder::Rung& rung, const Climb& how) {
+  if (rung.slow && !how.slow_too) return {};
+  std::vector<CheckRow> rows;
+  try {
+    for (ladder::Finding& finding : rung.climb(how.threads)) rows.push_back({rung.name, std::move(finding), {}});
+  } catch (const RunError& error) {
+    CheckRow row{rung.name, {}, error.what()};
+    row.finding.check.quantity = rung.help;
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 /// A folder of its own that goes away, unless the user named one.
@@ -179,48 +197,74 @@ struct RunsFolder {
   }
 };
 
-void list_rungs(const std::vector<std::string>& files) {
-  for (const std::string& file : files)
-    for (const Check& c : read_checks(file))
-      fmt::print("{:<22} {:<46} {:>11.5g} {:<6} {}{}\n", fs::path(file).stem().string(), c.quantity, c.expected, c.unit,
-                 c.source, c.slow ? " (long)" : "");
+void list_rung(const ladder::Rung& rung) {
+  fmt::print("{:<18} {}{}\n", rung.name, rung.help, rung.slow ? " (long)" : "");
+}
+
+void list_case(const std::string& file) {
+  for (const Check& c : read_checks(file))
+    fmt::print("{:<18} {:<44} {:>10.5g} {:<6} {}{}\n", rung_name(file), c.quantity, c.expected, c.unit, c.source,
+               c.slow ? " (long)" : "");
+}
+
+void list_steps(const std::vector<Step>& steps) {
+  for (const Step& step : steps) step.rung ? list_rung(*step.rung) : list_case(step.file);
+}
+
+/// Prints each row as soon as it is known.
+std::vector<CheckRow> climb_all(const std::vector<Step>& steps, const Climb& how, bool quiet) {
+  std::vector<CheckRow> all;
+  if (!quiet) print_check_heading();
+  for (const Step& step : steps)
+    for (const CheckRow& row : step.rung ? climb_rung(*step.rung, how) : climb_case(step.file, how)) {
+      all.push_back(row);
+      if (!quiet) print_check_row(row);
+    }
+  if (!quiet) fmt::print("{}\n", check_count(all));
+  if (!quiet && all.empty()) fmt::print("all of it is slow: --long runs it\n");
+  return all;
+}
+
+/// A table that cannot be written is said before an hour's climb, not after it.
+void expect_folder_of(const std::string& table) {
+  std::error_code ignored;
+  const fs::path folder = fs::path(table).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    throw InputError("--table {}: there is no folder {}; make it first", table, folder.string());
 }
 
 int check(const std::vector<std::string>& arguments) {
-  CommandLine line("check", "check [NAME|CASE …] [--long] [-o DIR]", "voussoir check oppenheim semicircle");
+  CommandLine line("check", "check [NAME|CASE …] [--long] [--table FILE] [-o DIR]",
+                   "voussoir check joint-stiffness arch.toml");
   line.described.add_options()("long", "the slow rungs too")("list", "name the rungs, run nothing")(
-      "output,o", options::value<std::string>()->value_name("DIR")->default_value(""),
-      "keep the runs, and check.json, in this folder");
+      "table", options::value<std::string>()->value_name("FILE")->default_value(""),
+      "write what was found as a Markdown table")("output,o",
+                                                  options::value<std::string>()->value_name("DIR")->default_value(""),
+                                                  "keep the runs, and check.json, in this folder");
   line.rest = "NAME";
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const auto names = values.count("NAME") ? values["NAME"].as<std::vector<std::string>>() : std::vector<std::string>{};
-  const std::vector<std::string> files = rung_files(names);
+  const std::vector<Step> steps = steps_asked(names);
   if (values.count("list")) {
-    list_rungs(files);
+    list_steps(steps);
     return 0;
   }
-  const bool quiet = values.count("quiet") > 0;
+  const std::string table = values["table"].as<std::string>();
+  expect_folder_of(table);
   const RunsFolder folder(values["output"].as<std::string>());
-  if (!quiet)
-    fmt::print("{:<22} {:<46} {:>11} {:>11} {:<6} {:>10} {:>8}\n", "rung", "quantity", "expected", "got", "unit",
-               "error", "allowed");
-  std::vector<Row> all;
-  for (const std::string& file : files)
-    for (const Row& row : climb(file, folder.path, threads_asked(values), values.count("long") > 0)) {
-      all.push_back(row);
-      if (!quiet) print_row(row);
-    }
-  if (folder.keep) write_atomically(folder.path + "/check.json", to_json(all).dump(2) + "\n");
-  const auto missed = std::count_if(all.begin(), all.end(), [](const Row& row) { return !row.pass(); });
-  if (!quiet) fmt::print("{} of {} quantities within their tolerance\n", std::int64_t(all.size()) - missed, all.size());
-  return missed == 0 ? 0 : 1;
+  const Climb how = {folder.path, threads_asked(values), values.count("long") > 0};
+  const std::vector<CheckRow> rows = climb_all(steps, how, values.count("quiet") > 0);
+  if (folder.keep) write_atomically(folder.path + "/check.json", check_json(rows).dump(2) + "\n");
+  if (!table.empty()) write_atomically(table, check_markdown(rows, VOUSSOIR_SOURCE_DIR));
+  const auto good = [](const CheckRow& row) { return row.pass() || row.known_miss(); };
+  return std::all_of(rows.begin(), rows.end(), good) ? 0 : 1;
 }
 
 }  // namespace
 
 Verb check_verb() {
-  return {"check", "runs validation cases and compares them with what they should give", check};
+  return {"check", "climbs the validation ladder: compares results with what they should be", check};
 }
 
 }  // namespace voussoir

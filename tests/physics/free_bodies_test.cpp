@@ -1,46 +1,8 @@
-// Motions without strain, and what free bodies keep.
-#include "tests/solver/measured.h"
+// What free bodies keep, and how exactly they turn (motions without strain: tools/ladder).
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
 namespace {
-
-Assembly bonded_stack() {
-  Assembly assembly = generated("column", {{"blocks", 5}, {"kn", 4e9}, {"ks", 1.6e9}});
-  JointLaw law = dry_law(0.6);
-  law.tension = law.cohesion = 1e5;
-  set_law(assembly, law);
-  return assembly;
-}
-
-/// A stack turned as a whole through 90° has no stress: below 1e-9 of kn × size, and nothing is left behind afterwards.
-TEST(RigidRotation, OfABondedStackThrough90DegreesIsWithoutStress) {
-  for (bool shortcut : {true, false}) {
-    SolverSettings settings = undamped();
-    settings.damping.kind = DampingSettings::Kind::maxwell;
-    settings.step.intact_shortcut = shortcut;
-    Bench bench(bonded_stack(), settings);
-    bench.begin();
-    const Vec3 centre(3.0, -2.0, 0.5), axis = Vec3(1, 2, -0.5).normalized();
-    double worst = 0.0;
-    for (int degrees = 0; degrees <= 90; ++degrees) {
-      const Eigen::Quaterniond q(Eigen::AngleAxisd(radians(degrees), axis));
-      for (std::int64_t block = 0; block < std::int64_t(bench.assembly.blocks.size()); ++block)
-        bench.turn_about(block, centre, q);
-      bench.stepper.patches_only();
-      for (std::size_t i = 0; i < bench.model.joints.size(); ++i) {
-        const double* w = &bench.stepper.wrenches[wrench_width * i];
-        worst = std::max(worst, Vec3(w[0], w[1], w[2]).norm() / bench.model.joints[i].area);
-      }
-    }
-    EXPECT_LT(worst, 1e-9 * 4e9 * 1.0);
-    measured(std::string("Stack turned through 90 degrees, ") + (shortcut ? "shortcut" : "point by point") +
-                 ": largest stress",
-             0.0, worst / (4e9 * 1.0), "of kn x size");
-    for (std::uint8_t mode : bench.state.joint.mode) EXPECT_EQ(mode & mode_broken, 0);
-    for (double energy : bench.state.joint.energy) EXPECT_LT(energy, 1e-9);
-  }
-}
 
 /// Two blocks joined by an elastic joint, no gravity, nothing fixed.
 Assembly two_free_blocks() {
@@ -126,42 +88,6 @@ TEST(FreeBodies, KeepEnergyAtTheDefaultStep) {
     worst = std::max(worst, std::abs(total / first - 1.0));
   }));
   EXPECT_LT(worst, 1e-3);
-}
-
-/// A block of three different sides; second axis intermediate.
-Assembly asymmetric_block() {
-  Assembly assembly = stone();
-  add_box(assembly, {0, 0, 0}, {0.5, 1.0, 2.0});
-  return joined(std::move(assembly), 1e9, 1e9, elastic_law());
-}
-
-double spin_energy(Bench& bench) {
-  const Body& body = bench.model.bodies[0];
-  const Vec3 local = bench.rotation(0).conjugate() * bench.momentum(0);
-  return 0.5 * local.dot(body.inverse_inertia * local);
-}
-
-/// Spin about the intermediate axis with a slight push aside: it flips over and over (Euler 1765).
-TEST(FreeSpin, AboutTheIntermediateAxisKeepsEnergyAndMomentum) {
-  Bench bench(asymmetric_block());
-  bench.begin(2 * pi / 4000);  // spin 1 rad/s: 4000 steps a turn
-  bench.stepper.search_distance = 1e300;
-  bench.push(0, Vec3::Zero(), Vec3(1e-3, 1.0, 2e-3));
-  const double energy = spin_energy(bench);
-  const Vec3 momentum = bench.momentum(0);
-  double worst = 0.0, least = 1.0;
-  for (int i = 0; i < 100 * 400; ++i) {
-    ASSERT_TRUE(bench.run(10));
-    worst = std::max(worst, std::abs(spin_energy(bench) / energy - 1.0));
-    const Vec3 local = bench.rotation(0).conjugate() * bench.momentum(0);
-    least = std::min(least, local.y() / momentum.norm());
-  }
-  EXPECT_LT(worst, 1e-6);
-  EXPECT_LT((bench.momentum(0) - momentum).norm(), 1e-6 * momentum.norm());
-  EXPECT_LT(least, -0.9) << "it flips";
-  measured("Free spin, 100 turns: largest change of energy", 0.0, worst, "relative");
-  measured("Free spin, 100 turns: change of momentum", 0.0, (bench.momentum(0) - momentum).norm() / momentum.norm(),
-           "relative");
 }
 
 TEST(FreeSpin, ConvergesWithTheSquareOfTheStep) {
