@@ -1,6 +1,7 @@
-// arch: one ring of equal flat-faced voussoirs between two fixed springings, circular or pointed.
+// arch: one ring of equal flat-faced voussoirs, circular or pointed, between fixed springings or on buttresses.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/generate.h"
@@ -61,6 +62,57 @@ void lay_springing(Layout& layout, const Vec3& in, const Vec3& out, const Vec3& 
             false);
 }
 
+/// A buttress under the left springing joint: its inner face goes straight down from the intrados, its top is the joint
+/// and then level (or, where the joint slopes down outwards, its extension). Dimensions in m.
+struct Buttress {
+  double width = 0.0, height = 0.0;  // below the joint's lower point
+  int courses = 1;
+};
+
+/// Outline of a buttress between two levels, counter-clockwise, in the plane y = 0.
+Polygon buttress_course(const Buttress& b, const Vec3& in, const Vec3& out, double low, double high, bool top) {
+  const double left = in.x() - b.width;
+  Polygon outline = {{left, 0.0, low}, {in.x(), 0.0, low}};
+  if (!top) {
+    outline.insert(outline.end(), {{in.x(), 0.0, high}, {left, 0.0, high}});
+    return outline;
+  }
+  outline.push_back(in);
+  const double slope = (out.z() - in.z()) / (out.x() - in.x());
+  if (left < out.x() - 1e-9 * b.width) {
+    if (out.z() >= in.z()) outline.push_back(out);
+    outline.emplace_back(left, 0.0, out.z() >= in.z() ? out.z() : in.z() + slope * (left - in.x()));
+  } else {
+    outline.push_back(out);
+  }
+  return outline;
+}
+
+/// A buttress in courses and the fixed block under it; of the right one everything is mirrored about `middle`.
+void lay_buttress(Layout& layout, const Buttress& b, const Vec3& in, const Vec3& out, double middle, double width,
+                  int part) {
+  const bool left = part == 0;
+  const std::string side = left ? "left" : "right";
+  const auto lay = [&](Polygon outline, Component component) {
+    for (Vec3& p : outline) {
+      if (!left) p.x() = 2.0 * middle - p.x();
+      p.y() = -0.5 * width;
+    }
+    if (!left) std::reverse(outline.begin(), outline.end());
+    const Vec3 size(b.width, width, b.height / b.courses);
+    lay_stone(layout, {make_prism(outline, {0.0, width, 0.0})}, {component, part, 0, size}, size, false);
+  };
+  const double springing = std::min(in.z(), out.z()), course = b.height / b.courses;
+  for (int i = 0; i < b.courses; ++i) {
+    layout.groups["buttress " + side].push_back(std::int64_t(layout.stones.size()));
+    const double low = springing - b.height + i * course;
+    lay(buttress_course(b, in, out, low, low + course, i + 1 == b.courses), Component::abutment);
+  }
+  const double base = springing - b.height;
+  layout.groups["base " + side] = {std::int64_t(layout.stones.size())};
+  lay(buttress_course(b, in, out, base - 0.5 * b.width, base, false), Component::base);
+}
+
 double thickness(const GeneratorInput& in) {
   return in("thickness") > 0.0 ? in("thickness") : in("thickness_ratio") * in("mean_radius");
 }
@@ -90,6 +142,21 @@ HalfRing read_half(const GeneratorInput& in) {
   return half;
 }
 
+/// `least`: width of the springing joint in plan, m.
+Buttress read_buttress(const GeneratorInput& in, double least) {
+  Buttress b = {in("buttress_width"), in("buttress_height"), int(in("buttress_courses"))};
+  if (b.height <= 0.0) return b;
+  if (in("embrace_angle") < 20.0)
+    throw InputError("[bridge] buttress_height = {:g} with embrace_angle = {:g} deg: buttresses need at least 20 deg",
+                     b.height, in("embrace_angle"));
+  if (b.width < least * (1.0 - 1e-9))
+    throw InputError(
+        "[bridge] buttress_width = {:g} m is less than the {:g} m that the springing joint takes in plan: make it at "
+        "least that wide",
+        b.width, least);
+  return b;
+}
+
 Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
   const HalfRing half = read_half(in);
   const int n = int(in("voussoirs"));
@@ -110,8 +177,14 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
       if (keystone) layout.groups["keystone 0"].push_back(s);
     }
   }
-  lay_springing(layout, ring.intrados.front(), ring.extrados.front(), left_in, left_out, true, width, 0);
-  lay_springing(layout, ring.intrados.back(), ring.extrados.back(), right_in, right_out, false, width, 1);
+  const Vec3 &foot_in = ring.intrados.front(), &foot_out = ring.extrados.front();
+  if (const Buttress buttress = read_buttress(in, std::abs(foot_out.x() - foot_in.x())); buttress.height > 0.0) {
+    const double middle = 0.5 * (foot_in.x() + ring.intrados.back().x());
+    for (int part : {0, 1}) lay_buttress(layout, buttress, foot_in, foot_out, middle, width, part);
+  } else {
+    lay_springing(layout, foot_in, foot_out, left_in, left_out, true, width, 0);
+    lay_springing(layout, ring.intrados.back(), ring.extrados.back(), right_in, right_out, false, width, 1);
+  }
 
   Assembly assembly = assemble(std::move(layout), in_order(defaults, in), {}, in.gap_tolerance);
   assign_stiffness(assembly, uniform_rules(in), in);
@@ -124,7 +197,8 @@ Generator arch_generator() {
   Generator generator;
   generator.name = "arch";
   generator.help =
-      "Arch of equal flat-faced voussoirs between fixed springings; pointed when eccentricity > 0 (two centres, each "
+      "Arch of equal flat-faced voussoirs between fixed springings or on buttresses; pointed when eccentricity > 0 "
+      "(two centres, each "
       "eccentricity x mean_radius beyond the middle line)";
   generator.parameters = {
       {"mean_radius", 10.0, 0.01, 500.0, "m", "radius of the middle of the ring"},
@@ -135,6 +209,9 @@ Generator arch_generator() {
       {"voussoirs", 27.0, 2.0, 400.0, "-", "between the springings, of equal angle", true},
       {"width", 1.0, 0.01, 100.0, "m", "across"},
       {"rows", 1.0, 1.0, 100.0, "-", "stones across, in stretcher bond", true},
+      {"buttress_height", 0.0, 0.0, 200.0, "m", "below the springing joints; 0: no buttresses, fixed springings"},
+      {"buttress_width", 2.0, 0.01, 200.0, "m", "of the buttresses, from the intrados outwards"},
+      {"buttress_courses", 1.0, 1.0, 1000.0, "-", "stones of a buttress, one above the other", true},
       {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
       {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 10e9, 4e9, 0.0, 0.0, radians(35.0)}};

@@ -102,8 +102,8 @@ void add_lights(vtkRenderer* renderer, const View& view) {
   add(0.8, -0.1, 1.2, 0.50 * strength);
 }
 
-/// What the picture is fitted to: all but the stones that have gone farther than a share of the whole's size. One that
-/// fell off and is still falling would make a dot of the bridge.
+/// What the picture is fitted to: all but the stones that are farther off the undeformed whole than a share of its
+/// size. One that fell off and is still falling would make a dot of the bridge.
 struct Content {
   vtkSmartPointer<vtkPoints> points = vtkSmartPointer<vtkPoints>::New();
   std::set<vtkIdType> gone;  // blocks
@@ -115,20 +115,23 @@ double diagonal(vtkPoints* points) {
   return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
 }
 
-Content content_of(vtkPolyData* faces, vtkPolyData* undeformed, double amplification) {
-  constexpr double far = 0.1;
-  vtkDataArray* displacement = faces->GetPointData()->GetArray("displacement_of_point");
+Content content_of(vtkPolyData* faces, vtkPolyData* undeformed) {
+  constexpr double far = 0.3;
   vtkDataArray* block = faces->GetCellData()->GetArray("block");
   const double reach = far * diagonal(undeformed->GetPoints());
+  double box[6];
+  undeformed->GetPoints()->GetBounds(box);
   Content content;
   content.points->SetDataTypeToDouble();
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
     faces->GetPolys()->GetCellAtId(c, corners);
     for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
-      Vec3 d = Vec3::Zero();
-      if (displacement) displacement->GetTuple(corners->GetId(k), d.data());
-      if (std::abs(amplification) * d.norm() > reach)
+      const double* p = faces->GetPoint(corners->GetId(k));
+      bool off = false;
+      for (int axis = 0; axis < 3; ++axis)
+        off |= p[axis] < box[2 * axis] - reach || p[axis] > box[2 * axis + 1] + reach;
+      if (off)
         content.gone.insert(block ? vtkIdType(block->GetComponent(c, 0)) : c);
       else
         content.points->InsertNextPoint(faces->GetPoint(corners->GetId(k)));
@@ -225,7 +228,7 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   const auto undeformed = deformed_faces(blocks, hidden, 0.0);
-  const Content content = content_of(faces, undeformed, options.amplification);
+  const Content content = content_of(faces, undeformed);
   vtkPoints* points = content.points;
   Sheet sheet = make_sheet(options, view, points);
   place_camera(renderer, view, points, sheet);

@@ -62,7 +62,13 @@ std::string edge_name(const Assembly& assembly, const MechanismJoint& joint) {
   return (joint.place - joint.centre).dot(out) > 0.0 ? "extrados" : "intrados";
 }
 
+/// To the millimetre, and never −0.
+double rounded(double x) {
+  return std::round(1e3 * x) / 1e3 + 0.0;
+}
+
 std::string mechanism_text(const Assembly& assembly, const std::vector<MechanismJoint>& mechanism) {
+  if (mechanism.empty()) return "no mechanism: no joint moves";
   std::size_t slides = 0;
   for (const MechanismJoint& joint : mechanism) slides += joint.slides;
   std::string text = fmt::format("mechanism: {} joints hinge, {} slide", mechanism.size() - slides, slides);
@@ -70,8 +76,8 @@ std::string mechanism_text(const Assembly& assembly, const std::vector<Mechanism
   for (const MechanismJoint& joint : mechanism) {
     const std::string edge = edge_name(assembly, joint);
     text += fmt::format("\n  blocks {} and {} {} at ({:.3f}, {:.3f}, {:.3f}) m{}", joint.a, joint.b,
-                        joint.slides ? "slide" : "hinge", joint.place.x(), joint.place.y(), joint.place.z(),
-                        edge.empty() ? "" : ", " + edge);
+                        joint.slides ? "slide" : "hinge", rounded(joint.place.x()), rounded(joint.place.y()),
+                        rounded(joint.place.z()), edge.empty() ? "" : ", " + edge);
   }
   return text;
 }

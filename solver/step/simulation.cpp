@@ -238,6 +238,7 @@ void Simulation::begin_stage(const StageSettings& stage) {
     set_branches(model_, state_, damping.branches.count);
     stepper_.damping = damping;
     log(damping.account);
+    if (!stage.placements.empty() && observers_.fields) observers_.fields(*this);  // where they are let go
   }
   position_.stage_begun = 1.0;
 }
@@ -253,11 +254,13 @@ void Simulation::change_contacts() {
   const CriticalStep critical = critical_step(model_, state_);
   const double step = settings_.step.safety * critical.step * damping_step_factor(settings_.damping, critical.highest);
   if (step >= position_.dt) return;
+  const bool worth_saying = step < 0.999 * position_.dt;
   position_.dt = stepper_.dt = step;
   position_.highest = critical.highest;
   stepper_.damping = damping_at_work(settings_.damping, step, critical.highest);
-  log(fmt::format("t = {:.4f} s: new contacts lower the step to {:.4g} s, set by {}", state_.time(), step,
-                  body_name(*assembly_, model_, critical.body)));
+  if (worth_saying)
+    log(fmt::format("t = {:.4f} s: new contacts lower the step to {:.4g} s, set by {}", state_.time(), step,
+                    body_name(*assembly_, model_, critical.body)));
 }
 
 /// What holds or drives a group, along the axes on which it is held, N.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "geometry/joints.h"
@@ -171,6 +172,41 @@ TEST(Arch, PointedArchMeetsInTheMiddlePlane) {
   GeneratorInput odd = default_input(find_generator("arch"));
   odd.values["eccentricity"] = 0.3;
   EXPECT_NE(error_of("arch", odd).find("even"), std::string::npos);
+}
+
+/// Ring, two buttresses in courses, the fixed blocks under them; with level, rising and falling springing joints.
+TEST(Arch, StandsOnButtresses) {
+  for (const double embrace : {180.0, 150.0, 195.0}) {
+    const Assembly arch = build("arch", {{"mean_radius", 5.0},
+                                         {"thickness", 0.8},
+                                         {"voussoirs", 11.0},
+                                         {"embrace_angle", embrace},
+                                         {"width", 1.5},
+                                         {"buttress_width", 2.0},
+                                         {"buttress_height", 3.0},
+                                         {"buttress_courses", 3.0}});
+    EXPECT_EQ(arch.blocks.size(), std::size_t(11 + 6 + 2));
+    EXPECT_EQ(moving(arch), 11 + 6);
+    EXPECT_EQ(arch.joints.size(), std::size_t(10 + 2 + 6)) << embrace;
+    EXPECT_TRUE(find_overlaps(arch, 1e-9).empty());
+    EXPECT_EQ(arch.groups.at("buttress left").size(), 3u);
+    // Below the joint's lower point 2 × 3 m. Above it: a joint that rises outwards and a level top; one that falls
+    // outwards is extended.
+    const double foot = 0.5 * embrace * std::numbers::pi / 180.0, run = 0.8 * std::sin(foot),
+                 rise = 0.8 * std::cos(foot);
+    const double above = rise >= 0.0 ? rise * (2.0 - 0.5 * run) : -rise * 2.0 * (1.0 - 1.0 / run);
+    for (const char* side : {"buttress left", "buttress right"}) {
+      double mass = 0.0;
+      for (const std::int64_t b : arch.groups.at(side)) mass += arch.blocks[std::size_t(b)].mass;
+      EXPECT_NEAR(mass, 2000.0 * 1.5 * (6.0 + above), 1e-6) << side << " at " << embrace;
+    }
+    EXPECT_TRUE(arch.blocks[std::size_t(arch.groups.at("base right").at(0))].fixed);
+    EXPECT_EQ(arch.groups.count("springing left"), 0u);
+  }
+  GeneratorInput slim = default_input(find_generator("arch"));
+  slim.values["buttress_height"] = 3.0;
+  slim.values["buttress_width"] = 1.0;
+  EXPECT_NE(error_of("arch", slim).find("buttress_width = 1 m is less than the 1.5 m"), std::string::npos);
 }
 
 }  // namespace

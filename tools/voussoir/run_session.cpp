@@ -230,9 +230,12 @@ int RunSession::run() {
                     request_.directory));
     return 1;
   }
-  log(fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}",
-                  end == RunEnd::finished ? "done" : "paused", simulation_->state().time(), simulation_->state().step(),
-                  duration_text(wall), simulation_->worst_balance()));
+  const std::string done = end == RunEnd::finished ? "done" : "paused";
+  const std::int64_t steps = simulation_->state().step();
+  log(simulation_->state().time() > 0.0
+          ? fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", done,
+                        simulation_->state().time(), steps, duration_text(wall), simulation_->worst_balance())
+          : fmt::format("{} in {}", done, duration_text(wall)));
   if (end == RunEnd::finished && request_.pictures) {
     for (const PlotSpec& plot : case_.plots)
       for (const MeasuredCurve& curve : plot.measured)

@@ -55,8 +55,8 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
 }
 
 /// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
-/// 1e-5 of the largest; first_zero (s): when it first changed sign (linear between rows, 0 when it never did). Of its
-/// block: largest rotation (rad), and whether it ended more than 45° from where it stood.
+/// 1e-5 of the largest; first_zero (s): when it first changed sign after having grown beyond that (linear between rows,
+/// 0 when it never did). Of its block: largest rotation (rad), and whether that was ever more than 45°.
 nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
   nlohmann::json json = nlohmann::json::object();
   for (const Sensor& sensor : assembly.sensors) {
@@ -66,23 +66,24 @@ nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
     for (double x : u) largest = std::max(largest, std::abs(x));
     std::size_t last = u.size();
     while (last > 0 && std::abs(u[last - 1] - u.back()) <= 1e-5 * largest) --last;
-    double first_zero = 0.0, turned = 0.0, most_turned = 0.0;
-    for (std::size_t i = 1; i < u.size() && first_zero == 0.0; ++i)
-      if (u[i - 1] * u[i] < 0.0)
+    double first_zero = 0.0, most_turned = 0.0, so_far = 0.0;
+    for (std::size_t i = 1; i < u.size() && first_zero == 0.0; ++i) {
+      so_far = std::max(so_far, std::abs(u[i - 1]));
+      if (u[i - 1] * u[i] < 0.0 && so_far > 1e-5 * largest)  // rounding about zero is no motion
         first_zero = history.time()[i - 1] + u[i - 1] / (u[i - 1] - u[i]) * (history.time()[i] - history.time()[i - 1]);
+    }
     std::array<const std::vector<double>*, 3> turn;
     for (int c = 0; c < 3; ++c)
       turn[std::size_t(c)] = &history.values(fmt::format("sensors/{}/rotation_{}", sensor.id, "xyz"[c]));
     for (std::size_t i = 0; i < u.size(); ++i) {
-      turned = Vec3((*turn[0])[i], (*turn[1])[i], (*turn[2])[i]).norm();
-      most_turned = std::max(most_turned, turned);
+      most_turned = std::max(most_turned, Vec3((*turn[0])[i], (*turn[1])[i], (*turn[2])[i]).norm());
     }
     json[sensor.id] = {{"largest", largest},
                        {"residual", u.back()},
                        {"moves_until", last > 0 ? history.time()[last - 1] : 0.0},
                        {"first_zero", first_zero},
                        {"largest_rotation", most_turned},
-                       {"overturned", turned > 0.25 * std::numbers::pi}};
+                       {"overturned", most_turned > 0.25 * std::numbers::pi}};
   }
   return json;
 }
