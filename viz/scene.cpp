@@ -114,9 +114,11 @@ vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hi
   const auto field = [&](const char* name) { return required(joints->GetCellData(), name, "joints"); };
   vtkDataArray *opening = field("largest_opening"), *slip = field("largest_slip"), *bonded = field("bonded");
   vtkDataArray *had_bond = field("had_bond"), *a = field("component_a"), *b = field("component_b");
+  vtkDataArray* replaced = joints->GetCellData()->GetArray("replaced");  // its polygon lies where nothing is any more
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkIdList> origin, corners;
   for (vtkIdType c = 0; c < joints->GetNumberOfPolys(); ++c) {
+    if (replaced && replaced->GetComponent(c, 0) != 0.0) continue;
     if (hidden(int(a->GetComponent(c, 0))) || hidden(int(b->GetComponent(c, 0)))) continue;
     const bool lost = had_bond->GetComponent(c, 0) != 0.0 && bonded->GetComponent(c, 0) < rule.bonded;
     const bool moved = opening->GetComponent(c, 0) > rule.opening || slip->GetComponent(c, 0) > rule.slip;

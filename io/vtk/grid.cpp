@@ -141,6 +141,7 @@ void add_patch_fields(vtkPolyData* data, const Assembly& assembly, const Snapsho
   number("bonded", [](const auto& p) { return p.bonded; });
   number("area", [](const auto& p) { return p.area; });
   whole(make_array<vtkUnsignedCharArray>("had_bond", n), [](const auto& p) { return p.had_bond ? 1 : 0; });
+  whole(make_array<vtkUnsignedCharArray>("replaced", n), [](const auto& p) { return p.replaced ? 1 : 0; });
   whole(make_array<vtkTypeInt64Array>("block_a", n), [](const auto& p) { return p.a; });
   whole(make_array<vtkTypeInt64Array>("block_b", n), [](const auto& p) { return p.b; });
   whole(make_array<vtkIntArray>("component_a", n), [&](const auto& p) { return component(p.a); });

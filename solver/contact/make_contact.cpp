@@ -266,6 +266,19 @@ void match_tractions(const Model& model, const State& state, const Patch& old, c
 
 }  // namespace
 
+Vec3 mean_slip(const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory) {
+  const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
+  Vec3 sum = Vec3::Zero();
+  double area = 0.0;
+  for (int i = 0; i < patch.point_count; ++i) {
+    const double weight = patch_point(patch, points, i).weight;
+    sum += weight * Vec3(0.0, memory.point[point_index(patch, i, 4, 1)], memory.point[point_index(patch, i, 4, 2)]);
+    area += weight;
+  }
+  const Eigen::Quaterniond frame(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z);
+  return area > 0.0 ? Vec3(frame * sum / area) : Vec3::Zero();
+}
+
 void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
                 const PatchMemory& memory, double energy, NewContact& contact) {
   match_tractions(model, state, old, points, memory, contact);

@@ -10,8 +10,9 @@ namespace voussoir {
 struct NewContact {
   Patch patch;  // first_point and first_corner are zero
   std::vector<PatchPoint> points, corners;
-  Array<double> memory;                              // 4 a point, see PatchMemory::point
-  double carried_opening = 0.0, carried_slip = 0.0;  // m, largest of the patch it replaces
+  Array<double> memory;           // 4 a point, see PatchMemory::point
+  double carried_opening = 0.0;   // m, largest of the patch it replaces
+  double slid[4] = {0, 0, 0, 0};  // see State::contact_slid
 };
 
 /// None when the cells are apart by more than `within` (m) or share too little to carry anything.
@@ -24,6 +25,9 @@ std::optional<NewContact> make_contact(const Model& model, const State& state, s
 /// not.
 void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
                 const PatchMemory& memory, double energy, NewContact& contact);
+
+/// Mean plastic slip of a patch's points (m, world axes, body b relative to a), since it was made.
+Vec3 mean_slip(const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory);
 
 /// The cell in its present placement.
 Convex placed_cell(const Model& model, const State& state, std::int32_t body, std::int32_t cell);

@@ -85,7 +85,8 @@ void append(State& next, const Branches& branches, const NewContact& c) {
   m.broken.insert(m.broken.end(), c.points.size(), 1);
   m.point_branch.insert(m.point_branch.end(), 3 * branches.count * c.points.size(), 0.0f);
   m.mode.push_back(mode_points);
-  m.largest.insert(m.largest.end(), {c.carried_opening, c.carried_slip});
+  m.largest.insert(m.largest.end(), {c.carried_opening, 0.0});
+  next.contact_slid.insert(next.contact_slid.end(), c.slid, c.slid + 4);
   m.energy.insert(m.energy.end(), 3, 0.0);
   m.last.insert(m.last.end(), 6, 0.0);  // a fresh contact's own jump is zero where it is made
 }
@@ -108,6 +109,7 @@ void copy_old(const State& from, State& next, const Branches& branches, std::siz
   copy(m.point_branch, n.point_branch, 3 * branches.count * at, 3 * branches.count * p.point_count);
   copy(m.mode, n.mode, i, 1);
   copy(m.largest, n.largest, 2 * i, 2);
+  copy(from.contact_slid, next.contact_slid, 4 * i, 4);
   copy(m.energy, n.energy, 3 * i, 3);
   copy(m.last, n.last, 6 * i, 6);
 }
@@ -120,12 +122,14 @@ struct Clipper {
   ContactUpdate& update;
 
   std::optional<NewContact> clip(const Patch& old, const Array<double>& points, const PatchMemory& memory,
-                                 double energy, const double* largest) {
+                                 double energy, const double* largest, const double* slid) {
     std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
     if (fresh) {
       carry_over(model, state, old, points, memory, energy, *fresh);
       fresh->carried_opening = largest[0];
-      fresh->carried_slip = largest[1];
+      const Vec3 before(slid[0], slid[1], slid[2]), after = before + mean_slip(state, old, points, memory);
+      std::copy(after.begin(), after.end(), fresh->slid);
+      fresh->slid[3] = std::max(slid[3], before.norm() + largest[1]);
       ++update.clipped;
     } else {
       ++update.dropped;
@@ -200,7 +204,9 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     if (!(state.joint.mode[i] & mode_points)) joint_to_points(model, state, branches, i);
     const double energy = patch_energy(model, state, branches, i, true).elastic;
     energy_before += energy;
-    std::optional<NewContact> fresh = clipper.clip(old, model.points, state.joint, energy, &state.joint.largest[2 * i]);
+    const double none[4] = {0, 0, 0, 0};
+    std::optional<NewContact> fresh =
+        clipper.clip(old, model.points, state.joint, energy, &state.joint.largest[2 * i], none);
     state.joint.mode[i] |= mode_gone;
     mark(state, old.a, state, moved), mark(state, old.b, state, moved);
     if (fresh) entries.push_back({key_of(old), -1, std::move(fresh)});
@@ -216,7 +222,8 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     energy_before += energy;
     std::optional<NewContact> fresh;
     if (clip)
-      fresh = clipper.clip(old, state.contact_points, state.contact, energy, &state.contact.largest[2 * i]);
+      fresh = clipper.clip(old, state.contact_points, state.contact, energy, &state.contact.largest[2 * i],
+                           &state.contact_slid[4 * i]);
     else
       ++update.dropped;
     retire(state, i);
@@ -257,6 +264,7 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
   std::swap(old.contact_points, state.contact_points);
   std::swap(old.contact_corners, state.contact_corners);
   std::swap(old.contact, state.contact);
+  std::swap(old.contact_slid, state.contact_slid);
   double energy_after = 0.0;
   for (const Entry& entry : entries) {
     if (entry.old >= 0) {

@@ -101,6 +101,7 @@ std::vector<NamedArray> State::arrays() {
   list.push_back({"contacts/points", 3, "m, m, m2", &contact_points});
   list.push_back({"contacts/corners", 2, "m", &contact_corners});
   add(list, "contacts", contact);
+  list.push_back({"contacts/slid", 4, "m", &contact_slid});
   return list;
 }
 

@@ -69,6 +69,8 @@ struct State {
   Array<double> contact_points;   // s, t, weight
   Array<double> contact_corners;  // s, t
   PatchMemory contact;
+  Array<double>
+      contact_slid;  // 4 a contact: slip of the patches it replaced (m, world axes), largest slip while they lived
   Array<double> contact_rows;  // the contacts as numbers, for files
 
   double& time() { return scalars[0]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/contact/jump.h"
+#include "solver/contact/make_contact.h"
 
 namespace voussoir {
 
@@ -91,7 +92,8 @@ PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t
   const Patch& p = model.joints[i];
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
   Tractions sum;
-  if (state.joint.mode[i] & mode_gone) {  // replaced: what it was lives on in its largest opening and slip
+  const bool replaced = state.joint.mode[i] & mode_gone;
+  if (replaced) {  // what it was lives on in its largest opening and slip
     sum.area = p.area;
     sum.opening = std::max(0.0, j.n);
   } else if (state.joint.mode[i] & mode_points) {
@@ -99,7 +101,18 @@ PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t
   } else {
     sum = intact_tractions(model, state, p, j, i);
   }
-  return patch_snapshot(model, p, j, sum, model.corners, &state.joint.largest[2 * i]);
+  PatchSnapshot s = patch_snapshot(model, p, j, sum, model.corners, &state.joint.largest[2 * i]);
+  s.replaced = replaced;
+  return s;
+}
+
+/// What the patches that a contact replaced had slipped belongs to it.
+void add_earlier_slip(const State& state, std::size_t contact, PatchSnapshot& s) {
+  const double* slid = &state.contact_slid[4 * contact];
+  const Vec3 before(slid[0], slid[1], slid[2]);
+  s.largest_slip = std::max(slid[3], before.norm() + s.largest_slip);
+  if (!before.isZero(0.0))
+    s.slip = (before + mean_slip(state, state.contacts[contact], state.contact_points, state.contact)).norm();
 }
 
 }  // namespace
@@ -122,7 +135,9 @@ Snapshot make_snapshot(const Model& model, const State& state) {
     const Patch& p = state.contacts[i];
     const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
     const Tractions sum = point_tractions(p, j, state.contact_points, state.contact);
-    snapshot.patches.push_back(patch_snapshot(model, p, j, sum, state.contact_corners, &state.contact.largest[2 * i]));
+    PatchSnapshot s = patch_snapshot(model, p, j, sum, state.contact_corners, &state.contact.largest[2 * i]);
+    add_earlier_slip(state, i, s);
+    snapshot.patches.push_back(std::move(s));
   }
   return snapshot;
 }
