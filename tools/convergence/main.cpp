@@ -1,0 +1,82 @@
+// voussoir-convergence: how results depend on points, joint stiffness, time step and load rate, as tables and pictures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "solver/base/error.h"
+#include "solver/base/parallel.h"
+#include "tools/convergence/studies.h"
+
+namespace voussoir {
+namespace {
+
+constexpr const char* help_example = "\nexample:\n  voussoir-convergence --study step -o pictures > step.md\n";
+
+std::string known_studies() {
+  std::string text;
+  for (const NamedStudy& study : convergence_studies()) text += fmt::format("  {:<12}{}\n", study.name, study.help);
+  return text;
+}
+
+void show(const NamedStudy& named, const std::string& folder, bool blank_before) {
+  const Study study = named.run();
+  fmt::print("{}{}", blank_before ? "\n" : "", markdown(study));
+  std::cout.flush();
+  if (folder.empty()) return;
+  for (const Chart& chart : study.charts)
+    plot_lines(chart.series, chart.x_label, chart.y_label, chart.options,
+               fmt::format("{}/convergence_{}.png", folder, chart.name));
+}
+
+int run(int argc, char** argv) {
+  namespace po = boost::program_options;
+  po::options_description described(
+      "voussoir-convergence [--study NAME]… [-o DIR]: errors against points, joint stiffness, time step and load rate, "
+      "as Markdown tables");
+  described.add_options()("help,h", "this text")("study,s", po::value<std::vector<std::string>>(),
+                                                 "only this study; may be given again")(
+      "output,o", po::value<std::string>()->default_value(""), "folder for the pictures (convergence_*.png)");
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(argc, argv).options(described).run(), values);
+    po::notify(values);
+  } catch (const po::error& e) {
+    throw InputError("{}; see voussoir-convergence --help", e.what());
+  }
+  if (values.count("help")) return std::cout << described << "\nstudies:\n" << known_studies() << help_example, 0;
+  std::vector<std::string> wanted;
+  if (values.count("study")) wanted = values["study"].as<std::vector<std::string>>();
+  for (const std::string& name : wanted) {
+    const auto& all = convergence_studies();
+    if (std::none_of(all.begin(), all.end(), [&](const NamedStudy& s) { return s.name == name; }))
+      throw InputError("unknown study '{}'; there are\n{}", name, known_studies());
+  }
+  const auto folder = values["output"].as<std::string>();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  bool shown = false;
+  for (const NamedStudy& study : convergence_studies()) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), study.name) == wanted.end()) continue;
+    show(study, folder, shown);
+    shown = true;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace voussoir
+
+int main(int argc, char** argv) {
+  voussoir::ensure_passive_waiting(argv);
+  try {
+    return voussoir::run(argc, argv);
+  } catch (const voussoir::InputError& e) {
+    fmt::print(stderr, "voussoir-convergence: error: {}\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "voussoir-convergence: failed: {}\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,39 @@
+// What a study prints and draws: Markdown tables and line charts, as plain data.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "viz/plot.h"
+
+namespace voussoir {
+
+struct Table {
+  std::string caption;                         // one line above the table
+  std::vector<std::string> columns;            // headings, with units
+  std::vector<std::vector<std::string>> rows;  // as many cells as headings
+};
+
+struct Chart {
+  std::string name;  // the picture is convergence_NAME.png
+  std::string x_label, y_label;
+  PlotOptions options;
+  std::vector<Series> series;
+};
+
+struct Study {
+  std::string title;
+  std::vector<Table> tables;
+  std::vector<Chart> charts;
+};
+
+/// The tables of a study as Markdown, with its title as a heading.
+std::string markdown(const Study& study);
+
+/// Order p between two computations with errors ~ h^p: ln(e1/e2) / ln(h1/h2). NaN where an error is zero.
+double measured_order(double error1, double error2, double h1, double h2);
+/// "1.98", or "" where there is none.
+std::string order_text(double order);
+/// "+0.12 %" of a relative error; three significant digits.
+std::string percent(double error);
+
+}  // namespace voussoir
