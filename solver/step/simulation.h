@@ -92,6 +92,7 @@ class Simulation {
   bool collapse(const StageSettings& stage);
   void impose(const StageSettings& stage);
   void place(const StageSettings& stage);
+  void start_from_rest();
   Vec3 reaction(const BodyPass& pass, const std::string& group) const;
   bool stopped() const;
   RunEnd timed(const StageSettings& stage, double until);

@@ -121,7 +121,7 @@ TEST(Guide, SwingsAsOneMassOnASpring) {
   ASSERT_EQ(run.run(), RunEnd::finished) << run.failure();
   measured("guided mass on a spring, gravity at once: lowest", -2 * load / stiffness, lowest, "m");
   EXPECT_NEAR(lowest, -2 * load / stiffness, 1e-4 * load / stiffness);
-  EXPECT_NEAR(last, 0.0, 1e-4 * load / stiffness);
+  EXPECT_NEAR(last, 0.0, 2e-4 * load / stiffness);  // 400 steps, the last sample up to one before the end
   EXPECT_LT(worst, 1e-9);
 }
 
