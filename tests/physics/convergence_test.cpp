@@ -63,6 +63,16 @@ TEST(Convergence, LeapfrogHasTheFrequencyItMustHave) {
   }
 }
 
+/// A stage that begins out of balance begins from rest: no half step lost or won.
+TEST(Convergence, ABlockLetGoIsOfSecondOrder) {
+  const LetGo coarse = let_go(0.2), fine = let_go(0.1);
+  const double order =
+      measured_order(coarse.displacement - coarse.expected, fine.displacement - fine.expected, coarse.dt, fine.dt);
+  measured("block let go: order of the time step", 2.0, order, "-");
+  EXPECT_GT(order, 1.9);
+  EXPECT_LT(order, 2.1);
+}
+
 TEST(Convergence, TimeStepIsOfSecondOrder) {
   const Response reference = column_response(0.0125);
   double before = difference(column_response(0.4), reference);

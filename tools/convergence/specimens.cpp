@@ -307,7 +307,6 @@ LetGo let_go(double share) {
   result.frequency = std::acos(up / down) / result.dt;
   result.displacement = x.at(steps);
   result.expected = std::cos(result.exact * 5.0 * quarter);
-  result.expected_half_a_step_on = std::cos(result.exact * (5.0 * quarter + 0.5 * result.dt));
   return result;
 }
 
@@ -345,8 +344,8 @@ Push push_wall(double duration, double local) {
                                          {{"length_blocks", 5},
                                           {"courses", 9},
                                           {"block_length", 0.2},
-                                          {"thickness", 0.1},
-                                          {"block_height", 0.2},
+                                          {"thickness", 0.2},
+                                          {"block_height", 0.1},
                                           {"beam_height", 0.2},
                                           {"kn", 7.56e9},
                                           {"ks", 3.0e9}},

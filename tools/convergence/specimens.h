@@ -56,12 +56,11 @@ double rocking_quarter(double kn, bool reclip);
 
 /// One bonded block let go out of balance along the normal of its joint.
 struct LetGo {
-  double exact = 0.0;                    // rad/s, √(kn A / m)
-  double dt = 0.0;                       // s
-  double frequency = 0.0;                // rad/s, of the steps
-  double displacement = 0.0;             // after 1¼ cycles, share of the start
-  double expected = 0.0;                 // of the exact motion at that time
-  double expected_half_a_step_on = 0.0;  // of the exact motion half a step later
+  double exact = 0.0;         // rad/s, √(kn A / m)
+  double dt = 0.0;            // s
+  double frequency = 0.0;     // rad/s, of the steps
+  double displacement = 0.0;  // after 1¼ cycles, share of the start
+  double expected = 0.0;      // of the exact motion at that time
 };
 /// `share` of the critical step.
 LetGo let_go(double share);
