@@ -1,6 +1,7 @@
 // The rocking block of Housner (1963): 0.6 × 2.4 m, α = 0.24498, p = √(3 g/(4 R)) = 2.43847 /s.
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
+#include "tools/convergence/specimens.h"
 
 namespace voussoir::test {
 namespace {
@@ -23,18 +24,8 @@ double tilt(Bench& bench) {
   return 2 * std::asin(bench.rotation(1).y());
 }
 
-/// Quarter cycle by quadrature of ½ θ'² = p² (cos(α − θ0) − cos(α − θ)): from rest at θ0 to the impact at θ = 0.
 double quarter_period(double start) {
-  const double radius = std::hypot(half_width, half_height), alpha = std::atan(half_width / half_height);
-  const double p2 = 3 * 9.81 / (4 * radius);
-  // θ = θ0 (1 − x²) takes the root's singularity out; midpoint rule.
-  double sum = 0.0;
-  const int n = 20000;
-  for (int i = 0; i < n; ++i) {
-    const double x = (i + 0.5) / n, theta = start * (1 - x * x);
-    sum += 2 * start * x / std::sqrt(2 * p2 * (std::cos(alpha - start) - std::cos(alpha - theta))) / n;
-  }
-  return sum;
+  return exact_rocking_quarter(2 * half_width, 2 * half_height, start);
 }
 
 TEST(Rocking, QuadratureAgreesWithThePublishedPeriods) {

@@ -13,6 +13,7 @@
 #include "geometry/generator.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "solver/base/program.h"
 #include "solver/contact/search.h"
 #include "solver/modal/equilibrium.h"
 #include "solver/step/critical_step.h"
@@ -228,14 +229,5 @@ int run(int argc, char** argv) {
 }  // namespace voussoir
 
 int main(int argc, char** argv) {
-  voussoir::ensure_passive_waiting(argv);
-  try {
-    return voussoir::run(argc, argv);
-  } catch (const voussoir::InputError& e) {
-    fmt::print(stderr, "voussoir-bench: error: {}\n", e.what());
-    return 2;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "voussoir-bench: failed: {}\n", e.what());
-    return 1;
-  }
+  return voussoir::run_program("voussoir-bench", voussoir::run, argc, argv);
 }

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "solver/base/error.h"
-#include "solver/base/parallel.h"
+#include "solver/base/program.h"
 #include "tools/convergence/studies.h"
 
 namespace voussoir {
@@ -69,14 +69,5 @@ int run(int argc, char** argv) {
 }  // namespace voussoir
 
 int main(int argc, char** argv) {
-  voussoir::ensure_passive_waiting(argv);
-  try {
-    return voussoir::run(argc, argv);
-  } catch (const voussoir::InputError& e) {
-    fmt::print(stderr, "voussoir-convergence: error: {}\n", e.what());
-    return 2;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "voussoir-convergence: failed: {}\n", e.what());
-    return 1;
-  }
+  return voussoir::run_program("voussoir-convergence", voussoir::run, argc, argv);
 }

@@ -191,7 +191,7 @@ Bed computed_bed(double eccentricity, int points) {
   settings.contact.points_per_side = points;
   settings.step.equilibrium_tolerance = 1e-10;
   StageSettings loaded;
-  loaded.loads = Loads{{}, {{"top", {0, 0, -bed_force}, Vec3(eccentricity * bed_side, 0, 0)}}};
+  loaded.loads = Loads{Vec3::Zero(), {{"top", {0, 0, -bed_force}, Vec3(eccentricity * bed_side, 0, 0)}}};
   settings.stages = {loaded};
   const Assembly assembly = block_on_a_bed(0.6);
   Simulation run(assembly, settings, 1, {});
@@ -206,7 +206,7 @@ double torsion_capacity(int points) {
   SolverSettings settings = undamped(Vec3::Zero());
   settings.contact.points_per_side = points;
   StageSettings pressed;
-  pressed.loads = Loads{{}, {{"top", {0, 0, -bed_force}, Vec3(0, 0, 0)}}};
+  pressed.loads = Loads{Vec3::Zero(), {{"top", {0, 0, -bed_force}, Vec3(0, 0, 0)}}};
   settings.stages = {pressed};
   Loads couple;  // at the level of the joint, so that it does not tip
   couple.forces = {{"top", {0, exact / a, 0}, Vec3(0.5 * a, 0, 0)}, {"top", {0, -exact / a, 0}, Vec3(-0.5 * a, 0, 0)}};
@@ -239,9 +239,8 @@ double slab_loss_of_an_elastic_face(double kn) {
   return 3.0 * lean_factor * lean;
 }
 
-double exact_rocking_quarter() {
-  const double alpha = std::atan(rocking_width / rocking_height), start = 0.5 * alpha;
-  const double p2 = 3.0 * gravity / (2.0 * std::hypot(rocking_width, rocking_height));
+double exact_rocking_quarter(double width, double height, double start) {
+  const double alpha = std::atan(width / height), p2 = 3.0 * gravity / (2.0 * std::hypot(width, height));
   // ½ θ'² = p² (cos(α − θ0) − cos(α − θ)); θ = θ0 (1 − x²) takes the root's singularity out. Midpoint rule.
   double sum = 0.0;
   const int n = 20000;
@@ -250,6 +249,10 @@ double exact_rocking_quarter() {
     sum += 2 * start * x / std::sqrt(2 * p2 * (std::cos(alpha - start) - std::cos(alpha - theta))) / n;
   }
   return sum;
+}
+
+double exact_rocking_quarter() {
+  return exact_rocking_quarter(rocking_width, rocking_height, 0.5 * std::atan(rocking_width / rocking_height));
 }
 
 double rocking_quarter(double kn, bool reclip) {
@@ -356,7 +359,7 @@ Push push_wall(double duration, double local) {
   settings.output.history_every = std::max(2e-4, duration / 4000.0);
   settings.output.fields_every = settings.output.checkpoint_every = 0.0;
   StageSettings loaded, pushed;
-  loaded.loads = Loads{{}, {{"beam", {0, 0, -1e5}, {}}}};
+  loaded.loads = Loads{Vec3::Zero(), {{"beam", {0, 0, -1e5}, {}}}};
   pushed.kind = StageSettings::Kind::free;
   pushed.duration = duration;
   pushed.drives = {{"beam", Vec3::Zero(), {0.01, 0, 0}}};

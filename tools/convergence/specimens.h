@@ -46,9 +46,11 @@ double slab_loss_of_an_elastic_face(double kn);
 
 // --- Rocking ---
 
-/// Quarter of the cycle of free rocking from half of α (0.6 × 2.4 m, Housner 1963), by quadrature, s.
+/// Quarter of the cycle of free rocking of a block (m) let go at a tilt (rad), by quadrature, s (Housner 1963).
+double exact_rocking_quarter(double width, double height, double start);
+/// The same from half of α, 0.6 × 2.4 m.
 double exact_rocking_quarter();
-/// The same, time from rest to the change of sign of the tilt, with steps of 2e-6 s. Without `reclip` the joint keeps
+/// That again, computed: time from rest to the change of sign of the tilt, with steps of 2e-6 s. Without `reclip` the joint keeps
 /// the polygon and the memory it was made with, however far the block turns.
 double rocking_quarter(double kn, bool reclip);
 
