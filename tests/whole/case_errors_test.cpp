@@ -180,6 +180,21 @@ TEST(CaseErrors, DrivesOfWhatIsNotThereOrFree) {
   refuse("top", {"'top'", "free"});
 }
 
+TEST(CaseErrors, PlotsOfWhatIsNotRecorded) {
+  expect_refused_with("[output]", "[[plot]]\nname = \"a\"\ny = \"reactions/base_x\"\n[output]",
+                      {"plot 'a'", "'reactions/base_x'", "does not record"});
+  expect_refused_with("[output]", "[[plot]]\nname = \"a\"\ny = \"energy/kinetc\"\n[output]",
+                      {"did you mean 'energy/kinetic'?"});
+}
+
+TEST(CaseErrors, GuidesOfWhatIsNotThereOrFree) {
+  const auto refuse = [](const std::string& group, const std::vector<std::string>& pieces) {
+    expect_refused_with("[output]", "[[guide]]\ngroup = \"" + group + "\"\nfree = [\"z\"]\n[output]", pieces);
+  };
+  refuse("bse", {"'bse'", "did you mean 'base'?"});
+  refuse("top", {"'top'", "free"});
+}
+
 TEST(CaseErrors, ThePlaceOfOutputCannotBeMade) {
   Folder folder;
   write_wall(folder);

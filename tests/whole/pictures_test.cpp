@@ -150,5 +150,20 @@ TEST_F(Pictures, ParaViewSeriesNameTheirFrames) {
   }
 }
 
+/// A plot of the case, a measured curve that is there and one that is not; the run's own folder holds what it needs.
+TEST_F(Pictures, PlotsOfTheCase) {
+  folder.write("plots.toml",
+               bytes_of(folder / "wall.toml") +
+                   "\n[[plot]]\nname = \"kinetic\"\ny = \"energy/kinetic\"\nmeasured = [{ file = \"there.csv\" "
+                   "}, { file = \"not_there.csv\" }]\n");
+  folder.write("there.csv", "s,J\n0,0\n1,2\n");
+  const Outcome outcome = voussoir({"run", "plots.toml", "-o", "plotted"}, there);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(size_of(folder / "plotted/images/kinetic.png")[0], 500);
+  EXPECT_TRUE(std::filesystem::exists(folder / "plotted/measured_1_1.txt"));
+  EXPECT_NE(bytes_of(folder / "plotted/run.log").find("kinetic.png goes without"), std::string::npos);
+  expect_same_run(folder / "run", folder / "plotted");
+}
+
 }  // namespace
 }  // namespace voussoir::test
