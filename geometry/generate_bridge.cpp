@@ -209,7 +209,7 @@ std::vector<Choice> bridge_choices(bool leaf, bool table) {
       table ? std::vector<std::string>{"table", "moduli"} : std::vector<std::string>{"moduli", "table"};
   return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
           {"backfill", {"rigid", "deformable", "none"}, "blocks, tetrahedra (a later version), or left out"},
-          {"fill_bond", {"running", "stack"}, "rigid backfill: running bond, or joints above joints"},
+          {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond *"},
           {"makeup", makeup, "piers and abutments: outer leaf around infill (and wing walls), or solid"},
           {"stiffness", stiffness, "joints from the table kn_, ks_ per component, or from E/dc and G/dc"}};
 }

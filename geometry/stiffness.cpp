@@ -39,6 +39,9 @@ class Assigner {
     const bool fill_a = a.component == Component::backfill, fill_b = b.component == Component::backfill;
     if (fill_a != fill_b) return times(rules_.table.at(fill_a ? b.component : a.component), rules_.interface_share);
     const bool from_table = rules_.kind == JointRules::Kind::table && !fill_a;
+    // The table's row of the loose filling is that of its contacts, whatever stands on their other side.
+    const bool infill = a.component == Component::infill || b.component == Component::infill;
+    if (from_table && infill) return rules_.table.at(Component::infill);
     return in_series(from_table ? table_half(a) : moduli_half(a), from_table ? table_half(b) : moduli_half(b));
   }
 

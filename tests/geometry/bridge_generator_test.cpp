@@ -149,7 +149,7 @@ TEST(Bridge, MassesAndSizesOfTheTwoBridges) {
     box.high = box.high.cwiseMax(block_box(block).high);
   }
   EXPECT_NEAR((box.low - Vec3(0.0, -3.55, -1.0)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((box.high - Vec3(54.4, 3.55, 17.6)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((box.high - Vec3(54.4, 3.55, 17.5)).norm(), 0.0, 1e-12);
   std::vector<double> tops;  // of CS2's fixed blocks
   for (const Block& block : cs2.blocks) {
     if (block.fixed) tops.push_back(block_box(block).high.z());
@@ -204,7 +204,7 @@ TEST(Bridge, GroupsNameTheKeystonesAndTheWallTops) {
       for (const std::int64_t s : cs1.groups.at(fmt::format("spandrel {} {}", side, name))) {
         const Block& block = cs1.blocks[std::size_t(s)];
         EXPECT_EQ(block.component, Component::spandrel);
-        EXPECT_NEAR(block_box(block).high.z(), 16.4, 1e-9);
+        EXPECT_NEAR(block_box(block).high.z(), 16.3, 1e-9);
         EXPECT_LT(std::abs(block.centroid.x() - x), 1.0);
         EXPECT_EQ(block.centroid.y() < 0.0, std::string(side) == "y-");
       }
@@ -242,7 +242,7 @@ TEST(Bridge, Cs1TakesItsJointsFromTheTable) {
   expect_all(bridge, Component::infill, Component::infill, 1330 * half, 531 * half);
   const auto series = [](double a, double b) { return 2.0 * a * b / (a + b); };
   expect_all(bridge, Component::arch, Component::pier, series(8890, 5310) * half, series(3560, 2120) * half);
-  expect_all(bridge, Component::pier, Component::infill, series(5310, 1330) * half, series(2120, 531) * half);
+  expect_all(bridge, Component::pier, Component::infill, 1330 * half, 531 * half);           // the row of the filling
   expect_all(bridge, Component::spandrel, Component::backfill, 0.2 * 5520e6, 0.2 * 2210e6);  // one layer at any scale
   expect_all(bridge, Component::arch, Component::backfill, 0.2 * 8890e6, 0.2 * 3560e6);
   expect_all(bridge, Component::restraint, Component::spandrel, 0.5 * 5520 * half, 0.5 * 2210 * half);
@@ -335,7 +335,7 @@ TEST(Bridge, ContradictionsNameTheirKeys) {
     return text.find(key) != std::string::npos;
   };
   EXPECT_TRUE(names(error("cs1", {{"backing_height", 7.5}}), "backing_height = 7.5"));
-  EXPECT_TRUE(names(error("cs1", {{"ring_thickness", 1.0}}), "pier_thickness = 1.8"));
+  EXPECT_TRUE(names(error("cs1", {{"ring_thickness", 1.0}}), "pier_thickness = 1.6"));
   EXPECT_TRUE(names(error("cs2", {{"spandrel_thickness_bottom", 3.4}}), "spandrel_thickness_bottom = 6.8"));
   EXPECT_TRUE(names(error("cs1", {{"leaf_thickness_odd", 0.9}}), "leaf_thickness_odd = 1.8"));
   EXPECT_TRUE(names(error("cs1", {{"batter_x", 0.02}}), "batter_x = 0.02"));
@@ -354,12 +354,12 @@ TEST(Bridge, OtherSizesAndMakeUpsCloseToo) {
   solid.values["voussoirs"] = 19.0;
   EXPECT_NEAR(uncovered_surface(build("cs1", solid)), (Analytic{solid, 19}.surface()), 1e-3);
   GeneratorInput longer = input_of("cs1", 2.5);  // the reading with the paper's total length of 62 m
-  longer.values["abutment_length"] = 8.3;
+  longer.values["abutment_length"] = 8.6;
   EXPECT_NEAR(uncovered_surface(build("cs1", longer)), (Analytic{longer, 16}.surface()), 1e-3);
-  GeneratorInput stacked = input_of("cs1", 2.5);
-  stacked.choices["fill_bond"] = "stack";
-  const Assembly stack = build("cs1", stacked), bonded = build("cs1", input_of("cs1", 2.5));
-  EXPECT_NEAR(uncovered_surface(stack), (Analytic{stacked, 16}.surface()), 1e-3);
+  GeneratorInput running = input_of("cs1", 2.5);
+  running.choices["fill_bond"] = "running";
+  const Assembly bonded = build("cs1", running), stack = build("cs1", input_of("cs1", 2.5));
+  EXPECT_NEAR(uncovered_surface(bonded), (Analytic{running, 16}.surface()), 1e-3);
   EXPECT_LT(stack.joints.size(), bonded.joints.size());
   GeneratorInput empty = input_of("cs1", 2.5);
   empty.choices["backfill"] = "none";
