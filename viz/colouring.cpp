@@ -86,6 +86,18 @@ Colouring colour_by_displacement(vtkPolyData* faces, double range_mm) {
   return colouring;
 }
 
+/// Shares of the largest displacement.
+Colouring colour_by_mode(vtkPolyData* faces) {
+  vtkDataArray* displacement = faces->GetPointData()->GetArray("displacement_of_point");
+  double range[2];
+  displacement->GetRange(range, -1);
+  // A scale of "mm" whose top is 1: the numbers at its ticks are shares.
+  Colouring colouring = colour_by_displacement(faces, range[1] > 0.0 ? 1e3 * range[1] : 1.0);
+  colouring.title = "displacement, share of the largest";
+  colouring.top_mm = 1.0;
+  return colouring;
+}
+
 /// By component, or all in the tone of stone.
 Colouring colour_plainly(vtkPolyData* faces, bool by_component) {
   vtkDataArray* component = faces->GetCellData()->GetArray("component");
@@ -112,8 +124,9 @@ Colouring colour_faces(vtkPolyData* faces, const std::string& by, double range_m
   if (by == "opening") return colour_by_cell(faces, "max_joint_opening", "largest joint opening (mm)", range_mm);
   if (by == "slip") return colour_by_cell(faces, "max_joint_slip", "largest joint slip (mm)", range_mm);
   if (by == "displacement") return colour_by_displacement(faces, range_mm);
+  if (by == "mode") return colour_by_mode(faces);
   if (by == "component" || by == "stone") return colour_plainly(faces, by == "component");
-  throw InputError("pictures: cannot colour by '{}'; give opening, slip, displacement, component or stone", by);
+  throw InputError("pictures: cannot colour by '{}'; give opening, slip, displacement, mode, component or stone", by);
 }
 
 }  // namespace voussoir

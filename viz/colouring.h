@@ -19,8 +19,8 @@ struct Colouring {
 };
 
 /// Adds the colours to the faces as active scalars ("colour") and returns what explains them. `by` is opening, slip,
-/// displacement, component or stone (all alike); `range_mm` is the top of the scale, 0 for one from the data. Fixed
-/// stones are grey. Throws InputError for another word.
+/// displacement, mode, component or stone (all alike); `range_mm` is the top of the scale, 0 for one from the data.
+/// Fixed stones are grey. Throws InputError for another word.
 Colouring colour_faces(vtkPolyData* faces, const std::string& by, double range_mm);
 
 }  // namespace voussoir

@@ -155,6 +155,7 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
   words.deform = options.amplification == 0.0   ? "undeformed"
                  : options.amplification == 1.0 ? "true deformations"
                                                 : fmt::format("deformations × {:g}", options.amplification);
+  if (!options.notes[0].empty()) words.time = options.notes[0], words.deform = options.notes[1];
   std::vector<std::string> left_out;  // only what there is to hide
   if (vtkDataArray* component = blocks->GetCellData()->GetArray("component"))
     for (const std::string& name : options.hide)
@@ -237,6 +238,7 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
   add_faces(renderer, faces);
   add_lines(renderer, outlines(faces), outline_width(faces), kOutline, lift);
   if (options.undeformed) add_lines(renderer, outlines(undeformed), 0.8, kFaint, -lift);
+  if (options.outline && joints) add_lines(renderer, outer_outline(undeformed, joints), 1.6, kInk, -lift);
   if (cracks) add_cracks(renderer, joints, hidden, options, 2.0 * lift);
   renderer->ResetCameraClippingRange();
 

@@ -1,5 +1,6 @@
 // Pictures of a state for reports and papers: deformed shape, damage, cracks; drawn off-screen from stored results.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace voussoir {
 
 struct RenderOptions {
   double amplification = 2.0;      // of the displacements relative to the base; 1: true, 0: undeformed
-  std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone
+  std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone;
+                                   // mode: displacement over the largest
   bool cracks = true;              // mark the joints that lost their bond, opened or slipped
   double crack_mm = 1.0;           // mm: a joint that opened or slipped more counts as cracked; 0: or lost its bond
   std::vector<std::string> hide = {"backfill"};  // components left out
@@ -21,7 +23,9 @@ struct RenderOptions {
   int width = 1800, height = 1000;               // pixels; height 0: as the content needs
   double range_mm = 0.0;                         // mm, top of the colour scale; 0: from the data
   bool undeformed = false;                       // thin outlines of the undeformed stones
+  bool outline = false;                          // or of the undeformed whole only (needs the joints)
   std::string title;
+  std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
 };
 
 /// Draws the grids of block_grid() and joint_polydata() (or of their files) into a PNG file. `joints` may be null: no

@@ -30,6 +30,10 @@ vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hid
 /// Edges where faces of a stone meet at an angle, or where a face ends.
 vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces);
 
+/// The outline of the whole: of the edges of undeformed stones what has nothing but air on both its faces, so none of
+/// the edges between stones that join in one face. `faces` are those of the undeformed stones, `joints` all patches.
+vtkSmartPointer<vtkPolyData> outer_outline(vtkPolyData* faces, vtkPolyData* joints);
+
 /// When a patch counts as cracked.
 struct CrackRule {
   double opening = 1e-4, slip = 1e-4;  // m, largest since the start

@@ -49,6 +49,14 @@ struct PlotSpec {
   std::vector<MeasuredCurve> measured;
 };
 
+/// A period from elsewhere, to be shown beside the computed one.
+struct ExpectedPeriod {
+  std::string direction;  // as ModeWords
+  int order = 1;
+  double period = 0.0;  // s
+  std::string source;
+};
+
 struct Case {
   std::string path, text;          // the file and its contents
   std::string generator;           // name, or empty when the assembly comes from a file
@@ -58,8 +66,9 @@ struct Case {
   std::vector<MotionSource> motions;  // one per stage of settings
   std::vector<SensorSpec> sensors;
   std::vector<PlotSpec> plots;
+  std::vector<ExpectedPeriod> expected_periods;
   std::uint64_t hash =
-      0;  // of the resolved text without plots, and the records: equal for a case and its resolved copy
+      0;  // of the resolved text without modes and plots, and the records: equal for a case and its resolved copy
 };
 
 /// What a case is read for: a case for geometry or modes may have no [[stage]].
@@ -87,5 +96,7 @@ void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors);
 const std::vector<std::string>& stage_kinds();
 const std::vector<std::string>& gravity_methods();
 const std::vector<std::string>& damping_kinds();
+const std::vector<std::string>& modal_states();
+const std::vector<std::string>& mode_directions();
 
 }  // namespace voussoir

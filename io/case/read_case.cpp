@@ -185,7 +185,8 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   read_stages(root, c, use);
   read_sensors(root, c);
   read_checks(root);                     // of no concern to a run, but a wrong one is said
-  c.hash = hash_text(resolved_text(c));  // before the plots, which change nothing in a run
+  c.hash = hash_text(resolved_text(c));  // before modes and plots, which change nothing in a run
+  read_modal(root, c);
   read_plots(root, c);
   root.finish();
   for (const MotionSource& motion : c.motions)

@@ -210,6 +210,21 @@ void write_stages(TomlText& out, const Case& c) {
 }
 
 /// A curve that was read stands beside the resolved case; one that was not there keeps the name it was looked for by.
+void write_modal(TomlText& out, const Case& c) {
+  const ModalSettings& modal = c.settings.modal;
+  out.heading("[modal]");
+  out.raw("modes", std::to_string(modal.modes));
+  out.set("state", modal_states()[std::size_t(modal.state)]);
+  out.set_flag("geometric", modal.geometric);
+  for (const ExpectedPeriod& expected : c.expected_periods) {
+    out.heading("[[modal.expected]]");
+    out.set("direction", expected.direction);
+    out.raw("order", std::to_string(expected.order));
+    out.set("period", expected.period);
+    out.set("source", expected.source);
+  }
+}
+
 void write_plots(TomlText& out, const std::vector<PlotSpec>& plots) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const PlotSpec& plot = plots[i];
@@ -248,6 +263,7 @@ std::string resolved_text(const Case& c) {
     out.raw("position", vector_text(sensor.position));
     out.raw("direction", vector_text(sensor.direction));
   }
+  write_modal(out, c);
   write_plots(out, c.plots);
   return out.text_;
 }

@@ -184,6 +184,31 @@ vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const 
   return grid;
 }
 
+vtkSmartPointer<vtkUnstructuredGrid> mode_grid(const Assembly& assembly, const Mode& mode) {
+  const auto grid = block_grid(assembly, rest_snapshot(assembly));
+  const vtkIdType n = vtkIdType(assembly.blocks.size());
+  auto displacement = make_array<vtkDoubleArray>("mode_displacement", n, 3);
+  auto rotation = make_array<vtkDoubleArray>("mode_rotation", n, 3);
+  auto shape = make_array<vtkDoubleArray>("mode_shape", grid->GetNumberOfPoints(), 3);
+  vtkIdType point = 0;
+  for (vtkIdType i = 0; i < n; ++i) {
+    const Vec3 u = mode.shape.row(i).head<3>(), turn = mode.shape.row(i).tail<3>();
+    displacement->SetTuple(i, u.data());
+    rotation->SetTuple(i, turn.data());
+    const vtkIdType corners = grid->GetCell(i)->GetNumberOfPoints();  // block_grid() shares none between stones
+    for (const vtkIdType end = point + corners; point < end; ++point) {
+      Vec3 x;
+      grid->GetPoint(point, x.data());
+      shape->SetTuple(point, Vec3(u + turn.cross(x - assembly.blocks[std::size_t(i)].centroid)).data());
+    }
+  }
+  grid->GetCellData()->AddArray(displacement);
+  grid->GetCellData()->AddArray(rotation);
+  grid->GetPointData()->AddArray(shape);
+  grid->GetPointData()->SetActiveVectors("mode_shape");
+  return grid;
+}
+
 vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snapshot& snapshot) {
   check(assembly, snapshot);
   auto data = vtkSmartPointer<vtkPolyData>::New();

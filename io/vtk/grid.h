@@ -9,6 +9,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "geometry/assembly.h"
+#include "solver/modal/modes.h"
 #include "solver/step/snapshot.h"
 
 namespace voussoir {
@@ -25,6 +26,10 @@ vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const 
 /// component_a, component_b (−1 where the second body is not a block). Point and field data as block_grid(); a corner's
 /// displacement is the mean over the two blocks.
 vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snapshot& snapshot);
+
+/// The same of the assembly as built, with a mode to warp it by: point data mode_shape (largest displacement of a
+/// centroid 1), cell data mode_displacement and mode_rotation (1/m).
+vtkSmartPointer<vtkUnstructuredGrid> mode_grid(const Assembly& assembly, const Mode& mode);
 
 /// The assembly as built: nothing displaced, every joint closed and bonded where its law has tension or cohesion.
 Snapshot rest_snapshot(const Assembly& assembly);

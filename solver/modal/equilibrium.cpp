@@ -23,17 +23,30 @@ void move_bodies(const Model& model, const Unknowns& unknowns, const Array<doubl
                  double share, State& state) {
   state.pose = from;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
+    const Vector6 part = share * part_of(step, unknowns, i);
     double* pose = &state.pose[pose_width * i];
-    for (int c = 0; c < 3; ++c) pose[c] += share * step[at + c];
-    const Vec3 turn = share * step.segment<3>(at + 3);
+    for (int c = 0; c < 3; ++c) pose[c] += part[c];
+    const Vec3 turn = part.tail<3>();
     const double angle = turn.norm();
     const Eigen::Quaterniond dq =
         angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Eigen::Quaterniond::Identity();
     const Eigen::Quaterniond q = (dq * Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6])).normalized();
     pose[3] = q.w(), pose[4] = q.x(), pose[5] = q.y(), pose[6] = q.z();
   }
+}
+
+/// K with every diagonal entry raised by a ten-millionth, so that a sliver of a mechanism does not stop Newton, and by
+/// a tenth of a thousandth of a millionth of the largest, for what nothing holds.
+SparseMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns) {
+  constexpr double share = 1e-7;
+  double largest = 0.0;
+  for (std::size_t site = 0; site < k.sites(); ++site)
+    if (unknowns.any(site)) largest = std::max(largest, k.diagonal(std::int32_t(site)).diagonal().maxCoeff());
+  for (std::size_t site = 0; site < k.sites(); ++site) {
+    auto diagonal = k.diagonal(std::int32_t(site)).diagonal().array();
+    diagonal = (diagonal + share * 1e-3 * largest) * (1.0 + share);
+  }
+  return k.over(unknowns);
 }
 
 using Cholesky = Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>;
@@ -47,14 +60,12 @@ OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns) {
   r.force.resize(unknowns.count);
   const double size = stepper.model->typical_size;
   for (std::size_t i = 0; i < stepper.model->bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
+    if (!unknowns.any(i)) continue;
     const BodyUpdate u = pass.update(i);
-    Eigen::Matrix<double, 6, 1> force;
+    Vector6 force;
     force << u.force.x, u.force.y, u.force.z, u.moment.x, u.moment.y, u.moment.z;
-    for (int c = 0; c < 6; ++c)
-      if (stepper.model->bodies[i].held(c)) force[c] = 0.0;
-    r.force.segment<6>(at) = force;
+    set_part(r.force, unknowns, i, force);
+    force = part_of(r.force, unknowns, i);  // less what the supports take
     r.largest = std::max({r.largest, force.head<3>().norm(), force.tail<3>().norm() / size});
   }
   r.largest /= std::max(stepper.model->average_weight, 1e-300);
@@ -84,7 +95,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
-    const SparseMatrix k = assemble_stiffness(model, state, unknowns, tangent, 1e-7);
+    const SparseMatrix k = slightly_held(stiffness_blocks(model, state, tangent), unknowns);
     if (!analysed) cholesky.analyzePattern(k);
     analysed = true;
     cholesky.factorize(k);

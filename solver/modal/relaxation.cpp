@@ -17,8 +17,6 @@ namespace voussoir {
 
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 constexpr std::int64_t round_steps = 40;  // between looks at residual and frequency
 
 /// Smallest inertia (one mass, one tensor) that is at least the block of K: m 1 and J about as stiff as K's own parts.
@@ -45,13 +43,13 @@ void hang_freely(const Model& model, Body& body) {
 /// Gives the bodies the inertia that relaxes fastest; after new contacts (`again`) it only ever raises it. A body whose
 /// inertia changes is stopped, for its momentum no longer means its velocity.
 void choose_inertia(bool again, State& state, Model& model) {
-  const std::vector<Matrix6> blocks = body_stiffness(model, state, PatchTangent::intact);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
+  const BlockMatrix k = stiffness_blocks(model, state, PatchTangent::intact);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     Body& body = model.bodies[i];
     if (body.still()) continue;
     double mass = 0.0;
     Mat3 inertia;
-    least_inertia(blocks[i], model.typical_size, mass, inertia);
+    least_inertia(k.diagonal(std::int32_t(i)), model.typical_size, mass, inertia);
     if (!again && mass <= 0.0) hang_freely(model, body);
     if (mass <= 0.0 || (again && mass < 1.0001 * body.inertial_mass)) continue;
     const Mat3 r = rotation_of(state, i).toRotationMatrix();
@@ -73,15 +71,14 @@ double frequency2(const Model& model, const State& state, const Unknowns& unknow
                   const Eigen::VectorXd& force) {
   double work = 0.0, mass = 0.0;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
+    if (!unknowns.any(i)) continue;
+    const Vector6 change = part_of(force, unknowns, i) - part_of(before.force, unknowns, i);
     const double *p = &state.pose[pose_width * i], *o = &before.pose[pose_width * i];
     const Vec3 u(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
     const Eigen::Quaterniond now = rotation_of(state, i);
     const Vec3 turn = 2.0 * (now * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
     const Vec3 turn_own = now.conjugate() * turn;
-    work -= u.dot(force.segment<3>(at) - before.force.segment<3>(at)) +
-            turn.dot(force.segment<3>(at + 3) - before.force.segment<3>(at + 3));
+    work -= u.dot(change.head<3>()) + turn.dot(change.tail<3>());
     mass += model.bodies[i].inertial_mass * u.squaredNorm() + turn_own.dot(model.bodies[i].inertia * turn_own);
   }
   return mass > 0.0 ? work / mass : 0.0;

@@ -1,15 +1,13 @@
 #include "solver/modal/stiffness.h"
 
-#include <algorithm>
-
 #include "solver/step/body_pass.h"
 
 namespace voussoir {
 
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix3x6 = Eigen::Matrix<double, 3, 6>;
 
 Matrix6 intact_stiffness(const Patch& p) {
@@ -96,15 +94,20 @@ Mat3 skew(const Vec3& a) {
   return m;
 }
 
-/// Generalised jump of a patch for small motions (du_a, dθ_a, du_b, dθ_b) of its bodies from where they are.
+/// From a body's centroid, where it is now, to the middle of the patch (m).
+Vec3 arm_to(const Model& model, const double* pose, std::int32_t body, const Vec3& place) {
+  return place - model.bodies[std::size_t(body)].centroid - Vec3(pose[0], pose[1], pose[2]);
+}
+
+/// Generalised jump of a patch for small motions (du_a, dθ_a, du_b, dθ_b) of its bodies from where they are. Exact at a
+/// finite jump too, since the axes turn by the mean of the two turns and the arms end in the middle.
 Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch) {
   const double *pa = pose_of(state, patch.a), *pb = pose_of(state, patch.b);
   const Jump<double> j = patch_jump(patch, pa, pb);
   const Eigen::Quaterniond q(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z);
   const Mat3 to_local = q.toRotationMatrix().transpose();
   const Vec3 place(j.place.x, j.place.y, j.place.z);
-  const Vec3 arm_a = place - model.bodies[patch.a].centroid - Vec3(pa[0], pa[1], pa[2]);
-  const Vec3 arm_b = place - model.bodies[patch.b].centroid - Vec3(pb[0], pb[1], pb[2]);
+  const Vec3 arm_a = arm_to(model, pa, patch.a, place), arm_b = arm_to(model, pb, patch.b, place);
   Matrix6x12 rows = Matrix6x12::Zero();
   rows.block<3, 3>(0, 0) = -to_local;
   rows.block<3, 3>(0, 3) = to_local * skew(arm_a);  // −(dθ × arm)
@@ -115,82 +118,38 @@ Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch)
   return rows;
 }
 
-/// K of one patch for small motions of both its bodies.
-Eigen::Matrix<double, 12, 12> pair_stiffness(const Model& model, const State& state, std::size_t index,
-                                             PatchTangent kind) {
-  const Patch& patch = patch_at(model, state, index);
-  Matrix6x12 rows = jump_rows(model, state, patch);
-  for (const auto& [body, column] : {std::pair{patch.a, 0}, std::pair{patch.b, 6}})
-    for (int c = 0; c < 6; ++c)
-      if (!model.bodies[body].still() && model.bodies[body].held(c)) rows.col(column + c).setZero();
+Matrix12 pair_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
+  const Matrix6x12 rows = jump_rows(model, state, patch_at(model, state, index));
   return rows.transpose() * patch_stiffness(model, state, index, kind) * rows;
 }
 
-/// The lower block triangle of K: for each free body its own 6 × 6 block, then those of its higher neighbours.
-struct Pattern {
-  std::vector<std::int32_t> first, neighbour;  // bodies
-};
-
-Pattern find_pattern(const Model& model, const State& state, const Unknowns& unknowns) {
-  const Incidence incidence = find_incidence(model, state);
-  Pattern pattern;
-  pattern.first.push_back(0);
-  for (std::int32_t body = 0; body < std::int32_t(model.bodies.size()); ++body) {
-    if (unknowns.of_body[body] >= 0) {
-      std::vector<std::int32_t> list = {body};
-      for (std::int32_t k = incidence.first[body]; k < incidence.first[body + 1]; ++k) {
-        const Patch& p = patch_at(model, state, incidence.patches[k] >> 1);
-        const std::int32_t other = p.a == body ? p.b : p.a;
-        if (other > body && unknowns.of_body[other] >= 0) list.push_back(other);
-      }
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-      pattern.neighbour.insert(pattern.neighbour.end(), list.begin(), list.end());
-    }
-    pattern.first.push_back(std::int32_t(pattern.neighbour.size()));
-  }
-  return pattern;
-}
-
-std::size_t block_at(const Pattern& pattern, std::int32_t column, std::int32_t row) {
-  const auto begin = pattern.neighbour.begin() + pattern.first[column],
-             end = pattern.neighbour.begin() + pattern.first[column + 1];
-  return std::size_t(std::lower_bound(begin, end, row) - pattern.neighbour.begin());
-}
-
-SparseMatrix to_columns(const Pattern& pattern, const Unknowns& unknowns, const std::vector<Matrix6>& blocks,
-                        double shift) {
-  SparseMatrix k(unknowns.count, unknowns.count);
-  std::vector<int> sizes(unknowns.count);
-  for (std::size_t body = 0; body < unknowns.of_body.size(); ++body)
-    if (unknowns.of_body[body] >= 0)
-      for (int c = 0; c < 6; ++c)
-        sizes[unknowns.of_body[body] + c] = 6 * (pattern.first[body + 1] - pattern.first[body]) - c;
-  k.reserve(sizes);
-  for (std::size_t body = 0; body < unknowns.of_body.size(); ++body) {
-    const std::int32_t column = unknowns.of_body[body];
-    if (column < 0) continue;
-    for (int c = 0; c < 6; ++c)
-      for (std::int32_t at = pattern.first[body]; at < pattern.first[body + 1]; ++at) {
-        const std::int32_t row = unknowns.of_body[pattern.neighbour[at]];
-        for (int r = row == column ? c : 0; r < 6; ++r)
-          k.insert(row + r, column + c) = blocks[at](r, c) * (row + r == column + c ? 1.0 + shift : 1.0);
-      }
-  }
-  k.makeCompressed();
+/// What the forces already there do when the bodies move (docs/theory/modes.md): the patch's resultant F and couple C
+/// on b turn with its axes, by ½ (dθ_a + dθ_b), and act at its middle, which moves by the mean of the two faces. The
+/// skew parts of the diagonal blocks, −½ [M]×, cancel over a body in equilibrium and are left out.
+Matrix12 geometric_stiffness(const Model& model, const State& state, const Patch& patch, const double* wrench) {
+  const double *pa = pose_of(state, patch.a), *pb = pose_of(state, patch.b);
+  const Jump<double> j = patch_jump(patch, pa, pb);
+  const Vec3 place(j.place.x, j.place.y, j.place.z), force = -Vec3(wrench[0], wrench[1], wrench[2]);
+  const Vec3 couple = -Vec3(wrench[3], wrench[4], wrench[5]) - place.cross(force);
+  const Mat3 f = skew(force), ra = skew(arm_to(model, pa, patch.a, place)),
+             rb = skew(arm_to(model, pb, patch.b, place));
+  Matrix12 k = Matrix12::Zero();  // −∂(forces on a and b)/∂(motions)
+  k.block<3, 3>(0, 3) = k.block<3, 3>(0, 9) = -0.5 * f;
+  k.block<3, 3>(6, 3) = k.block<3, 3>(6, 9) = 0.5 * f;
+  k.block<3, 3>(3, 0) = k.block<3, 3>(9, 0) = 0.5 * f;
+  k.block<3, 3>(3, 6) = k.block<3, 3>(9, 6) = -0.5 * f;
+  k.block<3, 3>(9, 3) = 0.5 * (rb * f - f * ra + skew(couple));
+  k.block<3, 3>(3, 9) = k.block<3, 3>(9, 3).transpose();
   return k;
 }
 
-}  // namespace
-
-Unknowns number_unknowns(const Model& model) {
-  Unknowns unknowns;
-  for (const Body& body : model.bodies) {
-    unknowns.of_body.push_back(body.still() ? -1 : unknowns.count);
-    if (!body.still()) unknowns.count += 6;
-  }
-  return unknowns;
+void add_pair(BlockMatrix& k, const Patch& patch, const Matrix12& pair) {
+  k.add(patch.a, patch.a, pair.topLeftCorner<6, 6>());
+  k.add(patch.b, patch.b, pair.bottomRightCorner<6, 6>());
+  k.add(patch.b, patch.a, pair.bottomLeftCorner<6, 6>());
 }
+
+}  // namespace
 
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
   const std::size_t joints = model.joints.size();
@@ -206,56 +165,44 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
   return is_open(model, state, index) ? Matrix6(Matrix6::Zero()) : intact_stiffness(patch);
 }
 
-std::vector<Matrix6> body_stiffness(const Model& model, const State& state, PatchTangent kind) {
-  std::vector<Matrix6> blocks(model.bodies.size(), Matrix6::Zero());
-  for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
-    const Patch& patch = patch_at(model, state, i);
-    const Eigen::Matrix<double, 12, 12> k = pair_stiffness(model, state, i, kind);
-    blocks[patch.a] += k.topLeftCorner<6, 6>();
-    blocks[patch.b] += k.bottomRightCorner<6, 6>();
-  }
-  return blocks;
-}
-
-SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind,
-                                double shift) {
-  const Pattern pattern = find_pattern(model, state, unknowns);
-  std::vector<Matrix6> blocks(pattern.neighbour.size(), Matrix6::Zero());
+BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind, const Array<double>* wrenches) {
   const std::size_t all = model.joints.size() + state.contacts.size();
+  std::vector<std::pair<std::int32_t, std::int32_t>> coupled;
   for (std::size_t i = 0; i < all; ++i) {
     const Patch& patch = patch_at(model, state, i);
-    const Eigen::Matrix<double, 12, 12> k = pair_stiffness(model, state, i, kind);
-    const bool free_a = unknowns.of_body[patch.a] >= 0, free_b = unknowns.of_body[patch.b] >= 0;
-    if (free_a) blocks[block_at(pattern, patch.a, patch.a)] += k.topLeftCorner<6, 6>();
-    if (free_b) blocks[block_at(pattern, patch.b, patch.b)] += k.bottomRightCorner<6, 6>();
-    if (!free_a || !free_b) continue;
-    if (patch.a < patch.b)
-      blocks[block_at(pattern, patch.a, patch.b)] += k.bottomLeftCorner<6, 6>();
-    else
-      blocks[block_at(pattern, patch.b, patch.a)] += k.topRightCorner<6, 6>();
+    coupled.emplace_back(patch.a, patch.b);
   }
-  if (shift > 0.0) {  // a block that nothing holds has a zero diagonal: give it the share of a typical one
-    double largest = 0.0;
-    for (const Matrix6& block : blocks) largest = std::max(largest, block.diagonal().maxCoeff());
-    for (std::size_t body = 0; body < unknowns.of_body.size(); ++body)
-      if (unknowns.of_body[body] >= 0)
-        blocks[block_at(pattern, std::int32_t(body), std::int32_t(body))].diagonal().array() += shift * 1e-3 * largest;
+  BlockMatrix k(model.bodies.size(), coupled);
+  for (std::size_t i = 0; i < all; ++i) {
+    const Patch& patch = patch_at(model, state, i);
+    add_pair(k, patch, pair_stiffness(model, state, i, kind));
+    if (wrenches) add_pair(k, patch, geometric_stiffness(model, state, patch, &(*wrenches)[wrench_width * i]));
   }
-  return to_columns(pattern, unknowns, blocks, shift);
+  return k;
+}
+
+SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind) {
+  return stiffness_blocks(model, state, kind).over(unknowns);
+}
+
+Matrix6 body_mass(const Model& model, const State& state, std::size_t body) {
+  Matrix6 m = Matrix6::Zero();
+  const Mat3 r = rotation_of(state, body).toRotationMatrix();
+  m.topLeftCorner<3, 3>() = model.bodies[body].inertial_mass * Mat3::Identity();
+  m.bottomRightCorner<3, 3>() = r * model.bodies[body].inertia * r.transpose();
+  return m;
 }
 
 Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
                                const Eigen::VectorXd& x) {
   Eigen::VectorXd y(x.size());
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
     const Body& body = model.bodies[i];
     const Mat3 r = rotation_of(state, i).toRotationMatrix();
-    y.segment<3>(at) = x.segment<3>(at) / body.inertial_mass;
-    y.segment<3>(at + 3) = r * (body.inverse_inertia * (r.transpose() * x.segment<3>(at + 3)));
-    for (int c = 0; c < 6; ++c)
-      if (body.held(c)) y[at + c] = 0.0;
+    Vector6 part = part_of(x, unknowns, i);
+    part.head<3>() /= body.inertial_mass;
+    part.tail<3>() = (r * (body.inverse_inertia * (r.transpose() * part.tail<3>()))).eval();
+    set_part(y, unknowns, i, part);
   }
   return y;
 }

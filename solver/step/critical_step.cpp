@@ -22,10 +22,8 @@ void name_the_fastest(const Model& model, const State& state, const Unknowns& un
                       CriticalStep& result) {
   double most = -1.0;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
-    const double energy = model.bodies[i].inertial_mass * x.segment<3>(at).squaredNorm() +
-                          x.segment<3>(at + 3).dot(model.bodies[i].inertia * x.segment<3>(at + 3));
+    const Vector6 part = part_of(x, unknowns, i);
+    const double energy = part.dot(body_mass(model, state, i) * part);
     if (energy > most) most = energy, result.body = std::int32_t(i);
   }
   double stiffest = -1.0;

@@ -123,12 +123,10 @@ DampingAtWork maxwell_at_work(const DampingSettings& settings, double step) {
   return work;
 }
 
-/// ξ = mass/(2ω) + stiffness ω/2, equal to the ratio at both ends of the band (Clough & Penzien 1993, eq. 12-38).
 DampingAtWork rayleigh_at_work(const DampingSettings& settings, double step, double highest) {
   DampingAtWork work;
-  const double w1 = two_pi * settings.band[0], w2 = two_pi * settings.band[1];
-  work.mass_rate = 2.0 * settings.ratio * w1 * w2 / (w1 + w2);
-  const double beta = 2.0 * settings.ratio / (w1 + w2);  // s
+  const auto [alpha, beta] = rayleigh_terms(settings);
+  work.mass_rate = alpha;
   Branches& b = work.branches;
   b.count = 1;
   b.e[0] = 0.0;
@@ -144,6 +142,11 @@ DampingAtWork rayleigh_at_work(const DampingSettings& settings, double step, dou
 }
 
 }  // namespace
+
+RayleighTerms rayleigh_terms(const DampingSettings& settings) {
+  const double w1 = two_pi * settings.band[0], w2 = two_pi * settings.band[1];
+  return {2.0 * settings.ratio * w1 * w2 / (w1 + w2), 2.0 * settings.ratio / (w1 + w2)};
+}
 
 DampingAtWork damping_at_work(const DampingSettings& settings, double step, double highest) {
   switch (settings.kind) {

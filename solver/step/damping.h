@@ -23,6 +23,14 @@ double maxwell_stiffening(const MaxwellFit& fit, double frequency);
 /// control).
 MaxwellFit fit_maxwell(double ratio, std::array<double, 2> band, int branches);
 
+/// Rayleigh's terms: ξ = mass/(2ω) + stiffness ω/2, equal to the ratio at both ends of the band (Clough & Penzien 1993,
+/// eq. 12-38).
+struct RayleighTerms {
+  double mass = 0.0;       // 1/s
+  double stiffness = 0.0;  // s
+};
+RayleighTerms rayleigh_terms(const DampingSettings& settings);
+
 /// Damping as the step uses it.
 struct DampingAtWork {
   Branches branches;

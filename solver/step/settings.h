@@ -110,6 +110,15 @@ struct StepSettings {
   bool intact_shortcut = true;          // off: every patch takes the point-by-point path (verification)
 };
 
+/// What `voussoir modal` is asked for.
+struct ModalSettings {
+  /// Joints as if bonded and elastic; or as they are once the assembly rests under gravity.
+  enum class State { intact, gravity };
+  int modes = 10;
+  State state = State::intact;
+  bool geometric = false;  // with the stiffness of the forces that the joints carry
+};
+
 struct OutputSettings {
   double checkpoint_every = 5.0;   // s of simulated time
   double checkpoint_wall = 600.0;  // s of wall time
@@ -125,6 +134,7 @@ struct SolverSettings {
   std::vector<Guide> guides;
   std::vector<StageSettings> stages;
   OutputSettings output;
+  ModalSettings modal;
 };
 
 }  // namespace voussoir

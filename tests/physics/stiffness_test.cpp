@@ -26,20 +26,19 @@ TEST(Stiffness, IsTheExplicitForceOfASmallMotion) {
     for (int repeat = 0; repeat < 5; ++repeat) {
       Eigen::VectorXd u = Eigen::VectorXd::Zero(unknowns.count), f = u;
       for (std::size_t i = 0; i < bench.model.bodies.size(); ++i) {
-        const std::int32_t at = unknowns.of_body[i];
-        if (at < 0) continue;
+        if (!unknowns.any(i)) continue;
         const Vec3 move = random_vector(1e-9, random), turn = random_vector(1e-9, random);
-        u.segment<3>(at) = move, u.segment<3>(at + 3) = turn;
+        set_part(u, unknowns, i, (Vector6() << move, turn).finished());
         double* p = &bench.state.pose[pose_width * i];
         for (int c = 0; c < 3; ++c) p[c] = move[c], p[4 + c] = 0.5 * turn[c];
       }
       bench.stepper.patches_only();
       const BodyPass pass = bench.stepper.body_pass();
       for (std::size_t i = 0; i < bench.model.bodies.size(); ++i) {
-        const std::int32_t at = unknowns.of_body[i];
-        if (at < 0) continue;
         const BodyUpdate b = pass.update(i);
-        f.segment<6>(at) << b.force.x, b.force.y, b.force.z, b.moment.x, b.moment.y, b.moment.z;
+        Vector6 force;
+        force << b.force.x, b.force.y, b.force.z, b.moment.x, b.moment.y, b.moment.z;
+        set_part(f, unknowns, i, force);
       }
       EXPECT_LT((f + k * u).norm(), 1e-8 * f.norm());
     }

@@ -8,4 +8,24 @@ namespace voussoir::test {
 
 using namespace ladder;
 
+/// Dense K and M over the unknowns (present placement).
+struct DenseSystem {
+  Eigen::MatrixXd k, m;
+};
+inline DenseSystem dense_system(const Bench& bench, PatchTangent kind = PatchTangent::intact,
+                                const Array<double>* wrenches = nullptr) {
+  const Unknowns unknowns = number_unknowns(bench.model);
+  DenseSystem system;
+  const Eigen::MatrixXd lower = stiffness_blocks(bench.model, bench.state, kind, wrenches).over(unknowns);
+  system.k = lower.selfadjointView<Eigen::Lower>();
+  system.m = Eigen::MatrixXd::Zero(unknowns.count, unknowns.count);
+  for (std::size_t i = 0; i < bench.model.bodies.size(); ++i) {
+    const Matrix6 m = body_mass(bench.model, bench.state, i);
+    for (int r = 0; r < 6; ++r)
+      for (int c = 0; c < 6; ++c)
+        if (unknowns.of[i][r] >= 0 && unknowns.of[i][c] >= 0) system.m(unknowns.of[i][r], unknowns.of[i][c]) = m(r, c);
+  }
+  return system;
+}
+
 }  // namespace voussoir::test

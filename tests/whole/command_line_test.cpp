@@ -6,7 +6,7 @@
 namespace voussoir::test {
 namespace {
 
-const std::vector<std::string> verb_names = {"generate", "import", "info", "run", "resume", "render", "check"};
+const std::vector<std::string> verb_names = {"generate", "import", "info", "run", "resume", "modal", "render", "check"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

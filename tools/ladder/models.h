@@ -11,7 +11,7 @@
 #include "solver/contact/make_contact.h"
 #include "solver/contact/search.h"
 #include "solver/modal/equilibrium.h"
-#include "solver/modal/stiffness.h"
+#include "solver/modal/modes.h"
 #include "solver/step/critical_step.h"
 #include "solver/step/energy.h"
 #include "solver/step/stepper.h"
@@ -249,53 +249,25 @@ class Bench {
   Stepper stepper;
 };
 
-/// Dense K and M of the free bodies (present placement).
-struct DenseSystem {
-  Eigen::MatrixXd k, m;
-};
-inline DenseSystem dense_system(const Bench& bench, PatchTangent kind = PatchTangent::intact) {
-  const Unknowns unknowns = number_unknowns(bench.model);
-  DenseSystem system;
-  const Eigen::MatrixXd lower = assemble_stiffness(bench.model, bench.state, unknowns, kind);
-  system.k = lower.selfadjointView<Eigen::Lower>();
-  system.m = Eigen::MatrixXd::Zero(unknowns.count, unknowns.count);
-  for (std::size_t i = 0; i < bench.model.bodies.size(); ++i) {
-    const std::int32_t at = unknowns.of_body[i];
-    if (at < 0) continue;
-    const Body& body = bench.model.bodies[i];
-    const double* p = &bench.state.pose[pose_width * i];
-    const Mat3 r = Eigen::Quaterniond(p[3], p[4], p[5], p[6]).toRotationMatrix();
-    system.m.block<3, 3>(at, at) = body.inertial_mass * Mat3::Identity();
-    system.m.block<3, 3>(at + 3, at + 3) = r * body.inertia * r.transpose();
-  }
-  return system;
+/// The modes of the intact assembly in its present placement.
+inline std::vector<Mode> modes_of(const Bench& bench, int count) {
+  return find_modes(bench.assembly, bench.model, bench.state, count, PatchTangent::intact).modes;
 }
 
-/// A mode of the intact assembly; shape: displacement (m) and turn (rad) of the free bodies.
-struct Mode {
-  double frequency = 0.0;  // Hz
-  double along[3] = {};    // shares of its kinetic energy in displacement along x, y, z
-  Eigen::VectorXd shape;
-};
-/// All modes, by frequency. Rigid ones have what rounding leaves.
-inline std::vector<Mode> modes_of(const Bench& bench) {
-  const DenseSystem system = dense_system(bench);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(system.k, system.m);
-  std::vector<Mode> modes;
-  for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
-    Mode mode{std::sqrt(std::max(0.0, solver.eigenvalues()[i])) / (2 * pi), {}, solver.eigenvectors().col(i)};
-    for (Eigen::Index at = 0; at < mode.shape.size(); ++at)
-      if (at % 6 < 3) mode.along[at % 6] += mode.shape[at] * mode.shape[at] * system.m(at, at);
-    modes.push_back(mode);
-  }
-  return modes;
+/// Whether a mode has more than 99 % of its kinetic energy in displacements along an axis (0, 1, 2).
+inline bool moves_along(const Bench& bench, const Mode& mode, int axis) {
+  double along = 0.0;
+  for (std::size_t i = 0; i < bench.assembly.blocks.size(); ++i)
+    along += bench.assembly.blocks[i].mass * std::pow(mode.shape(Eigen::Index(i), axis), 2);
+  return along > 0.99 * mode.modal_mass;
 }
-/// Those with more than 99 % of their kinetic energy along an axis (0, 1, 2).
-inline std::vector<Mode> modes_along(const Bench& bench, int axis) {
-  std::vector<Mode> found;
-  for (const Mode& mode : modes_of(bench))
-    if (mode.along[axis] > 0.99) found.push_back(mode);
-  return found;
+
+/// Puts the blocks where a mode has them, its largest displacement being `largest` (m).
+inline void displace(Bench& bench, const Mode& mode, double largest) {
+  for (std::int64_t block = 0; block < mode.shape.rows(); ++block) {
+    const Vec3 turn = 0.5 * largest * mode.shape.row(block).tail<3>();
+    bench.place(block, largest * mode.shape.row(block).head<3>(), {1.0, turn.x(), turn.y(), turn.z()});
+  }
 }
 
 }  // namespace voussoir::ladder

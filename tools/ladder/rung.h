@@ -50,6 +50,7 @@ Rung free_spin();
 Rung axial_chain();
 Rung bending_cantilever();
 Rung ring_down();
+Rung bridge_ring();
 Rung maxwell_fit();
 Rung maxwell_ring();
 Rung softening_joint();

@@ -12,6 +12,7 @@ const std::vector<Rung>& rungs() {
       axial_chain(),         //
       bending_cantilever(),  //
       ring_down(),           //
+      bridge_ring(),         //
       maxwell_fit(),         //
       maxwell_ring(),        //
       softening_joint(),     //

@@ -22,26 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> words(const std::string& list) {
-  std::vector<std::string> found;
-  std::string word;
-  for (char c : list + ",") {
-    if (c != ',') {
-      word += c;
-      continue;
-    }
-    if (!word.empty() && word != "none") found.push_back(word);
-    word.clear();
-  }
-  return found;
-}
-
 RenderOptions render_options(const options::variables_map& values) {
   RenderOptions o;
   o.amplification = values["amplification"].as<double>();
   o.colour = values["colour"].as<std::string>();
   o.view = values["view"].as<std::string>();
-  o.hide = words(values["hide"].as<std::string>());
+  o.hide = words_in(values["hide"].as<std::string>());
   o.cracks = values.count("no-cracks") == 0;
   o.crack_mm = values["crack"].as<double>();
   o.range_mm = values["range"].as<double>();
@@ -103,7 +89,7 @@ int render(const std::vector<std::string>& arguments) {
       "time,t", options::value<double>()->value_name("T"), "stored frame nearest to this time (s); default: the last")(
       "amplification,a", options::value<double>()->default_value(2.0), "of the displacements")(
       "colour,c", options::value<std::string>()->default_value("opening"),
-      "opening, slip, displacement, component or stone")(
+      "opening, slip, displacement, mode (share of the largest), component or stone")(
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
       "hide", options::value<std::string>()->default_value("backfill"),
       "components left out, by commas; none: show all")("no-cracks", "do not mark cracked joints")(

@@ -20,6 +20,7 @@ Verb import_verb();
 Verb info_verb();
 Verb run_verb();
 Verb resume_verb();
+Verb modal_verb();
 Verb render_verb();
 Verb check_verb();
 
@@ -37,6 +38,8 @@ struct CommandLine {
   bool parse(const std::vector<std::string>& arguments, options::variables_map& values);
 };
 
+/// The words of a list with commas; "none" is none.
+std::vector<std::string> words_in(const std::string& list);
 /// --threads, or all that the machine offers.
 int threads_asked(const options::variables_map& values);
 

@@ -10,8 +10,8 @@
 namespace voussoir {
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(), run_verb(),
-                                         resume_verb(),   render_verb(), check_verb()};
+  static const std::vector<Verb> list = {generate_verb(), import_verb(), info_verb(),   run_verb(),
+                                         resume_verb(),   modal_verb(),  render_verb(), check_verb()};
   return list;
 }
 
@@ -51,6 +51,20 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
   if (values.count("threads") && values["threads"].as<int>() < 1)
     throw InputError("--threads is {}; it must be at least 1", values["threads"].as<int>());
   return true;
+}
+
+std::vector<std::string> words_in(const std::string& list) {
+  std::vector<std::string> found;
+  std::string word;
+  for (char c : list + ",") {
+    if (c != ',') {
+      word += c;
+      continue;
+    }
+    if (!word.empty() && word != "none") found.push_back(word);
+    word.clear();
+  }
+  return found;
 }
 
 int threads_asked(const options::variables_map& values) {

@@ -1,0 +1,17 @@
+// A mode under the damping of a case: what it rings at and how it decays.
+#pragma once
+#include "solver/step/settings.h"
+
+namespace voussoir {
+
+struct DampedMode {
+  double frequency = 0.0;  // Hz, of the decaying vibration; 0: none (overdamped, or no frequency without damping)
+  double ratio = 0.0;      // share of critical: −Re s/|s| of the pole s
+  double period() const { return frequency > 0.0 ? 1.0 / frequency : 0.0; }  // s
+};
+
+/// `frequency` (Hz) is the undamped one. All joints have the same damping per stiffness and all bodies the same per
+/// mass, so the shape stays; the small steps of a run change nothing that shows (docs/theory/modes.md).
+DampedMode damped_mode(const DampingSettings& damping, double frequency);
+
+}  // namespace voussoir

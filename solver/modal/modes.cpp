@@ -1,0 +1,123 @@
+#include "solver/modal/modes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <chrono>
+
+#include "solver/base/error.h"
+#include "solver/modal/loose.h"
+
+namespace voussoir {
+
+namespace {
+
+BlockMatrix mass_blocks(const Assembly& assembly, const Model& model, const State& state, const Unknowns& unknowns) {
+  BlockMatrix m(model.bodies.size(), {});
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    if (!unknowns.any(i)) continue;
+    const Matrix6 block = body_mass(model, state, i);
+    if (!block.allFinite() || block.llt().info() != Eigen::Success)
+      throw InputError("the mass matrix of {} is singular: mass {} kg; give its material a density above zero",
+                       block_label(assembly, model.block_of_body[i]), model.bodies[i].inertial_mass);
+    m.diagonal(std::int32_t(i)) = block;
+  }
+  return m;
+}
+
+/// The eigenvector as motions of blocks, scaled to a largest displacement of 1.
+BlockMotions block_motions(const Model& model, const Unknowns& unknowns, const Eigen::VectorXd& vector) {
+  BlockMotions shape = BlockMotions::Zero(Eigen::Index(model.bodies.size()), 6);
+  double largest = 0.0, most = 0.0, sign = 1.0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Vector6 part = part_of(vector, unknowns, i);
+    shape.row(model.block_of_body[i]) = part;
+    largest = std::max(largest, part.head<3>().norm());
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(part[c]) > (1.0 + 1e-6) * most) most = std::abs(part[c]), sign = part[c] < 0.0 ? -1.0 : 1.0;
+  }
+  if (largest == 0.0) largest = vector.cwiseAbs().maxCoeff();  // nothing but turns
+  return shape * (sign / largest);
+}
+
+/// kg: φᵀ M φ of the shape, and the effective masses.
+void weigh(const BlockMatrix& m, const Model& model, Mode& mode) {
+  Vec3 excitation = Vec3::Zero();
+  mode.modal_mass = 0.0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Vector6 part = mode.shape.row(model.block_of_body[i]);
+    const Vector6 momentum = m.diagonal(std::int32_t(i)) * part;
+    mode.modal_mass += part.dot(momentum);
+    excitation += momentum.head<3>();
+  }
+  mode.participation = excitation / mode.modal_mass;
+  mode.effective = excitation.cwiseAbs2() / mode.modal_mass;
+}
+
+double residual(const SparseMatrix& k, const SparseMatrix& m, double value, const Eigen::VectorXd& vector) {
+  const Eigen::VectorXd mass = m.selfadjointView<Eigen::Lower>() * vector;
+  const Eigen::VectorXd left = k.selfadjointView<Eigen::Lower>() * vector - value * mass;
+  const Eigen::ArrayXd scale = m.diagonal().array();
+  return std::sqrt((left.array().square() / scale).sum() / ((value * mass).array().square() / scale).sum());
+}
+
+std::vector<std::int64_t> blocks_of(const Model& model, const std::vector<std::int32_t>& bodies) {
+  std::vector<std::int64_t> blocks;
+  for (std::int32_t body : bodies) blocks.push_back(model.block_of_body[std::size_t(body)]);
+  std::sort(blocks.begin(), blocks.end());
+  return blocks;
+}
+
+void check_count(int count, std::int32_t unknowns, std::size_t adrift, int held) {
+  if (count < 1) throw InputError("the number of modes is {}; ask for 1 or more", count);
+  if (count <= unknowns) return;
+  const std::string left =
+      adrift > 0 || held > 0
+          ? fmt::format(" (without {} blocks and {} ways of others that nothing holds)", adrift, held)
+          : "";
+  throw InputError("{} modes are asked for, but the model has {} unknowns{}; ask for at most {}", count, unknowns, left,
+                   unknowns);
+}
+
+}  // namespace
+
+Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
+                 const Array<double>* wrenches) {
+  const auto start = std::chrono::steady_clock::now();
+  const Unknowns all = number_unknowns(model);
+  check_count(count, all.count, 0, 0);
+  const BlockMatrix m = mass_blocks(assembly, model, state, all);
+  BlockMatrix k = stiffness_blocks(model, state, tangent);
+  const Loose loose = find_loose(k, m, all);
+  const Unknowns unknowns = without(all, loose.adrift);
+  if (wrenches) k = stiffness_blocks(model, state, tangent, wrenches);
+  const SparseMatrix plain = k.over(unknowns), mass = m.over(unknowns);
+  const int ways = hold_free_ways(k, m, unknowns, loose);
+  check_count(count, unknowns.count - ways, loose.bodies.size(), ways);
+  const SparseMatrix held = k.over(unknowns);
+
+  Modes result;
+  result.adrift = blocks_of(model, loose.bodies);
+  result.partly = blocks_of(model, loose.partly);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (all.any(i)) result.mass += model.bodies[i].inertial_mass;
+  result.report.unknowns = unknowns.count;
+  result.report.assembly_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.report.solution = lowest_eigenpairs(held, mass, count);
+  Eigenpairs& found = result.report.solution;
+  for (int i = 0; i < count; ++i) {
+    Mode mode;
+    mode.eigenvalue = found.values[i];
+    const bool zero = std::abs(mode.eigenvalue) <= found.zero;
+    if (!zero && mode.eigenvalue > 0.0) mode.frequency = std::sqrt(mode.eigenvalue) / (2.0 * EIGEN_PI);
+    if (!zero) mode.residual = residual(plain, mass, mode.eigenvalue, found.vectors.col(i));
+    mode.shape = block_motions(model, unknowns, found.vectors.col(i));
+    weigh(m, model, mode);
+    mode.words = mode_words(assembly, mode);
+    result.modes.push_back(std::move(mode));
+  }
+  found.vectors.resize(0, 0);
+  return result;
+}
+
+}  // namespace voussoir

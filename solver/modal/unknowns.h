@@ -1,0 +1,46 @@
+// Unknowns of the linear problems (equilibrium, critical step, modes) and vectors over them.
+//
+// A site is what carries up to six unknowns: a body has a displacement (m, world axes, of its centroid) and a rotation
+// vector (rad, world axes). What is prescribed (fixed bodies, ways that a guide holds) is no unknown.
+#pragma once
+#include <Eigen/Dense>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/model/model.h"
+
+namespace voussoir {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+struct Unknowns {
+  std::vector<std::array<std::int32_t, 6>> of;  // of each site, in body order; −1 where prescribed
+  std::int32_t count = 0;
+  bool any(std::size_t site) const {
+    for (std::int32_t unknown : of[site])
+      if (unknown >= 0) return true;
+    return false;
+  }
+};
+
+/// All that the model lets move.
+Unknowns number_unknowns(const Model& model);
+/// The same without the sites where `held` is set.
+Unknowns without(const Unknowns& unknowns, const std::vector<bool>& held);
+
+/// The site's six components; zero where it has no unknown.
+inline Vector6 part_of(const Eigen::VectorXd& x, const Unknowns& unknowns, std::size_t site) {
+  Vector6 part = Vector6::Zero();
+  for (int c = 0; c < 6; ++c)
+    if (const std::int32_t at = unknowns.of[site][c]; at >= 0) part[c] = x[at];
+  return part;
+}
+/// Leaves out components that are no unknowns.
+inline void set_part(Eigen::VectorXd& x, const Unknowns& unknowns, std::size_t site, const Vector6& part) {
+  for (int c = 0; c < 6; ++c)
+    if (const std::int32_t at = unknowns.of[site][c]; at >= 0) x[at] = part[c];
+}
+
+}  // namespace voussoir

@@ -1,0 +1,206 @@
+// voussoir modal.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/vtk/files.h"
+#include "io/vtk/folder.h"
+#include "io/vtk/grid.h"
+#include "io/vtk/series.h"
+#include "solver/base/error.h"
+#include "tools/voussoir/modal_paper.h"
+#include "tools/voussoir/modal_report.h"
+#include "tools/voussoir/modal_source.h"
+#include "tools/voussoir/verb.h"
+#include "viz/mode_picture.h"
+#include "viz/scene.h"
+#include "viz/view.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What the command line asks for.
+struct ModalRequest {
+  std::string from, directory, against;
+  bool settle = false, quiet = false, pictures = true;
+  int threads = 1;
+  RenderOptions picture;
+  std::function<void(ModalSettings&)> settings;
+};
+
+ModalRequest modal_request(const options::variables_map& values) {
+  ModalRequest request;
+  request.from = values["CASE"].as<std::string>();
+  if (values.count("output")) request.directory = values["output"].as<std::string>();
+  if (values.count("against")) request.against = values["against"].as<std::string>();
+  request.settle = values.count("settle") > 0;
+  request.quiet = values.count("quiet") > 0;
+  request.pictures = values.count("no-pictures") == 0;
+  request.threads = threads_asked(values);
+  request.picture.view = values["view"].as<std::string>();
+  request.picture.hide = words_in(values["hide"].as<std::string>());
+  request.settings = [values](ModalSettings& modal) {
+    if (values.count("modes")) modal.modes = values["modes"].as<int>();
+    if (values.count("geometric")) modal.geometric = true;
+    if (!values.count("state")) return;
+    const std::string state = values["state"].as<std::string>();
+    const auto& known = modal_states();
+    const auto at = std::find(known.begin(), known.end(), state);
+    if (at == known.end()) throw InputError("--state is {}; give intact or gravity", state);
+    modal.state = ModalSettings::State(at - known.begin());
+  };
+  return request;
+}
+
+/// DIR/modes of a run, NAME-modes of a case.
+std::string default_directory(const std::string& from, const ModalSource& source) {
+  if (!source.damaged) return source.name + "-modes";
+  return (fs::is_directory(from) ? fs::path(from) : fs::path(from).parent_path().parent_path()) / "modes";
+}
+
+ModesFile modes_file(const ModalSource& source, const Modes& modes, const std::string& about) {
+  ModesFile file;
+  file.about = about;
+  file.assembly_hash = assembly_hash(source.assembly);
+  file.mass = modes.mass;
+  file.places = block_places(source.assembly, source.model);
+  file.modes = modes.modes;
+  const DampingSettings& damping = source.c.settings.damping;
+  if (damping.kind != DampingSettings::Kind::none)
+    for (const Mode& mode : modes.modes) file.damped.push_back(damped_mode(damping, mode.frequency));
+  return file;
+}
+
+/// The modes of an earlier analysis in the same folder, of which there may have been more.
+void remove_earlier(const std::string& directory) {
+  std::error_code ignored;
+  for (const char* folder : {"vtk", "images"})
+    for (const auto& entry : fs::directory_iterator(fs::path(directory) / folder, ignored))
+      if (entry.path().filename().string().starts_with("mode")) fs::remove(entry.path(), ignored);
+}
+
+void write_shapes(const std::string& directory, const Assembly& assembly, const std::vector<Mode>& modes) {
+  PvdSeries series(directory + "/vtk/modes.pvd");
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const std::string name = fmt::format("mode_{:02}.vtu", i + 1);
+    write_vtu(mode_grid(assembly, modes[i]), directory + "/vtk/" + name);
+    series.add(double(i + 1), name);  // the collection's "time" is the mode's number
+  }
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.0f}", 100.0 * share);
+}
+
+/// Throws only for what the user asked and cannot be; a display that does not start is said and left.
+void draw_shapes(const std::string& directory, const ModalRequest& request, const ModalSource& source,
+                 const Modes& modes) {
+  for (std::size_t i = 0; i < modes.modes.size(); ++i) {
+    const Mode& mode = modes.modes[i];
+    RenderOptions picture = request.picture;
+    picture.title = fmt::format("{}: mode {}, {}", source.name, i + 1, mode.words.text());
+    const Vec3 share = mode.effective / modes.mass;
+    const std::string frequency = mode.frequency > 0.0
+                                      ? fmt::format("T = {:.3f} s, f = {:.3f} Hz", mode.period(), mode.frequency)
+                                      : "no frequency";
+    draw_mode(source.assembly, mode, picture,
+              {frequency, fmt::format("effective mass x {}, y {}, z {} %", percent(share.x()), percent(share.y()),
+                                      percent(share.z()))},
+              fmt::format("{}/images/mode_{:02}.png", directory, i + 1));
+  }
+}
+
+/// What has to be checked before the work begins: it may take a while.
+void check_pictures(const ModalRequest& request) {
+  find_view(request.picture.view);
+  Hidden hidden(request.picture.hide);
+}
+
+int analyse(const ModalRequest& request) {
+  check_pictures(request);
+  std::optional<ModesFile> against;
+  if (!request.against.empty()) against = read_modes(request.against);
+  if (!request.quiet) fmt::print(stderr, "reading {}\n", request.from);
+  const ModalSource source =
+      modal_source(request.from, request.settings, request.settle, request.threads, request.quiet);
+  const int count = source.c.settings.modal.modes;
+  const Array<double>* wrenches = source.wrenches ? &*source.wrenches : nullptr;
+  const Modes modes = find_modes(source.assembly, source.model, source.state, count, source.tangent, wrenches);
+  const ModesFile file = modes_file(source, modes, source.about);
+  const std::vector<PeriodCheck> periods = check_periods(source.c.expected_periods, modes.modes);
+  nlohmann::json json = modes_json(file, source.assembly, modes);
+  if (!periods.empty()) json["expected"] = periods_json(periods);
+
+  std::string text = fmt::format("{}\n{} blocks, {:.2f} t that can move\n\n{}", source.about,
+                                 source.assembly.blocks.size(), 1e-3 * modes.mass, modes_table(file));
+  text += fmt::format("\n{}\n{}", effort_text(modes.report), loose_text(source.assembly, modes));
+  if (!periods.empty()) text += fmt::format("\n{}", periods_table(periods));
+  if (source.damaged) {
+    const Modes intact =
+        find_modes(source.assembly, source.model, initial_state(source.model), count, PatchTangent::intact);
+    const ModesFile intact_file = modes_file(source, intact, "the same assembly, all joints intact");
+    const Pairing pairing = pair_modes(file, intact_file);
+    text += fmt::format("\n{}", pairing_table(file, intact_file, pairing, "as it is", "intact"));
+    json["intact"] = pairing_json(file, intact_file, pairing);
+  }
+  if (against) {
+    const Pairing pairing = pair_modes(file, *against);
+    text += fmt::format("\nagainst {} ({})\n", request.against, against->about);
+    text += pairing_table(file, *against, pairing, "this", "against");
+    json["against"] = pairing_json(file, *against, pairing);
+  }
+  if (!request.quiet) fmt::print("{}", text);
+
+  const std::string directory = request.directory.empty() ? default_directory(request.from, source) : request.directory;
+  make_folder_of(directory + "/modes.json");
+  remove_earlier(directory);
+  write_modes(directory + "/modes.h5", file);
+  write_atomically(directory + "/modes.json", fmt::format("{}\n", json.dump(2)));
+  write_atomically(directory + "/modes.txt", text);
+  write_shapes(directory, source.assembly, modes.modes);
+  if (request.pictures) draw_shapes(directory, request, source, modes);
+  if (!request.quiet)
+    fmt::print("\n{0}/modes.txt, modes.json, modes.h5, vtk/modes.pvd{1}\n", directory,
+               request.pictures ? ", images/mode_01.png …" : "");
+  return 0;
+}
+
+int modal(const std::vector<std::string>& arguments) {
+  CommandLine line("modal", "modal CASE|DIR|CHECKPOINT [-o DIR]",
+                   "voussoir modal cases/cs1-r.toml -o cs1-r-modes --modes 6");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
+                               "folder for tables, shapes and pictures (default: NAME-modes, or RUN/modes)")(
+      "modes,n", options::value<int>()->value_name("N"), "how many modes (default: the case's, 10)")(
+      "state", options::value<std::string>()->value_name("WORD"),
+      "of a case: intact (all joints elastic) or gravity (as they rest)")(
+      "geometric", "with the geometric stiffness of the joints' forces")(
+      "settle", "of a run: let the stored state come to rest first")(
+      "against", options::value<std::string>()->value_name("MODES.H5"),
+      "pair the modes with those of another analysis")(
+      "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
+      "hide", options::value<std::string>()->default_value("none"), "components left out of the pictures, by commas")(
+      "no-pictures", "tables and shapes only")(
+      "paper", "the published periods of the two bridges of the seed paper beside those of the cases");
+  line.positional = {"CASE"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  if (values.count("paper")) {
+    if (values.count("CASE")) throw InputError("--paper takes no case: it reads the four bridges in cases/");
+    return modal_paper(values.count("output") ? values["output"].as<std::string>() : "");
+  }
+  if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
+  return analyse(modal_request(values));
+}
+
+}  // namespace
+
+Verb modal_verb() {
+  return {"modal", "eigenvalue analysis: periods, modes, effective masses, pictures", modal};
+}
+
+}  // namespace voussoir

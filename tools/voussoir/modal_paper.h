@@ -1,0 +1,13 @@
+// The twelve periods of the seed paper.
+#pragma once
+#include <string>
+
+namespace voussoir {
+
+/// Prints the periods of cases/cs1-f, cs1-r, cs2-f and cs2-r beside those their [[modal.expected]] name, the ratios of
+/// free to restrained, and whether the modes come in the published order; as Markdown to `file` unless that is empty.
+/// Returns 1 when a period is off by more than 10 % of the published value, a ratio by more than 15 %, or an order
+/// differs.
+int modal_paper(const std::string& file);
+
+}  // namespace voussoir

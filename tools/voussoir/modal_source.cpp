@@ -1,0 +1,124 @@
+#include "tools/voussoir/modal_source.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/checkpoint_file.h"
+#include "io/hdf5/h5.h"
+#include "solver/base/error.h"
+#include "solver/step/simulation.h"
+#include "tools/voussoir/terminal.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The gravity stage alone, as a run would do it.
+void rest_under_gravity(ModalSource& source, int threads, bool quiet) {
+  SolverSettings settings = source.c.settings;
+  const auto stage = std::find_if(settings.stages.begin(), settings.stages.end(),
+                                  [](const StageSettings& s) { return s.kind == StageSettings::Kind::gravity; });
+  settings.stages = {stage == settings.stages.end() ? StageSettings{} : *stage};
+  ProgressLine progress(quiet);
+  Observers observers;
+  observers.progress = [&](const Progress& p) { progress.show(p); };
+  Simulation run(source.assembly, settings, threads, observers);
+  const RunEnd end = run.run();
+  progress.end();
+  if (end != RunEnd::finished) throw RunError("no equilibrium under gravity: {}", run.failure());
+  source.state = run.state();
+}
+
+/// Equilibrium near the state of a run, without viscous forces.
+void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
+  const double tolerance = source.c.settings.step.equilibrium_tolerance;
+  const Equilibrium e = relax(stepper, tolerance, {}, nullptr, nullptr);
+  if (!e.converged) throw RunError("the state does not come to rest under gravity: {}", e.account);
+  if (!quiet) fmt::print(stderr, "{}\n", e.account);
+}
+
+/// The newest readable checkpoint of a run directory.
+std::string newest_checkpoint(const std::string& directory) {
+  const std::vector<std::string> all = list_checkpoints(directory + "/checkpoints");
+  if (all.empty())
+    throw InputError("{} has no checkpoints: run it first, or give its case.toml for the intact bridge", directory);
+  return all.front();
+}
+
+void load_checkpoint(ModalSource& source, const std::string& file) {
+  const std::string run = fs::path(file).parent_path().parent_path().string();
+  if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
+    throw InputError(
+        "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it", file);
+  source.c = read_case(run + "/case.toml");
+  source.assembly = read_assembly(run + "/assembly.h5");
+  source.model = build_model(source.assembly, source.c.settings);
+  source.state = initial_state(source.model);
+  CheckpointHeader header;
+  try {
+    read_checkpoint(file, header, source.state.arrays());
+  } catch (const RunError& error) {
+    throw InputError("{}", error.what());
+  }
+  if (header.assembly_hash != assembly_hash(source.assembly))
+    throw InputError("{} belongs to another assembly than {}/assembly.h5", file, run);
+  source.state.unpack_contacts();
+  source.tangent = PatchTangent::present;
+  source.damaged = true;
+  source.name = fs::path(run).filename().string();
+  source.about = fmt::format("{} at t = {:.3f} s, joints as they are", run, header.time);
+}
+
+void load_case(ModalSource& source, const std::string& file) {
+  source.c = read_case(file, CaseUse::geometry);
+  source.assembly = make_assembly(source.c);
+  source.model = build_model(source.assembly, source.c.settings);
+  source.state = initial_state(source.model);
+  source.name = fs::path(file).stem().string();
+}
+
+}  // namespace
+
+ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool settle,
+                         int threads, bool quiet) {
+  ModalSource source;
+  std::error_code ignored;
+  if (!fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
+  if (fs::is_directory(from, ignored))
+    load_checkpoint(source, newest_checkpoint(from));
+  else if (h5::File::is_hdf5(from))
+    load_checkpoint(source, from);
+  else
+    load_case(source, from);
+  ModalSettings& asked = source.c.settings.modal;
+  modal(asked);
+  if (!source.damaged) {
+    if (settle) throw InputError("--settle is for the state of a run; a case has --state gravity");
+    const bool gravity = asked.state == ModalSettings::State::gravity;
+    if (asked.geometric && !gravity)
+      throw InputError("geometric stiffness needs the forces of a state: add --state gravity");
+    if (gravity) rest_under_gravity(source, threads, quiet);
+    source.tangent = gravity ? PatchTangent::present : PatchTangent::intact;
+    source.about = fmt::format("{}, {}", from, gravity ? "joints as they rest under gravity" : "all joints intact");
+  }
+  if (asked.geometric || settle) {
+    set_branches(source.model, source.state, 0);
+    Stepper stepper;
+    stepper.model = &source.model;
+    stepper.state = &source.state;
+    stepper.threads = threads;
+    stepper.prepare();
+    if (settle) settle_down(source, stepper, quiet);
+    stepper.patches_only();
+    if (asked.geometric) source.wrenches = stepper.wrenches;
+  }
+  if (settle) source.about += ", settled";
+  if (asked.geometric) source.about += ", with geometric stiffness";
+  return source;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,27 @@
+// What an eigenvalue analysis starts from: a case, a run directory or a checkpoint.
+#pragma once
+#include <optional>
+
+#include "io/case/case.h"
+#include "solver/modal/modes.h"
+
+namespace voussoir {
+
+struct ModalSource {
+  Case c;
+  Assembly assembly;
+  Model model;
+  State state;
+  PatchTangent tangent = PatchTangent::intact;
+  bool damaged = false;                   // from a run: to be compared with the intact assembly
+  std::optional<Array<double>> wrenches;  // of the joints, for geometric stiffness
+  std::string name;                       // of the case file, or of the run directory
+  std::string about;                      // "cs1-r.toml, intact joints"
+};
+
+/// Loads `from` and finds equilibrium where the settings ask for it (`settle`: of a run's state too, keeping its
+/// damage). `modal` overrides what the case says. Throws InputError, RunError.
+ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool settle,
+                         int threads, bool quiet);
+
+}  // namespace voussoir
