@@ -12,17 +12,13 @@ namespace voussoir {
 
 namespace {
 
-BlockMatrix mass_blocks(const Assembly& assembly, const Model& model, const State& state, const Unknowns& unknowns) {
-  BlockMatrix m(model.bodies.size(), {});
+void check_mass(const Assembly& assembly, const Model& model, const BlockMatrix& m, const Unknowns& unknowns) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    if (!unknowns.any(i)) continue;
-    const Matrix6 block = body_mass(model, state, i);
-    if (!block.allFinite() || block.llt().info() != Eigen::Success)
-      throw InputError("the mass matrix of {} is singular: mass {} kg; give its material a density above zero",
-                       block_label(assembly, model.block_of_body[i]), model.bodies[i].inertial_mass);
-    m.diagonal(std::int32_t(i)) = block;
+    const Matrix6& block = m.diagonal(std::int32_t(i));
+    if (!unknowns.any(i) || (block.allFinite() && block.llt().info() == Eigen::Success)) continue;
+    throw InputError("the mass matrix of {} is singular: mass {} kg; give its material a density above zero",
+                     block_label(assembly, model.block_of_body[i]), model.bodies[i].inertial_mass);
   }
-  return m;
 }
 
 /// The eigenvector as motions of blocks, scaled to a largest displacement of 1.
@@ -82,11 +78,12 @@ void check_count(int count, std::int32_t unknowns, std::size_t adrift, int held)
 }  // namespace
 
 Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
-                 const Array<double>* wrenches) {
+                 const Array<double>* wrenches, int extra) {
   const auto start = std::chrono::steady_clock::now();
   const Unknowns all = number_unknowns(model);
   check_count(count, all.count, 0, 0);
-  const BlockMatrix m = mass_blocks(assembly, model, state, all);
+  const BlockMatrix m = mass_blocks(model, state, all);
+  check_mass(assembly, model, m, all);
   BlockMatrix k = stiffness_blocks(model, state, tangent);
   const Loose loose = find_loose(k, m, all);
   const Unknowns unknowns = without(all, loose.adrift);
@@ -94,6 +91,7 @@ Modes find_modes(const Assembly& assembly, const Model& model, const State& stat
   const SparseMatrix plain = k.over(unknowns), mass = m.over(unknowns);
   const int ways = hold_free_ways(k, m, unknowns, loose);
   check_count(count, unknowns.count - ways, loose.bodies.size(), ways);
+  count = std::min(count + extra, unknowns.count - ways);
   const SparseMatrix held = k.over(unknowns);
 
   Modes result;

@@ -45,11 +45,11 @@ struct Modes {
   ModesReport report;
 };
 
-/// The `count` lowest modes at the present placement. With `wrenches` (see stiffness_blocks) geometric stiffness is
-/// included. Throws InputError for more modes than unknowns, when nothing is held together, or for a block whose mass
-/// matrix is singular, which it names.
+/// The `count` lowest modes at the present placement, and up to `extra` more where there are as many. With `wrenches`
+/// (see stiffness_blocks) geometric stiffness is included. Throws InputError for more modes than unknowns, when nothing
+/// is held together, or for a block whose mass matrix is singular, which it names.
 Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
-                 const Array<double>* wrenches = nullptr);
+                 const Array<double>* wrenches = nullptr, int extra = 0);
 
 /// Where most of the kinetic energy of a mode goes.
 ModeWords mode_words(const Assembly& assembly, const Mode& mode);

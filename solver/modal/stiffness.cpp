@@ -193,6 +193,13 @@ Matrix6 body_mass(const Model& model, const State& state, std::size_t body) {
   return m;
 }
 
+BlockMatrix mass_blocks(const Model& model, const State& state, const Unknowns& unknowns) {
+  BlockMatrix m(model.bodies.size(), {});
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (unknowns.any(i)) m.diagonal(std::int32_t(i)) = body_mass(model, state, i);
+  return m;
+}
+
 Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
                                const Eigen::VectorXd& x) {
   Eigen::VectorXd y(x.size());

@@ -23,6 +23,8 @@ SparseMatrix assemble_stiffness(const Model& model, const State& state, const Un
 
 /// diag(m 1, R Ib Rᵀ) of a body where it is: kg, kg m2.
 Matrix6 body_mass(const Model& model, const State& state, std::size_t body);
+/// Of all sites that have an unknown.
+BlockMatrix mass_blocks(const Model& model, const State& state, const Unknowns& unknowns);
 /// y = M⁻¹ x.
 Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
                                const Eigen::VectorXd& x);

@@ -27,7 +27,7 @@ namespace {
 /// What the command line asks for.
 struct ModalRequest {
   std::string from, directory, against;
-  bool settle = false, quiet = false, pictures = true;
+  bool as_stored = false, quiet = false, pictures = true;
   int threads = 1;
   RenderOptions picture;
   std::function<void(ModalSettings&)> settings;
@@ -38,7 +38,7 @@ ModalRequest modal_request(const options::variables_map& values) {
   request.from = values["CASE"].as<std::string>();
   if (values.count("output")) request.directory = values["output"].as<std::string>();
   if (values.count("against")) request.against = values["against"].as<std::string>();
-  request.settle = values.count("settle") > 0;
+  request.as_stored = values.count("as-stored") > 0;
   request.quiet = values.count("quiet") > 0;
   request.pictures = values.count("no-pictures") == 0;
   request.threads = threads_asked(values);
@@ -121,49 +121,76 @@ void check_pictures(const ModalRequest& request) {
   Hidden hidden(request.picture.hide);
 }
 
+/// What an analysis says, and keeps.
+struct Findings {
+  Modes modes;
+  ModesFile file;
+  std::string text;  // for people
+  nlohmann::json json;
+};
+
+/// The modes of the source, and of a damaged one those of the intact assembly beside them. Local modes of loosened
+/// stones come between those of the whole: the search goes on past the number asked for until each has its partner, or
+/// three times as far.
+Findings find(const ModalSource& source) {
+  const int count = source.c.settings.modal.modes;
+  const Array<double>* wrenches = source.wrenches ? &*source.wrenches : nullptr;
+  Findings f;
+  f.modes = find_modes(source.assembly, source.model, source.state, count, source.tangent, wrenches,
+                       source.damaged ? std::max(2 * count, 20) : 0);
+  std::string comparison;
+  nlohmann::json intact_json;
+  if (source.damaged) {
+    const State untouched = initial_state(source.model);
+    const Modes intact = find_modes(source.assembly, source.model, untouched, count, PatchTangent::intact);
+    const ModesFile intact_file = modes_file(source, intact, "the same assembly, all joints intact");
+    f.file = modes_file(source, f.modes, source.about);
+    Pairing pairing = pair_modes(f.file, intact_file);
+    const std::int64_t last = *std::max_element(pairing.ours.begin(), pairing.ours.end());
+    f.modes.modes.resize(std::size_t(std::clamp(last + 1, std::int64_t(count), std::int64_t(f.modes.modes.size()))));
+    f.file = modes_file(source, f.modes, source.about);
+    pairing = pair_modes(f.file, intact_file);
+    comparison = fmt::format("\n{}", pairing_table(f.file, intact_file, pairing, "as it is", "intact"));
+    intact_json = pairing_json(f.file, intact_file, pairing);
+  } else {
+    f.file = modes_file(source, f.modes, source.about);
+  }
+  f.json = modes_json(f.file, source.assembly, f.modes);
+  f.text = fmt::format("{}\n{} blocks, {:.2f} t that can move\n\n{}\n{}\n{}{}", source.about,
+                       source.assembly.blocks.size(), 1e-3 * f.modes.mass, modes_table(f.file),
+                       effort_text(f.modes.report), loose_text(source.assembly, f.modes), comparison);
+  if (source.damaged) f.json["intact"] = intact_json;
+  const std::vector<PeriodCheck> periods = check_periods(source.c.expected_periods, f.modes.modes);
+  if (periods.empty() || source.damaged) return f;
+  f.text += fmt::format("\n{}", periods_table(periods));
+  f.json["expected"] = periods_json(periods);
+  return f;
+}
+
 int analyse(const ModalRequest& request) {
   check_pictures(request);
   std::optional<ModesFile> against;
   if (!request.against.empty()) against = read_modes(request.against);
   if (!request.quiet) fmt::print(stderr, "reading {}\n", request.from);
   const ModalSource source =
-      modal_source(request.from, request.settings, request.settle, request.threads, request.quiet);
-  const int count = source.c.settings.modal.modes;
-  const Array<double>* wrenches = source.wrenches ? &*source.wrenches : nullptr;
-  const Modes modes = find_modes(source.assembly, source.model, source.state, count, source.tangent, wrenches);
-  const ModesFile file = modes_file(source, modes, source.about);
-  const std::vector<PeriodCheck> periods = check_periods(source.c.expected_periods, modes.modes);
-  nlohmann::json json = modes_json(file, source.assembly, modes);
-  if (!periods.empty()) json["expected"] = periods_json(periods);
-
-  std::string text = fmt::format("{}\n{} blocks, {:.2f} t that can move\n\n{}", source.about,
-                                 source.assembly.blocks.size(), 1e-3 * modes.mass, modes_table(file));
-  text += fmt::format("\n{}\n{}", effort_text(modes.report), loose_text(source.assembly, modes));
-  if (!periods.empty()) text += fmt::format("\n{}", periods_table(periods));
-  if (source.damaged) {
-    const Modes intact =
-        find_modes(source.assembly, source.model, initial_state(source.model), count, PatchTangent::intact);
-    const ModesFile intact_file = modes_file(source, intact, "the same assembly, all joints intact");
-    const Pairing pairing = pair_modes(file, intact_file);
-    text += fmt::format("\n{}", pairing_table(file, intact_file, pairing, "as it is", "intact"));
-    json["intact"] = pairing_json(file, intact_file, pairing);
-  }
+      modal_source(request.from, request.settings, request.as_stored, request.threads, request.quiet);
+  Findings f = find(source);
   if (against) {
-    const Pairing pairing = pair_modes(file, *against);
-    text += fmt::format("\nagainst {} ({})\n", request.against, against->about);
-    text += pairing_table(file, *against, pairing, "this", "against");
-    json["against"] = pairing_json(file, *against, pairing);
+    const Pairing pairing = pair_modes(f.file, *against);
+    f.text += fmt::format("\nagainst {} ({})\n{}", request.against, against->about,
+                          pairing_table(f.file, *against, pairing, "this", "against"));
+    f.json["against"] = pairing_json(f.file, *against, pairing);
   }
-  if (!request.quiet) fmt::print("{}", text);
+  if (!request.quiet) fmt::print("{}", f.text);
 
   const std::string directory = request.directory.empty() ? default_directory(request.from, source) : request.directory;
   make_folder_of(directory + "/modes.json");
   remove_earlier(directory);
-  write_modes(directory + "/modes.h5", file);
-  write_atomically(directory + "/modes.json", fmt::format("{}\n", json.dump(2)));
-  write_atomically(directory + "/modes.txt", text);
-  write_shapes(directory, source.assembly, modes.modes);
-  if (request.pictures) draw_shapes(directory, request, source, modes);
+  write_modes(directory + "/modes.h5", f.file);
+  write_atomically(directory + "/modes.json", fmt::format("{}\n", f.json.dump(2)));
+  write_atomically(directory + "/modes.txt", f.text);
+  write_shapes(directory, source.assembly, f.modes.modes);
+  if (request.pictures) draw_shapes(directory, request, source, f.modes);
   if (!request.quiet)
     fmt::print("\n{0}/modes.txt, modes.json, modes.h5, vtk/modes.pvd{1}\n", directory,
                request.pictures ? ", images/mode_01.png …" : "");
@@ -179,7 +206,7 @@ int modal(const std::vector<std::string>& arguments) {
       "state", options::value<std::string>()->value_name("WORD"),
       "of a case: intact (all joints elastic) or gravity (as they rest)")(
       "geometric", "with the geometric stiffness of the joints' forces")(
-      "settle", "of a run: let the stored state come to rest first")(
+      "as-stored", "of a run: the state as it is, not brought to rest first")(
       "against", options::value<std::string>()->value_name("MODES.H5"),
       "pair the modes with those of another analysis")(
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
