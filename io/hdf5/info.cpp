@@ -11,6 +11,7 @@
 #include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/h5.h"
 #include "io/hdf5/history_file.h"
+#include "io/hdf5/modes_file.h"
 #include "io/records/columns.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
@@ -148,6 +149,17 @@ std::string describe_history(const std::string& path) {
   return out.text;
 }
 
+std::string describe_modes(const std::string& path) {
+  const ModesFile modes = read_modes(path);
+  Lines out;
+  out.add("{}: {} modes of {}", path, modes.modes.size(), modes.about);
+  out.add("  {} blocks, {:.1f} kg that can move, assembly {:016x}", modes.places.mass.size(), modes.mass,
+          modes.assembly_hash);
+  for (std::size_t i = 0; i < modes.modes.size(); ++i)
+    out.add("  mode {}: {:.6g} Hz, {}", i + 1, modes.modes[i].frequency, modes.modes[i].words.text());
+  return out.text;
+}
+
 std::string describe_record(const std::string& path) {
   const Record record = read_columns(path);
   const std::vector<double> velocity = integrate(record.values, record.dt);
@@ -210,9 +222,10 @@ std::string describe_file(const std::string& path) {
   if (format == "voussoir-assembly") return describe_assembly(path);
   if (format == "voussoir-checkpoint") return describe_checkpoint(path);
   if (format == "voussoir-history") return describe_history(path);
+  if (format == "voussoir-modes") return describe_modes(path);
   throw InputError(
       "{} is an HDF5 file of another program (its attribute 'format' is \"{}\"): expected a voussoir assembly, "
-      "checkpoint or history",
+      "checkpoint, history or modes",
       path, format);
 }
 

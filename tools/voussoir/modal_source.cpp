@@ -69,6 +69,9 @@ std::string newest_checkpoint(const std::string& directory) {
 
 void load_checkpoint(ModalSource& source, const std::string& file) {
   const std::string run = fs::path(file).parent_path().parent_path().string();
+  const h5::File h5 = h5::File::open(file);
+  if (h5.has_attribute("/", "format") && h5.text("/", "format") == "voussoir-assembly")
+    throw InputError("{} is a block assembly; name it in a case ([bridge] assembly = \"{}\") and give that", file, file);
   if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
     throw InputError(
         "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it", file);
