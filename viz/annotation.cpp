@@ -96,10 +96,10 @@ void draw_words(Overlay& overlay, const Sheet& sheet, const Words& words) {
   if (!words.hidden.empty()) fitted(1.1 * s, words.hidden, s);
   const double top = sheet.height - 1.9 * s;
   overlay.text(1.2 * s, top, words.title, 1.25 * s, Align::left, kInk, true);
-  if (words.cracks.empty()) return;
-  overlay.text(right, top, words.cracks, 0.95 * s, Align::right);
-  const double x = right - Overlay::text_width(words.cracks, 0.95 * s) - 1.0 * s;
-  overlay.line(x - 1.8 * s, top + 0.6 * s, x, top + 0.6 * s, 0.16 * s, kCrack);
+  if (words.lines.empty()) return;
+  overlay.text(right, top, words.lines, 0.95 * s, Align::right);
+  const double x = right - Overlay::text_width(words.lines, 0.95 * s) - 1.0 * s;
+  overlay.line(x - 1.8 * s, top + 0.6 * s, x, top + 0.6 * s, 0.16 * s, words.line_colour);
 }
 
 }  // namespace

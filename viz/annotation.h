@@ -25,7 +25,8 @@ struct Words {
   std::string time;    // "t = 12.50 s"
   std::string deform;  // "deformations × 2"
   std::string hidden;  // "hidden: backfill"; may be empty
-  std::string cracks;  // what the crack lines mean; empty: none drawn
+  std::string lines;  // what the lines mean that are drawn over the picture; empty: none drawn
+  Colour line_colour = kCrack;
 };
 
 void draw_annotation(Overlay& overlay, const Sheet& sheet, const View& view, const Colouring& colouring,

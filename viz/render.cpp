@@ -164,19 +164,11 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
   if (gone > 0)
     words.hidden +=
         fmt::format("{}{} {} far off", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
+  if (options.outline) words.lines = "outline at rest", words.line_colour = kInk;
   if (cracks)
-    words.cracks = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
+    words.lines = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
                                           : std::string("bond lost, opened or slipped");
   return words;
-}
-
-void check(const RenderOptions& options) {
-  if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
-  if (!(options.range_mm >= 0.0))
-    throw InputError("pictures: the range of the colour scale is {} mm; give 0 or more", options.range_mm);
-  if (options.width < 200 || (options.height != 0 && options.height < 150))
-    throw InputError("pictures: {} × {} pixels is too small; give at least 200 × 150 (height 0: as needed)",
-                     options.width, options.height);
 }
 
 Sheet make_sheet(const RenderOptions& options, const View& view, vtkPoints* points) {
@@ -214,9 +206,18 @@ double outline_width(vtkPolyData* faces) {
 
 }  // namespace
 
+void check_options(const RenderOptions& options) {
+  if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
+  if (!(options.range_mm >= 0.0))
+    throw InputError("pictures: the range of the colour scale is {} mm; give 0 or more", options.range_mm);
+  if (options.width < 200 || (options.height != 0 && options.height < 150))
+    throw InputError("pictures: {} × {} pixels is too small; give at least 200 × 150 (height 0: as needed)",
+                     options.width, options.height);
+}
+
 void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const RenderOptions& options,
                     const std::string& png) {
-  check(options);
+  check_options(options);
   const View view = find_view(options.view);
   const Hidden hidden(options.hide);
   const auto faces = deformed_faces(blocks, hidden, options.amplification);
@@ -231,6 +232,9 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
   const auto undeformed = deformed_faces(blocks, hidden, 0.0);
   const Content content = content_of(faces, undeformed);
   vtkPoints* points = content.points;
+  if (options.outline)
+    for (vtkIdType i = 0; i < undeformed->GetNumberOfPoints(); ++i)
+      points->InsertNextPoint(undeformed->GetPoint(i));
   Sheet sheet = make_sheet(options, view, points);
   place_camera(renderer, view, points, sheet);
   add_lights(renderer, view);

@@ -28,6 +28,9 @@ struct RenderOptions {
   std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
 };
 
+/// Throws InputError for a size, range or amplification that cannot be.
+void check_options(const RenderOptions& options);
+
 /// Draws the grids of block_grid() and joint_polydata() (or of their files) into a PNG file. `joints` may be null: no
 /// cracks. Needs no display: see viz/display.h. Throws InputError for an unknown option or a grid without the needed
 /// fields, RunError when the file cannot be written.

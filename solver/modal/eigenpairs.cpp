@@ -16,6 +16,7 @@ namespace voussoir {
 namespace {
 
 constexpr Eigen::Index dense_below = 400;  // unknowns
+constexpr Eigen::Index dense_most = 6000;  // unknowns: nearly 1 GiB of matrices
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -35,6 +36,9 @@ class Factor {
     if (!analysed_) cholesky_.analyzePattern(a);
     analysed_ = true;
     cholesky_.factorize(a);
+    if (cholesky_.cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholesky_.cholmod().status == CHOLMOD_TOO_LARGE)
+      throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
+                     a.rows());
     return cholesky_.info() == Eigen::Success;
   }
   Eigen::VectorXd solve(const Eigen::VectorXd& x) const { return cholesky_.solve(x); }
@@ -176,6 +180,8 @@ Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count) {
 Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count) {
   // Lanczos needs room for a basis; and what is small is done sooner, and whole, by reduction to tridiagonal form.
   const bool small = m.rows() <= dense_below || 3 * count > m.rows();
+  if (small && m.rows() > dense_most)
+    throw InputError("{} modes are too many of {} unknowns; ask for at most {}", count, m.rows(), m.rows() / 3);
   Eigenpairs pairs = small ? dense(k, m, count) : iterated(k, m, count);
   pairs.zero = 1e-10 * largest_ratio(k, m);
   return pairs;

@@ -19,7 +19,8 @@ struct Eigenpairs {
 /// `k` and `m` hold their lower triangles; `m` is positive definite, `k` positive semi-definite but for rounding or,
 /// under geometric stiffness, a few negative directions, which are found too. 1 <= count <= the number of unknowns.
 /// Repeated eigenvalues are all found: each search is followed by one in what is M-orthogonal to all that was found.
-/// Throws RunError when the iteration does not converge.
+/// Throws RunError when the iteration does not converge or memory runs out, InputError for so many modes of so large a
+/// model that only a dense solution would give them.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count);
 
 }  // namespace voussoir

@@ -45,6 +45,23 @@ TEST(Stiffness, IsTheExplicitForceOfASmallMotion) {
   }
 }
 
+/// Symmetric and positive semi-definite as it is summed, over a whole bridge; held pairs included.
+TEST(Stiffness, OfABridgeIsSymmetricAndPositive) {
+  const Bench bench(generated("cs2", {{"block_scale", 4.0}}));
+  const BlockMatrix k = stiffness_blocks(bench.model, bench.state, PatchTangent::intact);
+  std::int64_t coupled = 0;
+  k.for_each([&](std::int32_t row, std::int32_t column, const Matrix6& block) {
+    coupled += row != column;
+    if (row == column) {
+      EXPECT_LT((block - block.transpose()).norm(), 1e-12 * block.norm()) << row;
+    }
+  });
+  EXPECT_GT(coupled, 500);
+  const Eigen::MatrixXd lower = k.over(number_unknowns(bench.model));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(lower, Eigen::EigenvaluesOnly);  // reads the lower half
+  EXPECT_GT(solver.eigenvalues()[0], 0.0);
+}
+
 TEST(Stiffness, OfAFixedPileIsPositive) {
   const Bench bench(odd_pile(true));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense_system(bench).k, Eigen::EigenvaluesOnly);

@@ -5,6 +5,8 @@
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 
 #include <set>
@@ -15,6 +17,7 @@
 #include "solver/base/error.h"
 #include "tests/viz/folder.h"
 #include "tests/viz/scenes.h"
+#include "viz/scene.h"
 
 namespace voussoir {
 namespace {
@@ -278,6 +281,60 @@ TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
             std::string::npos);
   test::write_text(folder / "blocks.pvd", "garbage");
   EXPECT_THROW(PvdSeries series(folder / "blocks.pvd"), InputError);
+}
+
+using test::finish, test::make_block, test::two_cubes;
+
+double length_of(vtkPolyData* lines) {
+  double sum = 0.0;
+  vtkNew<vtkIdList> ends;
+  for (vtkIdType c = 0; c < lines->GetLines()->GetNumberOfCells(); ++c) {
+    lines->GetLines()->GetCellAtId(c, ends);
+    Vec3 a, b;
+    lines->GetPoint(ends->GetId(0), a.data());
+    lines->GetPoint(ends->GetId(1), b.data());
+    sum += (b - a).norm();
+  }
+  return sum;
+}
+
+/// Two cubes on one another have the outline of one box: none of the edges between them.
+TEST(Scene, OuterOutlineIsThatOfTheWhole) {
+  const Assembly assembly = two_cubes();
+  const Snapshot rest = rest_snapshot(assembly);
+  const auto faces = deformed_faces(block_grid(assembly, rest), Hidden({}), 0.0);
+  EXPECT_NEAR(length_of(outer_outline(faces, joint_polydata(assembly, rest))), 4 * 2.0 + 8 * 1.0, 1e-9);
+}
+
+/// Half of a face covered, half bare: the edge is outline where it is bare.
+TEST(Scene, OuterOutlineIsCutWhereAJointEnds) {
+  Assembly assembly;
+  assembly.blocks.push_back(make_block(make_box({0, 0, 0}, {2, 1, 1}), Component::base, true));
+  assembly.blocks.push_back(make_block(make_box({1, 0, 1}, {2, 1, 2}), Component::wall));
+  finish(assembly);
+  const Snapshot rest = rest_snapshot(assembly);
+  const auto faces = deformed_faces(block_grid(assembly, rest), Hidden({}), 0.0);
+  // An L in front and behind (2 + 2 + 1 + 1 + 1 + 1 m), six edges across; the re-entrant one is no edge of both faces.
+  EXPECT_NEAR(length_of(outer_outline(faces, joint_polydata(assembly, rest))), 2 * 8.0 + 5 * 1.0, 1e-9);
+}
+
+TEST(Grid, OfAModeWarpsByTheRigidMotionOfEachStone) {
+  const Assembly assembly = two_cubes();
+  Mode mode;
+  mode.shape = BlockMotions::Zero(2, 6);
+  mode.shape.row(1) << 1, 0, 0, 0, 0.5, 0;  // moves along x and turns about y
+  const auto grid = mode_grid(assembly, mode);
+  vtkDataArray* shape = grid->GetPointData()->GetArray("mode_shape");
+  ASSERT_NE(shape, nullptr);
+  ASSERT_EQ(shape->GetNumberOfTuples(), grid->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
+    Vec3 x, u;
+    grid->GetPoint(i, x.data());
+    shape->GetTuple(i, u.data());
+    const Vec3 arm = x - Vec3(0.5, 0.5, 1.5);
+    const Vec3 expected = i < 8 ? Vec3(0, 0, 0) : Vec3(1 + 0.5 * arm.z(), 0, -0.5 * arm.x());
+    EXPECT_NEAR((u - expected).norm(), 0.0, 1e-12) << i;
+  }
 }
 
 }  // namespace

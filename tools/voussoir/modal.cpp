@@ -43,6 +43,8 @@ ModalRequest modal_request(const options::variables_map& values) {
   request.pictures = values.count("no-pictures") == 0;
   request.threads = threads_asked(values);
   request.picture.view = values["view"].as<std::string>();
+  request.picture.width = values["width"].as<int>();
+  request.picture.height = values["height"].as<int>();
   request.picture.hide = words_in(values["hide"].as<std::string>());
   request.settings = [values](ModalSettings& modal) {
     if (values.count("modes")) modal.modes = values["modes"].as<int>();
@@ -118,6 +120,7 @@ void draw_shapes(const std::string& directory, const ModalRequest& request, cons
 /// What has to be checked before the work begins: it may take a while.
 void check_pictures(const ModalRequest& request) {
   find_view(request.picture.view);
+  check_options(request.picture);
   Hidden hidden(request.picture.hide);
 }
 
@@ -211,6 +214,8 @@ int modal(const std::vector<std::string>& arguments) {
       "pair the modes with those of another analysis")(
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
       "hide", options::value<std::string>()->default_value("none"), "components left out of the pictures, by commas")(
+      "width", options::value<int>()->default_value(1800), "of the pictures, pixels")(
+      "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
       "no-pictures", "tables and shapes only")(
       "paper", "the published periods of the two bridges of the seed paper beside those of the cases");
   line.positional = {"CASE"};

@@ -45,7 +45,8 @@ std::string modes_table(const ModesFile& file) {
                         mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.period()) : "-");
     text += fmt::format("  {:>6.1f} {:>6.1f} {:>6.1f} {:>6.1f} {:>6.1f} {:>6.1f}", share.x(), share.y(), share.z(),
                         sum.x(), sum.y(), sum.z());
-    for (int c = 0; c < 3; ++c) text += fmt::format(" {:>6.2f}", mode.participation[c] + 0.0);
+    for (int c = 0; c < 3; ++c)  // never −0.00
+      text += fmt::format(" {:>6.2f}", 0.01 * std::round(100.0 * mode.participation[c]) + 0.0);
     if (damped)
       text += fmt::format(" {:>8} {:>6.2f}",
                           file.damped[i].frequency > 0.0 ? fmt::format("{:.4f}", file.damped[i].period()) : "-",
