@@ -209,7 +209,6 @@ void write_stages(TomlText& out, const Case& c) {
   }
 }
 
-/// A curve that was read stands beside the resolved case; one that was not there keeps the name it was looked for by.
 void write_modal(TomlText& out, const Case& c) {
   const ModalSettings& modal = c.settings.modal;
   out.heading("[modal]");
@@ -225,6 +224,7 @@ void write_modal(TomlText& out, const Case& c) {
   }
 }
 
+/// A curve that was read stands beside the resolved case; one that was not there keeps the name it was looked for by.
 void write_plots(TomlText& out, const std::vector<PlotSpec>& plots) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const PlotSpec& plot = plots[i];

@@ -90,7 +90,7 @@ int hold_free_ways(BlockMatrix& k, const BlockMatrix& m, const Unknowns& unknown
   for (std::size_t site = 0; site < k.sites(); ++site)
     for (int c : ways(unknowns, site))
       firm = std::max(firm, k.diagonal(std::int32_t(site))(c, c) / m.diagonal(std::int32_t(site))(c, c));
-  firm *= 10.0;  // above every eigenvalue: none is more than twice the largest of a site's own
+  firm *= 12.0;  // above every eigenvalue: none is more than twice the largest of a site's own, six times a diagonal's
   int held = 0;
   for (std::int32_t site : loose.partly) {
     const OwnModes own = own_modes(k, m, unknowns, std::size_t(site));

@@ -15,9 +15,9 @@ struct Loose {
 /// part stands for the assembly and is not adrift.
 Loose find_loose(const BlockMatrix& k, const BlockMatrix& m, const Unknowns& unknowns);
 
-/// Holds the free ways of the partly loose sites so firmly that they leave the lowest modes. All other eigenpairs stay
-/// what they are: a motion v of one site with K v = 0 is an eigenvector, λ = 0, and so M-orthogonal to the others,
-/// which M v vᵀ M therefore does not touch. Returns how many ways are held.
+/// Holds the free ways of the partly loose sites in the material stiffness so firmly that they leave the lowest modes.
+/// All other eigenpairs stay what they are: a motion v of one site with K v = 0 is an eigenvector, λ = 0, and so
+/// M-orthogonal to the others, which M v vᵀ M therefore does not touch. Returns how many ways are held.
 int hold_free_ways(BlockMatrix& k, const BlockMatrix& m, const Unknowns& unknowns, const Loose& loose);
 
 }  // namespace voussoir

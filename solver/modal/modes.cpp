@@ -87,12 +87,14 @@ Modes find_modes(const Assembly& assembly, const Model& model, const State& stat
   BlockMatrix k = stiffness_blocks(model, state, tangent);
   const Loose loose = find_loose(k, m, all);
   const Unknowns unknowns = without(all, loose.adrift);
-  if (wrenches) k = stiffness_blocks(model, state, tangent, wrenches);
+  BlockMatrix firm = k;
+  const int ways = hold_free_ways(firm, m, unknowns, loose);
+  if (wrenches)
+    for (BlockMatrix* matrix : {&k, &firm}) add_geometric_stiffness(*matrix, model, state, *wrenches);
   const SparseMatrix plain = k.over(unknowns), mass = m.over(unknowns);
-  const int ways = hold_free_ways(k, m, unknowns, loose);
   check_count(count, unknowns.count - ways, loose.bodies.size(), ways);
   count = std::min(count + extra, unknowns.count - ways);
-  const SparseMatrix held = k.over(unknowns);
+  const SparseMatrix held = firm.over(unknowns);
 
   Modes result;
   result.adrift = blocks_of(model, loose.bodies);

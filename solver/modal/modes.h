@@ -27,7 +27,7 @@ struct Mode {
   double modal_mass = 0.0;            // kg, φᵀ M φ of that shape
   Vec3 participation = Vec3::Zero();  // φᵀ M r / φᵀ M φ of that shape, r a ground motion along x, y, z
   Vec3 effective = Vec3::Zero();      // kg, (φᵀ M r)² / φᵀ M φ
-  double residual = 0.0;              // |K φ − λ M φ| / |λ M φ|, in the norm of M⁻¹; 0 where λ is zero
+  double residual = 0.0;              // |K φ − λ M φ| / |λ M φ|, in the norm of diag(M)⁻¹; 0 where λ is zero
   ModeWords words;
 };
 
@@ -46,7 +46,7 @@ struct Modes {
 };
 
 /// The `count` lowest modes at the present placement, and up to `extra` more where there are as many. With `wrenches`
-/// (see stiffness_blocks) geometric stiffness is included. Throws InputError for more modes than unknowns, when nothing
+/// (see add_geometric_stiffness) theirs is included. Throws InputError for more modes than unknowns, when nothing
 /// is held together, or for a block whose mass matrix is singular, which it names.
 Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
                  const Array<double>* wrenches = nullptr, int extra = 0);

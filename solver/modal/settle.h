@@ -6,12 +6,13 @@ namespace voussoir {
 
 struct Settled {
   Equilibrium equilibrium;
-  std::vector<std::int32_t> falling;  // bodies that nothing held on the way: they stay where they were met
+  std::vector<std::int32_t> falling;  // bodies that fell freely: they stay where they were met
 };
 
 /// Stops all motion and relaxes (solver/modal/relaxation.cpp) under gravity and the stepper's loads, which must have no
-/// damping branches. Stones in the air would fall for ever: between rounds of relaxation whatever no closed joint ties
-/// to something fixed is held. Not converged after 400,000 steps: the structure is still coming down.
+/// damping branches. Stones in the air would fall for ever: one that has fallen by a tenth of a block and that no
+/// closed joint ties to anything fixed is held until the rest stands, then let go again to land on it; at its third
+/// fall it is held for good. Not converged after 400,000 steps: the structure is still coming down.
 Settled settle(Stepper& stepper, double tolerance, const std::atomic<bool>* stop,
                const std::function<void(std::int64_t, double)>& progress);
 

@@ -125,7 +125,8 @@ Matrix12 pair_stiffness(const Model& model, const State& state, std::size_t inde
 
 /// What the forces already there do when the bodies move (docs/theory/modes.md): the patch's resultant F and couple C
 /// on b turn with its axes, by ½ (dθ_a + dθ_b), and act at its middle, which moves by the mean of the two faces. The
-/// skew parts of the diagonal blocks, −½ [M]×, cancel over a body in equilibrium and are left out.
+/// skew parts of the diagonal blocks, ½ [M]× with M the moment on the body, cancel over a body in equilibrium and are
+/// left out.
 Matrix12 geometric_stiffness(const Model& model, const State& state, const Patch& patch, const double* wrench) {
   const double *pa = pose_of(state, patch.a), *pb = pose_of(state, patch.b);
   const Jump<double> j = patch_jump(patch, pa, pb);
@@ -165,7 +166,7 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
   return is_open(model, state, index) ? Matrix6(Matrix6::Zero()) : intact_stiffness(patch);
 }
 
-BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind, const Array<double>* wrenches) {
+BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind) {
   const std::size_t all = model.joints.size() + state.contacts.size();
   std::vector<std::pair<std::int32_t, std::int32_t>> coupled;
   for (std::size_t i = 0; i < all; ++i) {
@@ -173,12 +174,15 @@ BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangen
     coupled.emplace_back(patch.a, patch.b);
   }
   BlockMatrix k(model.bodies.size(), coupled);
-  for (std::size_t i = 0; i < all; ++i) {
-    const Patch& patch = patch_at(model, state, i);
-    add_pair(k, patch, pair_stiffness(model, state, i, kind));
-    if (wrenches) add_pair(k, patch, geometric_stiffness(model, state, patch, &(*wrenches)[wrench_width * i]));
-  }
+  for (std::size_t i = 0; i < all; ++i) add_pair(k, patch_at(model, state, i), pair_stiffness(model, state, i, kind));
   return k;
+}
+
+void add_geometric_stiffness(BlockMatrix& k, const Model& model, const State& state, const Array<double>& wrenches) {
+  for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
+    const Patch& patch = patch_at(model, state, i);
+    add_pair(k, patch, geometric_stiffness(model, state, patch, &wrenches[wrench_width * i]));
+  }
 }
 
 SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind) {

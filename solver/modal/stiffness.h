@@ -13,11 +13,12 @@ enum class PatchTangent {
 /// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
 
-/// K with patches taken at the bodies' present placements, fixed bodies' rows and columns included. With the wrenches
-/// of a patch pass at that placement (rows as Stepper::wrenches) the geometric stiffness of those forces is added; that
-/// is exact in equilibrium. The unit of a block: N/m, N, N m.
-BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind,
-                             const Array<double>* wrenches = nullptr);
+/// The material part of K with patches taken at the bodies' present placements, fixed bodies' rows and columns
+/// included. The unit of a block: N/m, N, N m.
+BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind);
+/// Adds the geometric part: the forces of a patch pass at that placement (rows as Stepper::wrenches) turn and shift
+/// with the bodies. Exact in equilibrium, to first order in the strains.
+void add_geometric_stiffness(BlockMatrix& k, const Model& model, const State& state, const Array<double>& wrenches);
 /// The material part over the unknowns.
 SparseMatrix assemble_stiffness(const Model& model, const State& state, const Unknowns& unknowns, PatchTangent kind);
 

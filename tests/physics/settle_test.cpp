@@ -18,10 +18,23 @@ TEST(Settle, HoldsWhatIsInTheAir) {
   const Settled settled = settle(bench.stepper, 1e-6, nullptr, nullptr);
   EXPECT_TRUE(settled.equilibrium.converged) << settled.equilibrium.account;
   EXPECT_EQ(settled.falling, std::vector<std::int32_t>{bench.body(top)});
-  EXPECT_NEAR((bench.displacement(top) - Vec3(0, 0, 2.0)).norm(), 0.0, 1e-12);
+  EXPECT_GT(bench.displacement(top).z(), 1.5) << "held once it has fallen a little";
   EXPECT_LT(bench.displacement(2).norm(), 1e-4);
   EXPECT_EQ(bench.stepper.model, &bench.model) << "the model is as it was";
   EXPECT_FALSE(bench.model.bodies[std::size_t(bench.body(top))].fixed);
+}
+
+/// A stone that has only bounced, off the wall for an instant, lands and is part of it.
+TEST(Settle, LetsLandWhatHasBounced) {
+  Assembly assembly = generated("wall", {{"length_blocks", 3}, {"courses", 3}, {"kn", 4e9}, {"ks", 1.6e9}});
+  set_law(assembly, dry_law(0.6));
+  Bench bench(std::move(assembly), undamped({0, 0, -9.81}));
+  const std::int64_t top = bench.assembly.groups.at("top")[0];
+  bench.place(top, {0, 0, 1e-4}, Eigen::Quaterniond::Identity());
+  const Settled settled = settle(bench.stepper, 1e-6, nullptr, nullptr);
+  EXPECT_TRUE(settled.equilibrium.converged) << settled.equilibrium.account;
+  EXPECT_TRUE(settled.falling.empty());
+  EXPECT_LT(bench.displacement(top).z(), 0.0);
 }
 
 /// A stone whose support is gone comes off in the first round and is held in the next.

@@ -16,7 +16,9 @@ inline DenseSystem dense_system(const Bench& bench, PatchTangent kind = PatchTan
                                 const Array<double>* wrenches = nullptr) {
   const Unknowns unknowns = number_unknowns(bench.model);
   DenseSystem system;
-  const Eigen::MatrixXd lower = stiffness_blocks(bench.model, bench.state, kind, wrenches).over(unknowns);
+  BlockMatrix blocks = stiffness_blocks(bench.model, bench.state, kind);
+  if (wrenches) add_geometric_stiffness(blocks, bench.model, bench.state, *wrenches);
+  const Eigen::MatrixXd lower = blocks.over(unknowns);
   system.k = lower.selfadjointView<Eigen::Lower>();
   system.m = Eigen::MatrixXd::Zero(unknowns.count, unknowns.count);
   for (std::size_t i = 0; i < bench.model.bodies.size(); ++i) {

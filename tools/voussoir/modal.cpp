@@ -5,6 +5,7 @@
 
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
+#include "io/hdf5/h5.h"
 #include "io/vtk/files.h"
 #include "io/vtk/folder.h"
 #include "io/vtk/grid.h"
@@ -27,7 +28,7 @@ namespace {
 /// What the command line asks for.
 struct ModalRequest {
   std::string from, directory, against;
-  bool as_stored = false, quiet = false, pictures = true;
+  bool state_asked = false, as_stored = false, quiet = false, pictures = true;
   int threads = 1;
   RenderOptions picture;
   std::function<void(ModalSettings&)> settings;
@@ -38,6 +39,7 @@ ModalRequest modal_request(const options::variables_map& values) {
   request.from = values["CASE"].as<std::string>();
   if (values.count("output")) request.directory = values["output"].as<std::string>();
   if (values.count("against")) request.against = values["against"].as<std::string>();
+  request.state_asked = values.count("state") > 0;
   request.as_stored = values.count("as-stored") > 0;
   request.quiet = values.count("quiet") > 0;
   request.pictures = values.count("no-pictures") == 0;
@@ -62,7 +64,7 @@ ModalRequest modal_request(const options::variables_map& values) {
 /// DIR/modes of a run, NAME-modes of a case.
 std::string default_directory(const std::string& from, const ModalSource& source) {
   if (!source.damaged) return source.name + "-modes";
-  return (fs::is_directory(from) ? fs::path(from) : fs::path(from).parent_path().parent_path()) / "modes";
+  return (fs::is_directory(from) ? fs::path(from) : fs::weakly_canonical(from).parent_path().parent_path()) / "modes";
 }
 
 ModesFile modes_file(const ModalSource& source, const Modes& modes, const std::string& about) {
@@ -118,7 +120,10 @@ void draw_shapes(const std::string& directory, const ModalRequest& request, cons
 }
 
 /// What has to be checked before the work begins: it may take a while.
-void check_pictures(const ModalRequest& request) {
+void check_request(const ModalRequest& request) {
+  std::error_code ignored;
+  if (request.state_asked && (fs::is_directory(request.from, ignored) || h5::File::is_hdf5(request.from)))
+    throw InputError("--state is for a case, and {} holds the state of a run", request.from);
   find_view(request.picture.view);
   check_options(request.picture);
   Hidden hidden(request.picture.hide);
@@ -171,7 +176,7 @@ Findings find(const ModalSource& source) {
 }
 
 int analyse(const ModalRequest& request) {
-  check_pictures(request);
+  check_request(request);
   std::optional<ModesFile> against;
   if (!request.against.empty()) against = read_modes(request.against);
   if (!request.quiet) fmt::print(stderr, "reading {}\n", request.from);
@@ -203,9 +208,10 @@ int analyse(const ModalRequest& request) {
 int modal(const std::vector<std::string>& arguments) {
   CommandLine line("modal", "modal CASE|DIR|CHECKPOINT [-o DIR]",
                    "voussoir modal cases/cs1-r.toml -o cs1-r-modes --modes 6");
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
-                               "folder for tables, shapes and pictures (default: NAME-modes, or RUN/modes)")(
-      "modes,n", options::value<int>()->value_name("N"), "how many modes (default: the case's, 10)")(
+  line.described.add_options()(
+      "output,o", options::value<std::string>()->value_name("DIR"),
+      "folder for tables, shapes and pictures (default: NAME-modes, or RUN/modes); with --paper "
+      "a Markdown file")("modes,n", options::value<int>()->value_name("N"), "how many modes (default: the case's, 10)")(
       "state", options::value<std::string>()->value_name("WORD"),
       "of a case: intact (all joints elastic) or gravity (as they rest)")(
       "geometric", "with the geometric stiffness of the joints' forces")(
@@ -215,8 +221,8 @@ int modal(const std::vector<std::string>& arguments) {
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
       "hide", options::value<std::string>()->default_value("none"), "components left out of the pictures, by commas")(
       "width", options::value<int>()->default_value(1800), "of the pictures, pixels")(
-      "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
-      "no-pictures", "tables and shapes only")(
+      "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")("no-pictures",
+                                                                                    "tables and shapes only")(
       "paper", "the published periods of the two bridges of the seed paper beside those of the cases");
   line.positional = {"CASE"};
   options::variables_map values;

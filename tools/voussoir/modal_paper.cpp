@@ -22,7 +22,8 @@ struct KnownMiss {
 };
 const KnownMiss known_misses[] = {
     {"CS1", "transverse, 1st order",
-     "known: what lengthens the free bridge's period lengthens the restrained one's too, which is at its limit already"},
+     "known: what lengthens the free bridge's period lengthens the restrained one's too, which is at its limit "
+     "already"},
 };
 
 /// A published mode and what was found.

@@ -68,10 +68,11 @@ std::string newest_checkpoint(const std::string& directory) {
 }
 
 void load_checkpoint(ModalSource& source, const std::string& file) {
-  const std::string run = fs::path(file).parent_path().parent_path().string();
+  const std::string run = fs::weakly_canonical(file).parent_path().parent_path().string();
   const h5::File h5 = h5::File::open(file);
   if (h5.has_attribute("/", "format") && h5.text("/", "format") == "voussoir-assembly")
-    throw InputError("{} is a block assembly; name it in a case ([bridge] assembly = \"{}\") and give that", file, file);
+    throw InputError("{} is a block assembly; name it in a case ([bridge] assembly = \"{}\") and give that", file,
+                     file);
   if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
     throw InputError(
         "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it", file);
@@ -91,7 +92,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   source.tangent = PatchTangent::present;
   source.damaged = true;
   source.name = fs::path(run).filename().string();
-  source.about = fmt::format("{} at t = {:.3f} s, joints as they are", run, header.time);
+  source.about = fmt::format("{} at t = {:.3f} s, joints as they are", source.name, header.time);
   const auto stages = std::int64_t(source.c.settings.stages.size());
   source.loads =
       loads_after(source.c.settings.stages, std::size_t(std::clamp(header.stage, std::int64_t(0), stages - 1)));
