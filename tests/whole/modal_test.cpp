@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/hdf5/assembly_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -144,6 +145,19 @@ TEST(Modal, AgainstAnotherStructureIsRefused) {
   expect_error(voussoir({"modal", "wall.toml", "-o", "out", "--against", "column-modes/modes.h5"},
                         {.folder = folder.path()}),
                2, {"same structure"});
+}
+
+TEST(Modal, OfWhatCannotMoveIsRefused) {
+  const Folder folder;
+  folder.write("column.toml", column);
+  ASSERT_EQ(voussoir({"generate", "column.toml", "-o", "column.h5"}, {.folder = folder.path()}).status, 0);
+  Assembly assembly = read_assembly(folder / "column.h5");
+  for (Block& block : assembly.blocks) block.fixed = true;
+  write_assembly(folder / "fixed.h5", assembly);
+  folder.write("fixed.toml", "[bridge]\nassembly = \"fixed.h5\"\n");
+  const Outcome outcome = voussoir({"modal", "fixed.toml"}, {.folder = folder.path()});
+  expect_error(outcome, 2, {"fixed"});
+  EXPECT_NE(outcome.err.find("move"), std::string::npos) << outcome.err;
 }
 
 }  // namespace
