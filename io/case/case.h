@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/generator.h"
+#include "solver/effects/effect.h"
 #include "solver/motion/pulse.h"
 #include "solver/motion/synthesis.h"
 #include "solver/step/settings.h"
@@ -65,6 +66,7 @@ struct Case {
   SolverSettings settings;
   std::vector<MotionSource> motions;  // one per stage of settings
   std::vector<SensorSpec> sensors;
+  std::vector<EffectSetting> effects;
   std::vector<PlotSpec> plots;
   std::vector<ExpectedPeriod> expected_periods;
   std::uint64_t hash =
@@ -86,7 +88,7 @@ std::string resolved_text(const Case& c);
 /// Writes DIRECTORY/case.toml = resolved_text() and the records beside it. Throws RunError.
 void write_resolved_case(const Case& c, const std::string& directory);
 
-/// The case's assembly: generated, or read from its file with the case's joint overrides; with its sensors attached.
+/// The case's assembly: generated, or read from its file with the case's joint overrides; with its effects and sensors.
 /// Throws InputError.
 Assembly make_assembly(const Case& c);
 /// Puts each sensor on the block that holds it. Throws InputError naming a sensor more than 0.05 m off every block.

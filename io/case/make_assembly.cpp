@@ -117,6 +117,17 @@ Assembly make_assembly(const Case& c) {
       return std::any_of(c.sensors.begin(), c.sensors.end(), [&](const SensorSpec& s) { return s.id == own.id; });
     });
   }
+  // The copy in a run directory already has the case's effects.
+  std::vector<std::string> done = assembly.effects;
+  in_case(c, [&] {
+    for (const EffectSetting& effect : c.effects) {
+      const auto found = std::find(done.begin(), done.end(), effect.text());
+      if (found == done.end())
+        apply_effect(assembly, effect);
+      else
+        done.erase(found);
+    }
+  });
   assembly.case_text = c.text;
   in_case(c, [&] { attach_sensors(assembly, c.sensors); });
   return assembly;

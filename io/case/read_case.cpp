@@ -184,6 +184,7 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   read_settings(root, c);
   read_stages(root, c, use);
   read_sensors(root, c);
+  read_effects(root, c);
   read_checks(root);                     // of no concern to a run, but a wrong one is said
   c.hash = hash_text(resolved_text(c));  // before modes and plots, which change nothing in a run
   read_modal(root, c);

@@ -11,6 +11,7 @@ void read_joints(TableReader& root, Case& c);
 void read_settings(TableReader& root, Case& c);  // analysis, contact, damping, output
 void read_stages(TableReader& root, Case& c, CaseUse use);
 void read_sensors(TableReader& root, Case& c);
+void read_effects(TableReader& root, Case& c);
 void read_modal(TableReader& root, Case& c);
 void read_plots(TableReader& root, Case& c);
 

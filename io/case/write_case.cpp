@@ -209,6 +209,15 @@ void write_stages(TomlText& out, const Case& c) {
   }
 }
 
+void write_effects(TomlText& out, const std::vector<EffectSetting>& effects) {
+  for (const EffectSetting& effect : effects) {
+    out.heading("[[effect]]");
+    out.set("name", effect.name);
+    if (!effect.where.empty()) out.set("where", effect.where);
+    for (const auto& [parameter, value] : effect.values) out.set(parameter, value);
+  }
+}
+
 void write_modal(TomlText& out, const Case& c) {
   const ModalSettings& modal = c.settings.modal;
   out.heading("[modal]");
@@ -263,6 +272,7 @@ std::string resolved_text(const Case& c) {
     out.raw("position", vector_text(sensor.position));
     out.raw("direction", vector_text(sensor.direction));
   }
+  write_effects(out, c.effects);
   write_modal(out, c);
   write_plots(out, c.plots);
   return out.text_;

@@ -206,6 +206,7 @@ void write_assembly(const std::string& path, const Assembly& assembly) {
   file.set_text("/", "generator", assembly.generator);
   file.set_text("/", "program_version", VOUSSOIR_VERSION);
   file.set_text("/", "case", assembly.case_text);
+  if (!assembly.effects.empty()) file.set_texts("/", "effects", assembly.effects);
   for (const Table& table : mechanics(assembly))
     std::visit(
         [&](const auto& values) {

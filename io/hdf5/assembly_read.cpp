@@ -350,6 +350,7 @@ Assembly AssemblyReader::read() {
     file_.fail("/", "the attribute 'units' is \"" + file_.text("/", "units") + "\", expected \"SI\": convert the file");
   if (file_.has_attribute("/", "generator")) assembly_.generator = file_.text("/", "generator");
   if (file_.has_attribute("/", "case")) assembly_.case_text = file_.text("/", "case");
+  if (file_.has_attribute("/", "effects")) assembly_.effects = file_.texts("/", "effects");
   if (file_.has("fill/nodes")) file_.fail("fill/nodes", "this version does not read a deformable fill: leave it out");
   read_shapes_of_blocks();
   read_properties();

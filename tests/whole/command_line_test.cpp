@@ -6,7 +6,8 @@
 namespace voussoir::test {
 namespace {
 
-const std::vector<std::string> verb_names = {"generate", "import", "info", "run", "resume", "modal", "render", "check"};
+const std::vector<std::string> verb_names = {"generate", "import", "info",  "run",    "resume",
+                                             "modal",    "render", "check", "effects"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

@@ -130,6 +130,7 @@ ModalSource modal_source(const std::string& from, const std::function<void(Modal
     source.tangent = gravity ? PatchTangent::present : PatchTangent::intact;
     source.about = fmt::format("{}, {}", from, gravity ? "joints as they rest under gravity" : "all joints intact");
   }
+  for (const std::string& effect : source.assembly.effects) source.about += fmt::format(", effect {}", effect);
   if (source.tangent == PatchTangent::intact) return source;
   set_branches(source.model, source.state, 0);
   Stepper stepper;

@@ -23,6 +23,7 @@ Verb resume_verb();
 Verb modal_verb();
 Verb render_verb();
 Verb check_verb();
+Verb effects_verb();
 
 namespace options = boost::program_options;
 

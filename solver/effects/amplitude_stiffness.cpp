@@ -1,0 +1,36 @@
+// Joints without bond that are open at the amplitude of the data: a share of their area carries nothing.
+#include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+bool bonded(const Assembly& assembly, const Joint& joint) {
+  const JointLaw& law = assembly.laws[std::size_t(joint.law)];
+  return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > 0.0;
+}
+
+void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
+  for (Joint& joint : assembly.joints)
+    if (!bonded(assembly, joint)) joint.kn *= 1.0 - values[0], joint.ks *= 1.0 - values[0];
+}
+
+std::vector<std::string> places(const Assembly& assembly) {
+  for (const Joint& joint : assembly.joints)
+    if (!bonded(assembly, joint)) return {"all"};
+  return {};
+}
+
+}  // namespace
+
+Effect amplitude_stiffness() {
+  return {"amplitude_stiffness",
+          "dry joints are partly open at the amplitude of the measurement",
+          {{"share_open", "-", "of the area of joints without bond", 0.0, 0.95, 0.0, 0.3, 0.2}},
+          places,
+          apply,
+          nullptr};
+}
+
+}  // namespace voussoir

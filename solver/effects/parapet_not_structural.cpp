@@ -1,0 +1,32 @@
+// Parapets that only weigh: their joints carry a share of what they should.
+#include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
+  const BlockSet parapet = component(assembly, Component::parapet);
+  scale_joints(assembly, values[0],
+               [&](std::int64_t a, std::int64_t b) { return parapet[std::size_t(a)] && parapet[std::size_t(b)]; });
+}
+
+std::vector<std::string> places(const Assembly& assembly) {
+  for (const Block& b : assembly.blocks)
+    if (b.component == Component::parapet) return {"all"};
+  return {};
+}
+
+}  // namespace
+
+Effect parapet_not_structural() {
+  return {"parapet_not_structural",
+          "the parapets weigh but do not stiffen the bridge",
+          {{"factor", "-", "on the stiffness of the joints inside them", 0.001, 1.0, 1.0, 0.01, 1.0, true}},
+          places,
+          apply,
+          nullptr};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,74 @@
+// Parts of a bridge by name, and what effects do with them. Private to solver/effects.
+#pragma once
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+
+namespace voussoir {
+
+using BlockSet = std::vector<bool>;  // by block
+
+/// Blocks for which `in` holds.
+BlockSet blocks_where(const Assembly& assembly, const std::function<bool(const Block&)>& in);
+inline BlockSet component(const Assembly& assembly, Component c) {
+  return blocks_where(assembly, [c](const Block& b) { return b.component == c; });
+}
+
+/// Masonry parts that can be softer or stiffer than thought: "arch 0" …, "pier 0" …, "abutment left", "abutment right",
+/// "spandrel y-", "spandrel y+", "backing"; "arches", "piers", "abutments", "spandrels" where there is more than one;
+/// "all". Only those the assembly has.
+std::vector<std::string> masonry_parts(const Assembly& assembly);
+/// The blocks of one of them; the infill of a pier or abutment belongs to it.
+BlockSet masonry_part(const Assembly& assembly, const std::string& name);
+
+/// Supports that have a base: "abutment left", "pier 0", …: the groups "base …".
+std::vector<std::string> supports(const Assembly& assembly);
+std::int64_t base_of(const Assembly& assembly, const std::string& support);
+
+/// "left", "right", "both": ends whose faces are free.
+std::vector<std::string> free_ends(const Assembly& assembly);
+/// An outer face of a block in the plane of an end.
+struct EndFace {
+  std::int64_t block = 0;
+  std::int32_t cell = 0, face = 0;
+  Polygon polygon;  // counter-clockwise seen from outside
+};
+/// The faces of one end ("left": least x): of all blocks but parapets and fixed ones.
+std::vector<EndFace> end_faces(const Assembly& assembly, bool left);
+Box box_of(const std::vector<EndFace>& faces);
+/// "both" is left and right.
+inline bool acts_at(const std::string& where, bool left) {
+  return where == "both" || where == (left ? "left" : "right");
+}
+
+/// Multiplies kn and ks of the joints for which `which(a, b)` holds. Returns how many there were.
+std::int64_t scale_joints(Assembly& assembly, double factor,
+                          const std::function<bool(std::int64_t, std::int64_t)>& which);
+
+/// Stiffness and law of the joints of this component whose normals are along x: mean over their area; of all masonry
+/// where it has none.
+struct Neighbourhood {
+  double kn = 0.0, ks = 0.0;  // Pa/m
+  std::int32_t law = 0;
+};
+Neighbourhood lengthways(const Assembly& assembly, Component component);
+
+/// Appends a box of a material, finished; returns its index.
+std::int64_t add_box_block(Assembly& assembly, const Vec3& low, const Vec3& high, Component component,
+                           std::int32_t material, bool fixed);
+/// Appends a joint of block a (lower index) with b over a polygon that is counter-clockwise about `normal`, from a to
+/// b. Valid until the next one is added.
+Joint& add_joint(Assembly& assembly, std::int64_t a, std::int64_t b, const Polygon& polygon, const Vec3& normal,
+                 double kn, double ks, std::int32_t law);
+/// Joins the faces of an end to a block that stands against them, with a share of the stiffness that the joints of each
+/// face's component have lengthways, but at most `most` (Pa/m), and their law.
+void join_end(Assembly& assembly, const std::vector<EndFace>& faces, std::int64_t block, double share,
+              double most = 1e300);
+std::int32_t elastic_law_index(Assembly& assembly);
+/// In the order of Assembly::joints.
+void sort_joints(Assembly& assembly);
+
+}  // namespace voussoir

@@ -1,0 +1,37 @@
+// A spandrel wall has come away from the vaults it stands on: the joints between them are softer.
+#include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+  const BlockSet wall = masonry_part(assembly, where == "both" ? "spandrels" : where);
+  const BlockSet vault = component(assembly, Component::arch);
+  scale_joints(assembly, values[0], [&](std::int64_t a, std::int64_t b) {
+    return (wall[std::size_t(a)] && vault[std::size_t(b)]) || (wall[std::size_t(b)] && vault[std::size_t(a)]);
+  });
+}
+
+std::vector<std::string> places(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const std::string& part : masonry_parts(assembly)) {
+    if (part.starts_with("spandrel y")) names.push_back(part);
+    if (part == "spandrels") names.push_back("both");
+  }
+  return names;
+}
+
+}  // namespace
+
+Effect spandrel_separation() {
+  return {"spandrel_separation",
+          "a spandrel wall has come away from the vaults",
+          {{"factor", "-", "on the stiffness of the joints between them", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
+          places,
+          apply,
+          nullptr};
+}
+
+}  // namespace voussoir

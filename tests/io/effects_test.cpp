@@ -1,0 +1,69 @@
+// Effects of a case: read, resolved, applied once.
+#include <gtest/gtest.h>
+
+#include "io/case/case.h"
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+#include "tests/io/folder.h"
+
+namespace voussoir {
+namespace {
+
+using test::Folder;
+
+const std::string plain = "[bridge]\ngenerator = \"cs2\"\nblock_scale = 4.0\n";
+const std::string softer =
+    "[[effect]]\nname = \"joint_softening\"\nwhere = \"pier 0\"\nfactor = 0.25\n"
+    "[[effect]]\nname = \"damping\"\nratio = 0.05\n";
+
+TEST(EffectCase, SurvivesResolvingAndCounts) {
+  const Case c = parse_case(plain + softer, "c.toml", CaseUse::geometry);
+  EXPECT_NE(c.hash, parse_case(plain, "c.toml", CaseUse::geometry).hash);
+  const Case copy = parse_case(resolved_text(c), "c.toml", CaseUse::geometry);
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    ASSERT_EQ(one->effects.size(), 2u);
+    EXPECT_EQ(one->effects[0].text(), "joint_softening pier 0 factor=0.25");
+    EXPECT_EQ(one->settings.damping.ratio, 0.05);
+  }
+  const Assembly before = make_assembly(parse_case(plain, "c.toml", CaseUse::geometry)), after = make_assembly(c);
+  ASSERT_EQ(after.joints.size(), before.joints.size());
+  std::int64_t softened = 0;
+  for (std::size_t i = 0; i < after.joints.size(); ++i) {
+    if (after.joints[i].kn == before.joints[i].kn) continue;
+    EXPECT_EQ(after.joints[i].kn, 0.25 * before.joints[i].kn);
+    ++softened;
+  }
+  EXPECT_GT(softened, 3);
+}
+
+/// An assembly file that has been changed already, as in a run directory, is not changed again.
+TEST(EffectCase, IsAppliedOnce) {
+  const Folder folder;
+  const Assembly once = make_assembly(parse_case(plain + softer, "c.toml", CaseUse::geometry));
+  write_assembly(folder / "once.h5", once);
+  EXPECT_EQ(read_assembly(folder / "once.h5").effects, once.effects);
+  const std::string from_file = "[bridge]\nassembly = \"" + folder / "once.h5" + "\"\n";
+  const Assembly again = make_assembly(parse_case(from_file + softer, folder / "c.toml", CaseUse::geometry));
+  EXPECT_EQ(assembly_hash(again), assembly_hash(once));
+  const Assembly twice = make_assembly(parse_case(from_file + softer + softer, folder / "c.toml", CaseUse::geometry));
+  EXPECT_NE(assembly_hash(twice), assembly_hash(once)) << "asked for twice, it acts twice";
+}
+
+TEST(EffectCase, WrongKeysSayLineAndRemedy) {
+  const auto holds = [](const std::string& text, const std::vector<std::string>& pieces) {
+    const std::string message =
+        test::message_of<InputError>([&] { make_assembly(parse_case(plain + text, "c.toml", CaseUse::geometry)); });
+    for (const std::string& piece : pieces) EXPECT_NE(message.find(piece), std::string::npos) << message;
+  };
+  holds("[[effect]]\nwhere = \"all\"\n", {"c.toml:4:", "name"});
+  holds("[[effect]]\nname = \"scours\"\n", {"c.toml:4:", "did you mean 'scour'"});
+  holds("[[effect]]\nname = \"damping\"\nrate = 0.1\n", {"c.toml:4:", "no parameter 'rate'", "ratio"});
+  holds("[[effect]]\nname = \"damping\"\nratio = 3\n", {"c.toml:4:", "ratio is 3", "from 0.001 to 0.2"});
+  holds("[[effect]]\nname = \"damping\"\nratio = \"much\"\n", {"c.toml:6:", "'ratio'"});
+  holds("[[effect]]\nname = \"scour\"\n", {"c.toml", "its places here are: abutment left x-"});
+  holds("[[effect]]\nname = \"parapet_not_structural\"\n", {"c.toml", "no place"});
+}
+
+}  // namespace
+}  // namespace voussoir

@@ -1,0 +1,162 @@
+// Effects: each acts where it says, does nothing at its neutral value, and leaves a model that can be analysed.
+#include "solver/base/error.h"
+#include "solver/effects/effect.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+Assembly bridge(const std::string& abutments = "free") {
+  const Generator& generator = find_generator("cs1");
+  GeneratorInput input = default_input(generator);
+  input.choices.at("abutments") = abutments;
+  input.values.at("block_scale") = 4.0;
+  Assembly assembly = generator.build(input);
+  assembly.generator = "cs1";
+  return assembly;
+}
+
+std::vector<double> frequencies(const Assembly& assembly, int count = 3) {
+  std::vector<double> f;
+  for (const Mode& mode : modes_of(Bench(assembly), count)) f.push_back(mode.frequency);
+  return f;
+}
+
+Assembly with(Assembly assembly, const std::string& name, const std::string& where,
+              const std::map<std::string, double>& values = {}) {
+  EffectSetting setting = {name, where, values};
+  complete(setting);
+  apply_effect(assembly, setting);
+  return assembly;
+}
+
+class EachEffect : public testing::TestWithParam<std::string> {};
+
+TEST_P(EachEffect, ActsAtEachOfItsPlacesAndLeavesABridge) {
+  const Effect& effect = find_effect(GetParam());
+  const Assembly plain = bridge();
+  const std::vector<std::string> places = effect.places(plain);
+  ASSERT_FALSE(places.empty());
+  if (!effect.apply) return;
+  const std::vector<double> before = frequencies(plain, 2);
+  for (const std::string& where : places) {
+    SCOPED_TRACE(where);
+    const Assembly changed = with(plain, effect.name, where);
+    ASSERT_EQ(changed.effects.size(), 1u);
+    for (std::size_t i = 1; i < changed.joints.size(); ++i) {
+      const Joint &a = changed.joints[i - 1], &b = changed.joints[i];
+      ASSERT_TRUE(std::tuple(a.a, a.b, a.cell_a, a.cell_b, a.face_a, a.face_b) <
+                  std::tuple(b.a, b.b, b.cell_a, b.cell_b, b.face_a, b.face_b))
+          << i;
+    }
+    const std::vector<double> after = frequencies(changed, 2);
+    EXPECT_GT(after[0], 0.3 * before[0]);
+    EXPECT_LT(after[0], 3.0 * before[0]);
+    const bool usual_is_neutral = effect.parameters[0].usual == effect.parameters[0].neutral;
+    if (!usual_is_neutral) {
+      EXPECT_NE(after[0], before[0]);
+    }
+  }
+}
+
+TEST_P(EachEffect, LeavesABridgeThatRuns) {
+  const Effect& effect = find_effect(GetParam());
+  if (!effect.apply) return;
+  const Assembly plain = bridge();
+  Bench bench(with(plain, effect.name, effect.places(plain).back()), undamped({0, 0, -9.81}));
+  bench.begin();
+  ASSERT_TRUE(bench.run(100));
+  EXPECT_LT(bench.state.time(), 1.0);
+}
+
+TEST_P(EachEffect, DoesNothingAtItsNeutralValue) {
+  const Effect& effect = find_effect(GetParam());
+  if (!effect.apply) return;
+  const Assembly plain = bridge();
+  std::map<std::string, double> neutral;
+  for (const EffectParameter& p : effect.parameters) neutral[p.name] = p.neutral;
+  const std::vector<double> before = frequencies(plain),
+                            after = frequencies(with(plain, effect.name, effect.places(plain).back(), neutral));
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after[i], before[i], 2e-3 * before[i]) << i;
+}
+
+std::vector<std::string> effect_names() {
+  std::vector<std::string> names;
+  for (const Effect& effect : effects()) names.push_back(effect.name);
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(All, EachEffect, testing::ValuesIn(effect_names()), [](const auto& i) { return i.param; });
+
+/// What the generator builds as restrained is what the effect makes of the free bridge.
+TEST(Effects, AbutmentRestraintIsThatOfTheRestrainedBridge) {
+  const Assembly built = bridge("restrained");
+  const std::vector<double> expected = frequencies(built),
+                            found =
+                                frequencies(with(bridge(), "abutment_restraint", "both", {{"stiffness_share", 0.5}}));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], 0.02 * expected[i]) << i;
+  EXPECT_THROW(with(built, "abutment_restraint", "left"), InputError) << "its ends are taken";
+}
+
+/// A stiff block on soil: the base's own stiffness is the footing's (Pais & Kausel 1988).
+TEST(Effects, FoundationSpringsAreThoseOfARigidFooting) {
+  Assembly assembly = stone();
+  add_box(assembly, {0, 0, -1}, {2, 4, 0}, true);
+  add_box(assembly, {0, 0, 0}, {2, 4, 1});
+  assembly = joined(std::move(assembly), 1e12, 1e12, elastic_law());
+  assembly.groups["base pier 0"] = {0};
+  const double g = 1e8, nu = 0.3, b = 1.0, r = 2.0;
+  const Bench bench(with(std::move(assembly), "foundation_flexibility", "pier 0", {{"soil_shear_modulus", g}}));
+  ASSERT_EQ(bench.assembly.blocks.size(), 3u);
+  const BlockMatrix k = stiffness_blocks(bench.model, bench.state, PatchTangent::intact);
+  const Matrix6 ground = k.diagonal(bench.body(2));  // of the ground alone: the springs, about its centroid 0.5 m below
+  const double vertical = g * b / (1 - nu) * (3.1 * std::pow(r, 0.75) + 1.6);
+  const double sliding = g * b / (2 - nu) * (6.8 * std::pow(r, 0.65) + 2.4 + 0.4 * (r - 1));
+  const double about_y = g / (1 - nu) * (3.2 * r + 0.8), about_x = g / (1 - nu) * (3.73 * std::pow(r, 2.4) + 0.27);
+  EXPECT_NEAR(ground(2, 2), vertical, 1e-9 * vertical);
+  EXPECT_NEAR(ground(0, 0), sliding, 1e-9 * sliding);
+  EXPECT_NEAR(ground(4, 4) - 0.25 * sliding, about_y, 1e-6 * about_y) << "the long side lies along y";
+  EXPECT_NEAR(ground(3, 3) - 0.25 * sliding, about_x, 1e-6 * about_x);
+}
+
+TEST(Effects, ScourTakesItsShareOfTheBase) {
+  const Assembly plain = bridge(), scoured = with(plain, "scour", "pier 1 x-", {{"lost_share", 0.25}});
+  const auto bearing = [](const Assembly& assembly) {
+    const std::int64_t base = assembly.groups.at("base pier 1")[0];
+    double area = 0.0;
+    for (const Joint& joint : assembly.joints)
+      if (joint.a == base || joint.b == base) area += joint.area;
+    return area;
+  };
+  EXPECT_NEAR(bearing(scoured), 0.75 * bearing(plain), 1e-6 * bearing(plain));
+}
+
+TEST(Effects, AddedMassIsAdded) {
+  const Assembly plain = bridge(), loaded = with(plain, "added_mass", "deck", {{"mass_per_length", 2000.0}});
+  double before = 0.0, after = 0.0;
+  for (const Block& block : plain.blocks) before += block.mass;
+  for (const Block& block : loaded.blocks) after += block.mass;
+  EXPECT_NEAR(after - before, 2000.0 * 54.4, 1e-3);
+}
+
+TEST(Effects, AskedWronglySayWhatIsRight) {
+  const auto message = [](const std::string& name, const std::string& where,
+                          const std::map<std::string, double>& values) {
+    try {
+      with(bridge(), name, where, values);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const auto holds = [](const std::string& text, const std::string& piece) {
+    EXPECT_NE(text.find(piece), std::string::npos) << text;
+  };
+  holds(message("abutment_restrain", "both", {}), "did you mean 'abutment_restraint'");
+  holds(message("scour", "pier 7 x-", {}), "its places here are: abutment left x-");
+  holds(message("scour", "pier 1 x-", {{"lost_share", 1.5}}), "lost_share is 1.5; it must be from 0 to 0.9");
+  holds(message("scour", "pier 1 x-", {{"lost", 0.5}}), "has no parameter 'lost'");
+  holds(message("joint_softening", "arch 9", {}), "arch 0");
+}
+
+}  // namespace
+}  // namespace voussoir::test
