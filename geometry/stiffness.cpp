@@ -127,14 +127,14 @@ Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) 
   return overrides;
 }
 
-std::int32_t index_of(std::vector<JointLaw>& laws, const JointLaw& law) {
+}  // namespace
+
+std::int32_t law_index(std::vector<JointLaw>& laws, const JointLaw& law) {
   const auto found = std::find(laws.begin(), laws.end(), law);
   if (found != laws.end()) return std::int32_t(found - laws.begin());
   laws.push_back(law);
   return std::int32_t(laws.size()) - 1;
 }
-
-}  // namespace
 
 JointLaw strength_of(const Material& material) {
   JointLaw law;
@@ -160,7 +160,7 @@ void assign_stiffness(Assembly& assembly, const JointRules& rules, const Generat
     if (assigner.is_restraint(joint)) k = times(k, rules.restraint_share);
     joint.kn = k.kn;
     joint.ks = k.ks;
-    joint.law = index_of(assembly.laws, law);
+    joint.law = law_index(assembly.laws, law);
   }
 }
 

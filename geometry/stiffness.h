@@ -43,4 +43,7 @@ JointRules uniform_rules(const GeneratorInput& input);
 /// Strength of a joint within one material: brittle, no residual cohesion.
 JointLaw strength_of(const Material& material);
 
+/// Where the law stands in the list, to which it is added when it is new.
+std::int32_t law_index(std::vector<JointLaw>& laws, const JointLaw& law);
+
 }  // namespace voussoir

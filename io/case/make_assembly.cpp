@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "geometry/joints.h"
+#include "geometry/stiffness.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
@@ -38,13 +39,6 @@ std::pair<std::int64_t, double> nearest_block(const Assembly& assembly, const Ve
   return {nearest, least};
 }
 
-std::int32_t law_index(Assembly& assembly, const JointLaw& law) {
-  const auto found = std::find(assembly.laws.begin(), assembly.laws.end(), law);
-  if (found != assembly.laws.end()) return std::int32_t(found - assembly.laws.begin());
-  assembly.laws.push_back(law);
-  return std::int32_t(assembly.laws.size()) - 1;
-}
-
 /// Gives all joints between two materials of an assembly that was read the stiffness and strength the case asks for.
 void override_joints(Assembly& assembly, const std::string& pair, const GeneratorInput::JointOverride& joint) {
   std::int64_t changed = 0;
@@ -56,7 +50,7 @@ void override_joints(Assembly& assembly, const std::string& pair, const Generato
     ++changed;
     if (joint.kn > 0.0) j.kn = joint.kn;
     if (joint.ks > 0.0) j.ks = joint.ks;
-    if (joint.has_law) j.law = law_index(assembly, joint.law);
+    if (joint.has_law) j.law = law_index(assembly.laws, joint.law);
   }
   if (changed > 0) return;
   std::vector<std::string> names;

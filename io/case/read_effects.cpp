@@ -12,11 +12,11 @@ void read_effects(TableReader& root, Case& c) {
       if (key != "name" && key != "where") effect.values[key] = table.required_number(key);
     try {
       complete(effect);
+      apply_effect(c.settings, effect);
     } catch (const InputError& error) {
       table.fail(error.what());
     }
     table.finish();
-    apply_effect(c.settings, effect);
     c.effects.push_back(std::move(effect));
   }
 }

@@ -1,4 +1,5 @@
 // More or less damping than the case has.
+#include "solver/base/error.h"
 #include "solver/effects/effect.h"
 
 namespace voussoir {
@@ -6,6 +7,10 @@ namespace voussoir {
 namespace {
 
 void apply(SolverSettings& settings, const std::vector<double>& values) {
+  using Kind = DampingSettings::Kind;
+  if (settings.damping.kind != Kind::maxwell && settings.damping.kind != Kind::rayleigh)
+    throw InputError(
+        "effect damping: the case's damping has no ratio; give [damping] kind maxwell or rayleigh with it");
   settings.damping.ratio = values[0];
 }
 

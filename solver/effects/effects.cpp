@@ -74,13 +74,13 @@ void complete(EffectSetting& setting) {
 
 void apply_effect(Assembly& assembly, const EffectSetting& setting) {
   const Effect& effect = find_effect(setting.name);
-  if (!effect.apply) return;
   const std::vector<std::string> places = effect.places(assembly);
   if (places.empty()) throw InputError("effect {}: this assembly has no place for it ({})", effect.name, effect.help);
   const std::string where = setting.where.empty() && places.size() == 1 ? places[0] : setting.where;
   if (std::find(places.begin(), places.end(), where) == places.end())
     throw InputError("effect {}: it cannot act at '{}'{}; its places here are: {}", effect.name, where,
                      suggestion(where, places), fmt::join(places, ", "));
+  if (!effect.apply) return;
   effect.apply(assembly, where, values_of(effect, setting));
   sort_joints(assembly);
   assembly.effects.push_back(setting.text());

@@ -7,21 +7,13 @@ namespace voussoir {
 namespace {
 
 void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
-  const BlockSet fill = component(assembly, Component::backfill);
-  const BlockSet masonry = where == "spandrels" ? masonry_part(assembly, "spandrels") : masonry_part(assembly, "all");
-  scale_joints(assembly, values[0], [&](std::int64_t a, std::int64_t b) {
-    return (fill[std::size_t(a)] && masonry[std::size_t(b)]) || (fill[std::size_t(b)] && masonry[std::size_t(a)]);
-  });
+  scale_between(assembly, component(assembly, Component::backfill), masonry_part(assembly, where), values[0]);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
-  bool fill = false, spandrels = false;
-  for (const Block& b : assembly.blocks) {
-    fill = fill || b.component == Component::backfill;
-    spandrels = spandrels || b.component == Component::spandrel;
-  }
-  if (!fill) return {};
-  return spandrels ? std::vector<std::string>{"all", "spandrels"} : std::vector<std::string>{"all"};
+  std::vector<std::string> names = all_if_any(assembly, Component::backfill);
+  if (!names.empty() && !all_if_any(assembly, Component::spandrel).empty()) names.push_back("spandrels");
+  return names;
 }
 
 }  // namespace

@@ -7,16 +7,11 @@ namespace voussoir {
 namespace {
 
 void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
-  const BlockSet fill = component(assembly, Component::backfill);
-  scale_joints(assembly, values[0],
-               [&](std::int64_t a, std::int64_t b) { return fill[std::size_t(a)] && fill[std::size_t(b)]; });
+  scale_inside(assembly, component(assembly, Component::backfill), values[0]);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
-  const BlockSet fill = component(assembly, Component::backfill);
-  for (bool one : fill)
-    if (one) return {"all"};
-  return {};
+  return all_if_any(assembly, Component::backfill);
 }
 
 }  // namespace

@@ -7,15 +7,11 @@ namespace voussoir {
 namespace {
 
 void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
-  const BlockSet parapet = component(assembly, Component::parapet);
-  scale_joints(assembly, values[0],
-               [&](std::int64_t a, std::int64_t b) { return parapet[std::size_t(a)] && parapet[std::size_t(b)]; });
+  scale_inside(assembly, component(assembly, Component::parapet), values[0]);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
-  for (const Block& b : assembly.blocks)
-    if (b.component == Component::parapet) return {"all"};
-  return {};
+  return all_if_any(assembly, Component::parapet);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "geometry/joints.h"
+#include "geometry/stiffness.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -129,16 +129,27 @@ std::vector<std::string> free_ends(const Assembly& assembly) {
   return ends;
 }
 
-std::int64_t scale_joints(Assembly& assembly, double factor,
-                          const std::function<bool(std::int64_t, std::int64_t)>& which) {
-  std::int64_t count = 0;
+std::vector<std::string> all_if_any(const Assembly& assembly, Component c) {
+  const BlockSet set = component(assembly, c);
+  if (std::find(set.begin(), set.end(), true) == set.end()) return {};
+  return {"all"};
+}
+
+void scale_inside(Assembly& assembly, const BlockSet& part, double factor) {
+  scale_between(assembly, part, part, factor);
+}
+
+void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor) {
   for (Joint& joint : assembly.joints) {
-    if (!which(joint.a, joint.b)) continue;
+    const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
+    if (!(one[a] && other[b]) && !(one[b] && other[a])) continue;
     joint.kn *= factor;
     joint.ks *= factor;
-    ++count;
   }
-  return count;
+}
+
+void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+  scale_inside(assembly, masonry_part(assembly, where), values[0]);
 }
 
 Neighbourhood lengthways(const Assembly& assembly, Component wanted) {
@@ -215,10 +226,7 @@ Box box_of(const std::vector<EndFace>& faces) {
 std::int32_t elastic_law_index(Assembly& assembly) {
   JointLaw law;
   law.kind = JointLaw::Kind::elastic;
-  const auto found = std::find(assembly.laws.begin(), assembly.laws.end(), law);
-  if (found != assembly.laws.end()) return std::int32_t(found - assembly.laws.begin());
-  assembly.laws.push_back(law);
-  return std::int32_t(assembly.laws.size()) - 1;
+  return law_index(assembly.laws, law);
 }
 
 void sort_joints(Assembly& assembly) {

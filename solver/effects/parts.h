@@ -44,9 +44,14 @@ inline bool acts_at(const std::string& where, bool left) {
   return where == "both" || where == (left ? "left" : "right");
 }
 
-/// Multiplies kn and ks of the joints for which `which(a, b)` holds. Returns how many there were.
-std::int64_t scale_joints(Assembly& assembly, double factor,
-                          const std::function<bool(std::int64_t, std::int64_t)>& which);
+/// {"all"} where the assembly has such blocks, else nothing.
+std::vector<std::string> all_if_any(const Assembly& assembly, Component c);
+
+/// Multiplies kn and ks of the joints inside a set of blocks, or between two.
+void scale_inside(Assembly& assembly, const BlockSet& part, double factor);
+void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor);
+/// scale_inside() a masonry part by the first of an effect's values: what several effects do.
+void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values);
 
 /// Stiffness and law of the joints of this component whose normals are along x: mean over their area; of all masonry
 /// where it has none.

@@ -8,10 +8,7 @@ namespace {
 
 void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const BlockSet wall = masonry_part(assembly, where == "both" ? "spandrels" : where);
-  const BlockSet vault = component(assembly, Component::arch);
-  scale_joints(assembly, values[0], [&](std::int64_t a, std::int64_t b) {
-    return (wall[std::size_t(a)] && vault[std::size_t(b)]) || (wall[std::size_t(b)] && vault[std::size_t(a)]);
-  });
+  scale_between(assembly, wall, component(assembly, Component::arch), values[0]);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {

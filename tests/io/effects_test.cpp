@@ -61,6 +61,8 @@ TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   holds("[[effect]]\nname = \"damping\"\nrate = 0.1\n", {"c.toml:4:", "no parameter 'rate'", "ratio"});
   holds("[[effect]]\nname = \"damping\"\nratio = 3\n", {"c.toml:4:", "ratio is 3", "from 0.001 to 0.2"});
   holds("[[effect]]\nname = \"damping\"\nratio = \"much\"\n", {"c.toml:6:", "'ratio'"});
+  holds("[damping]\nkind = \"local\"\n[[effect]]\nname = \"damping\"\n", {"c.toml:6:", "has no ratio"});
+  holds("[[effect]]\nname = \"damping\"\nwhere = \"pier 0\"\n", {"its places here are: all"});
   holds("[[effect]]\nname = \"scour\"\n", {"c.toml", "its places here are: abutment left x-"});
   holds("[[effect]]\nname = \"parapet_not_structural\"\n", {"c.toml", "no place"});
 }

@@ -137,6 +137,13 @@ struct Findings {
   nlohmann::json json;
 };
 
+void keep_lowest(Findings& f, std::size_t count) {
+  count = std::min(count, f.modes.modes.size());
+  f.modes.modes.resize(count);
+  f.file.modes.resize(count);
+  if (!f.file.damped.empty()) f.file.damped.resize(count);
+}
+
 /// The modes of the source, and of a damaged one those of the intact assembly beside them. Local modes of loosened
 /// stones come between those of the whole: the search goes on past the number asked for until each has its partner, or
 /// three times as far.
@@ -155,9 +162,8 @@ Findings find(const ModalSource& source) {
     f.file = modes_file(source, f.modes, source.about);
     Pairing pairing = pair_modes(f.file, intact_file);
     const std::int64_t last = *std::max_element(pairing.ours.begin(), pairing.ours.end());
-    f.modes.modes.resize(std::size_t(std::clamp(last + 1, std::int64_t(count), std::int64_t(f.modes.modes.size()))));
-    f.file = modes_file(source, f.modes, source.about);
-    pairing = pair_modes(f.file, intact_file);
+    keep_lowest(f, std::size_t(std::max(last + 1, std::int64_t(count))));
+    pairing.assurance.conservativeResize(Eigen::Index(f.modes.modes.size()), Eigen::NoChange);
     comparison = fmt::format("\n{}", pairing_table(f.file, intact_file, pairing, "as it is", "intact"));
     intact_json = pairing_json(f.file, intact_file, pairing);
   } else {
