@@ -31,6 +31,7 @@ struct Effect {
   void (*apply)(Assembly&, const std::string& where, const std::vector<double>& values) = nullptr;
   /// What does not act on the assembly: once or twice gives the same.
   void (*apply_to_settings)(SolverSettings&, const std::vector<double>& values) = nullptr;
+  double weight = 1.0;  // prior: how often it is met, against the other effects
 };
 
 /// All of them, in the order of the documentation.

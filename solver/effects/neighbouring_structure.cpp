@@ -55,7 +55,8 @@ Effect neighbouring_structure() {
            {"mass", "kg", "that moves with the end face", 1e2, 1e7, 1e2, 1e5, 1.5, true}},
           free_ends,
           apply,
-          nullptr};
+          nullptr,
+          0.2};
 }
 
 }  // namespace voussoir

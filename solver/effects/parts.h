@@ -1,4 +1,4 @@
-// Parts of a bridge by name, and what effects do with them. Private to solver/effects.
+// Parts of a bridge by name, and what effects do with them. For effects and the diagnosis.
 #pragma once
 #include <functional>
 #include <set>

@@ -5,7 +5,6 @@
 
 #include <Spectra/SymGEigsShiftSolver.h>
 
-#include <Eigen/CholmodSupport>
 #include <Eigen/Eigenvalues>
 #include <chrono>
 
@@ -22,39 +21,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-class Factor {
- public:
-  Factor() {
-    // Nested dissection: bridges are long, and its fronts are what the dense kernels are quick with.
-    cholesky_.cholmod().nmethods = 1;
-    cholesky_.cholmod().method[0].ordering = CHOLMOD_METIS;
-    cholesky_.cholmod().print = 0;
-  }
-  /// False when K − σ M is not positive definite.
-  bool compute(const SparseMatrix& k, const SparseMatrix& m, double shift) {
-    const SparseMatrix a = k - shift * m;
-    if (!analysed_) cholesky_.analyzePattern(a);
-    analysed_ = true;
-    cholesky_.factorize(a);
-    if (cholesky_.cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholesky_.cholmod().status == CHOLMOD_TOO_LARGE)
-      throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
-                     a.rows());
-    return cholesky_.info() == Eigen::Success;
-  }
-  Eigen::VectorXd solve(const Eigen::VectorXd& x) const { return cholesky_.solve(x); }
-  double entries() { return cholesky_.cholmod().lnz; }
-  double bytes() { return double(cholesky_.cholmod().memory_usage); }
-
- private:
-  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky_;
-  bool analysed_ = false;
-};
-
 /// Spectra's operators: x → (K − σ M)⁻¹ x less what lies along the columns of `known`, and x → M x.
 class Inverse {
  public:
   using Scalar = double;
-  Inverse(const Factor& factor, const SparseMatrix& m, const Eigen::MatrixXd& known, int& solves)
+  Inverse(const ShiftedFactor& factor, const SparseMatrix& m, const Eigen::MatrixXd& known, int& solves)
       : factor_(&factor), m_(&m), known_(&known), solves_(&solves) {}
   Eigen::Index rows() const { return m_->rows(); }
   Eigen::Index cols() const { return m_->cols(); }
@@ -71,7 +42,7 @@ class Inverse {
   }
 
  private:
-  const Factor* factor_;
+  const ShiftedFactor* factor_;
   const SparseMatrix* m_;
   const Eigen::MatrixXd* known_;
   int* solves_;
@@ -97,14 +68,17 @@ struct Found {
   Eigen::MatrixXd vectors;
 };
 
-Found search(const Factor& factor, const SparseMatrix& m, double shift, const Eigen::MatrixXd& known, int count,
-             double tolerance, int& solves) {
+Found search(const ShiftedFactor& factor, const SparseMatrix& m, double shift, const Eigen::MatrixXd& known, int count,
+             double tolerance, const Eigen::VectorXd& start, int& solves) {
   Inverse inverse(factor, m, known, solves);
   Mass mass(m);
   const int basis = int(std::min<Eigen::Index>(m.rows(), std::max(2 * count + 2, 16)));
   Spectra::SymGEigsShiftSolver<Inverse, Mass, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, count, basis,
                                                                                       shift);
-  solver.init();
+  if (start.size() == m.rows())
+    solver.init(start.data());
+  else
+    solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
     throw RunError("the eigenvalue iteration did not converge; ask for more or fewer modes");
@@ -147,27 +121,32 @@ Eigenpairs dense(const SparseMatrix& k, const SparseMatrix& m, int count) {
   return pairs;
 }
 
-Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count) {
+/// Two hundred times further down at each try: a state that its own weight makes unstable has λ < 0.
+double factorize(ShiftedFactor& factor, const SparseMatrix& k, const SparseMatrix& m) {
+  double shift = -1e-9 * largest_ratio(k, m);
+  for (int tries = 0; !factor.compute(k, m, shift); ++tries, shift *= 200.0)
+    if (tries == 6) throw RunError("the stiffness matrix cannot be factored: it has no finite values");
+  return shift;
+}
+
+Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count, EigenMemory& memory) {
   auto start = std::chrono::steady_clock::now();
   Eigenpairs pairs;
-  Factor factor;
-  // Two hundred times further down at each try: a state that its own weight makes unstable has λ < 0.
-  pairs.shift = -1e-9 * largest_ratio(k, m);
-  for (int tries = 0; !factor.compute(k, m, pairs.shift); ++tries, pairs.shift *= 200.0)
-    if (tries == 6) throw RunError("the stiffness matrix cannot be factored: it has no finite values");
+  ShiftedFactor& factor = memory.factor;
+  pairs.shift = factorize(factor, k, m);
   pairs.factor_entries = factor.entries();
   pairs.factor_bytes = factor.bytes();
   pairs.factor_seconds = seconds_since(start);
   start = std::chrono::steady_clock::now();
   Found all;
-  merge(all, search(factor, m, pairs.shift, Eigen::MatrixXd(m.rows(), 0), count, 1e-12, pairs.solves), m);
+  merge(all, search(factor, m, pairs.shift, Eigen::MatrixXd(m.rows(), 0), count, 1e-12, memory.start, pairs.solves), m);
   // One vector's Krylov space holds one vector of each eigenspace: look for what it left out.
   while (all.values.size() < m.rows()) {
     const Eigen::MatrixXd known = all.vectors;
     const double last = all.values[count - 1];
-    if (search(factor, m, pairs.shift, known, 1, 1e-4, pairs.solves).values[0] > last) break;
+    if (search(factor, m, pairs.shift, known, 1, 1e-4, {}, pairs.solves).values[0] > last) break;
     const int more = int(std::min<Eigen::Index>(6, m.rows() - all.values.size()));
-    merge(all, search(factor, m, pairs.shift, known, more, 1e-12, pairs.solves), m);
+    merge(all, search(factor, m, pairs.shift, known, more, 1e-12, {}, pairs.solves), m);
   }
   pairs.values = all.values.head(count);
   pairs.vectors = all.vectors.leftCols(count);
@@ -177,12 +156,58 @@ Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count) {
 
 }  // namespace
 
-Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count) {
+ShiftedFactor::ShiftedFactor() {
+  // Nested dissection: bridges are long, and its fronts are what the dense kernels are quick with.
+  cholesky_.cholmod().nmethods = 1;
+  cholesky_.cholmod().method[0].ordering = CHOLMOD_METIS;
+  cholesky_.cholmod().print = 0;
+}
+
+bool ShiftedFactor::compute(const SparseMatrix& k, const SparseMatrix& m, double shift) {
+  const SparseMatrix a = k - shift * m;
+  const auto same = [](const std::vector<int>& known, const int* begin, Eigen::Index n) {
+    return known.size() == std::size_t(n) && std::equal(known.begin(), known.end(), begin);
+  };
+  if (!same(outer_, a.outerIndexPtr(), a.cols() + 1) || !same(inner_, a.innerIndexPtr(), a.nonZeros())) {
+    cholesky_.analyzePattern(a);
+    outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1);
+    inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
+  }
+  cholesky_.factorize(a);
+  if (cholesky_.cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholesky_.cholmod().status == CHOLMOD_TOO_LARGE)
+    throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
+                   a.rows());
+  return cholesky_.info() == Eigen::Success;
+}
+
+namespace {
+
+bool is_small(const SparseMatrix& m, int count) {
   // Lanczos needs room for a basis; and what is small is done sooner, and whole, by reduction to tridiagonal form.
   const bool small = m.rows() <= dense_below || 3 * count > m.rows();
   if (small && m.rows() > dense_most)
     throw InputError("{} modes are too many of {} unknowns; ask for at most {}", count, m.rows(), m.rows() / 3);
-  Eigenpairs pairs = small ? dense(k, m, count) : iterated(k, m, count);
+  return small;
+}
+
+}  // namespace
+
+Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count) {
+  EigenMemory memory;
+  Eigenpairs pairs = is_small(m, count) ? dense(k, m, count) : iterated(k, m, count, memory);
+  pairs.zero = 1e-10 * largest_ratio(k, m);
+  return pairs;
+}
+
+Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count, EigenMemory& memory) {
+  Eigenpairs pairs;
+  if (is_small(m, count)) {
+    pairs = dense(k, m, count);
+    pairs.shift = factorize(memory.factor, k, m);
+  } else {
+    pairs = iterated(k, m, count, memory);
+  }
+  memory.start = pairs.vectors.rowwise().sum();
   pairs.zero = 1e-10 * largest_ratio(k, m);
   return pairs;
 }

@@ -1,8 +1,32 @@
 // The lowest eigenpairs of K φ = λ M φ.
 #pragma once
+#include <Eigen/CholmodSupport>
+
 #include "solver/modal/block_matrix.h"
 
 namespace voussoir {
+
+/// CHOLMOD's supernodal factor of K − σ M. The analysis of a pattern is kept for the next matrices that have the same.
+class ShiftedFactor {
+ public:
+  ShiftedFactor();
+  /// False when K − σ M is not positive definite.
+  bool compute(const SparseMatrix& k, const SparseMatrix& m, double shift);
+  /// (K − σ M)⁻¹ x, of as many columns as x has.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const { return cholesky_.solve(x); }
+  double entries() { return cholesky_.cholmod().lnz; }
+  double bytes() { return double(cholesky_.cholmod().memory_usage); }
+
+ private:
+  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky_;
+  std::vector<int> outer_, inner_;  // the pattern that was analysed
+};
+
+/// What a solution leaves for the next one of a similar matrix.
+struct EigenMemory {
+  ShiftedFactor factor;   // of the last matrix, at the solution's shift
+  Eigen::VectorXd start;  // sum of the last vectors: where the iteration begins; empty: no matter where
+};
 
 struct Eigenpairs {
   Eigen::VectorXd values;   // rad2/s2, ascending
@@ -22,5 +46,7 @@ struct Eigenpairs {
 /// Throws RunError when the iteration does not converge or memory runs out, InputError for so many modes of so large a
 /// model that only a dense solution would give them.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count);
+/// The same from where the last such solution left off; the factor is there afterwards, of small models too.
+Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count, EigenMemory& memory);
 
 }  // namespace voussoir

@@ -1,0 +1,225 @@
+#include "solver/diagnosis/fit.h"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+double step_down(const FitParameter& p, double x, double step) {
+  return std::max(x - step, std::min(x, p.x(p.low)));
+}
+double step_up(const FitParameter& p, double x, double step) {
+  return std::min(x + step, std::max(x, p.x(p.high)));
+}
+
+/// All effects but scour are linear in their parameter: the central difference is exact but for rounding.
+Derivative model_derivative(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
+                            Eigen::Index index) {
+  constexpr double step = 1e-3;
+  const FitParameter p = hypothesis.parameters()[std::size_t(index)];
+  Eigen::VectorXd low = x, high = x;
+  low[index] = step_down(p, x[index], step);
+  high[index] = step_up(p, x[index], step);
+  return derivative(hypothesis.assembly(problem.base, low), hypothesis.assembly(problem.base, high),
+                    high[index] - low[index]);
+}
+
+std::vector<bool> paired(const Pairing& pairing, Eigen::Index modes) {
+  std::vector<bool> wanted(std::size_t(modes), false);
+  for (int c : pairing.computed)
+    if (c >= 0) wanted[std::size_t(c)] = true;
+  return wanted;
+}
+
+/// Column of the Jacobian: the residuals a small step along the derivative of the response.
+Eigen::VectorXd column(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                       const Hypothesis& hypothesis, const Evaluation& at, Eigen::Index index,
+                       const EigenMemory& memory) {
+  constexpr double step = 1e-5;
+  const Derivative change = model_derivative(problem, hypothesis, at.x, index);
+  const ResponseDerivative d = response_derivative(at.assembly, at.response, at.model, change, problem.features.sensors,
+                                                   memory, paired(at.pairing, at.response.eigenvalues.size()));
+  Eigen::VectorXd x = at.x;
+  x[index] += step;
+  const Eigen::VectorXd moved =
+      residuals(problem, rows, at.pairing, at.response.log_frequency + step * d.log_frequency,
+                hypothesis.readings(at.response.sensors + step * d.sensors, x), hypothesis.damping(problem.damping, x));
+  return (moved - at.residuals) / step;
+}
+
+struct Split {
+  std::vector<int> fitted, held;  // rows
+};
+Split split_rows(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows) {
+  Split split;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    (problem.features.modes[std::size_t(rows[i].mode)].held_back ? split.held : split.fitted).push_back(int(i));
+  return split;
+}
+
+/// Ceres' view: fitted residuals, then x itself as residuals of the prior.
+class Cost : public ceres::CostFunction {
+ public:
+  Cost(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const std::vector<ResidualRow>& rows,
+       const Split& split, EigenMemory& memory, Evaluation& last, int& evaluations)
+      : problem_(&problem),
+        hypothesis_(&hypothesis),
+        rows_(&rows),
+        split_(&split),
+        memory_(&memory),
+        last_(&last),
+        evaluations_(&evaluations) {
+    mutable_parameter_block_sizes()->push_back(int(hypothesis.size()));
+    set_num_residuals(int(split.fitted.size() + hypothesis.size()));
+  }
+  bool Evaluate(double const* const* parameters, double* r, double** jacobians) const override {
+    const auto n = Eigen::Index(hypothesis_->size()), m = Eigen::Index(split_->fitted.size());
+    const Eigen::Map<const Eigen::VectorXd> x(parameters[0], n);
+    // Ceres asks for the derivatives where it has just been.
+    if (last_->x.size() != n || last_->x != x) {
+      *last_ = evaluate(*problem_, *rows_, *hypothesis_, x, *memory_);
+      ++*evaluations_;
+    }
+    Eigen::Map<Eigen::VectorXd> residuals(r, m + n);
+    residuals << last_->residuals(split_->fitted), x;
+    if (jacobians && jacobians[0]) {
+      const Eigen::MatrixXd all = jacobian(*problem_, *rows_, *hypothesis_, *last_, *memory_);
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(jacobians[0], m + n, n);
+      j << all(split_->fitted, Eigen::all), Eigen::MatrixXd::Identity(n, n);
+    }
+    return residuals.allFinite();
+  }
+
+ private:
+  const DiagnosisProblem* problem_;
+  const Hypothesis* hypothesis_;
+  const std::vector<ResidualRow>* rows_;
+  const Split* split_;
+  EigenMemory* memory_;
+  Evaluation* last_;
+  int* evaluations_;
+};
+
+void solve(const Cost& cost, const Hypothesis& hypothesis, Eigen::VectorXd& x, int iterations) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem least_squares(ownership);
+  double* values = x.data();
+  least_squares.AddResidualBlock(const_cast<Cost*>(&cost), nullptr, values);
+  const std::vector<FitParameter> parameters = hypothesis.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    least_squares.SetParameterLowerBound(values, int(i), parameters[i].x(parameters[i].low));
+    least_squares.SetParameterUpperBound(values, int(i), parameters[i].x(parameters[i].high));
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = 1e-3;
+  options.parameter_tolerance = 1e-4;
+  options.initial_trust_region_radius = 10.0;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &least_squares, &summary);
+  if (!summary.IsSolutionUsable()) throw RunError("the fit failed: {}", summary.message);
+}
+
+double mean_square_root(const Eigen::VectorXd& r) {
+  return r.size() > 0 ? std::sqrt(r.squaredNorm() / double(r.size())) : 0.0;
+}
+
+/// Leave one mode out of a linear fit with priors: what is left of its rows is (1 − H)⁻¹ r of them, H their part of
+/// the hat matrix, with the covariance (1 − H)⁻¹ (Cook and Weisberg 1982, §2.2).
+double predicted_gap(const std::vector<ResidualRow>& rows, const Split& split, const Eigen::VectorXd& r,
+                     const Eigen::MatrixXd& j) {
+  const Eigen::MatrixXd inverse =
+      (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).ldlt().solve(j.transpose());
+  double sum = 0.0;
+  Eigen::Index count = 0;
+  for (std::size_t begin = 0, end = 0; begin < split.fitted.size(); begin = end) {
+    const int mode = rows[std::size_t(split.fitted[begin])].mode;
+    while (end < split.fitted.size() && rows[std::size_t(split.fitted[end])].mode == mode) ++end;
+    const auto at = Eigen::Index(begin), n = Eigen::Index(end - begin);
+    const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - j.middleRows(at, n) * inverse.middleCols(at, n);
+    sum += r.segment(at, n).dot(left.ldlt().solve(r.segment(at, n)));
+    count += n;
+  }
+  return count > 0 ? std::sqrt(sum / double(count)) : 0.0;
+}
+
+}  // namespace
+
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x, EigenMemory& memory) {
+  Evaluation e;
+  e.x = x;
+  e.assembly = hypothesis.assembly(problem.base, x);
+  e.model = linear_model(e.assembly);
+  e.response = response(e.assembly, e.model, problem.features.sensors, problem.modes, memory);
+  e.readings = hypothesis.readings(e.response.sensors, x);
+  e.pairing = pair_modes(problem.features, e.response, e.readings);
+  e.residuals =
+      residuals(problem, rows, e.pairing, e.response.log_frequency, e.readings, hypothesis.damping(problem.damping, x));
+  return e;
+}
+
+Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                         const Hypothesis& hypothesis, const Evaluation& at, const EigenMemory& memory) {
+  Eigen::MatrixXd j(Eigen::Index(rows.size()), at.x.size());
+  for (Eigen::Index p = 0; p < at.x.size(); ++p) j.col(p) = column(problem, rows, hypothesis, at, p, memory);
+  return j;
+}
+
+double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x) {
+  const Eigen::MatrixXd curvature = Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j;
+  const Eigen::VectorXd pivots = curvature.ldlt().vectorD();
+  return -0.5 * (r.squaredNorm() + x.squaredNorm()) - 0.5 * pivots.array().log().sum();
+}
+
+double chi_square_tail(double sum, int n) {
+  // Wilson and Hilferty (1931): the cube root of χ²/n is nearly normal.
+  if (n <= 0) return 1.0;
+  const double v = 2.0 / (9.0 * n), z = (std::cbrt(sum / n) - (1.0 - v)) / std::sqrt(v);
+  return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {
+  const std::vector<ResidualRow> rows = residual_rows(problem);
+  const Split split = split_rows(problem, rows);
+  Fit result;
+  result.hypothesis = hypothesis;
+  EigenMemory memory;
+  Eigen::VectorXd best = x;
+  if (iterations > 0 && x.size() > 0) {
+    const Cost cost(problem, hypothesis, rows, split, memory, result.best, result.evaluations);
+    solve(cost, hypothesis, best, iterations);
+  }
+  if (result.best.x.size() != best.size() || result.best.x != best || best.size() == 0) {
+    result.best = evaluate(problem, rows, hypothesis, best, memory);
+    ++result.evaluations;
+  }
+  result.jacobian = jacobian(problem, rows, hypothesis, result.best, memory);
+  const Eigen::VectorXd r = result.best.residuals(split.fitted);
+  const Eigen::MatrixXd j = result.jacobian(split.fitted, Eigen::all);
+  const Eigen::MatrixXd covariance = (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).inverse();
+  result.std = covariance.diagonal().cwiseSqrt();
+  result.misfit = r.squaredNorm() + best.squaredNorm();
+  result.log_evidence = log_evidence(r, j, best);
+  result.gap = mean_square_root(r);
+  result.held_gap = mean_square_root(result.best.residuals(split.held));
+  result.predicted_gap = predicted_gap(rows, split, r, j);
+  const std::vector<FitParameter> parameters = hypothesis.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& p = parameters[i];
+    const double at = best[Eigen::Index(i)];
+    result.at_bound.push_back(at < p.x(p.low) + 1e-3 || at > p.x(p.high) - 1e-3);
+  }
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,84 @@
+// Fitting a hypothesis to measured features: residuals in standard deviations, priors, Laplace's evidence.
+#pragma once
+#include "solver/diagnosis/features.h"
+#include "solver/diagnosis/hypothesis.h"
+#include "solver/diagnosis/response.h"
+
+namespace voussoir {
+
+/// What is to be explained, and from which model.
+struct DiagnosisProblem {
+  Assembly base;
+  Features features;
+  ModelError error;
+  double damping = 0.0;  // ratio of the case; 0: it has none
+  int modes = 20;        // to compute
+};
+
+/// Which computed mode each measured one is; −1: none is like it.
+struct Pairing {
+  std::vector<int> computed;
+  std::vector<double> assurance;  // MAC at the sensors; not finite without a shape
+};
+
+/// A row of the residuals.
+struct ResidualRow {
+  enum class Kind { frequency, shape, damping };
+  Kind kind = Kind::frequency;
+  int mode = 0;    // of the features
+  int sensor = 0;  // shape
+  double std = 1.0;
+};
+/// All rows of the features, held back ones too, and their standard deviations: of the measurement, the model, and
+/// the mixing of close modes together.
+std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem);
+
+/// Measured modes with shapes are paired by MAC and frequency, one to one, so that the sum of the costs is least; those
+/// with a direction only by their order within it, those without by their order.
+Pairing pair_modes(const Features& features, const Response& response, const Eigen::MatrixXd& readings);
+
+/// (measured − computed)/std by row, of modes at these frequencies (logarithms of Hz), sensor readings (sensor × mode)
+/// and ratio of damping. Shapes are scaled to fit best.
+Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Pairing& pairing,
+                          const Eigen::VectorXd& log_frequency, const Eigen::MatrixXd& readings, double damping);
+
+/// What a hypothesis makes of the features at x.
+struct Evaluation {
+  Eigen::VectorXd x;
+  Assembly assembly;
+  LinearModel model;
+  Response response;
+  Eigen::MatrixXd readings;  // of the sensors, sensor × mode
+  Pairing pairing;
+  Eigen::VectorXd residuals;  // (measured − computed)/std, by row
+};
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x, EigenMemory& memory);
+/// Derivatives of the residuals, row × parameter; the memory must be that of the evaluation.
+Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                         const Hypothesis& hypothesis, const Evaluation& at, const EigenMemory& memory);
+
+struct Fit {
+  Hypothesis hypothesis;
+  Evaluation best;
+  Eigen::MatrixXd jacobian;   // there, row × parameter
+  Eigen::VectorXd std;        // of x
+  double misfit = 0.0;        // sum of squares of the fitted rows and of x: χ² of as many degrees as fitted rows
+  double log_evidence = 0.0;  // up to a constant that is the same for all fits to the same rows
+  int evaluations = 0;
+  std::vector<bool> at_bound;  // by parameter
+  /// Root mean square residual of the rows that were fitted, of those held back.
+  double gap = 0.0, held_gap = 0.0;
+  /// Root mean square of what the other modes leave unexplained of each mode, in standard deviations of that
+  /// prediction: leave one mode out, linearised about the fit.
+  double predicted_gap = 0.0;
+};
+
+/// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds.
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations);
+/// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
+double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
+/// Probability that a sum of squares of n standard normal numbers is larger.
+double chi_square_tail(double sum, int n);
+
+}  // namespace voussoir

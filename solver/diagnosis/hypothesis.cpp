@@ -1,0 +1,312 @@
+#include "solver/diagnosis/hypothesis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+enum class Kind { none, masonry, infill, fill };
+
+/// The weakest of what a joint joins; blocks that are no part of the bridge do not count.
+Kind kind_of(const Block& block) {
+  switch (block.component) {
+    case Component::base:
+    case Component::restraint:
+      return Kind::none;
+    case Component::backfill:
+      return Kind::fill;
+    case Component::infill:
+      return Kind::infill;
+    default:
+      return Kind::masonry;
+  }
+}
+
+void scale_joints(Assembly& assembly, Kind kind, double factor) {
+  for (Joint& joint : assembly.joints) {
+    const Kind a = kind_of(assembly.blocks[std::size_t(joint.a)]), b = kind_of(assembly.blocks[std::size_t(joint.b)]);
+    if (std::max(a, b) != kind) continue;
+    joint.kn *= factor;
+    joint.ks *= factor;
+  }
+}
+
+/// Of the blocks that are `in`. Materials that others have too are split.
+void scale_density(Assembly& assembly, const std::function<bool(std::size_t)>& in, double factor) {
+  std::map<std::int32_t, std::int32_t> scaled;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    if (!in(i)) continue;
+    Block& block = assembly.blocks[i];
+    if (!scaled.contains(block.material)) {
+      scaled[block.material] = std::int32_t(assembly.materials.size());
+      assembly.materials.push_back(assembly.materials[std::size_t(block.material)]);
+      assembly.materials.back().density *= factor;
+    }
+    block.material = scaled[block.material];
+    block.mass *= factor;
+    block.inertia *= factor;
+  }
+}
+
+/// Of the backfill, or of all other blocks.
+void scale_density(Assembly& assembly, bool fill, double factor) {
+  scale_density(
+      assembly, [&](std::size_t i) { return (kind_of(assembly.blocks[i]) == Kind::fill) == fill; }, factor);
+}
+
+FitParameter factor_of(const std::string& name, double spread) {
+  return {name, "-", 1.0, spread, true, std::exp(-3.0 * spread), std::exp(3.0 * spread)};
+}
+
+bool any_of_kind(const Assembly& assembly, Kind kind) {
+  return std::any_of(assembly.blocks.begin(), assembly.blocks.end(),
+                     [&](const Block& b) { return !b.fixed && kind_of(b) == kind; });
+}
+
+FitParameter fit_parameter(const EffectParameter& p) {
+  // Just above nothing, so that what the effect adds is there and its derivative with it.
+  const double low = p.logarithmic ? p.low : p.low + 1e-4 * (p.usual - p.low);
+  return {p.name, p.unit, p.usual, p.spread, p.logarithmic, low, p.high};
+}
+
+/// From the usual value; where that is the neutral one, from a standard deviation to either side.
+std::vector<std::vector<double>> starts_of(const Effect& effect) {
+  const EffectParameter& first = effect.parameters[0];
+  std::vector<double> usual(effect.parameters.size(), 0.0);
+  if (first.usual != first.neutral) return {usual};
+  std::vector<double> up = usual, down = usual;
+  up[0] = 1.0, down[0] = -1.0;
+  return {up, down};
+}
+
+void add_sensor_faults(const std::vector<Sensor>& sensors, std::vector<Candidate>& all) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    Candidate reversed;
+    reversed.kind = Candidate::Kind::gain;
+    reversed.name = "sensor_fault";
+    reversed.where = "channel " + sensors[i].id;
+    reversed.gain = -1.0;
+    reversed.sensors = {i};
+    reversed.starts = {{}};
+    all.push_back(reversed);
+    Candidate gain = reversed;
+    gain.gain = 1.0;
+    gain.parameters = {{"gain", "-", 1.0, 0.7, true, 0.05, 20.0}};
+    gain.starts = {{-1.0}, {1.0}};
+    all.push_back(gain);
+    for (std::size_t j = i + 1; j < sensors.size(); ++j) {
+      if ((sensors[i].position - sensors[j].position).norm() > 0.5) continue;
+      Candidate swap = reversed;
+      swap.kind = Candidate::Kind::swap;
+      swap.where = fmt::format("channels {} {}", sensors[i].id, sensors[j].id);
+      swap.sensors = {i, j};
+      all.push_back(swap);
+    }
+  }
+}
+
+/// Effects by their own weights; of an effect's places, the one that is all of them counts as much as the others
+/// together: what the ground, the mason or time has done to one part it has mostly done to all of its kind.
+void share_priors(std::vector<Candidate>& all) {
+  std::map<std::string, std::pair<double, double>> counts;  // name: collective places, others
+  const auto collective = [](const Candidate& c) {
+    static const std::vector<std::string> words = {"both", "all", "arches", "piers", "abutments", "spandrels", "deck"};
+    return std::find(words.begin(), words.end(), c.where) != words.end();
+  };
+  for (const Candidate& c : all) (collective(c) ? counts[c.name].first : counts[c.name].second) += 1.0;
+  double sum = 0.0;
+  for (Candidate& c : all) {
+    const auto [together, apart] = counts[c.name];
+    const double half = together > 0.0 && apart > 0.0 ? 0.5 : 1.0;
+    const double weight = c.name == "sensor_fault" ? 1.0 : find_effect(c.name).weight;
+    c.prior = weight * half / (collective(c) ? together : apart);
+    sum += c.prior;
+  }
+  for (Candidate& c : all) c.prior /= sum;
+}
+
+/// The joints of a part, with what is around it too.
+void scale_around(Assembly& assembly, const BlockSet& part, double factor) {
+  for (Joint& joint : assembly.joints) {
+    const auto inside = [&](std::int64_t block) {
+      return std::size_t(block) < part.size() && part[std::size_t(block)];
+    };
+    if (inside(joint.a) || inside(joint.b)) joint.kn *= factor, joint.ks *= factor;
+  }
+}
+
+void scale_mass(Assembly& assembly, const BlockSet& part, double factor) {
+  scale_density(
+      assembly, [&](std::size_t i) { return i < part.size() && part[i]; }, factor);
+}
+
+}  // namespace
+
+double FitParameter::value(double x) const {
+  const double v = logarithmic ? usual * std::exp(spread * x) : usual + spread * x;
+  return std::clamp(v, low, high);
+}
+
+double FitParameter::x(double v) const {
+  return logarithmic ? std::log(v / usual) / spread : (v - usual) / spread;
+}
+
+std::vector<Calibration> calibrations(const Assembly& assembly) {
+  std::vector<Calibration> all;
+  if (any_of_kind(assembly, Kind::masonry)) {
+    all.push_back({factor_of("masonry_stiffness", 0.25),
+                   [](Assembly& a, double factor) { scale_joints(a, Kind::masonry, factor); }});
+    all.push_back(
+        {factor_of("masonry_density", 0.04), [](Assembly& a, double factor) { scale_density(a, false, factor); }});
+  }
+  if (any_of_kind(assembly, Kind::infill))
+    all.push_back({factor_of("infill_stiffness", 0.3),
+                   [](Assembly& a, double factor) { scale_joints(a, Kind::infill, factor); }});
+  if (any_of_kind(assembly, Kind::fill)) {
+    all.push_back(
+        {factor_of("fill_stiffness", 0.3), [](Assembly& a, double factor) { scale_joints(a, Kind::fill, factor); }});
+    all.push_back(
+        {factor_of("fill_density", 0.06), [](Assembly& a, double factor) { scale_density(a, true, factor); }});
+  }
+  return all;
+}
+
+std::string Candidate::text() const {
+  return name + (where.empty() ? "" : " at " + where);
+}
+
+EffectSetting Candidate::setting(const double* x) const {
+  EffectSetting setting = {name, where, {}};
+  for (std::size_t i = 0; i < parameters.size(); ++i) setting.values[parameters[i].name] = parameters[i].value(x[i]);
+  if (kind == Kind::gain && parameters.empty()) setting.values["gain"] = gain;
+  return setting;
+}
+
+std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Sensor>& sensors,
+                                  const CandidateChoice& choice) {
+  std::vector<Candidate> all;
+  const auto left_out = [&](const std::string& name) {
+    return std::find(choice.without.begin(), choice.without.end(), name) != choice.without.end();
+  };
+  for (const Effect& effect : effects()) {
+    if (left_out(effect.name)) continue;
+    if (!effect.apply) {
+      if (effect.name != "damping" || !choice.damping) continue;
+      Candidate damping;
+      damping.kind = Candidate::Kind::damping;
+      damping.name = effect.name;
+      damping.where = "all";
+      damping.parameters = {fit_parameter(effect.parameters[0])};
+      damping.starts = {{0.0}};
+      all.push_back(damping);
+      continue;
+    }
+    for (const std::string& where : effect.places(assembly)) {
+      Candidate c;
+      c.name = effect.name;
+      c.where = where;
+      for (const EffectParameter& p : effect.parameters) c.parameters.push_back(fit_parameter(p));
+      c.starts = starts_of(effect);
+      all.push_back(std::move(c));
+    }
+  }
+  if (!left_out("sensor_fault")) add_sensor_faults(sensors, all);
+  share_priors(all);
+  return all;
+}
+
+std::vector<Candidate> nameless_factors(const Assembly& assembly) {
+  std::vector<Candidate> all;
+  const auto add = [&](const std::string& name, const std::string& where, double spread,
+                       std::function<void(Assembly&, double)> apply) {
+    Candidate c;
+    c.kind = Candidate::Kind::factor;
+    c.name = name;
+    c.where = where;
+    c.parameters = {{"factor", "-", 1.0, spread, true, std::exp(-4.0 * spread), std::exp(4.0 * spread)}};
+    c.starts = {{-1.0}, {1.0}};
+    c.apply = std::move(apply);
+    all.push_back(std::move(c));
+  };
+  const auto add_both = [&](const std::string& where, const BlockSet& part) {
+    add("stiffness", where, 0.6, [part](Assembly& a, double factor) { scale_around(a, part, factor); });
+    add("mass", where, 0.2, [part](Assembly& a, double factor) { scale_mass(a, part, factor); });
+  };
+  for (const std::string& name : masonry_parts(assembly)) {
+    static const std::vector<std::string> groups = {"arches", "piers", "abutments", "spandrels", "all"};
+    if (std::find(groups.begin(), groups.end(), name) == groups.end()) add_both(name, masonry_part(assembly, name));
+  }
+  if (!all_if_any(assembly, Component::backfill).empty())
+    add_both("backfill", component(assembly, Component::backfill));
+  for (const std::string& support : supports(assembly)) {
+    const std::int64_t base = base_of(assembly, support);
+    add("stiffness", "base of " + support, 1.0, [base](Assembly& a, double factor) {
+      for (Joint& joint : a.joints)
+        if (joint.a == base || joint.b == base) joint.kn *= factor, joint.ks *= factor;
+    });
+  }
+  for (Candidate& c : all) c.prior = 1.0 / double(all.size());
+  return all;
+}
+
+std::size_t Hypothesis::size() const {
+  std::size_t n = materials.size();
+  for (const Candidate& c : effects) n += c.parameters.size();
+  return n;
+}
+
+std::vector<FitParameter> Hypothesis::parameters() const {
+  std::vector<FitParameter> all;
+  for (const Calibration& c : materials) all.push_back(c.parameter);
+  for (const Candidate& c : effects) all.insert(all.end(), c.parameters.begin(), c.parameters.end());
+  return all;
+}
+
+Assembly Hypothesis::assembly(const Assembly& base, const Eigen::VectorXd& x) const {
+  Assembly changed = base;
+  Eigen::Index at = 0;
+  // Materials first: what an effect takes from its surroundings then follows them.
+  for (const Calibration& c : materials) c.apply(changed, c.parameter.value(x[at++]));
+  for (const Candidate& c : effects) {
+    if (c.kind == Candidate::Kind::effect) apply_effect(changed, c.setting(x.data() + at));
+    if (c.kind == Candidate::Kind::factor) c.apply(changed, c.parameters[0].value(x[at]));
+    at += Eigen::Index(c.parameters.size());
+  }
+  return changed;
+}
+
+double Hypothesis::damping(double base, const Eigen::VectorXd& x) const {
+  auto at = Eigen::Index(materials.size());
+  for (const Candidate& c : effects) {
+    if (c.kind == Candidate::Kind::damping) base = c.parameters[0].value(x[at]);
+    at += Eigen::Index(c.parameters.size());
+  }
+  return base;
+}
+
+Eigen::MatrixXd Hypothesis::readings(Eigen::MatrixXd rows, const Eigen::VectorXd& x) const {
+  auto at = Eigen::Index(materials.size());
+  for (const Candidate& c : effects) {
+    if (c.kind == Candidate::Kind::gain)
+      rows.row(Eigen::Index(c.sensors[0])) *= c.parameters.empty() ? c.gain : c.parameters[0].value(x[at]);
+    if (c.kind == Candidate::Kind::swap)
+      rows.row(Eigen::Index(c.sensors[0])).swap(rows.row(Eigen::Index(c.sensors[1])));
+    at += Eigen::Index(c.parameters.size());
+  }
+  return rows;
+}
+
+Hypothesis Hypothesis::with(const Candidate& candidate) const {
+  Hypothesis more = *this;
+  more.effects.push_back(candidate);
+  return more;
+}
+
+}  // namespace voussoir

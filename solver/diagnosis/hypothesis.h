@@ -1,0 +1,73 @@
+// What may be wrong with a model: parameters that every model is unsure of, and candidates, each an effect at a place.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solver/effects/effect.h"
+
+namespace voussoir {
+
+/// A parameter with its prior. Fits work in x, standard deviations of the prior from its middle.
+struct FitParameter {
+  std::string name, unit;
+  double usual = 1.0, spread = 1.0;  // of the logarithm where `logarithmic`
+  bool logarithmic = false;
+  double low = 0.0, high = 1.0;
+  double value(double x) const;  // within the bounds
+  double x(double value) const;
+};
+
+/// A property of the materials: stiffness of all joints of a kind, density of a kind of block.
+struct Calibration {
+  FitParameter parameter;  // a factor; x = 0 is the case as it is
+  std::function<void(Assembly&, double factor)> apply;
+};
+/// Those that the assembly's materials have.
+std::vector<Calibration> calibrations(const Assembly& assembly);
+
+/// An effect at a place, what is wrong with the readings of a sensor, or a factor on a part that has no name.
+struct Candidate {
+  enum class Kind { effect, damping, gain, swap, factor };
+  Kind kind = Kind::effect;
+  std::string name, where;
+  double prior = 1.0;  // probability before any data, that one of all candidates acts being 1
+  std::vector<FitParameter> parameters;
+  std::vector<std::vector<double>> starts;              // x to begin fits at
+  std::vector<std::size_t> sensors;                     // gain: one; swap: two
+  double gain = 1.0;                                    // gain without a parameter: −1, a polarity
+  std::function<void(Assembly&, double factor)> apply;  // factor
+  std::string text() const;                             // "abutment_restraint at both"
+  EffectSetting setting(const double* x) const;
+};
+
+struct CandidateChoice {
+  bool damping = false;              // the data say something of it
+  std::vector<std::string> without;  // names that are not to be tried
+};
+/// Every effect of the library at each of its places in this assembly, and the faults of sensors: of those that are in
+/// `sensors`.
+std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Sensor>& sensors,
+                                  const CandidateChoice& choice);
+
+/// Factors on the stiffness and on the mass of each part of the bridge: what is left to try when no effect fits.
+std::vector<Candidate> nameless_factors(const Assembly& assembly);
+
+/// A model that is tried: the case's, with factors on its materials and candidates in place.
+struct Hypothesis {
+  std::vector<Calibration> materials;
+  std::vector<Candidate> effects;
+
+  std::size_t size() const;  // of x: materials first
+  std::vector<FitParameter> parameters() const;
+  /// Throws InputError where an effect cannot act.
+  Assembly assembly(const Assembly& base, const Eigen::VectorXd& x) const;
+  /// The ratio of damping (share of critical), where an effect sets it.
+  double damping(double base, const Eigen::VectorXd& x) const;
+  /// What the sensors would read of the displacements (rows) along their directions.
+  Eigen::MatrixXd readings(Eigen::MatrixXd true_displacements, const Eigen::VectorXd& x) const;
+  /// The same with a further candidate.
+  Hypothesis with(const Candidate& candidate) const;
+};
+
+}  // namespace voussoir
