@@ -11,15 +11,15 @@ forbid() {
   printf '%s:\n%s\n' "$3" "$hits"
   bad=1
 }
-forbid "solver/base" "geometry/|solver/(model|contact|fill|effects|motion|step|modal)/|io/|viz/|tools/" "solver/base is the spring: it includes no other room"
-forbid "geometry" "solver/(model|contact|fill|effects|motion|step|modal)/|io/|viz/|tools/" "geometry is up-river of solver, io, viz and tools"
+forbid "solver/base" "geometry/|solver/(model|contact|fill|effects|motion|step|modal|identify|diagnosis)/|io/|viz/|tools/" "solver/base is the spring: it includes no other room"
+forbid "geometry" "solver/(model|contact|fill|effects|motion|step|modal|identify|diagnosis)/|io/|viz/|tools/" "geometry is up-river of solver, io, viz and tools"
 forbid "solver" "io/|viz/|tools/" "solver never includes io, viz or tools"
 forbid "io" "viz/|tools/" "io is up-river of viz and tools"
 forbid "viz" "tools/" "viz is up-river of tools"
 forbid "tools/ladder" "viz/|io/vtk/|tools/(voussoir|bench)/" "tools/ladder is up-river of the programs and knows no pictures"
 forbid "geometry solver io viz tools" "tests/" "nothing but tests includes tests"
-forbid "geometry solver io/case io/hdf5 io/records tools" "vtk" "VTK belongs in io/vtk and viz"
-forbid "geometry solver/model solver/contact solver/fill solver/effects solver/motion solver/step solver/modal io viz tools" "omp\.h" "OpenMP belongs in solver/base"
+forbid "geometry solver io/case io/hdf5 io/records io/measured tools" "vtk" "VTK belongs in io/vtk and viz"
+forbid "geometry solver/model solver/contact solver/fill solver/effects solver/motion solver/step solver/modal solver/identify solver/diagnosis io viz tools" "omp\.h" "OpenMP belongs in solver/base"
 if grep -rnE '#pragma omp' geometry solver/[!b]* io viz tools --include='*.h' --include='*.cpp'; then
   echo "OpenMP pragmas belong in solver/base"; bad=1
 fi

@@ -85,6 +85,8 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use = 
 /// A TOML text with every key written out. Read in a folder with the case's records as motion_<stage>_<axis>.txt and,
 /// for a case that names an assembly file, with that file as assembly.h5, it gives the same case bit for bit.
 std::string resolved_text(const Case& c);
+/// [[effect]] tables as a case has them.
+std::string effects_text(const std::vector<EffectSetting>& effects);
 /// Writes DIRECTORY/case.toml = resolved_text() and the records beside it. Throws RunError.
 void write_resolved_case(const Case& c, const std::string& directory);
 

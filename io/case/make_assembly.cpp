@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "geometry/joints.h"
+#include "geometry/nearest_block.h"
 #include "geometry/stiffness.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
@@ -11,33 +12,6 @@ namespace voussoir {
 namespace {
 
 constexpr double reach = 0.05;  // m: how far off a block's surface a sensor may be mounted
-
-/// How far a point lies outside a convex cell: the largest distance beyond a face plane; negative inside.
-double outside(const Polyhedron& cell, const Vec3& point) {
-  double distance = -1e300;
-  for (std::size_t f = 0; f < cell.faces.size(); ++f) {
-    const Plane plane = face_plane(cell, int(f));
-    distance = std::max(distance, plane.normal.dot(point) - plane.offset);
-  }
-  return distance;
-}
-
-/// The block nearest to a point; of blocks that share it, the one with the lowest number.
-std::pair<std::int64_t, double> nearest_block(const Assembly& assembly, const Vec3& point) {
-  std::int64_t nearest = -1;
-  double least = 1e300;
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
-    const Box box = block_box(assembly.blocks[i]);
-    const double apart = std::max((box.low - point).maxCoeff(), (point - box.high).maxCoeff());
-    if (apart >= least) continue;
-    for (const Polyhedron& cell : assembly.blocks[i].cells)
-      if (const double d = std::max(0.0, outside(cell, point)); d < least) {
-        least = d;
-        nearest = std::int64_t(i);
-      }
-  }
-  return {nearest, least};
-}
 
 /// Gives all joints between two materials of an assembly that was read the stiffness and strength the case asks for.
 void override_joints(Assembly& assembly, const std::string& pair, const GeneratorInput::JointOverride& joint) {
@@ -123,7 +97,10 @@ Assembly make_assembly(const Case& c) {
     }
   });
   assembly.case_text = c.text;
-  in_case(c, [&] { attach_sensors(assembly, c.sensors); });
+  in_case(c, [&] {
+    attach_sensors(assembly, c.sensors);
+    for (const EffectSetting& effect : c.effects) apply_effect(assembly.sensors, effect);
+  });
   return assembly;
 }
 

@@ -291,4 +291,11 @@ void write_resolved_case(const Case& c, const std::string& directory) {
   write_atomically((folder / "case.toml").string(), resolved_text(c));
 }
 
+std::string effects_text(const std::vector<EffectSetting>& effects) {
+  TomlText out;
+  out.text_.clear();
+  write_effects(out, effects);
+  return out.text_;
+}
+
 }  // namespace voussoir

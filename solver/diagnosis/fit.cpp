@@ -29,7 +29,7 @@ Derivative model_derivative(const DiagnosisProblem& problem, const Hypothesis& h
                     high[index] - low[index]);
 }
 
-std::vector<bool> paired(const Pairing& pairing, Eigen::Index modes) {
+std::vector<bool> paired(const ModePairs& pairing, Eigen::Index modes) {
   std::vector<bool> wanted(std::size_t(modes), false);
   for (int c : pairing.computed)
     if (c >= 0) wanted[std::size_t(c)] = true;
@@ -137,6 +137,7 @@ double mean_square_root(const Eigen::VectorXd& r) {
 /// the hat matrix, with the covariance (1 − H)⁻¹ (Cook and Weisberg 1982, §2.2).
 double predicted_gap(const std::vector<ResidualRow>& rows, const Split& split, const Eigen::VectorXd& r,
                      const Eigen::MatrixXd& j) {
+  if (j.cols() == 0) return mean_square_root(r);
   const Eigen::MatrixXd inverse =
       (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).ldlt().solve(j.transpose());
   double sum = 0.0;
@@ -162,7 +163,7 @@ Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualR
   e.model = linear_model(e.assembly);
   e.response = response(e.assembly, e.model, problem.features.sensors, problem.modes, memory);
   e.readings = hypothesis.readings(e.response.sensors, x);
-  e.pairing = pair_modes(problem.features, e.response, e.readings);
+  e.pairing = pair_features(problem.features, e.response, e.readings);
   e.residuals =
       residuals(problem, rows, e.pairing, e.response.log_frequency, e.readings, hypothesis.damping(problem.damping, x));
   return e;
@@ -177,6 +178,7 @@ Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<Resi
 
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x) {
   const Eigen::MatrixXd curvature = Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j;
+  if (j.cols() == 0) return -0.5 * r.squaredNorm();
   const Eigen::VectorXd pivots = curvature.ldlt().vectorD();
   return -0.5 * (r.squaredNorm() + x.squaredNorm()) - 0.5 * pivots.array().log().sum();
 }
@@ -206,8 +208,8 @@ Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eig
   result.jacobian = jacobian(problem, rows, hypothesis, result.best, memory);
   const Eigen::VectorXd r = result.best.residuals(split.fitted);
   const Eigen::MatrixXd j = result.jacobian(split.fitted, Eigen::all);
-  const Eigen::MatrixXd covariance = (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).inverse();
-  result.std = covariance.diagonal().cwiseSqrt();
+  if (best.size() > 0)
+    result.std = (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).inverse().diagonal().cwiseSqrt();
   result.misfit = r.squaredNorm() + best.squaredNorm();
   result.log_evidence = log_evidence(r, j, best);
   result.gap = mean_square_root(r);

@@ -16,7 +16,7 @@ struct DiagnosisProblem {
 };
 
 /// Which computed mode each measured one is; −1: none is like it.
-struct Pairing {
+struct ModePairs {
   std::vector<int> computed;
   std::vector<double> assurance;  // MAC at the sensors; not finite without a shape
 };
@@ -35,12 +35,13 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem);
 
 /// Measured modes with shapes are paired by MAC and frequency, one to one, so that the sum of the costs is least; those
 /// with a direction only by their order within it, those without by their order.
-Pairing pair_modes(const Features& features, const Response& response, const Eigen::MatrixXd& readings);
+ModePairs pair_features(const Features& features, const Response& response, const Eigen::MatrixXd& readings);
 
 /// (measured − computed)/std by row, of modes at these frequencies (logarithms of Hz), sensor readings (sensor × mode)
 /// and ratio of damping. Shapes are scaled to fit best.
-Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Pairing& pairing,
-                          const Eigen::VectorXd& log_frequency, const Eigen::MatrixXd& readings, double damping);
+Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                          const ModePairs& pairing, const Eigen::VectorXd& log_frequency,
+                          const Eigen::MatrixXd& readings, double damping);
 
 /// What a hypothesis makes of the features at x.
 struct Evaluation {
@@ -49,7 +50,7 @@ struct Evaluation {
   LinearModel model;
   Response response;
   Eigen::MatrixXd readings;  // of the sensors, sensor × mode
-  Pairing pairing;
+  ModePairs pairing;
   Eigen::VectorXd residuals;  // (measured − computed)/std, by row
 };
 Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,

@@ -12,62 +12,8 @@ namespace voussoir {
 
 namespace {
 
-enum class Kind { none, masonry, infill, fill };
-
-/// The weakest of what a joint joins; blocks that are no part of the bridge do not count.
-Kind kind_of(const Block& block) {
-  switch (block.component) {
-    case Component::base:
-    case Component::restraint:
-      return Kind::none;
-    case Component::backfill:
-      return Kind::fill;
-    case Component::infill:
-      return Kind::infill;
-    default:
-      return Kind::masonry;
-  }
-}
-
-void scale_joints(Assembly& assembly, Kind kind, double factor) {
-  for (Joint& joint : assembly.joints) {
-    const Kind a = kind_of(assembly.blocks[std::size_t(joint.a)]), b = kind_of(assembly.blocks[std::size_t(joint.b)]);
-    if (std::max(a, b) != kind) continue;
-    joint.kn *= factor;
-    joint.ks *= factor;
-  }
-}
-
-/// Of the blocks that are `in`. Materials that others have too are split.
-void scale_density(Assembly& assembly, const std::function<bool(std::size_t)>& in, double factor) {
-  std::map<std::int32_t, std::int32_t> scaled;
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
-    if (!in(i)) continue;
-    Block& block = assembly.blocks[i];
-    if (!scaled.contains(block.material)) {
-      scaled[block.material] = std::int32_t(assembly.materials.size());
-      assembly.materials.push_back(assembly.materials[std::size_t(block.material)]);
-      assembly.materials.back().density *= factor;
-    }
-    block.material = scaled[block.material];
-    block.mass *= factor;
-    block.inertia *= factor;
-  }
-}
-
-/// Of the backfill, or of all other blocks.
-void scale_density(Assembly& assembly, bool fill, double factor) {
-  scale_density(
-      assembly, [&](std::size_t i) { return (kind_of(assembly.blocks[i]) == Kind::fill) == fill; }, factor);
-}
-
 FitParameter factor_of(const std::string& name, double spread) {
   return {name, "-", 1.0, spread, true, std::exp(-3.0 * spread), std::exp(3.0 * spread)};
-}
-
-bool any_of_kind(const Assembly& assembly, Kind kind) {
-  return std::any_of(assembly.blocks.begin(), assembly.blocks.end(),
-                     [&](const Block& b) { return !b.fixed && kind_of(b) == kind; });
 }
 
 FitParameter fit_parameter(const EffectParameter& p) {
@@ -102,7 +48,7 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, std::vector<Candidate
     gain.starts = {{-1.0}, {1.0}};
     all.push_back(gain);
     for (std::size_t j = i + 1; j < sensors.size(); ++j) {
-      if ((sensors[i].position - sensors[j].position).norm() > 0.5) continue;
+      if ((sensors[i].position - sensors[j].position).norm() > sensor_housing) continue;
       Candidate swap = reversed;
       swap.kind = Candidate::Kind::swap;
       swap.where = fmt::format("channels {} {}", sensors[i].id, sensors[j].id);
@@ -125,8 +71,7 @@ void share_priors(std::vector<Candidate>& all) {
   for (Candidate& c : all) {
     const auto [together, apart] = counts[c.name];
     const double half = together > 0.0 && apart > 0.0 ? 0.5 : 1.0;
-    const double weight = c.name == "sensor_fault" ? 1.0 : find_effect(c.name).weight;
-    c.prior = weight * half / (collective(c) ? together : apart);
+    c.prior = find_effect(c.name).weight * half / (collective(c) ? together : apart);
     sum += c.prior;
   }
   for (Candidate& c : all) c.prior /= sum;
@@ -142,11 +87,6 @@ void scale_around(Assembly& assembly, const BlockSet& part, double factor) {
   }
 }
 
-void scale_mass(Assembly& assembly, const BlockSet& part, double factor) {
-  scale_density(
-      assembly, [&](std::size_t i) { return i < part.size() && part[i]; }, factor);
-}
-
 }  // namespace
 
 double FitParameter::value(double x) const {
@@ -159,21 +99,28 @@ double FitParameter::x(double v) const {
 }
 
 std::vector<Calibration> calibrations(const Assembly& assembly) {
+  const Effect effect = find_effect("calibration");
   std::vector<Calibration> all;
-  if (any_of_kind(assembly, Kind::masonry)) {
-    all.push_back({factor_of("masonry_stiffness", 0.25),
-                   [](Assembly& a, double factor) { scale_joints(a, Kind::masonry, factor); }});
-    all.push_back(
-        {factor_of("masonry_density", 0.04), [](Assembly& a, double factor) { scale_density(a, false, factor); }});
+  for (const std::string& where : effect.places(assembly)) {
+    // The densities of masonry and of what fills it are known to a few per cent, that of a backfill is not.
+    const bool fill = where == "backfill";
+    all.push_back({where, "stiffness", factor_of(where + " stiffness", where == "masonry" ? 0.25 : 0.3)});
+    if (where != "infill") all.push_back({where, "density", factor_of(where + " density", fill ? 0.06 : 0.04)});
   }
-  if (any_of_kind(assembly, Kind::infill))
-    all.push_back({factor_of("infill_stiffness", 0.3),
-                   [](Assembly& a, double factor) { scale_joints(a, Kind::infill, factor); }});
-  if (any_of_kind(assembly, Kind::fill)) {
-    all.push_back(
-        {factor_of("fill_stiffness", 0.3), [](Assembly& a, double factor) { scale_joints(a, Kind::fill, factor); }});
-    all.push_back(
-        {factor_of("fill_density", 0.06), [](Assembly& a, double factor) { scale_density(a, true, factor); }});
+  return all;
+}
+
+std::vector<EffectSetting> Hypothesis::settings(const Eigen::VectorXd& x) const {
+  std::vector<EffectSetting> all;
+  Eigen::Index at = 0;
+  for (const Calibration& c : materials) {
+    if (all.empty() || all.back().where != c.where)
+      all.push_back({"calibration", c.where, {{"stiffness", 1.0}, {"density", 1.0}}});
+    all.back().values[c.property] = c.parameter.value(x[at++]);
+  }
+  for (const Candidate& c : effects) {
+    if (c.kind != Candidate::Kind::factor) all.push_back(c.setting(x.data() + at));
+    at += Eigen::Index(c.parameters.size());
   }
   return all;
 }
@@ -196,7 +143,7 @@ std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Se
     return std::find(choice.without.begin(), choice.without.end(), name) != choice.without.end();
   };
   for (const Effect& effect : effects()) {
-    if (left_out(effect.name)) continue;
+    if (left_out(effect.name) || effect.weight == 0.0) continue;
     if (!effect.apply) {
       if (effect.name != "damping" || !choice.damping) continue;
       Candidate damping;
@@ -237,7 +184,7 @@ std::vector<Candidate> nameless_factors(const Assembly& assembly) {
   };
   const auto add_both = [&](const std::string& where, const BlockSet& part) {
     add("stiffness", where, 0.6, [part](Assembly& a, double factor) { scale_around(a, part, factor); });
-    add("mass", where, 0.2, [part](Assembly& a, double factor) { scale_mass(a, part, factor); });
+    add("mass", where, 0.2, [part](Assembly& a, double factor) { scale_density(a, part, factor); });
   };
   for (const std::string& name : masonry_parts(assembly)) {
     static const std::vector<std::string> groups = {"arches", "piers", "abutments", "spandrels", "all"};
@@ -271,11 +218,11 @@ std::vector<FitParameter> Hypothesis::parameters() const {
 
 Assembly Hypothesis::assembly(const Assembly& base, const Eigen::VectorXd& x) const {
   Assembly changed = base;
-  Eigen::Index at = 0;
   // Materials first: what an effect takes from its surroundings then follows them.
-  for (const Calibration& c : materials) c.apply(changed, c.parameter.value(x[at++]));
+  for (const EffectSetting& setting : settings(x))
+    if (setting.name != "sensor_fault") apply_effect(changed, setting);
+  auto at = Eigen::Index(materials.size());
   for (const Candidate& c : effects) {
-    if (c.kind == Candidate::Kind::effect) apply_effect(changed, c.setting(x.data() + at));
     if (c.kind == Candidate::Kind::factor) c.apply(changed, c.parameters[0].value(x[at]));
     at += Eigen::Index(c.parameters.size());
   }

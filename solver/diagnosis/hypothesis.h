@@ -18,10 +18,10 @@ struct FitParameter {
   double x(double value) const;
 };
 
-/// A property of the materials: stiffness of all joints of a kind, density of a kind of block.
+/// A property of a material that every model is unsure of: a factor of the effect `calibration`.
 struct Calibration {
-  FitParameter parameter;  // a factor; x = 0 is the case as it is
-  std::function<void(Assembly&, double factor)> apply;
+  std::string where, property;  // "masonry", "stiffness"
+  FitParameter parameter;       // x = 0 is the case as it is
 };
 /// Those that the assembly's materials have.
 std::vector<Calibration> calibrations(const Assembly& assembly);
@@ -60,6 +60,8 @@ struct Hypothesis {
 
   std::size_t size() const;  // of x: materials first
   std::vector<FitParameter> parameters() const;
+  /// The effects of a case that is this hypothesis; nameless factors have none.
+  std::vector<EffectSetting> settings(const Eigen::VectorXd& x) const;
   /// Throws InputError where an effect cannot act.
   Assembly assembly(const Assembly& base, const Eigen::VectorXd& x) const;
   /// The ratio of damping (share of critical), where an effect sets it.

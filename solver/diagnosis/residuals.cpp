@@ -82,9 +82,9 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
   return rows;
 }
 
-Pairing pair_modes(const Features& features, const Response& response, const Eigen::MatrixXd& readings) {
+ModePairs pair_features(const Features& features, const Response& response, const Eigen::MatrixXd& readings) {
   const std::size_t count = features.modes.size();
-  Pairing pairing;
+  ModePairs pairing;
   pairing.computed.assign(count, -1);
   pairing.assurance.assign(count, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::size_t> shaped;
@@ -118,8 +118,9 @@ Pairing pair_modes(const Features& features, const Response& response, const Eig
   return pairing;
 }
 
-Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Pairing& pairing,
-                          const Eigen::VectorXd& log_frequency, const Eigen::MatrixXd& readings, double damping) {
+Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                          const ModePairs& pairing, const Eigen::VectorXd& log_frequency,
+                          const Eigen::MatrixXd& readings, double damping) {
   constexpr double unpaired = 5.0;  // a mode that the model does not have
   Eigen::VectorXd r = Eigen::VectorXd::Zero(Eigen::Index(rows.size()));
   for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {

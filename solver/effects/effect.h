@@ -31,8 +31,12 @@ struct Effect {
   void (*apply)(Assembly&, const std::string& where, const std::vector<double>& values) = nullptr;
   /// What does not act on the assembly: once or twice gives the same.
   void (*apply_to_settings)(SolverSettings&, const std::vector<double>& values) = nullptr;
-  double weight = 1.0;  // prior: how often it is met, against the other effects
+  /// What is wrong with the sensors that a case attaches.
+  void (*apply_to_sensors)(std::vector<Sensor>&, const std::string& where, const std::vector<double>& values) = nullptr;
+  double weight = 1.0;  // prior: how often it is met, against the other effects; 0: no candidate
 };
+
+inline constexpr double sensor_housing = 0.5;  // m: channels closer than this can have been swapped
 
 /// All of them, in the order of the documentation.
 const std::vector<Effect>& effects();
@@ -54,6 +58,8 @@ void complete(EffectSetting& setting);
 /// InputError for a place where the effect cannot act, with the places where it can.
 void apply_effect(Assembly& assembly, const EffectSetting& setting);
 void apply_effect(SolverSettings& settings, const EffectSetting& setting);
+/// Throws InputError for a channel that is not there.
+void apply_effect(std::vector<Sensor>& sensors, const EffectSetting& setting);
 
 Effect abutment_restraint();
 Effect foundation_flexibility();
@@ -69,5 +75,7 @@ Effect parapet_not_structural();
 Effect neighbouring_structure();
 Effect amplitude_stiffness();
 Effect damping_ratio();
+Effect sensor_fault();
+Effect calibration();
 
 }  // namespace voussoir

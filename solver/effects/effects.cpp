@@ -26,7 +26,9 @@ const std::vector<Effect>& effects() {
       parapet_not_structural(),  //
       neighbouring_structure(),  //
       amplitude_stiffness(),     //
-      damping_ratio(),
+      damping_ratio(),           //
+      sensor_fault(),            //
+      calibration(),
   };
   return list;
 }
@@ -74,6 +76,7 @@ void complete(EffectSetting& setting) {
 
 void apply_effect(Assembly& assembly, const EffectSetting& setting) {
   const Effect& effect = find_effect(setting.name);
+  if (effect.apply_to_sensors) return;  // once they are attached
   const std::vector<std::string> places = effect.places(assembly);
   if (places.empty()) throw InputError("effect {}: this assembly has no place for it ({})", effect.name, effect.help);
   const std::string where = setting.where.empty() && places.size() == 1 ? places[0] : setting.where;
@@ -84,6 +87,11 @@ void apply_effect(Assembly& assembly, const EffectSetting& setting) {
   effect.apply(assembly, where, values_of(effect, setting));
   sort_joints(assembly);
   assembly.effects.push_back(setting.text());
+}
+
+void apply_effect(std::vector<Sensor>& sensors, const EffectSetting& setting) {
+  const Effect& effect = find_effect(setting.name);
+  if (effect.apply_to_sensors) effect.apply_to_sensors(sensors, setting.where, values_of(effect, setting));
 }
 
 void apply_effect(SolverSettings& settings, const EffectSetting& setting) {

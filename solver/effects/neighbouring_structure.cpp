@@ -56,6 +56,7 @@ Effect neighbouring_structure() {
           free_ends,
           apply,
           nullptr,
+          nullptr,
           0.2};
 }
 

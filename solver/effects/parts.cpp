@@ -148,6 +148,22 @@ void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& othe
   }
 }
 
+void scale_density(Assembly& assembly, const BlockSet& part, double factor) {
+  std::map<std::int32_t, std::int32_t> scaled;  // materials
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    if (i >= part.size() || !part[i]) continue;
+    Block& block = assembly.blocks[i];
+    if (!scaled.contains(block.material)) {
+      scaled[block.material] = std::int32_t(assembly.materials.size());
+      assembly.materials.push_back(assembly.materials[std::size_t(block.material)]);
+      assembly.materials.back().density *= factor;
+    }
+    block.material = scaled[block.material];
+    block.mass *= factor;
+    block.inertia *= factor;
+  }
+}
+
 void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   scale_inside(assembly, masonry_part(assembly, where), values[0]);
 }

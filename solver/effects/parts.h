@@ -50,6 +50,8 @@ std::vector<std::string> all_if_any(const Assembly& assembly, Component c);
 /// Multiplies kn and ks of the joints inside a set of blocks, or between two.
 void scale_inside(Assembly& assembly, const BlockSet& part, double factor);
 void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor);
+/// Multiplies the density of blocks. Materials that others have too are split.
+void scale_density(Assembly& assembly, const BlockSet& part, double factor);
 /// scale_inside() a masonry part by the first of an effect's values: what several effects do.
 void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values);
 

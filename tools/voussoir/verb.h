@@ -24,6 +24,8 @@ Verb modal_verb();
 Verb render_verb();
 Verb check_verb();
 Verb effects_verb();
+Verb diagnose_verb();
+Verb hide_verb();
 
 namespace options = boost::program_options;
 

@@ -1,0 +1,198 @@
+// Recordings: one CSV text each.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "io/measured/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr double even = 1e-6;  // s, as for ground motion in io/records
+constexpr std::size_t fewest_samples = 100;
+constexpr double slow_sampling = 0.5;         // s; coarser steps show no mode of a masonry bridge
+constexpr double large_acceleration = 100.0;  // m/s2
+
+/// What a text of numbers holds, row by row.
+struct Samples {
+  std::vector<double> times;  // s
+  std::vector<int> rows;      // in the file
+  Eigen::MatrixXd values;     // samples × channels
+};
+
+[[noreturn]] void bad_cell(const CsvReader& csv, NumberTrouble trouble, std::string_view word,
+                           const std::string& column) {
+  csv.fail(explain(trouble, word, column) + "; fill the gap, cut the recording there, or leave the channel out");
+}
+
+/// How many rows there can be at most: a row has at least a digit and a separator a column. So a broken file cannot ask
+/// for more memory than a few times its size.
+std::size_t most_rows(std::string_view rest, std::size_t columns) {
+  const auto lines = std::size_t(std::count(rest.begin(), rest.end(), '\n')) + 1;
+  return std::min(lines, rest.size() / (2 * columns) + 1);
+}
+
+Samples read_samples(CsvReader& csv, std::size_t time_column) {
+  const std::size_t columns = csv.columns().size(), most = most_rows(csv.rest(), columns);
+  Samples samples;
+  samples.times.reserve(most);
+  samples.rows.reserve(most);
+  samples.values.resize(Eigen::Index(most), Eigen::Index(columns) - 1);
+  while (csv.next_row()) {
+    const auto sample = Eigen::Index(samples.times.size());
+    Eigen::Index channel = 0;
+    for (std::size_t i = 0; i < columns; ++i) {
+      const std::string_view cell = csv.need_cell(i);
+      double value = 0.0;
+      if (const NumberTrouble trouble = parse_number(cell, value); trouble != NumberTrouble::none)
+        bad_cell(csv, trouble, cell, csv.columns()[i]);
+      assert(sample < samples.values.rows());
+      if (i == time_column)
+        samples.times.push_back(value);
+      else
+        samples.values(sample, channel++) = value;
+    }
+    csv.end_row();
+    samples.rows.push_back(csv.row());
+  }
+  if (samples.values.rows() != Eigen::Index(samples.times.size()))
+    samples.values.conservativeResize(Eigen::Index(samples.times.size()), Eigen::NoChange);
+  return samples;
+}
+
+/// The first sample whose step from the one before is not `dt`; 0 when there is none.
+std::size_t uneven_sample(const std::vector<double>& times, double dt) {
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (!(std::abs(times[i] - times[i - 1] - dt) <= even)) return i;
+  return 0;
+}
+
+double median_step(const std::vector<double>& times) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  const auto middle = steps.begin() + std::ptrdiff_t(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+void check_steps(const CsvReader& csv, const Samples& samples, double mean) {
+  const std::vector<double>& t = samples.times;
+  const std::size_t against_mean = uneven_sample(t, mean);
+  if (against_mean == 0) return;
+  // A gap spoils the mean; the median leads to the gap itself.
+  const double usual = median_step(t);
+  const std::size_t against_usual = uneven_sample(t, usual), i = against_usual > 0 ? against_usual : against_mean;
+  csv.fail(samples.rows[i],
+           fmt::format("time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s; write the times with "
+                       "more digits, or resample the recording or cut it at a gap",
+                       t[i] - t[i - 1], against_usual > 0 ? usual : mean, even));
+}
+
+/// Steps that are equal one by one may still change in the course of a long recording.
+void check_drift(const CsvReader& csv, const Samples& samples, double dt) {
+  const std::vector<double>& t = samples.times;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (const double expected = t[0] + dt * double(i); !(std::abs(t[i] - expected) <= std::max(even, 0.5 * dt)))
+      csv.fail(samples.rows[i],
+               fmt::format("time {:.9g} s, expected {:.9g} s at even steps of {:.9g} s: the sampling rate "
+                           "changes; resample the recording",
+                           t[i], expected, dt));
+}
+
+/// The step in s of times that must be even.
+double time_step(const CsvReader& csv, const Samples& samples) {
+  const std::vector<double>& t = samples.times;
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (!(t[i] > t[i - 1]))
+      csv.fail(
+          samples.rows[i],
+          fmt::format("time {} s after {} s: times must increase; remove repeated rows, sort them", t[i], t[i - 1]));
+  const double steps = double(t.size() - 1), mean = (t.back() - t[0]) / steps;
+  check_steps(csv, samples, mean);
+  check_drift(csv, samples, mean);
+  // The first step is not rounded twice: what write_measured() wrote is read bit for bit.
+  const double first = t[1] - t[0];
+  return t[0] + first * steps == t.back() ? first : mean;
+}
+
+std::size_t time_column(const CsvReader& csv) {
+  const auto& columns = csv.columns();
+  const auto found = std::find(columns.begin(), columns.end(), "t");
+  if (found == columns.end())
+    csv.fail(csv.heading_row(), "no column 't', expected the time in s and a column for each channel: name them");
+  if (columns.size() < 2)
+    csv.fail(csv.heading_row(), "no channels, expected a column for each sensor: add them, or remove the file");
+  return std::size_t(found - columns.begin());
+}
+
+void check_channels(const CsvReader& csv, const std::vector<std::string>& channels,
+                    const std::vector<MeasuredSensor>& sensors) {
+  std::vector<std::string> known;
+  for (const MeasuredSensor& s : sensors) known.push_back(s.id);
+  known.insert(known.end(), base_channels.begin(), base_channels.end());
+  std::vector<std::string> sorted = known;
+  std::sort(sorted.begin(), sorted.end());
+  for (const std::string& channel : channels)
+    if (!std::binary_search(sorted.begin(), sorted.end(), channel))
+      csv.fail(csv.heading_row(),
+               fmt::format("channel '{}' is neither a sensor of sensors.csv nor the ground's motion{}", shown(channel),
+                           short_suggestion(channel, known)));
+}
+
+/// Takes out channels that do not move: of a sensor that was off or not plugged in.
+void drop_constant(Recording& record, const std::string& place, std::vector<SetAside>& set_aside) {
+  std::vector<Eigen::Index> kept;
+  std::vector<std::string> channels;
+  for (Eigen::Index c = 0; c < record.values.cols(); ++c) {
+    const std::string& channel = record.channels[std::size_t(c)];
+    const double first = record.values(0, c);
+    if ((record.values.col(c).array() == first).all()) {
+      set_aside.push_back({place, fmt::format("channel '{}' is {} throughout", channel, first)});
+    } else {
+      kept.push_back(c);
+      channels.push_back(channel);
+    }
+  }
+  if (channels.size() == record.channels.size()) return;
+  record.values = record.values(Eigen::all, kept).eval();
+  record.channels = channels;
+}
+
+void remark_units(const Recording& record, std::vector<std::string>& remarks) {
+  if (record.dt > slow_sampling)
+    remarks.push_back(
+        fmt::format("{}: a sample every {:.4g} s shows no mode of a bridge: 't' must be in s", record.name, record.dt));
+  if (const double peak = record.values.cwiseAbs().maxCoeff(); peak > large_acceleration)
+    remarks.push_back(
+        fmt::format("{}: accelerations up to {:.4g} look like another unit: they must be in m/s2", record.name, peak));
+}
+
+}  // namespace
+
+void parse_record(const TextFile& file, Measured& measured) {
+  CsvReader csv(file);
+  const std::size_t time = time_column(csv);
+  Recording record;
+  record.name = file.name;
+  for (std::size_t i = 0; i < csv.columns().size(); ++i)
+    if (i != time) record.channels.push_back(csv.columns()[i]);
+  if (!measured.sensors.empty()) check_channels(csv, record.channels, measured.sensors);
+  Samples samples = read_samples(csv, time);
+  if (samples.times.size() < fewest_samples)
+    csv.fail(
+        std::max(csv.row(), 1),
+        fmt::format("the recording ends after {} samples, expected at least {}: give a longer one, or remove the file",
+                    samples.times.size(), fewest_samples));
+  record.dt = time_step(csv, samples);
+  record.values = std::move(samples.values);
+  const std::string place = fmt::format("{}:{}", file.name, csv.heading_row());
+  drop_constant(record, place, measured.set_aside);
+  if (record.channels.empty()) return measured.set_aside.push_back({place, "no channel of the recording is left"});
+  remark_units(record, measured.remarks);
+  measured.records.push_back(std::move(record));
+}
+
+}  // namespace voussoir

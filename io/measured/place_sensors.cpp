@@ -1,0 +1,41 @@
+#include "geometry/nearest_block.h"
+#include "io/measured/parts.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// m. Models leave out mouldings and are some centimetres off, so this is more than for the sensors of a case.
+constexpr double reach = 0.5;
+
+std::string vector_text(const Vec3& v) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x(), v.y(), v.z());
+}
+
+[[noreturn]] void too_far(const Measured& measured, const MeasuredSensor& sensor, const Assembly& assembly,
+                          const NearestBlock& nearest) {
+  const std::string place = fmt::format("{}:{}: sensor '{}' at {} m", path_in(measured.directory, "sensors.csv"),
+                                        sensor.row, shown(sensor.id), vector_text(sensor.position));
+  if (nearest.block < 0) throw InputError("{}: there is no block to put it on; expected a bridge", place);
+  const Box box = block_box(assembly.blocks[std::size_t(nearest.block)]);
+  throw InputError(
+      "{} lies {:.3g} m from the nearest, {}, which reaches from {} to {} m: expected within {} m of a block; correct "
+      "its place, or move the origin of the measurements to the model's",
+      place, nearest.distance, block_label(assembly, nearest.block), vector_text(box.low), vector_text(box.high),
+      reach);
+}
+
+}  // namespace
+
+std::vector<std::int64_t> place_sensors(const Measured& measured, const Assembly& assembly) {
+  std::vector<std::int64_t> blocks;
+  for (const MeasuredSensor& sensor : measured.sensors) {
+    const NearestBlock nearest = nearest_block(assembly, sensor.position);
+    if (nearest.distance > reach) too_far(measured, sensor, assembly, nearest);
+    blocks.push_back(nearest.block);
+  }
+  return blocks;
+}
+
+}  // namespace voussoir

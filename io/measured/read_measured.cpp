@@ -1,0 +1,124 @@
+// The folder as a whole.
+#include <algorithm>
+#include <filesystem>
+
+#include "io/hdf5/atomic_file.h"
+#include "io/measured/parts.h"
+#include "solver/base/error.h"
+#include "solver/base/suggestion.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr const char* expected_parts =
+    "modes.csv or records/*.csv or both, and as far as there are sensors.csv, shapes.csv and about.toml";
+const std::vector<std::string>& known_parts() {
+  static const std::vector<std::string> names = {"sensors.csv", "modes.csv", "shapes.csv", "records", "about.toml"};
+  return names;
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TextFile open_text(const std::string& directory, const std::string& name) {
+  TextFile file{path_in(directory, name), name, {}};
+  std::error_code ignored;
+  // A pipe would keep the reader waiting.
+  if (!std::filesystem::is_regular_file(file.path, ignored))
+    throw InputError("{}: is not an ordinary file, expected a text: remove or rename it", file.path);
+  file.text = read_text(file.path);
+  return file;
+}
+
+bool is_record(const std::string& name) {
+  return name.size() > 4 && name.ends_with(".csv") && !name.starts_with('.');
+}
+
+void set_aside_strangers(const std::vector<std::string>& names, Measured& measured) {
+  for (const std::string& name : names) {
+    if (contains(known_parts(), name)) continue;
+    const std::string near = nearest_word(shown(name), known_parts());
+    measured.set_aside.push_back(
+        {name, near.empty() ? "nothing that is read" : fmt::format("nothing that is read: did you mean '{}'?", near)});
+  }
+}
+
+void read_records(const std::string& directory, Measured& measured) {
+  const std::string folder = path_in(directory, "records");
+  if (!is_folder(folder)) throw InputError("{}: is a file, expected a folder with recordings: make it one", folder);
+  for (const std::string& name : names_in(folder)) {
+    const std::string inside = "records/" + name;
+    if (is_record(name))
+      parse_record(open_text(directory, inside), measured);
+    else
+      measured.set_aside.push_back({inside, "nothing that is read: recordings end in .csv"});
+  }
+}
+
+void check_folder(const std::string& directory, const std::vector<std::string>& names) {
+  if (!is_folder(directory))
+    throw InputError("{}: no such folder, expected one with {}: correct its name", directory, expected_parts);
+  if (contains(names, "modes.csv") || contains(names, "records")) return;
+  const std::size_t listed = std::min<std::size_t>(names.size(), 10);
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < listed; ++i) found.push_back(shown(names[i]));
+  throw InputError("{}: found {}{}, expected {}: add what was measured", directory,
+                   names.empty() ? "nothing" : fmt::format("{}", fmt::join(found, ", ")),
+                   listed < names.size() ? ", …" : "", expected_parts);
+}
+
+/// Something must be left to use.
+void check_left(const Measured& measured) {
+  if (!measured.modes.empty() || !measured.records.empty()) return;
+  std::string why;
+  if (!measured.set_aside.empty())
+    why = fmt::format(" ({}: {})", measured.set_aside.back().place, measured.set_aside.back().what);
+  throw InputError("{}: no recording that can be used{}, and no modes.csv: expected {}; add what was measured",
+                   measured.directory, why, expected_parts);
+}
+
+}  // namespace
+
+std::string path_in(const std::string& directory, const std::string& name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+std::vector<std::string> names_in(const std::string& directory) {
+  std::vector<std::string> names;
+  std::error_code error;
+  if (!std::filesystem::exists(directory, error)) return names;
+  auto entry = std::filesystem::directory_iterator(directory, error);
+  while (!error && entry != std::filesystem::directory_iterator()) {
+    names.push_back(entry->path().filename().string());
+    entry.increment(error);
+  }
+  if (error) throw InputError("{}: cannot be read as a folder: {}", directory, error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Measured read_measured(const std::string& directory) {
+  Measured measured;
+  measured.directory = directory;
+  const std::vector<std::string> names = is_folder(directory) ? names_in(directory) : std::vector<std::string>{};
+  check_folder(directory, names);
+  if (contains(names, "about.toml")) parse_about(open_text(directory, "about.toml"), measured);
+  if (contains(names, "sensors.csv")) parse_sensors(open_text(directory, "sensors.csv"), measured);
+  if (contains(names, "modes.csv")) parse_modes(open_text(directory, "modes.csv"), measured);
+  if (contains(names, "shapes.csv")) parse_shapes(open_text(directory, "shapes.csv"), measured);
+  if (contains(names, "records")) read_records(directory, measured);
+  set_aside_strangers(names, measured);
+  check_left(measured);
+  if (measured.sensors.empty() && !measured.records.empty())
+    measured.remarks.emplace_back("no sensors.csv: the channels of the recordings have no place on the bridge");
+  return measured;
+}
+
+}  // namespace voussoir

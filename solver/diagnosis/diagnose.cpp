@@ -1,0 +1,191 @@
+#include "solver/diagnosis/diagnose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+int fitted_rows(const DiagnosisProblem& problem) {
+  int n = 0;
+  for (const ResidualRow& row : residual_rows(problem)) n += !problem.features.modes[std::size_t(row.mode)].held_back;
+  return n;
+}
+
+/// Probability of a misfit at least as large if the model were right.
+double tail(const DiagnosisProblem& problem, const Fit& fit) {
+  return chi_square_tail(fit.misfit, fitted_rows(problem));
+}
+
+/// Materials that the fit has pulled farther than their priors like.
+std::vector<std::string> alarms_of(const Fit& fit) {
+  constexpr double far = 2.2;  // standard deviations
+  std::vector<std::string> alarms;
+  for (std::size_t i = 0; i < fit.hypothesis.materials.size(); ++i) {
+    const FitParameter& p = fit.hypothesis.materials[i].parameter;
+    const double x = fit.best.x[Eigen::Index(i)];
+    if (std::abs(x) > far || fit.at_bound[i])
+      alarms.push_back(fmt::format("{} × {:.2f}, {:+.1f} standard deviations of what is likely{}", p.name, p.value(x),
+                                   x, fit.at_bound[i] ? " (at its bound)" : ""));
+  }
+  return alarms;
+}
+
+bool consistent(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
+  return tail(problem, fit) > settings.consistent && alarms_of(fit).empty();
+}
+
+/// Of each candidate its best start, best first; at most `count`.
+std::vector<Signature> shortlist(std::vector<Signature> all, std::size_t count) {
+  std::erase_if(all, [](const Signature& s) { return !s.possible; });
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
+  std::vector<Signature> best;
+  for (const Signature& s : all)
+    if (best.size() < count &&
+        std::none_of(best.begin(), best.end(), [&](const auto& other) { return other.candidate == s.candidate; }))
+      best.push_back(s);
+  return best;
+}
+
+/// Materials back at their usual values: they may have paid for what the candidate now brings.
+Eigen::VectorXd beginning(const Fit& current, const Candidate& candidate, const std::vector<double>& start) {
+  Eigen::VectorXd x = current.best.x;
+  x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
+  Eigen::VectorXd more(x.size() + Eigen::Index(candidate.parameters.size()));
+  more << x, Eigen::Map<const Eigen::VectorXd>(start.data(), Eigen::Index(start.size()));
+  return more;
+}
+
+/// Probabilities of the trials and of none, whose prior is as much as that of all candidates together.
+void weigh(Round& round, const Fit& current) {
+  double most = current.log_evidence;
+  for (const Trial& t : round.trials) most = std::max(most, t.fit.log_evidence + std::log(t.candidate.prior));
+  round.none = std::exp(current.log_evidence - most);
+  double sum = round.none;
+  for (Trial& t : round.trials)
+    sum += t.probability = std::exp(t.fit.log_evidence + std::log(t.candidate.prior) - most);
+  round.none /= sum;
+  for (Trial& t : round.trials) t.probability /= sum;
+  std::stable_sort(round.trials.begin(), round.trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.probability > b.probability; });
+}
+
+void mark_ties(Round& round, const std::vector<Signature>& signatures, const std::vector<Candidate>& candidates) {
+  const auto of = [&](const Trial& trial) {
+    return std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) {
+      const Candidate& c = candidates[s.candidate];
+      return c.name == trial.candidate.name && c.where == trial.candidate.where;
+    });
+  };
+  for (Trial& trial : round.trials) {
+    const auto a = of(round.trials[0]), b = of(trial);
+    if (a != signatures.end() && b != signatures.end()) trial.signature = collinearity(*a, *b);
+    trial.tie = &trial != &round.trials[0] && trial.probability > round.trials[0].probability / 5.0;
+  }
+}
+
+bool accepts(const Round& round, const Fit& current, const DiagnosisSettings& settings) {
+  if (round.trials.empty()) return false;
+  const Fit& best = round.trials[0].fit;
+  const double gain = best.log_evidence + std::log(round.trials[0].candidate.prior) - current.log_evidence;
+  return gain > settings.margin && best.predicted_gap < current.predicted_gap && best.gap < current.gap;
+}
+
+Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
+                const std::vector<Candidate>& candidates, const Say& say) {
+  Round round;
+  Eigen::VectorXd x = current.best.x;
+  x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
+  const std::vector<Signature> all = signatures(problem, current.hypothesis, x, candidates, settings.threads);
+  for (const Signature& s : shortlist(all, all.size()))
+    round.screened.emplace_back(candidates[s.candidate].text(), s.explained);
+  const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
+  say(fmt::format("screened {} candidates; fitting {}", round.screened.size(), chosen.size()));
+  std::vector<std::optional<Trial>> trials(chosen.size());
+  for_all(chosen.size(), settings.threads, [&](std::size_t i) {
+    const Candidate& candidate = candidates[chosen[i].candidate];
+    Trial trial;
+    trial.candidate = candidate;
+    try {
+      trial.fit = fit(problem, current.hypothesis.with(candidate),
+                      beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations);
+      trials[i] = std::move(trial);
+    } catch (const std::runtime_error&) {
+      // It leaves no bridge that stands: no explanation either.
+    }
+  });
+  for (std::optional<Trial>& trial : trials)
+    if (trial) round.trials.push_back(std::move(*trial));
+  weigh(round, current);
+  if (!round.trials.empty()) mark_ties(round, all, candidates);
+  round.accepted = accepts(round, current, settings);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i)
+    say(fmt::format("  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}", round.trials[i].candidate.text(),
+                    round.trials[i].probability, round.trials[i].fit.gap, round.trials[i].fit.predicted_gap));
+  return round;
+}
+
+/// Adds candidates one by one while each one pays; returns the last fit.
+Fit add_greedily(const DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit current, int most,
+                 const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
+  for (int added = 0; added < most && !consistent(problem, settings, current); ++added) {
+    rounds.push_back(run_round(problem, settings, current, candidates, say));
+    if (!rounds.back().accepted) break;
+    current = rounds.back().trials[0].fit;
+  }
+  return current;
+}
+
+void check(const DiagnosisProblem& problem) {
+  if (problem.features.modes.empty())
+    throw InputError("there are no measured modes to compare with; give measured/modes.csv, or recordings");
+  if (fitted_rows(problem) == 0) throw InputError("all measured modes are held back; leave some to be fitted");
+}
+
+}  // namespace
+
+const char* verdict_name(Diagnosis::Verdict verdict) {
+  static const char* const names[] = {"consistent", "found", "unexplained"};
+  return names[int(verdict)];
+}
+
+Diagnosis diagnose(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Say& say) {
+  const auto begin = std::chrono::steady_clock::now();
+  check(problem);
+  Diagnosis d;
+  const Hypothesis none = {calibrations(problem.base), {}};
+  const Eigen::VectorXd usual = Eigen::VectorXd::Zero(Eigen::Index(none.size()));
+  d.plain = fit(problem, none, usual, 0);
+  say(fmt::format("the case as it is: gap {:.2f}", d.plain.gap));
+  d.calibrated = fit(problem, none, usual, 2 * settings.iterations);
+  d.alarms = alarms_of(d.calibrated);
+  say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}", d.calibrated.gap, d.alarms.size(),
+                  d.alarms.size() == 1 ? "" : "s"));
+  CandidateChoice choice;
+  choice.without = settings.without;
+  for (const MeasuredFeature& mode : problem.features.modes) choice.damping |= mode.damping.has_value();
+  const std::vector<Candidate> all = candidates(problem.base, problem.features.sensors, choice);
+  d.best = add_greedily(problem, settings, d.calibrated, settings.effects, all, d.rounds, say);
+  const bool added = !d.best.hypothesis.effects.empty();
+  if (consistent(problem, settings, d.best) || (added && tail(problem, d.best) > settings.credible))
+    d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
+  if (d.verdict == Diagnosis::Verdict::unexplained) {
+    say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
+    d.nameless_best = add_greedily(problem, settings, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
+  }
+  for (const Round& round : d.rounds)
+    for (std::size_t i = 1; i < round.trials.size(); ++i)
+      if (round.accepted && round.trials[i].tie) d.advice.push_back(advise(problem, round.trials[0], round.trials[i]));
+  d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return d;
+}
+
+}  // namespace voussoir

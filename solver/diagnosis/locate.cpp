@@ -1,0 +1,145 @@
+#include "solver/diagnosis/locate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+/// Shares of the computed modes in a measured one: those that fit its shape with the least residual energy.
+Eigen::VectorXd expansion(const DiagnosisProblem& problem, const Evaluation& at, std::size_t mode) {
+  constexpr double trust = 0.1;  // residual energy that weighs as much as a standard deviation at one sensor
+  const MeasuredFeature& measured = problem.features.modes[mode];
+  const Eigen::Index count = at.response.eigenvalues.size();
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(count);
+  const int pair = at.pairing.computed[mode];
+  if (!std::isfinite(at.pairing.assurance[mode])) {
+    if (pair >= 0) shares[pair] = 1.0;
+    return shares;
+  }
+  const double lambda = std::pow(2.0 * EIGEN_PI * measured.frequency, 2);
+  double largest = 0.0;
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index s = 0; s < measured.shape.size(); ++s)
+    if (std::isfinite(measured.shape[s])) seen.push_back(s), largest = std::max(largest, std::abs(measured.shape[s]));
+  Eigen::MatrixXd a(Eigen::Index(seen.size()), count);
+  Eigen::VectorXd b(Eigen::Index(seen.size()));
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const double std = std::hypot(measured.shape_std[seen[i]] / largest, problem.error.shape);
+    a.row(Eigen::Index(i)) = at.readings.row(seen[i]) / std;
+    b[Eigen::Index(i)] = measured.shape[seen[i]] / largest / std;
+  }
+  // In the scale of the shape: its computed partner has this size at the sensors.
+  const double unit = pair >= 0 ? at.readings.col(pair).cwiseAbs().maxCoeff() : at.readings.cwiseAbs().maxCoeff();
+  Eigen::VectorXd penalty(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const double apart = at.response.eigenvalues[j] - lambda;
+    penalty[j] = apart * apart / (at.response.eigenvalues[j] * lambda) * unit * unit / (trust * trust);
+  }
+  return (a.transpose() * a + Eigen::MatrixXd(penalty.asDiagonal()) + 1e-9 * Eigen::MatrixXd::Identity(count, count))
+      .ldlt()
+      .solve(a.transpose() * b);
+}
+
+/// Twice the energy of u in each joint, half to each of its blocks; all of it to the free one where one is fixed.
+void add_energy(const Assembly& assembly, const Unknowns& unknowns, const Eigen::VectorXd& u, double factor,
+                std::vector<double>& blocks) {
+  for (const Joint& joint : assembly.joints) {
+    const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
+    Vector12 motion;
+    motion.head<6>() = part_of(u, unknowns, a);
+    motion.tail<6>() = part_of(u, unknowns, b);
+    const double energy = factor * motion.dot(pair_stiffness(assembly, joint) * motion);
+    const bool both = unknowns.any(a) && unknowns.any(b);
+    if (unknowns.any(a)) blocks[a] += both ? 0.5 * energy : energy;
+    if (unknowns.any(b)) blocks[b] += both ? 0.5 * energy : energy;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> parts_of_blocks(const Assembly& assembly) {
+  static const std::vector<std::string> groups = {"arches", "piers", "abutments", "spandrels", "all"};
+  std::vector<std::string> of(assembly.blocks.size());
+  for (const std::string& name : masonry_parts(assembly)) {
+    if (std::find(groups.begin(), groups.end(), name) != groups.end()) continue;
+    const BlockSet part = masonry_part(assembly, name);
+    for (std::size_t i = 0; i < part.size(); ++i)
+      if (part[i]) of[i] = name;
+  }
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i].empty()) of[i] = component_names()[std::size_t(assembly.blocks[i].component)];
+  return of;
+}
+
+Location locate(const DiagnosisProblem& problem, const Evaluation& at) {
+  Location location;
+  location.blocks.assign(at.assembly.blocks.size(), 0.0);
+  std::vector<Vec3> work(at.assembly.blocks.size(), Vec3::Zero());
+  int modes = 0;
+  for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
+    const Eigen::VectorXd shares = expansion(problem, at, m);
+    if (shares.isZero(0.0)) continue;
+    const double lambda = std::pow(2.0 * EIGEN_PI * problem.features.modes[m].frequency, 2);
+    const Eigen::ArrayXd apart = at.response.eigenvalues.array() - lambda;
+    const Eigen::VectorXd u = at.response.vectors * (shares.array() * apart / at.response.eigenvalues.array()).matrix();
+    const Eigen::VectorXd f =
+        at.model.m.selfadjointView<Eigen::Lower>() * (at.response.vectors * (shares.array() * apart).matrix());
+    const double scale = 1.0 / (lambda * shares.squaredNorm());
+    add_energy(at.assembly, at.model.unknowns, u, scale, location.blocks);
+    for (std::size_t i = 0; i < work.size(); ++i)
+      work[i] += scale * part_of(f, at.model.unknowns, i)
+                             .head<3>()
+                             .cwiseProduct(part_of(u, at.model.unknowns, i).head<3>())
+                             .cwiseAbs();
+    ++modes;
+  }
+  const std::vector<std::string> parts = parts_of_blocks(at.assembly);
+  std::map<std::string, std::pair<double, Vec3>> sums;
+  double all = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto& [energy, along] = sums.try_emplace(parts[i], 0.0, Vec3::Zero()).first->second;
+    energy += location.blocks[i];
+    along += work[i];
+    all += location.blocks[i];
+    largest = std::max(largest, location.blocks[i]);
+  }
+  if (all <= 0.0) return location;
+  for (const auto& [part, sum] : sums) {
+    int axis = 0;
+    sum.second.maxCoeff(&axis);
+    if (sum.first > 0.0) location.parts.push_back({part, sum.first / all, "xyz"[axis]});
+  }
+  std::stable_sort(location.parts.begin(), location.parts.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  location.size = all / modes;
+  for (double& block : location.blocks) block /= largest;
+  return location;
+}
+
+std::vector<PartSensitivity> sensitivities(const Evaluation& at, int mode) {
+  const Eigen::VectorXd phi = at.response.vectors.col(mode);
+  std::vector<double> energy(at.assembly.blocks.size(), 0.0);
+  add_energy(at.assembly, at.model.unknowns, phi, 0.5 / at.response.eigenvalues[mode], energy);
+  const Eigen::VectorXd momentum = at.model.m.selfadjointView<Eigen::Lower>() * phi;
+  const std::vector<std::string> parts = parts_of_blocks(at.assembly);
+  std::map<std::string, PartSensitivity> sums;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    PartSensitivity& s = sums[parts[i]];
+    s.part = parts[i];
+    s.stiffness += energy[i];
+    s.mass -= 0.5 * part_of(phi, at.model.unknowns, i).dot(part_of(momentum, at.model.unknowns, i));
+  }
+  std::vector<PartSensitivity> all;
+  for (const auto& [part, s] : sums)
+    if (s.stiffness != 0.0 || s.mass != 0.0) all.push_back(s);
+  return all;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,130 @@
+#include "solver/diagnosis/screening.h"
+
+#include <atomic>
+#include <cmath>
+#include <exception>
+
+#include "solver/base/error.h"
+#include "solver/base/parallel.h"
+
+namespace voussoir {
+
+namespace {
+
+/// The residuals, prior rows included, and what the hypothesis' own parameters do to them.
+struct Linearised {
+  const DiagnosisProblem* problem = nullptr;
+  std::vector<ResidualRow> rows;
+  std::vector<int> fitted;
+  Evaluation at;
+  Eigen::VectorXd r;  // fitted rows, then x
+  Eigen::MatrixXd j;
+  double misfit = 0.0;  // least that the parameters reach
+};
+
+Eigen::VectorXd with_priors(const Linearised& l, const Eigen::VectorXd& residuals) {
+  Eigen::VectorXd all(Eigen::Index(l.fitted.size()) + l.at.x.size());
+  all << residuals(l.fitted), l.at.x;
+  return all;
+}
+
+/// What no change of the parameters takes away.
+Eigen::VectorXd left_over(const Linearised& l, const Eigen::VectorXd& r) {
+  return r - l.j * l.j.colPivHouseholderQr().solve(r);
+}
+
+Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x) {
+  Linearised l;
+  l.problem = &problem;
+  l.rows = residual_rows(problem);
+  for (std::size_t i = 0; i < l.rows.size(); ++i)
+    if (!problem.features.modes[std::size_t(l.rows[i].mode)].held_back) l.fitted.push_back(int(i));
+  EigenMemory memory;
+  l.at = evaluate(problem, l.rows, hypothesis, x, memory);
+  const Eigen::MatrixXd j = jacobian(problem, l.rows, hypothesis, l.at, memory);
+  l.j.resize(Eigen::Index(l.fitted.size()) + x.size(), x.size());
+  l.j << j(l.fitted, Eigen::all), Eigen::MatrixXd::Identity(x.size(), x.size());
+  l.r = with_priors(l, l.at.residuals);
+  l.misfit = left_over(l, l.r).squaredNorm();
+  return l;
+}
+
+/// Residuals with the candidate in place at its start.
+Eigen::VectorXd residuals_with(const Linearised& l, const Hypothesis& hypothesis, const Candidate& candidate,
+                               const std::vector<double>& start) {
+  const Hypothesis more = hypothesis.with(candidate);
+  Eigen::VectorXd x(Eigen::Index(more.size()));
+  x << l.at.x, Eigen::Map<const Eigen::VectorXd>(start.data(), Eigen::Index(start.size()));
+  const bool model_changes = candidate.kind == Candidate::Kind::effect || candidate.kind == Candidate::Kind::factor;
+  if (model_changes) {
+    EigenMemory memory;
+    memory.start = Eigen::VectorXd();
+    return evaluate(*l.problem, l.rows, more, x, memory).residuals;
+  }
+  const Eigen::MatrixXd readings = more.readings(l.at.response.sensors, x);
+  const ModePairs pairing = pair_features(l.problem->features, l.at.response, readings);
+  return residuals(*l.problem, l.rows, pairing, l.at.response.log_frequency, readings,
+                   more.damping(l.problem->damping, x));
+}
+
+Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {
+  Signature s;
+  s.possible = true;
+  const Eigen::VectorXd after = with_priors(l, changed);
+  const Eigen::VectorXd left = left_over(l, l.r), move = left_over(l, Eigen::VectorXd(after - l.r));
+  const double size2 = move.squaredNorm();
+  s.direction = size2 > 0.0 ? Eigen::VectorXd(move / std::sqrt(size2)) : move;
+  // Along the straight line through both points as far as helps, at most to three times the usual strength; or as it
+  // is.
+  const double share = size2 > 0.0 ? std::clamp(-left.dot(move) / size2, 0.0, 3.0) : 0.0;
+  s.misfit = std::min((left + share * move).squaredNorm(), left_over(l, after).squaredNorm());
+  s.explained = l.misfit > 0.0 ? 1.0 - s.misfit / l.misfit : 0.0;
+  return s;
+}
+
+}  // namespace
+
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> errors(n);
+  run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int, Barrier&) {
+    for (std::size_t i = next++; i < n; i = next++) try {
+        work(i);
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
+                                  const Eigen::VectorXd& x, const std::vector<Candidate>& candidates, int threads) {
+  const Linearised l = linearise(problem, hypothesis, x);
+  std::vector<Signature> all;
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    for (std::size_t start = 0; start < candidates[c].starts.size(); ++start) {
+      Signature s;
+      s.candidate = c;
+      s.start = start;
+      all.push_back(s);
+    }
+  for_all(all.size(), threads, [&](std::size_t i) {
+    const Candidate& candidate = candidates[all[i].candidate];
+    try {
+      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start]));
+      s.candidate = all[i].candidate;
+      s.start = all[i].start;
+      all[i] = s;
+    } catch (const InputError&) {
+      // Its place is taken by an effect that is there already.
+    }
+  });
+  return all;
+}
+
+double collinearity(const Signature& a, const Signature& b) {
+  return a.direction.size() == b.direction.size() ? std::abs(a.direction.dot(b.direction)) : 0.0;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,64 @@
+// Properties that every model is unsure of: stiffness and density of masonry, of the infill, of the backfill. Diagnosis
+// fits them before it looks for anything that is missing, and writes them down as this effect.
+#include <algorithm>
+
+#include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+/// Joints belong to the weakest of what they join.
+enum class Kind { none, masonry, infill, fill };
+const char* const kind_names[] = {"none", "masonry", "infill", "backfill"};
+
+Kind kind_of(const Block& block) {
+  switch (block.component) {
+    case Component::base:
+    case Component::restraint:
+      return Kind::none;
+    case Component::backfill:
+      return Kind::fill;
+    case Component::infill:
+      return Kind::infill;
+    default:
+      return Kind::masonry;
+  }
+}
+
+void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+  const auto kind = Kind(std::find(std::begin(kind_names), std::end(kind_names), where) - std::begin(kind_names));
+  for (Joint& joint : assembly.joints) {
+    const Kind a = kind_of(assembly.blocks[std::size_t(joint.a)]), b = kind_of(assembly.blocks[std::size_t(joint.b)]);
+    if (std::max(a, b) != kind) continue;
+    joint.kn *= values[0];
+    joint.ks *= values[0];
+  }
+  scale_density(assembly, blocks_where(assembly, [&](const Block& b) { return kind_of(b) == kind; }), values[1]);
+}
+
+std::vector<std::string> places(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (Kind kind : {Kind::masonry, Kind::infill, Kind::fill})
+    if (std::any_of(assembly.blocks.begin(), assembly.blocks.end(),
+                    [&](const Block& b) { return !b.fixed && kind_of(b) == kind; }))
+      names.push_back(kind_names[std::size_t(kind)]);
+  return names;
+}
+
+}  // namespace
+
+Effect calibration() {
+  return {"calibration",
+          "what every model is unsure of: no effect that is missing, but factors on a material",
+          {{"stiffness", "-", "on the stiffness of its joints", 0.2, 5.0, 1.0, 1.0, 0.25, true},
+           {"density", "-", "on its density", 0.5, 2.0, 1.0, 1.0, 0.05, true}},
+          places,
+          apply,
+          nullptr,
+          nullptr,
+          0.0};
+}
+
+}  // namespace voussoir

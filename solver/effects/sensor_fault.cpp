@@ -1,0 +1,54 @@
+// A channel that does not read what it should: a reversed or wrong gain, or two channels of one place that were
+// swapped.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solver/base/error.h"
+#include "solver/effects/effect.h"
+
+namespace voussoir {
+
+namespace {
+
+std::vector<std::string> places(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const Sensor& sensor : assembly.sensors) names.push_back("channel " + sensor.id);
+  for (std::size_t i = 0; i < assembly.sensors.size(); ++i)
+    for (std::size_t j = i + 1; j < assembly.sensors.size(); ++j)
+      if ((assembly.sensors[i].position - assembly.sensors[j].position).norm() < sensor_housing)
+        names.push_back(fmt::format("channels {} {}", assembly.sensors[i].id, assembly.sensors[j].id));
+  return names;
+}
+
+Sensor& channel(std::vector<Sensor>& sensors, const std::string& id) {
+  const auto at = std::find_if(sensors.begin(), sensors.end(), [&](const Sensor& s) { return s.id == id; });
+  if (at == sensors.end())
+    throw InputError("effect sensor_fault: there is no sensor '{}'; name one of [[sensor]] as \"channel ID\"", id);
+  return *at;
+}
+
+void apply(std::vector<Sensor>& sensors, const std::string& where, const std::vector<double>& values) {
+  const std::size_t gap = where.find(' '), next = where.find(' ', gap + 1);
+  if (gap == std::string::npos)
+    throw InputError("effect sensor_fault: '{}' names no channel; give \"channel ID\" or \"channels ID ID\"", where);
+  Sensor& first = channel(sensors, where.substr(gap + 1, next == std::string::npos ? next : next - gap - 1));
+  if (where.starts_with("channels ") && next != std::string::npos)
+    std::swap(first.direction, channel(sensors, where.substr(next + 1)).direction);
+  else
+    first.direction *= values[0];
+}
+
+}  // namespace
+
+Effect sensor_fault() {
+  return {"sensor_fault",
+          "a channel has the wrong gain or sign, or two of one place are swapped",
+          {{"gain", "-", "what it reads of the truth; −1 is a reversed channel", -20.0, 20.0, 1.0, 1.0, 0.5}},
+          places,
+          nullptr,
+          nullptr,
+          apply};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,34 @@
+// What a diagnosis starts from: the case, on a mesh that is quick to solve, and the measured features.
+#pragma once
+#include "io/case/case.h"
+#include "io/measured/measured.h"
+#include "solver/diagnosis/diagnose.h"
+
+namespace voussoir {
+
+struct DiagnosisRequest {
+  std::string case_file, measured, directory;
+  int unknowns = 12000;                // of the mesh that effects are looked for on, at most
+  double model_error = 0.01;           // of frequencies, beside what the mesh does
+  double shape_error = 0.03;           // of shapes, share of the largest component, beside what the mesh does
+  std::vector<std::string> hold_back;  // names of modes
+  DiagnosisSettings settings;
+  bool quiet = false, page = true;
+};
+
+struct DiagnosisInput {
+  Case c;
+  Measured measured;
+  DiagnosisProblem full, coarse;  // the case's own mesh; the one that is searched on
+  bool coarsened = false;
+  double block_scale = 0.0;                                       // of the coarse mesh; 0: it has none
+  double mesh_shift = 0.0, mesh_scatter = 0.0, mesh_shape = 0.0;  // of a mesh 1.25 times as coarse
+};
+
+/// Reads both and measures what the mesh does. Throws InputError.
+DiagnosisInput diagnosis_input(const DiagnosisRequest& request);
+
+/// Given modes, else those identified from the recordings. Sensors are on their blocks.
+Features features_of(const Measured& measured, const Assembly& assembly);
+
+}  // namespace voussoir
