@@ -92,11 +92,28 @@ void mark_ties(Round& round, const std::vector<Signature>& signatures, const std
   }
 }
 
-bool accepts(const Round& round, const Fit& current, const DiagnosisSettings& settings) {
+Hypothesis without(Hypothesis hypothesis, std::size_t effect) {
+  hypothesis.effects.erase(hypothesis.effects.begin() + std::ptrdiff_t(effect));
+  return hypothesis;
+}
+
+/// x of a fit without the parameters of one of its effects.
+Eigen::VectorXd without(const Fit& fit, std::size_t effect) {
+  auto at = Eigen::Index(fit.hypothesis.materials.size());
+  for (std::size_t i = 0; i < effect; ++i) at += Eigen::Index(fit.hypothesis.effects[i].parameters.size());
+  const auto gone = Eigen::Index(fit.hypothesis.effects[effect].parameters.size());
+  Eigen::VectorXd x(fit.best.x.size() - gone);
+  x << fit.best.x.head(at), fit.best.x.tail(fit.best.x.size() - at - gone);
+  return x;
+}
+
+bool accepts(const DiagnosisProblem& problem, const Round& round, const Fit& current,
+             const DiagnosisSettings& settings) {
   if (round.trials.empty()) return false;
+  const double margin = tail(problem, current) > settings.consistent ? settings.doubt : settings.margin;
   const Fit& best = round.trials[0].fit;
   const double gain = best.log_evidence + std::log(round.trials[0].candidate.prior) - current.log_evidence;
-  return gain > settings.margin && best.predicted_gap < current.predicted_gap && best.gap < current.gap;
+  return gain > margin && best.predicted_gap < current.predicted_gap && best.gap < current.gap;
 }
 
 Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
@@ -110,13 +127,13 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
   say(fmt::format("screened {} candidates; fitting {}", round.screened.size(), chosen.size()));
   std::vector<std::optional<Trial>> trials(chosen.size());
-  for_all(chosen.size(), settings.threads, [&](std::size_t i) {
+  for_all(chosen.size(), settings.threads, {}, [&](std::size_t i, EigenMemory& memory) {
     const Candidate& candidate = candidates[chosen[i].candidate];
     Trial trial;
     trial.candidate = candidate;
     try {
       trial.fit = fit(problem, current.hypothesis.with(candidate),
-                      beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations);
+                      beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations, memory);
       trials[i] = std::move(trial);
     } catch (const std::runtime_error&) {
       // It leaves no bridge that stands: no explanation either.
@@ -126,11 +143,33 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
     if (trial) round.trials.push_back(std::move(*trial));
   weigh(round, current);
   if (!round.trials.empty()) mark_ties(round, all, candidates);
-  round.accepted = accepts(round, current, settings);
+  round.accepted = accepts(problem, round, current, settings);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i)
     say(fmt::format("  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}", round.trials[i].candidate.text(),
                     round.trials[i].probability, round.trials[i].fit.gap, round.trials[i].fit.predicted_gap));
   return round;
+}
+
+/// Takes out an effect that a later one has made needless: an early choice may have stood in for it.
+void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit& current,
+                     std::vector<Round>& rounds, const Say& say) {
+  for (std::size_t i = 0; i + 1 < current.hypothesis.effects.size();) {
+    const Candidate out = current.hypothesis.effects[i];
+    const Fit less = fit(problem, without(current.hypothesis, i), without(current, i), settings.iterations);
+    if (less.log_evidence < current.log_evidence + std::log(out.prior) + settings.margin) {
+      ++i;
+      continue;
+    }
+    say(fmt::format("  {} is not needed any more", out.text()));
+    current = less;
+    std::size_t accepted = 0;
+    for (Round& round : rounds)
+      if (round.accepted && accepted++ == i) {
+        round.accepted = false;
+        round.superseded = true;
+        break;
+      }
+  }
 }
 
 /// Adds candidates one by one while each one pays; returns the last fit.
@@ -140,6 +179,7 @@ Fit add_greedily(const DiagnosisProblem& problem, const DiagnosisSettings& setti
     rounds.push_back(run_round(problem, settings, current, candidates, say));
     if (!rounds.back().accepted) break;
     current = rounds.back().trials[0].fit;
+    drop_superseded(problem, settings, current, rounds, say);
   }
   return current;
 }
@@ -178,6 +218,7 @@ Diagnosis diagnose(const DiagnosisProblem& problem, const DiagnosisSettings& set
   if (consistent(problem, settings, d.best) || (added && tail(problem, d.best) > settings.credible))
     d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
   if (d.verdict == Diagnosis::Verdict::unexplained) {
+    d.best = d.calibrated;  // what only helps is not named
     say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
     d.nameless_best = add_greedily(problem, settings, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
   }

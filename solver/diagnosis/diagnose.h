@@ -9,9 +9,10 @@ namespace voussoir {
 
 struct DiagnosisSettings {
   int effects = 3;           // most that are added
-  int fits = 8;              // candidates fitted fully in a round
+  int fits = 12;             // candidates fitted fully in a round
   int iterations = 8;        // of each fit
   double margin = 2.3;       // an effect must beat "none" by so much in log probability
+  double doubt = 6.0;        // and by so much where the residuals are noise already, but a material pays for it
   double consistent = 0.02;  // probability of a larger misfit, above which a model is consistent
   double credible = 1e-3;    // below which it is not, whatever was added
   int threads = 1;
@@ -31,6 +32,7 @@ struct Round {
   std::vector<Trial> trials;                             // best first
   double none = 1.0;                                     // probability that none of them acts
   bool accepted = false;                                 // the first one
+  bool superseded = false;                               // it was, until a later one made it needless
   std::vector<std::pair<std::string, double>> screened;  // candidate and what it could explain, best first
 };
 

@@ -29,7 +29,8 @@ struct Features {
 /// How far a right model may be from a right measurement: the mesh, the scatter of materials, dimensions.
 struct ModelError {
   double frequency = 0.01;  // of its logarithm
-  double shape = 0.04;      // share of a shape's largest component
+  double shape = 0.02;      // share of a shape's largest component, from sensor to sensor
+  double mixing = 0.03;     // how much of a neighbour a shape holds, over the relative distance of their eigenvalues
   double damping = 0.2;     // of its logarithm
 };
 

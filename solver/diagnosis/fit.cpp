@@ -105,17 +105,14 @@ class Cost : public ceres::CostFunction {
   int* evaluations_;
 };
 
-void solve(const Cost& cost, const Hypothesis& hypothesis, Eigen::VectorXd& x, int iterations) {
+/// Parameters beyond their bounds act as if at them, and the prior draws them back: no bounds are needed here, whose
+/// line searches would cost an eigenvalue solution each.
+void solve(const Cost& cost, Eigen::VectorXd& x, int iterations) {
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem least_squares(ownership);
   double* values = x.data();
   least_squares.AddResidualBlock(const_cast<Cost*>(&cost), nullptr, values);
-  const std::vector<FitParameter> parameters = hypothesis.parameters();
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    least_squares.SetParameterLowerBound(values, int(i), parameters[i].x(parameters[i].low));
-    least_squares.SetParameterUpperBound(values, int(i), parameters[i].x(parameters[i].high));
-  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = iterations;
@@ -190,16 +187,28 @@ double chi_square_tail(double sum, int n) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
+EigenMemory quick_memory() {
+  EigenMemory memory;
+  memory.tolerance = 1e-7;
+  memory.repeated = false;
+  return memory;
+}
+
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {
+  EigenMemory memory;
+  return fit(problem, hypothesis, x, iterations, memory);
+}
+
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
+        EigenMemory& memory) {
   const std::vector<ResidualRow> rows = residual_rows(problem);
   const Split split = split_rows(problem, rows);
   Fit result;
   result.hypothesis = hypothesis;
-  EigenMemory memory;
   Eigen::VectorXd best = x;
   if (iterations > 0 && x.size() > 0) {
     const Cost cost(problem, hypothesis, rows, split, memory, result.best, result.evaluations);
-    solve(cost, hypothesis, best, iterations);
+    solve(cost, best, iterations);
   }
   if (result.best.x.size() != best.size() || result.best.x != best || best.size() == 0) {
     result.best = evaluate(problem, rows, hypothesis, best, memory);

@@ -13,7 +13,13 @@ struct DiagnosisProblem {
   ModelError error;
   double damping = 0.0;  // ratio of the case; 0: it has none
   int modes = 20;        // to compute
+  /// By measured mode: what turns the differences of its shape, in the order of its rows, into independent ones of
+  /// standard deviation 1. Empty: no shape.
+  std::vector<Eigen::MatrixXd> whitening;
 };
+/// Fills in `whitening`. Errors of the model mix a mode with its neighbours; what the measurement and the mesh do is
+/// independent from sensor to sensor (docs/theory/diagnosis.md).
+void set_shape_errors(DiagnosisProblem& problem);
 
 /// Which computed mode each measured one is; −1: none is like it.
 struct ModePairs {
@@ -25,12 +31,11 @@ struct ModePairs {
 struct ResidualRow {
   enum class Kind { frequency, shape, damping };
   Kind kind = Kind::frequency;
-  int mode = 0;    // of the features
-  int sensor = 0;  // shape
-  double std = 1.0;
+  int mode = 0;      // of the features
+  int sensor = 0;    // shape
+  double std = 1.0;  // of the logarithm of a frequency or ratio; a share of the largest component of a shape
 };
-/// All rows of the features, held back ones too, and their standard deviations: of the measurement, the model, and
-/// the mixing of close modes together.
+/// All rows of the features, held back ones too, and their standard deviations: of measurement and model together.
 std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem);
 
 /// Measured modes with shapes are paired by MAC and frequency, one to one, so that the sum of the costs is least; those
@@ -76,7 +81,11 @@ struct Fit {
 };
 
 /// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds.
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
+        EigenMemory& memory);
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations);
+/// For solutions by the hundred: as exact as fits need.
+EigenMemory quick_memory();
 /// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
 /// Probability that a sum of squares of n standard normal numbers is larger.

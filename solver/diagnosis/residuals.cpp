@@ -10,18 +10,6 @@ namespace voussoir {
 
 namespace {
 
-/// How much of other modes a shape may hold because the model is not quite right: to first order δk/(2 ln(f₁/f₂)).
-double mixing(const Features& features, std::size_t mode, double error) {
-  double sum = 0.0;
-  for (std::size_t other = 0; other < features.modes.size(); ++other) {
-    if (other == mode) continue;
-    const double apart = std::abs(std::log(features.modes[other].frequency / features.modes[mode].frequency));
-    const double share = std::min(0.5, 0.5 * error / std::max(apart, 1e-6));
-    sum += share * share;
-  }
-  return std::sqrt(sum);
-}
-
 int measured_entries(const MeasuredFeature& mode) {
   return int(std::count_if(mode.shape.begin(), mode.shape.end(), [](double v) { return std::isfinite(v); }));
 }
@@ -62,8 +50,6 @@ int kth(const Response& response, const std::string& direction, int k) {
 }  // namespace
 
 std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
-  // Errors of the model at neighbouring sensors are much the same: a shape is worth so many independent ones.
-  constexpr double independent = 8.0;
   std::vector<ResidualRow> rows;
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
     const MeasuredFeature& mode = problem.features.modes[m];
@@ -72,12 +58,11 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
     if (mode.damping && problem.damping > 0.0)
       rows.push_back({ResidualRow::Kind::damping, at, 0, std::hypot(mode.damping_std, problem.error.damping)});
     if (!has_shape(mode)) continue;
-    const double mixed = mixing(problem.features, m, 2.0 * problem.error.frequency);
-    const double crowd = std::max(1.0, measured_entries(mode) / independent);
-    const double model = std::hypot(problem.error.shape, mixed) * std::sqrt(crowd), scale = largest(mode.shape);
+    const double scale = largest(mode.shape);
     for (Eigen::Index s = 0; s < mode.shape.size(); ++s)
       if (std::isfinite(mode.shape[s]))
-        rows.push_back({ResidualRow::Kind::shape, at, int(s), std::hypot(mode.shape_std[s] / scale, model)});
+        rows.push_back(
+            {ResidualRow::Kind::shape, at, int(s), std::hypot(mode.shape_std[s] / scale, problem.error.shape)});
   }
   return rows;
 }
@@ -118,35 +103,97 @@ ModePairs pair_features(const Features& features, const Response& response, cons
   return pairing;
 }
 
+namespace {
+
+/// Rows of a mode's shape.
+struct ShapeRows {
+  std::size_t begin = 0, end = 0;
+  Eigen::Index count() const { return Eigen::Index(end - begin); }
+};
+ShapeRows shape_rows(const std::vector<ResidualRow>& rows, int mode) {
+  const auto is = [&](const ResidualRow& row) { return row.mode == mode && row.kind == ResidualRow::Kind::shape; };
+  const auto first = std::find_if(rows.begin(), rows.end(), is);
+  const auto last = std::find_if_not(first, rows.end(), is);
+  return {std::size_t(first - rows.begin()), std::size_t(last - rows.begin())};
+}
+
+/// The sensors of these rows.
+Eigen::VectorXd seen(const std::vector<ResidualRow>& rows, const ShapeRows& shape, const Eigen::VectorXd& all) {
+  Eigen::VectorXd v(shape.count());
+  for (std::size_t i = shape.begin; i < shape.end; ++i) v[Eigen::Index(i - shape.begin)] = all[rows[i].sensor];
+  return v;
+}
+
+/// Eigenvalues of the computed modes as the measurement has them; of those that were not measured, moved by as much as
+/// the others on average.
+Eigen::VectorXd measured_eigenvalues(const Features& features, const Response& plain, const ModePairs& pairs) {
+  double shift = 0.0, count = 0.0;
+  const auto log_eigenvalue = [](double frequency) { return 2.0 * std::log(2.0 * EIGEN_PI * frequency); };
+  for (std::size_t m = 0; m < features.modes.size(); ++m)
+    if (const int c = pairs.computed[m]; c >= 0)
+      shift += log_eigenvalue(features.modes[m].frequency) - std::log(plain.eigenvalues[c]), count += 1.0;
+  Eigen::VectorXd values = plain.eigenvalues * std::exp(count > 0.0 ? shift / count : 0.0);
+  for (std::size_t m = 0; m < features.modes.size(); ++m)
+    if (const int c = pairs.computed[m]; c >= 0) values[c] = std::exp(log_eigenvalue(features.modes[m].frequency));
+  return values;
+}
+
+}  // namespace
+
+void set_shape_errors(DiagnosisProblem& problem) {
+  problem.whitening.assign(problem.features.modes.size(), {});
+  const std::vector<ResidualRow> rows = residual_rows(problem);
+  EigenMemory memory;
+  const Response plain =
+      response(problem.base, linear_model(problem.base), problem.features.sensors, problem.modes, memory);
+  const ModePairs pairs = pair_features(problem.features, plain, plain.sensors);
+  for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
+    const ShapeRows shape = shape_rows(rows, int(m));
+    if (shape.count() == 0) continue;
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(shape.count(), shape.count());
+    for (std::size_t i = shape.begin; i < shape.end; ++i)
+      covariance.diagonal()[Eigen::Index(i - shape.begin)] = rows[i].std * rows[i].std;
+    const double lambda = std::pow(2.0 * EIGEN_PI * problem.features.modes[m].frequency, 2);
+    const int own = pairs.computed[m];
+    const double unit = own >= 0 ? seen(rows, shape, plain.sensors.col(own)).cwiseAbs().maxCoeff()
+                                 : plain.sensors.cwiseAbs().maxCoeff();
+    const Eigen::VectorXd eigenvalues = measured_eigenvalues(problem.features, plain, pairs);
+    for (Eigen::Index j = 0; j < plain.eigenvalues.size(); ++j) {
+      if (int(j) == own) continue;
+      // First order: φᵢ' = Σ φⱼ (φⱼᵀ K' φᵢ)/(λᵢ − λⱼ), of which φⱼᵀ K' φᵢ is a share of √(λᵢ λⱼ).
+      const double other = eigenvalues[j], apart = std::abs(other - lambda) / std::sqrt(other * lambda);
+      const double share = std::min(1.0, problem.error.mixing / std::max(apart, 1e-6));
+      const Eigen::VectorXd neighbour = share / unit * seen(rows, shape, plain.sensors.col(j));
+      covariance += neighbour * neighbour.transpose();
+    }
+    problem.whitening[m] = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(shape.count(), shape.count()));
+  }
+}
+
 Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
                           const ModePairs& pairing, const Eigen::VectorXd& log_frequency,
                           const Eigen::MatrixXd& readings, double damping) {
   constexpr double unpaired = 5.0;  // a mode that the model does not have
   Eigen::VectorXd r = Eigen::VectorXd::Zero(Eigen::Index(rows.size()));
-  for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
-    while (end < rows.size() && rows[end].mode == rows[begin].mode) ++end;
-    const MeasuredFeature& mode = problem.features.modes[std::size_t(rows[begin].mode)];
-    const int c = pairing.computed[std::size_t(rows[begin].mode)];
-    const double scale = mode.shape.size() > 0 ? largest(mode.shape) : 1.0;
-    double pc = 0.0, cc = 0.0;
-    for (std::size_t i = begin; i < end && c >= 0; ++i) {
-      if (rows[i].kind != ResidualRow::Kind::shape) continue;
-      const double weight = 1.0 / (rows[i].std * rows[i].std), computed = readings(rows[i].sensor, c);
-      pc += weight * mode.shape[rows[i].sensor] / scale * computed;
-      cc += weight * computed * computed;
-    }
-    const double stretch = cc > 0.0 ? pc / cc : 0.0;  // the scale that fits best
-    for (std::size_t i = begin; i < end; ++i) {
-      double& value = r[Eigen::Index(i)];
-      if (rows[i].kind == ResidualRow::Kind::damping)
-        value = (std::log(*mode.damping) - std::log(damping)) / rows[i].std;
-      else if (rows[i].kind == ResidualRow::Kind::frequency)
-        value = c < 0 ? unpaired : (std::log(mode.frequency) - log_frequency[c]) / rows[i].std;
-      else if (c >= 0)
-        value = (mode.shape[rows[i].sensor] / scale - stretch * readings(rows[i].sensor, c)) / rows[i].std;
-      else
-        value = mode.shape[rows[i].sensor] / scale / rows[i].std;
-    }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const MeasuredFeature& mode = problem.features.modes[std::size_t(rows[i].mode)];
+    const int c = pairing.computed[std::size_t(rows[i].mode)];
+    if (rows[i].kind == ResidualRow::Kind::damping)
+      r[Eigen::Index(i)] = (std::log(*mode.damping) - std::log(damping)) / rows[i].std;
+    else if (rows[i].kind == ResidualRow::Kind::frequency)
+      r[Eigen::Index(i)] = c < 0 ? unpaired : (std::log(mode.frequency) - log_frequency[c]) / rows[i].std;
+  }
+  for (std::size_t m = 0; m < problem.whitening.size(); ++m) {
+    const ShapeRows shape = shape_rows(rows, int(m));
+    if (shape.count() == 0) continue;
+    const Eigen::MatrixXd& white = problem.whitening[m];
+    const MeasuredFeature& mode = problem.features.modes[m];
+    const Eigen::VectorXd measured = white * seen(rows, shape, mode.shape) / largest(mode.shape);
+    r.segment(Eigen::Index(shape.begin), shape.count()) = measured;
+    if (pairing.computed[m] < 0) continue;
+    const Eigen::VectorXd computed = white * seen(rows, shape, readings.col(pairing.computed[m]));
+    const double stretch = measured.dot(computed) / std::max(computed.squaredNorm(), 1e-300);  // what fits best
+    r.segment(Eigen::Index(shape.begin), shape.count()) -= stretch * computed;
   }
   return r;
 }

@@ -19,7 +19,8 @@ struct Linearised {
   Evaluation at;
   Eigen::VectorXd r;  // fitted rows, then x
   Eigen::MatrixXd j;
-  double misfit = 0.0;  // least that the parameters reach
+  double misfit = 0.0;    // least that the parameters reach
+  Eigen::VectorXd start;  // for further solutions
 };
 
 Eigen::VectorXd with_priors(const Linearised& l, const Eigen::VectorXd& residuals) {
@@ -39,11 +40,12 @@ Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothes
   l.rows = residual_rows(problem);
   for (std::size_t i = 0; i < l.rows.size(); ++i)
     if (!problem.features.modes[std::size_t(l.rows[i].mode)].held_back) l.fitted.push_back(int(i));
-  EigenMemory memory;
+  EigenMemory memory = quick_memory();
   l.at = evaluate(problem, l.rows, hypothesis, x, memory);
   const Eigen::MatrixXd j = jacobian(problem, l.rows, hypothesis, l.at, memory);
   l.j.resize(Eigen::Index(l.fitted.size()) + x.size(), x.size());
   l.j << j(l.fitted, Eigen::all), Eigen::MatrixXd::Identity(x.size(), x.size());
+  l.start = memory.start;
   l.r = with_priors(l, l.at.residuals);
   l.misfit = left_over(l, l.r).squaredNorm();
   return l;
@@ -51,16 +53,12 @@ Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothes
 
 /// Residuals with the candidate in place at its start.
 Eigen::VectorXd residuals_with(const Linearised& l, const Hypothesis& hypothesis, const Candidate& candidate,
-                               const std::vector<double>& start) {
+                               const std::vector<double>& start, EigenMemory& memory) {
   const Hypothesis more = hypothesis.with(candidate);
   Eigen::VectorXd x(Eigen::Index(more.size()));
   x << l.at.x, Eigen::Map<const Eigen::VectorXd>(start.data(), Eigen::Index(start.size()));
   const bool model_changes = candidate.kind == Candidate::Kind::effect || candidate.kind == Candidate::Kind::factor;
-  if (model_changes) {
-    EigenMemory memory;
-    memory.start = Eigen::VectorXd();
-    return evaluate(*l.problem, l.rows, more, x, memory).residuals;
-  }
+  if (model_changes) return evaluate(*l.problem, l.rows, more, x, memory).residuals;
   const Eigen::MatrixXd readings = more.readings(l.at.response.sensors, x);
   const ModePairs pairing = pair_features(l.problem->features, l.at.response, readings);
   return residuals(*l.problem, l.rows, pairing, l.at.response.log_frequency, readings,
@@ -84,12 +82,15 @@ Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {
 
 }  // namespace
 
-void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work) {
+void for_all(std::size_t n, int threads, const Eigen::VectorXd& start,
+             const std::function<void(std::size_t, EigenMemory&)>& work) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> errors(n);
   run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int, Barrier&) {
+    EigenMemory memory = quick_memory();
     for (std::size_t i = next++; i < n; i = next++) try {
-        work(i);
+        memory.start = start;
+        work(i, memory);
       } catch (...) {
         errors[i] = std::current_exception();
       }
@@ -109,10 +110,10 @@ std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothe
       s.start = start;
       all.push_back(s);
     }
-  for_all(all.size(), threads, [&](std::size_t i) {
+  for_all(all.size(), threads, l.start, [&](std::size_t i, EigenMemory& memory) {
     const Candidate& candidate = candidates[all[i].candidate];
     try {
-      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start]));
+      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start], memory));
       s.candidate = all[i].candidate;
       s.start = all[i].start;
       all[i] = s;

@@ -297,7 +297,7 @@ void sort_out(const Problem& p, std::vector<Candidate>& candidates, SsiResult& r
       result.set_aside.push_back({mode, reason});
   }
   for (IdentifiedMode& mode : result.modes) expand(p.prepared, mode);
-  for (SetAside& aside : result.set_aside) expand(p.prepared, aside.mode);
+  for (RejectedMode& aside : result.set_aside) expand(p.prepared, aside.mode);
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
   std::stable_sort(result.set_aside.begin(), result.set_aside.end(),

@@ -33,7 +33,7 @@ struct IdentifiedMode {
   bool harmonic = false;      // a machine, no mode
 };
 
-struct SetAside {
+struct RejectedMode {
   IdentifiedMode mode;
   std::string reason;  // "a harmonic: …"
 };
@@ -43,7 +43,7 @@ struct SsiResult {
   std::vector<PoorChannel> poor;      // left out
   std::vector<int> references;        // channels
   std::vector<IdentifiedMode> modes;  // ascending in frequency
-  std::vector<SetAside> set_aside;    // ascending in frequency
+  std::vector<RejectedMode> set_aside;    // ascending in frequency
   std::vector<Pole> poles;  // of the stabilisation diagram: ascending in order and frequency, shapes over used channels
   SsiSettings settings;     // with what was chosen for zeros, and what the recordings allow
   double dt = 0.0;          // s, after decimation

@@ -139,9 +139,12 @@ Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count, Eig
   pairs.factor_seconds = seconds_since(start);
   start = std::chrono::steady_clock::now();
   Found all;
-  merge(all, search(factor, m, pairs.shift, Eigen::MatrixXd(m.rows(), 0), count, 1e-12, memory.start, pairs.solves), m);
+  merge(
+      all,
+      search(factor, m, pairs.shift, Eigen::MatrixXd(m.rows(), 0), count, memory.tolerance, memory.start, pairs.solves),
+      m);
   // One vector's Krylov space holds one vector of each eigenspace: look for what it left out.
-  while (all.values.size() < m.rows()) {
+  while (memory.repeated && all.values.size() < m.rows()) {
     const Eigen::MatrixXd known = all.vectors;
     const double last = all.values[count - 1];
     if (search(factor, m, pairs.shift, known, 1, 1e-4, {}, pairs.solves).values[0] > last) break;
@@ -190,6 +193,19 @@ bool is_small(const SparseMatrix& m, int count) {
   return small;
 }
 
+/// The sum of the vectors, and a tenth as much of everything: a mode of a symmetry that none of them has would not be
+/// found from them alone.
+Eigen::VectorXd beginning(const Eigen::MatrixXd& vectors) {
+  Eigen::VectorXd start = vectors.rowwise().sum();
+  const double size = 0.1 * std::sqrt(start.squaredNorm() / double(start.size()));
+  std::uint64_t bits = 1;
+  for (double& x : start) {
+    bits = 6364136223846793005u * bits + 1442695040888963407u;  // Knuth (1998), §3.3.4
+    x += size * (2.0 * double(bits >> 11) * 0x1p-53 - 1.0);
+  }
+  return start;
+}
+
 }  // namespace
 
 Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count) {
@@ -207,7 +223,7 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int c
   } else {
     pairs = iterated(k, m, count, memory);
   }
-  memory.start = pairs.vectors.rowwise().sum();
+  memory.start = beginning(pairs.vectors);
   pairs.zero = 1e-10 * largest_ratio(k, m);
   return pairs;
 }

@@ -24,8 +24,10 @@ class ShiftedFactor {
 
 /// What a solution leaves for the next one of a similar matrix.
 struct EigenMemory {
-  ShiftedFactor factor;   // of the last matrix, at the solution's shift
-  Eigen::VectorXd start;  // sum of the last vectors: where the iteration begins; empty: no matter where
+  ShiftedFactor factor;      // of the last matrix, at the solution's shift
+  Eigen::VectorXd start;     // from the last vectors: where the iteration begins; empty: no matter where
+  double tolerance = 1e-12;  // relative, of 1/(λ − σ)
+  bool repeated = true;      // look for further vectors of repeated eigenvalues
 };
 
 struct Eigenpairs {

@@ -165,7 +165,7 @@ TEST(Identify, SetsAHarmonicAside) {
   const SsiResult result = identify_modes({r});
   expect_modes(result, beam(), 0.99);
   int harmonics = 0;
-  for (const SetAside& aside : result.set_aside) {
+  for (const RejectedMode& aside : result.set_aside) {
     if (!aside.mode.harmonic) continue;
     ++harmonics;
     EXPECT_NEAR(aside.mode.frequency, 6.0, 0.01);

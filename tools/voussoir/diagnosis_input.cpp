@@ -129,7 +129,7 @@ DiagnosisProblem problem_of(const DiagnosisRequest& request, const DiagnosisInpu
   const DampingSettings& damping = input.c.settings.damping;
   using Kind = DampingSettings::Kind;
   if (damping.kind == Kind::maxwell || damping.kind == Kind::rayleigh) problem.damping = damping.ratio;
-  problem.modes = std::min(2 * int(problem.features.modes.size()) + 6, 24);
+  problem.modes = std::min(int(problem.features.modes.size()) + 8, 40);
   return problem;
 }
 
@@ -164,6 +164,11 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   input.full = problem_of(request, input, std::move(own));
   input.coarse = problem_of(request, input, std::move(coarse));
   measure_mesh(input, request);
+  set_shape_errors(input.coarse);
+  if (input.coarsened)
+    set_shape_errors(input.full);
+  else
+    input.full = input.coarse;
   return input;
 }
 

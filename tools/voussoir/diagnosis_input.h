@@ -10,7 +10,7 @@ struct DiagnosisRequest {
   std::string case_file, measured, directory;
   int unknowns = 12000;                // of the mesh that effects are looked for on, at most
   double model_error = 0.01;           // of frequencies, beside what the mesh does
-  double shape_error = 0.03;           // of shapes, share of the largest component, beside what the mesh does
+  double shape_error = 0.01;           // of shapes, share of the largest component, beside what the mesh does
   std::vector<std::string> hold_back;  // names of modes
   DiagnosisSettings settings;
   bool quiet = false, page = true;

@@ -78,11 +78,17 @@ json where_json(const Location& location) {
   return all;
 }
 
+/// Rounds whose effects are named: none where they do not explain enough.
+std::vector<Round> named_rounds(const Diagnosis& d) {
+  return d.verdict == Diagnosis::Verdict::unexplained ? std::vector<Round>{} : d.rounds;
+}
+
 /// The best explanation that was not chosen, in the round of the last effect.
 json runner_up_json(const Diagnosis& d) {
   for (auto round = d.rounds.rbegin(); round != d.rounds.rend(); ++round) {
     const std::size_t next = round->accepted ? 1 : 0;
-    if (round->trials.size() > next && (round->accepted || d.best.hypothesis.effects.empty()))
+    if (round->trials.size() > next && (round->accepted || d.best.hypothesis.effects.empty()) &&
+        d.verdict != Diagnosis::Verdict::unexplained)
       return trial_json(round->trials[next]);
   }
   return nullptr;
@@ -90,7 +96,7 @@ json runner_up_json(const Diagnosis& d) {
 
 json ties_json(const Diagnosis& d) {
   json all = json::array();
-  for (const Round& round : d.rounds)
+  for (const Round& round : named_rounds(d))
     if (round.accepted)
       for (const Trial& trial : round.trials)
         if (trial.tie) all.push_back(trial_json(trial));
@@ -138,7 +144,7 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
   j["verdict"] = verdict_name(d.verdict);
   j["effects"] = json::array();
   std::size_t index = 0;
-  for (const Round& round : d.rounds)
+  for (const Round& round : named_rounds(d))
     if (round.accepted) {
       j["effects"].push_back(effect_json(d.best, index, round.trials[0].probability));
       ++index;
@@ -213,11 +219,12 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
   for (const std::string& alarm : d.alarms) text += fmt::format("compensation: {}\n", alarm);
   text += fmt::format("verdict: {}\n", verdict_name(d.verdict));
   std::size_t index = 0;
-  for (const Round& round : d.rounds) {
+  for (const Round& round : named_rounds(d)) {
     if (!round.accepted) continue;
     const Trial& best = round.trials[0];
     text += fmt::format("  {} (probability {:.2f})", best.candidate.text(), best.probability);
-    for (const auto& [name, p] : parameters_json(d.best, index).items())
+    const json parameters = parameters_json(d.best, index);
+    for (const auto& [name, p] : parameters.items())
       text += fmt::format(", {} {:.3g} ± {:.2g}", name, p["value"].get<double>(), p["std"].get<double>());
     text += "\n";
     for (const Trial& trial : round.trials)
