@@ -223,7 +223,8 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
   const auto faces = deformed_faces(blocks, hidden, options.amplification);
   if (faces->GetNumberOfPolys() == 0)
     throw InputError("pictures: nothing is left to draw; hide fewer components than {}", fmt::join(options.hide, ", "));
-  const Colouring colouring = colour_faces(faces, options.colour, options.range_mm);
+  Colouring colouring = colour_faces(faces, options.colour, options.range_mm);
+  if (!options.scale_title.empty()) colouring.title = options.scale_title;
   const bool cracks = options.cracks && joints;
 
   const Display display;

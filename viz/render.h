@@ -21,6 +21,7 @@ struct RenderOptions {
   std::vector<std::string> hide = {"backfill"};  // components left out
   std::string view = "oblique";                  // front, side, plan, oblique
   int width = 1800, height = 1000;               // pixels; height 0: as the content needs
+  std::string scale_title;                       // of the colour scale; empty: what the colour is
   double range_mm = 0.0;                         // mm, top of the colour scale; 0: from the data
   bool undeformed = false;                       // thin outlines of the undeformed stones
   bool outline = false;                          // or of the undeformed whole only (needs the joints)

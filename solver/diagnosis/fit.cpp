@@ -187,15 +187,14 @@ double chi_square_tail(double sum, int n) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-EigenMemory quick_memory() {
-  EigenMemory memory;
+void make_quick(EigenMemory& memory) {
   memory.tolerance = 1e-7;
   memory.repeated = false;
-  return memory;
 }
 
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {
   EigenMemory memory;
+  make_quick(memory);
   return fit(problem, hypothesis, x, iterations, memory);
 }
 

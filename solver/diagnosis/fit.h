@@ -85,7 +85,7 @@ Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eig
         EigenMemory& memory);
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations);
 /// For solutions by the hundred: as exact as fits need.
-EigenMemory quick_memory();
+void make_quick(EigenMemory& memory);
 /// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
 /// Probability that a sum of squares of n standard normal numbers is larger.

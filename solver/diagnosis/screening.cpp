@@ -40,7 +40,8 @@ Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothes
   l.rows = residual_rows(problem);
   for (std::size_t i = 0; i < l.rows.size(); ++i)
     if (!problem.features.modes[std::size_t(l.rows[i].mode)].held_back) l.fitted.push_back(int(i));
-  EigenMemory memory = quick_memory();
+  EigenMemory memory;
+  make_quick(memory);
   l.at = evaluate(problem, l.rows, hypothesis, x, memory);
   const Eigen::MatrixXd j = jacobian(problem, l.rows, hypothesis, l.at, memory);
   l.j.resize(Eigen::Index(l.fitted.size()) + x.size(), x.size());
@@ -87,7 +88,8 @@ void for_all(std::size_t n, int threads, const Eigen::VectorXd& start,
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> errors(n);
   run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int, Barrier&) {
-    EigenMemory memory = quick_memory();
+    EigenMemory memory;
+    make_quick(memory);
     for (std::size_t i = next++; i < n; i = next++) try {
         memory.start = start;
         work(i, memory);

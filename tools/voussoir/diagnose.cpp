@@ -5,6 +5,8 @@
 
 #include "io/hdf5/atomic_file.h"
 #include "solver/base/error.h"
+#include "tools/voussoir/diagnosis_page.h"
+#include "tools/voussoir/diagnosis_pictures.h"
 #include "tools/voussoir/diagnosis_report.h"
 #include "tools/voussoir/verb.h"
 
@@ -80,6 +82,10 @@ int diagnose_case(const DiagnosisRequest& request) {
   fs::create_directories(request.directory);
   write_corrected(corrected, text, request.directory);
   write_atomically(request.directory + "/diagnosis.json", diagnosis_json(input, result).dump(2) + "\n");
+  if (request.page) {
+    const std::vector<PagePicture> pictures = draw_diagnosis(input, result, request.directory, say);
+    write_atomically(request.directory + "/diagnosis.html", diagnosis_page(input, result, pictures));
+  }
   say(diagnosis_text(input, result));
   return 0;
 }
