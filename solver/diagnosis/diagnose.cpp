@@ -173,12 +173,15 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
 }
 
 /// Adds candidates one by one while each one pays; returns the last fit.
-Fit add_greedily(const DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit current, int most,
+Fit add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit current, int most,
                  const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
   for (int added = 0; added < most && !consistent(problem, settings, current); ++added) {
     rounds.push_back(run_round(problem, settings, current, candidates, say));
     if (!rounds.back().accepted) break;
+    // Its modes have other neighbours.
     current = rounds.back().trials[0].fit;
+    set_shape_errors(problem, current.best.response);
+    current = fit(problem, current.hypothesis, current.best.x, 2);
     drop_superseded(problem, settings, current, rounds, say);
   }
   return current;
@@ -197,9 +200,10 @@ const char* verdict_name(Diagnosis::Verdict verdict) {
   return names[int(verdict)];
 }
 
-Diagnosis diagnose(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Say& say) {
+Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& settings, const Say& say) {
   const auto begin = std::chrono::steady_clock::now();
-  check(problem);
+  check(asked);
+  DiagnosisProblem problem = asked;
   Diagnosis d;
   const Hypothesis none = {calibrations(problem.base), {}};
   const Eigen::VectorXd usual = Eigen::VectorXd::Zero(Eigen::Index(none.size()));
@@ -220,6 +224,7 @@ Diagnosis diagnose(const DiagnosisProblem& problem, const DiagnosisSettings& set
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     d.best = d.calibrated;  // what only helps is not named
     say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
+    problem = asked;
     d.nameless_best = add_greedily(problem, settings, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
   }
   for (const Round& round : d.rounds)

@@ -62,6 +62,15 @@ Split split_rows(const DiagnosisProblem& problem, const std::vector<ResidualRow>
   return split;
 }
 
+/// What lies beyond its bounds is put on them: nothing changes there.
+Eigen::VectorXd within_bounds(const Hypothesis& hypothesis, Eigen::VectorXd x) {
+  const std::vector<FitParameter> parameters = hypothesis.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    x[Eigen::Index(i)] =
+        std::clamp(x[Eigen::Index(i)], parameters[i].x(parameters[i].low), parameters[i].x(parameters[i].high));
+  return x;
+}
+
 /// Ceres' view: fitted residuals, then x itself as residuals of the prior.
 class Cost : public ceres::CostFunction {
  public:
@@ -79,7 +88,7 @@ class Cost : public ceres::CostFunction {
   }
   bool Evaluate(double const* const* parameters, double* r, double** jacobians) const override {
     const auto n = Eigen::Index(hypothesis_->size()), m = Eigen::Index(split_->fitted.size());
-    const Eigen::Map<const Eigen::VectorXd> x(parameters[0], n);
+    const Eigen::VectorXd x = within_bounds(*hypothesis_, Eigen::Map<const Eigen::VectorXd>(parameters[0], n));
     // Ceres asks for the derivatives where it has just been.
     if (last_->x.size() != n || last_->x != x) {
       *last_ = evaluate(*problem_, *rows_, *hypothesis_, x, *memory_);
@@ -105,8 +114,8 @@ class Cost : public ceres::CostFunction {
   int* evaluations_;
 };
 
-/// Parameters beyond their bounds act as if at them, and the prior draws them back: no bounds are needed here, whose
-/// line searches would cost an eigenvalue solution each.
+/// Parameters beyond their bounds count as if at them: no bounds are needed here, whose line searches would cost an
+/// eigenvalue solution each.
 void solve(const Cost& cost, Eigen::VectorXd& x, int iterations) {
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -208,6 +217,7 @@ Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eig
   if (iterations > 0 && x.size() > 0) {
     const Cost cost(problem, hypothesis, rows, split, memory, result.best, result.evaluations);
     solve(cost, best, iterations);
+    best = within_bounds(hypothesis, best);
   }
   if (result.best.x.size() != best.size() || result.best.x != best || best.size() == 0) {
     result.best = evaluate(problem, rows, hypothesis, best, memory);

@@ -20,6 +20,8 @@ struct DiagnosisProblem {
 /// Fills in `whitening`. Errors of the model mix a mode with its neighbours; what the measurement and the mesh do is
 /// independent from sensor to sensor (docs/theory/diagnosis.md).
 void set_shape_errors(DiagnosisProblem& problem);
+/// The same about a model that has other modes than the base.
+void set_shape_errors(DiagnosisProblem& problem, const Response& response);
 
 /// Which computed mode each measured one is; −1: none is like it.
 struct ModePairs {

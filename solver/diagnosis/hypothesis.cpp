@@ -59,12 +59,13 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, std::vector<Candidate
 }
 
 /// Effects by their own weights; of an effect's places, the one that is all of them counts as much as the others
-/// together: what the ground, the mason or time has done to one part it has mostly done to all of its kind.
+/// together: what the ground, the mason or time has done to one part it has mostly done to all of its kind; neighbours
+/// are another matter.
 void share_priors(std::vector<Candidate>& all) {
   std::map<std::string, std::pair<double, double>> counts;  // name: collective places, others
   const auto collective = [](const Candidate& c) {
     static const std::vector<std::string> words = {"both", "all", "arches", "piers", "abutments", "spandrels", "deck"};
-    return std::find(words.begin(), words.end(), c.where) != words.end();
+    return c.name != "neighbouring_structure" && std::find(words.begin(), words.end(), c.where) != words.end();
   };
   for (const Candidate& c : all) (collective(c) ? counts[c.name].first : counts[c.name].second) += 1.0;
   double sum = 0.0;

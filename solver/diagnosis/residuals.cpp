@@ -141,11 +141,14 @@ Eigen::VectorXd measured_eigenvalues(const Features& features, const Response& p
 }  // namespace
 
 void set_shape_errors(DiagnosisProblem& problem) {
+  EigenMemory memory;
+  set_shape_errors(problem,
+                   response(problem.base, linear_model(problem.base), problem.features.sensors, problem.modes, memory));
+}
+
+void set_shape_errors(DiagnosisProblem& problem, const Response& plain) {
   problem.whitening.assign(problem.features.modes.size(), {});
   const std::vector<ResidualRow> rows = residual_rows(problem);
-  EigenMemory memory;
-  const Response plain =
-      response(problem.base, linear_model(problem.base), problem.features.sensors, problem.modes, memory);
   const ModePairs pairs = pair_features(problem.features, plain, plain.sensors);
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
     const ShapeRows shape = shape_rows(rows, int(m));

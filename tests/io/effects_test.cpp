@@ -50,6 +50,24 @@ TEST(EffectCase, IsAppliedOnce) {
   EXPECT_NE(assembly_hash(twice), assembly_hash(once)) << "asked for twice, it acts twice";
 }
 
+/// A reversed channel, and two of one place that were swapped.
+TEST(EffectCase, FaultsOfSensorsActOnTheSensors) {
+  const std::string sensors =
+      "[[sensor]]\nid = \"a\"\nposition = [0.2, 0.2, 0.2]\ndirection = [1.0, 0.0, 0.0]\n"
+      "[[sensor]]\nid = \"b\"\nposition = [0.2, 0.2, 0.2]\ndirection = [0.0, 1.0, 0.0]\n";
+  const std::string wall = "[bridge]\ngenerator = \"wall\"\n" + sensors;
+  const auto fault = [&](const std::string& where) {
+    return make_assembly(parse_case(
+        wall + "[[effect]]\nname = \"sensor_fault\"\nwhere = \"" + where + "\"\ngain = -1.0\n", "c.toml",
+        CaseUse::geometry));
+  };
+  EXPECT_EQ(fault("channel b").sensors[1].direction, -Vec3::UnitY());
+  EXPECT_EQ(fault("channel b").sensors[0].direction, Vec3::UnitX());
+  EXPECT_EQ(fault("channels a b").sensors[0].direction, Vec3::UnitY());
+  EXPECT_EQ(fault("channels a b").sensors[1].direction, Vec3::UnitX());
+  EXPECT_THROW(fault("channel c"), InputError);
+}
+
 TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   const auto holds = [](const std::string& text, const std::vector<std::string>& pieces) {
     const std::string message =

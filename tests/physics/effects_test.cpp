@@ -13,6 +13,7 @@ Assembly bridge(const std::string& abutments = "free") {
   input.values.at("block_scale") = 4.0;
   Assembly assembly = generator.build(input);
   assembly.generator = "cs1";
+  assembly.sensors = {{"A01", assembly.blocks[0].centroid, Vec3::UnitY(), 0}};
   return assembly;
 }
 

@@ -1,4 +1,5 @@
 // Identification against signals of known modal models. Numbers are printed: docs/theory/identification.md quotes them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +71,7 @@ Recording simulated(const ModalModel& model, double duration, double dt, std::ui
   std::vector<Oscillator> modes;
   for (std::size_t m = 0; m < model.frequency.size(); ++m) modes.emplace_back(model.frequency[m], model.damping[m], dt);
   Recording r = {.name = "simulated", .dt = dt, .channels = {}, .values = Eigen::MatrixXd(n, channels)};
-  for (Eigen::Index c = 0; c < channels; ++c) r.channels.push_back("s" + std::to_string(c));
+  for (Eigen::Index c = 0; c < channels; ++c) r.channels.push_back(fmt::format("s{}", c));
   Eigen::VectorXd force(channels), acceleration(Eigen::Index(modes.size()));
   for (Eigen::Index i = 0; i < n; ++i) {
     for (double& f : force) f = normal();

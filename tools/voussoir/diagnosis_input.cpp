@@ -1,9 +1,13 @@
 #include "tools/voussoir/diagnosis_input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "solver/base/error.h"
+#include "solver/identify/fdd.h"
+#include "solver/identify/ssi.h"
 
 namespace voussoir {
 
@@ -33,6 +37,43 @@ MeasuredFeature feature_of(const MeasuredMode& mode, std::size_t sensors) {
     f.shape_std[Eigen::Index(v.sensor)] = v.std > 0.0 ? v.std : default_shape_std * largest;
   }
   return f;
+}
+
+/// Modes from the recordings, where none are given.
+void identify(Measured& measured) {
+  if (!measured.modes.empty() || measured.records.empty()) return;
+  const SsiResult found = identify_modes(measured.records);
+  const Fdd spectra = decompose_spectra(measured.records);
+  for (const PoorChannel& poor : found.poor)
+    measured.set_aside.push_back({fmt::format("channel {}", found.channels[std::size_t(poor.channel)]), poor.reason});
+  for (const RejectedMode& aside : found.set_aside)
+    measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+  for (const IdentifiedMode& m : found.modes) {
+    MeasuredMode mode;
+    mode.name = fmt::format("{}", measured.modes.size() + 1);
+    mode.period = 1.0 / m.frequency;
+    mode.period_std = m.frequency_std / (m.frequency * m.frequency);
+    mode.damping = m.damping;
+    mode.damping_std = m.damping_std;
+    for (std::size_t s = 0; s < measured.sensors.size(); ++s) {
+      const auto at = std::find(found.channels.begin(), found.channels.end(), measured.sensors[s].id);
+      if (at == found.channels.end()) continue;
+      const auto channel = Eigen::Index(at - found.channels.begin());
+      if (std::isfinite(m.shape[channel].real()))
+        mode.shape.push_back({s, m.shape[channel].real(), m.shape_std[channel]});
+    }
+    const FddPeak peak = peak_near(spectra, m.frequency, m.shape);
+    measured.remarks.push_back(fmt::format(
+        "mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, m.frequency,
+        m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, m.hits,
+        peak.found
+            ? fmt::format("frequency-domain decomposition: {:.3f} Hz, MAC {:.2f}", peak.frequency, peak.assurance)
+            : std::string("no peak of the frequency-domain decomposition")));
+    measured.modes.push_back(std::move(mode));
+  }
+  if (measured.modes.empty())
+    throw InputError("{}: no mode can be identified from the recordings; record longer, or give modes.csv",
+                     measured.directory);
 }
 
 /// The case's assembly with blocks of another size.
@@ -151,6 +192,7 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   DiagnosisInput input;
   input.c = read_case(request.case_file, CaseUse::geometry);
   input.measured = read_measured(request.measured);
+  identify(input.measured);
   Assembly own = make_assembly(input.c);
   if (can_remesh(input.c)) input.block_scale = input.c.generator_input.values.at("block_scale");
   Assembly coarse = own;

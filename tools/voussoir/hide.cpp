@@ -29,6 +29,7 @@ struct HideRequest {
   double defects = 0.01;   // m, of every dimension
   double mesh = 0.85;      // block_scale of the true bridge over the case's
   int modes = 6;
+  double minutes = 0.0;  // of ambient vibration instead of modes
   std::uint64_t seed = 1;
 };
 
@@ -196,6 +197,38 @@ std::vector<MeasuredMode> measured_modes(const Response& r, const HideRequest& r
   return modes;
 }
 
+/// Ambient vibration: each mode under white noise of its own, exact for forces that are constant within a step, and
+/// noise of each channel's own.
+Recording ambient(const Response& r, const std::vector<MeasuredSensor>& sensors, const HideRequest& request,
+                  double ratio, Noise& noise) {
+  constexpr double dt = 0.01;  // s
+  Recording record;
+  record.name = "ambient";
+  record.dt = dt;
+  for (const MeasuredSensor& s : sensors) record.channels.push_back(s.id);
+  const auto samples = Eigen::Index(std::lround(60.0 * request.minutes / dt));
+  record.values = Eigen::MatrixXd::Zero(samples, r.sensors.rows());
+  for (Eigen::Index mode = 0; mode < r.eigenvalues.size(); ++mode) {
+    const double w = std::sqrt(r.eigenvalues[mode]), wd = w * std::sqrt(1.0 - ratio * ratio);
+    const double e = std::exp(-ratio * w * dt), c = std::cos(wd * dt), s = std::sin(wd * dt);
+    double q = 0.0, v = 0.0;
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      const double force = noise.normal(), rest = force / (w * w);
+      record.values.row(i) += (force - 2.0 * ratio * w * v - w * w * q) * r.sensors.col(mode).transpose();
+      // Free vibration about the static displacement: x = e^(−ζωt) (x₀ cos ω_d t + b sin ω_d t).
+      const double x = q - rest, b = (v + ratio * w * x) / wd;
+      q = rest + e * (x * c + b * s);
+      v = -ratio * w * (q - rest) + e * wd * (b * c - x * s);
+    }
+  }
+  for (Eigen::Index channel = 0; channel < record.values.cols(); ++channel) {
+    const double size = std::sqrt(record.values.col(channel).squaredNorm() / double(samples));
+    for (Eigen::Index i = 0; i < samples; ++i) record.values(i, channel) += 5.0 * request.noise * size * noise.normal();
+  }
+  record.values *= 1e-3 / std::max(record.values.cwiseAbs().maxCoeff(), 1e-300);  // m/s2
+  return record;
+}
+
 std::string answer(const HideRequest& request, const Response& truth) {
   std::string text =
       fmt::format("# What voussoir hide put into the measurements beside this file.\nseed = {}\n", request.seed);
@@ -225,12 +258,17 @@ int hide(const HideRequest& request) {
   for (const EffectSetting& effect : request.effects) apply_effect(sensors, effect);
   EigenMemory memory;
   const Response truth = response(assembly, linear_model(assembly), sensors, 2 * request.modes + 6, memory);
-  measured.modes = measured_modes(truth, request, settings.damping.ratio, noise);
+  if (request.minutes > 0.0)
+    measured.records = {ambient(truth, measured.sensors, request, settings.damping.ratio, noise)};
+  else
+    measured.modes = measured_modes(truth, request, settings.damping.ratio, noise);
   measured.what = fmt::format("made by voussoir hide from {}", fs::path(request.case_file).filename().string());
   fs::create_directories(request.directory);
   write_measured(measured, request.directory + "/measured");
   write_atomically(request.directory + "/answer.toml", answer(request, truth));
-  fmt::print("{} modes at {} sensors in {}/measured; the answer is in {}/answer.toml\n", measured.modes.size(),
+  fmt::print("{} at {} sensors in {}/measured; the answer is in {}/answer.toml\n",
+             request.minutes > 0.0 ? fmt::format("{:g} min of vibration", request.minutes)
+                                   : fmt::format("{} modes", measured.modes.size()),
              measured.sensors.size(), request.directory, request.directory);
   return 0;
 }
@@ -244,6 +282,8 @@ int hide_run(const std::vector<std::string>& arguments) {
       "sensors", options::value<std::string>(&request.sensors)->default_value(request.sensors),
       "sparse, rich or none (periods alone)")("modes", options::value<int>(&request.modes)->default_value(6),
                                               "that are measured")(
+      "minutes", options::value<double>(&request.minutes)->default_value(0.0),
+      "of ambient vibration instead of modes; the noise of its channels is five times --noise")(
       "noise", options::value<double>(&request.noise)->default_value(request.noise),
       "standard deviation of periods, share; of shapes twice that")(
       "scatter", options::value<double>(&request.scatter)->default_value(request.scatter),
@@ -264,6 +304,8 @@ int hide_run(const std::vector<std::string>& arguments) {
   for (double x : {request.noise, request.scatter, request.materials, request.defects})
     if (!(x >= 0.0 && x < 1.0)) throw InputError("noise, scatter, materials and defects must be from 0 to below 1");
   if (!(request.mesh > 0.2 && request.mesh < 5.0)) throw InputError("--mesh is {}; give 0.2 to 5", request.mesh);
+  if (request.minutes < 0.0 || (request.minutes > 0.0 && request.sensors == "none"))
+    throw InputError("--minutes needs sensors, and cannot be negative");
   if (values.count("effect"))
     for (const std::string& text : values["effect"].as<std::vector<std::string>>())
       request.effects.push_back(parse_effect(text));

@@ -1,0 +1,133 @@
+// voussoir hide and diagnose, as a user calls them.
+#include <gtest/gtest.h>
+
+#include "tests/whole/cases.h"
+
+namespace voussoir::test {
+namespace {
+
+const std::string bridge = R"([bridge]
+generator = "cs2"
+abutments = "free"
+backfill = "rigid"
+block_scale = 3.0
+)";
+
+nlohmann::json diagnosis(const std::string& directory) {
+  return nlohmann::json::parse(bytes_of(directory + "/diagnosis.json"));
+}
+
+void hide(const Folder& folder, const std::vector<std::string>& more) {
+  folder.write("bridge.toml", bridge);
+  std::vector<std::string> words = {"hide", "bridge.toml", "-o", "hidden"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = voussoir(words, {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
+  const Folder folder;
+  hide(folder, {"--effect", "abutment_restraint both stiffness_share=0.5", "--sensors", "rich", "--seed", "11"});
+  const Outcome outcome = voussoir(
+      {"diagnose", "bridge.toml", "--measured", "hidden/measured", "-o", "out", "--fits", "5", "--threads", "2"},
+      {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("verdict: found"), std::string::npos) << outcome.out;
+  const nlohmann::json json = diagnosis(folder / "out");
+  EXPECT_EQ(json["verdict"], "found");
+  ASSERT_GE(json["effects"].size(), 1u);
+  EXPECT_EQ(json["effects"][0]["name"], "abutment_restraint");
+  EXPECT_EQ(json["effects"][0]["where"], "both");
+  EXPECT_TRUE(json["effects"][0]["parameters"]["stiffness_share"].contains("std"));
+  EXPECT_LT(json["gap"]["fit"]["after"].get<double>(), 0.5 * json["gap"]["fit"]["before"].get<double>());
+  EXPECT_TRUE(json["gap"]["held_back"].contains("after"));
+  EXPECT_FALSE(json["where"].empty());
+  for (const char* file : {"corrected.toml", "diagnosis.html", "images/residual_before.png", "images/mode_1_after.png"})
+    EXPECT_TRUE(exists(folder / ("out/" + std::string(file)))) << file;
+  // The corrected case is a case.
+  const Outcome modal =
+      voussoir({"modal", "out/corrected.toml", "-n", "3", "--no-pictures"}, {.folder = folder.path()});
+  ASSERT_EQ(modal.status, 0) << modal.err;
+  EXPECT_NE(modal.out.find("abutment_restraint both"), std::string::npos);
+}
+
+/// The answer lies beside the measurements here; what the program opens is watched.
+TEST(Diagnose, OpensNothingButTheCaseAndTheMeasurements) {
+  const Folder folder;
+  hide(folder, {"--sensors", "none", "--modes", "3"});
+  if (!exists("/usr/bin/strace")) GTEST_SKIP() << "strace is not installed";
+  const std::string command =
+      std::string("cd '") + folder.path() + "' && strace -f -e trace=open,openat -o trace.txt '" + VOUSSOIR_PROGRAM +
+      "' diagnose bridge.toml --measured hidden/measured -o out --no-page --threads 1 > said.txt 2>&1";
+  if (std::system(command.c_str()) != 0 && bytes_of(folder / "trace.txt").empty())
+    GTEST_SKIP() << "strace cannot trace here: " << bytes_of(folder / "said.txt");
+  const std::string trace = bytes_of(folder / "trace.txt");
+  ASSERT_NE(trace.find("hidden/measured/modes.csv"), std::string::npos) << trace;
+  EXPECT_EQ(trace.find("answer"), std::string::npos);
+  std::size_t opened = 0;
+  for (std::size_t at = trace.find('"'); at != std::string::npos; at = trace.find('"', at + 1)) {
+    const std::size_t end = trace.find('"', at + 1);
+    const std::string name = trace.substr(at + 1, end - at - 1);
+    at = end;
+    const bool system = name.starts_with("/etc/") || name.starts_with("/lib/") || name.starts_with("/usr/") ||
+                        name.starts_with("/proc/") || name.starts_with("/sys/") || name.starts_with("/dev/") ||
+                        name.starts_with("/lib64/") || name.ends_with(".so") || name.find(".so.") != std::string::npos;
+    const bool own = name == "bridge.toml" || name.starts_with("hidden/measured") || name.starts_with("out") ||
+                     name.find("/out/") != std::string::npos;
+    EXPECT_TRUE(system || own) << name;
+    opened += own;
+  }
+  EXPECT_GE(opened, 3u);
+}
+
+TEST(Diagnose, OfRecordingsIdentifiesTheModesFirst) {
+  const Folder folder;
+  hide(folder, {"--sensors", "sparse", "--minutes", "8", "--modes", "4", "--seed", "5"});
+  EXPECT_FALSE(exists(folder / "hidden/measured/modes.csv"));
+  const Outcome outcome =
+      voussoir({"diagnose", "bridge.toml", "--measured", "hidden/measured", "-o", "out", "--no-page", "--fits", "4"},
+               {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json json = diagnosis(folder / "out");
+  EXPECT_GE(json["modes"].size(), 4u);
+  EXPECT_NE(outcome.out.find("frequency-domain decomposition"), std::string::npos) << outcome.out;
+}
+
+TEST(Diagnose, SaysWhatIsWrongWithItsInput) {
+  const Folder folder;
+  hide(folder, {"--sensors", "sparse"});
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"diagnose", "bridge.toml", "-o", "out", "--no-page"};
+    words.insert(words.end(), more.begin(), more.end());
+    return voussoir(words, {.folder = folder.path()});
+  };
+  expect_error(run({"--measured", "nowhere"}), 2, {"nowhere", "no such folder"});
+  expect_error(run({"--measured", "hidden/measured", "--hold-back", "17"}), 2, {"--hold-back", "17"});
+  expect_error(run({"--measured", "hidden/measured", "--without", "scor"}), 2, {"'scor'", "scour"});
+  const std::string sensors = bytes_of(folder / "hidden/measured/sensors.csv");
+  const std::size_t second = sensors.find('\n') + 1;
+  set_bytes(folder / "hidden/measured/sensors.csv",
+            sensors.substr(0, second) + "far,500,0,0,x\n" + sensors.substr(second));
+  expect_error(run({"--measured", "hidden/measured"}), 2, {"sensors.csv:2", "'far'", "0.5 m"});
+  set_bytes(folder / "hidden/measured/sensors.csv", sensors);
+  set_bytes(folder / "hidden/measured/modes.csv", "mode,period\n1,-0.3\n");
+  expect_error(run({"--measured", "hidden/measured"}), 2, {"modes.csv:2", "-0.3"});
+}
+
+TEST(Hide, SaysWhatIsWrongWithItsInput) {
+  const Folder folder;
+  folder.write("bridge.toml", bridge);
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"hide", "bridge.toml", "-o", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    return voussoir(words, {.folder = folder.path()});
+  };
+  expect_error(run({"--effect", "scor"}), 2, {"'scor'", "scour"});
+  expect_error(run({"--effect", "scour pier 7 x-"}), 2, {"pier 7 x-", "pier 0 x-"});
+  expect_error(run({"--effect", "scour pier 0 x- lost_share=much"}), 2, {"lost_share=much"});
+  expect_error(run({"--sensors", "some"}), 2, {"some", "sparse"});
+  EXPECT_FALSE(exists(folder / "out/measured"));
+}
+
+}  // namespace
+}  // namespace voussoir::test
