@@ -82,7 +82,8 @@ void mark_ties(Round& round, const std::vector<Signature>& signatures, const std
   const auto of = [&](const Trial& trial) {
     return std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) {
       const Candidate& c = candidates[s.candidate];
-      return c.name == trial.candidate.name && c.where == trial.candidate.where;
+      return s.possible && c.text() == trial.candidate.text() &&
+             c.parameters.size() == trial.candidate.parameters.size();
     });
   };
   for (Trial& trial : round.trials) {
@@ -117,8 +118,13 @@ bool accepts(const DiagnosisProblem& problem, const Round& round, const Fit& cur
 }
 
 Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
-                const std::vector<Candidate>& candidates, const Say& say) {
+                const std::vector<Candidate>& all_candidates, const Say& say) {
   Round round;
+  std::vector<Candidate> candidates;  // those that are not there already
+  for (const Candidate& c : all_candidates)
+    if (std::none_of(current.hypothesis.effects.begin(), current.hypothesis.effects.end(),
+                     [&](const Candidate& there) { return there.text() == c.text(); }))
+      candidates.push_back(c);
   Eigen::VectorXd x = current.best.x;
   x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
   const std::vector<Signature> all = signatures(problem, current.hypothesis, x, candidates, settings.threads);
@@ -228,7 +234,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     d.nameless_best = add_greedily(problem, settings, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
   }
   for (const Round& round : d.rounds)
-    for (std::size_t i = 1; i < round.trials.size(); ++i)
+    for (std::size_t i = 1; i < round.trials.size() && d.verdict == Diagnosis::Verdict::found; ++i)
       if (round.accepted && round.trials[i].tie) d.advice.push_back(advise(problem, round.trials[0], round.trials[i]));
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return d;

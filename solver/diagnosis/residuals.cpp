@@ -73,13 +73,15 @@ ModePairs pair_features(const Features& features, const Response& response, cons
   pairing.computed.assign(count, -1);
   pairing.assurance.assign(count, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::size_t> shaped;
-  std::map<std::string, int> seen;  // modes without shapes, by direction
+  std::map<std::string, int> seen;  // modes, by direction
   for (std::size_t m = 0; m < count; ++m) {
     const MeasuredFeature& mode = features.modes[m];
+    // Those with shapes count too: the third transverse mode is the third whatever is known of the first two.
+    const int before = seen[mode.direction]++;
     if (has_shape(mode))
       shaped.push_back(m);
     else
-      pairing.computed[m] = kth(response, mode.direction, seen[mode.direction]++);
+      pairing.computed[m] = kth(response, mode.direction, before);
   }
   if (shaped.empty()) return pairing;
   const auto columns = readings.cols();

@@ -25,7 +25,7 @@ Response response(const Assembly& assembly, const LinearModel& model, const std:
                   EigenMemory& memory);
 
 /// λ′ = φᵀ (K′ − λ M′) φ (Fox and Kapoor 1968, eq. 8), and φ′ from all modes that are known and a static solution for
-/// the others (Wang 1991, eq. 20): what is left out is (λ/λ_n)² of what those others take part with. Only of
+/// the others (Wang 1991, eq. 20): of what those others take part with a share λ/λ_n is left out. Only of
 /// the modes that are `wanted`; the memory must be that of the response.
 ResponseDerivative response_derivative(const Assembly& assembly, const Response& response, const LinearModel& model,
                                        const Derivative& d, const std::vector<Sensor>& sensors,

@@ -119,7 +119,7 @@ std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothe
       s.candidate = all[i].candidate;
       s.start = all[i].start;
       all[i] = s;
-    } catch (const InputError&) {
+    } catch (const std::runtime_error&) {
       // Its place is taken by an effect that is there already.
     }
   });

@@ -30,12 +30,12 @@ namespace {
 struct Outcome {
   std::size_t number = 0;
   const BlindTrial* trial = nullptr;
-  std::string said;  // verdict and effects, in words
-  double score = 0.0;
+  std::string said;          // verdict and effects, in words
+  double score = 0.0;        // 0 also of a trial that failed
   double probability = 0.0;  // of the first effect
-  bool wrong = false, false_alarm = false;
+  bool wrong = false, false_alarm = true;
   int values = 0, values_right = 0;
-  double gap_before = 0.0, gap_after = 0.0, held_back = 0.0;
+  double gap_before = 0.0, gap_after = 0.0, held_back = 1e9;
   double seconds = 0.0;
 };
 
@@ -170,7 +170,7 @@ Outcome run_trial(std::size_t number, const std::string& program, const std::str
                                        "--threads", "1",        "--no-page", "-o",         folder + "/said"};
   if (!o.trial->without.empty()) diagnose.insert(diagnose.end(), {"--without", o.trial->without});
   if (execute(diagnose, log) != 0) {
-    o.said = "failed; see " + log;
+    o.said = fmt::format("failed: see {}", log);
   } else {
     std::ifstream file(folder + "/said/diagnosis.json");
     score(json::parse(file), o);
@@ -205,7 +205,9 @@ std::string confusion(const std::vector<Outcome>& all) {
                          : !o.trial->without.empty()    ? "out of the library"
                          : o.trial->effects.size() > 1u ? "two effects"
                                                         : parse(o.trial->effects[0]).name;
-    const std::string column = o.score == 1.0 ? "right" : o.score > 0.0 ? "half" : o.said.substr(0, o.said.find(';'));
+    const std::string column = o.score == 1.0  ? "right"
+                               : o.score > 0.0 ? "half"
+                                               : o.said.substr(0, o.said.find_first_of(";:"));
     ++counts[hidden][column.starts_with("found") ? "another" : column];
   }
   const std::vector<std::string> heads = {"right", "half", "another", "consistent", "unexplained", "failed"};

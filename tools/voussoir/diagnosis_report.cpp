@@ -62,7 +62,10 @@ json materials_json(const Fit& fit) {
 json rounds_json(const std::vector<Round>& rounds) {
   json all = json::array();
   for (const Round& round : rounds) {
-    json j = {{"none", round.none}, {"accepted", round.accepted}, {"trials", json::array()}};
+    json j = {{"none", round.none},
+              {"accepted", round.accepted},
+              {"superseded", round.superseded},
+              {"trials", json::array()}};
     for (const Trial& trial : round.trials) j["trials"].push_back(trial_json(trial));
     for (const auto& [name, explained] : round.screened)
       j["screened"].push_back({{"candidate", name}, {"explains", explained}});
@@ -183,8 +186,12 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
   j["rounds"] = rounds_json(d.rounds);
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     j["nameless"] = json::array();
-    for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
-      j["nameless"].push_back(effect_json(d.nameless_best, i, d.nameless[i].trials[0].probability));
+    std::size_t at = 0;
+    for (const Round& round : d.nameless)
+      if (round.accepted) {
+        j["nameless"].push_back(effect_json(d.nameless_best, at, round.trials[0].probability));
+        ++at;
+      }
     j["gap"]["nameless"] = d.nameless_best.gap;
   }
   for (const SetAside& s : input.measured.set_aside) j["set_aside"].push_back({{"place", s.place}, {"what", s.what}});

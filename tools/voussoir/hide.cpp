@@ -148,8 +148,8 @@ Vec3 middle_of(const Assembly& assembly, const std::string& group) {
   return 0.5 * (box.low + box.high);
 }
 
-/// sparse: one line of three-component stations along one edge of the deck, every other place with one axis only; rich:
-/// both edges, and the piers at half their height; none.
+/// sparse: along one edge of the deck, across and upwards over the keystones, lengthways over the piers; rich: both
+/// edges, more axes, the ends and the piers at half their height; none.
 std::vector<MeasuredSensor> instruments(const Assembly& assembly, const std::string& which) {
   if (which != "sparse" && which != "rich" && which != "none")
     throw InputError("--sensors is {}; give sparse, rich or none", which);
