@@ -114,7 +114,8 @@ bool accepts(const DiagnosisProblem& problem, const Round& round, const Fit& cur
   const double margin = tail(problem, current) > settings.consistent ? settings.doubt : settings.margin;
   const Fit& best = round.trials[0].fit;
   const double gain = best.log_evidence + std::log(round.trials[0].candidate.prior) - current.log_evidence;
-  return gain > margin && best.predicted_gap < current.predicted_gap && best.gap < current.gap;
+  const bool predicts = !settings.predict || best.predicted_gap < current.predicted_gap;
+  return gain > margin && predicts && best.gap < current.gap;
 }
 
 Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
@@ -231,7 +232,10 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     d.best = d.calibrated;  // what only helps is not named
     say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
     problem = asked;
-    d.nameless_best = add_greedily(problem, settings, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
+    // They say where something is missing, not what: no prediction is asked of them.
+    DiagnosisSettings lenient = settings;
+    lenient.predict = false;
+    d.nameless_best = add_greedily(problem, lenient, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
   }
   for (const Round& round : d.rounds)
     for (std::size_t i = 1; i < round.trials.size() && d.verdict == Diagnosis::Verdict::found; ++i)

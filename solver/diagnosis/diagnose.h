@@ -15,6 +15,7 @@ struct DiagnosisSettings {
   double doubt = 6.0;        // and by so much where the residuals are noise already, but a material pays for it
   double consistent = 0.02;  // probability of a larger misfit, above which a model is consistent
   double credible = 1e-3;    // below which it is not, whatever was added
+  bool predict = true;       // what is added must also predict each mode better from the others
   int threads = 1;
   std::vector<std::string> without;  // names of effects that are not tried
 };

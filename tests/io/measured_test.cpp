@@ -630,11 +630,11 @@ TEST(PlaceSensors, FindsTheBlockThatHoldsEach) {
   Assembly attached = assembly;
   for (const MeasuredSensor& s : m.sensors) attach_sensors(attached, {{s.id, s.position, s.direction}});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(attached.sensors[i].block, place_sensors(m, assembly)[i]);
-  m.sensors[1].position = Vec3(1.5, 0.5, 1.8);
+  m.sensors[1].position = Vec3(2.95, 0.5, 1.8);
   const std::string message = test::message_of<InputError>([&] { place_sensors(m, assembly); });
   expect_begins(message,
-                "measured/sensors.csv:3: sensor 'b' at (1.5, 0.5, 1.8) m lies 0.8 m from the nearest, block 1 (");
-  expect_holds(message, "from (1, 0, 0) to (2, 1, 1) m: expected within 0.5 m of a block; correct its place");
+                "measured/sensors.csv:3: sensor 'b' at (2.95, 0.5, 1.8) m lies 0.8 m from the nearest, block 2 (");
+  expect_holds(message, "from (2, 0, 0) to (3, 1, 1) m: expected within 0.5 m of a block; correct its place");
   expect_holds(test::message_of<InputError>([&] { place_sensors(m, Assembly{}); }), "there is no block");
 }
 

@@ -75,7 +75,8 @@ class EachCandidate : public testing::TestWithParam<std::string> {};
 /// K′ and M′ of every parameter of every effect, and what follows of them, against models solved a step to either side.
 TEST_P(EachCandidate, DerivativesAreThoseOfFiniteDifferences) {
   const Assembly base = bridge();
-  const DiagnosisProblem problem = measured(base, base, 4);
+  DiagnosisProblem problem = measured(base, base, 4);
+  problem.modes = 40;  // derivatives of vectors lack a share λ/λ_n of what further modes would add
   std::vector<Candidate> all = candidates(base, problem.features.sensors, {true, {}});
   std::erase_if(all, [](const Candidate& c) { return c.name != GetParam(); });
   ASSERT_FALSE(all.empty());
