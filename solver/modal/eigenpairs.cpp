@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <chrono>
+#include <mutex>
 
 #include "solver/base/error.h"
 
@@ -172,6 +173,10 @@ bool ShiftedFactor::compute(const SparseMatrix& k, const SparseMatrix& m, double
     return known.size() == std::size_t(n) && std::equal(known.begin(), known.end(), begin);
   };
   if (!same(outer_, a.outerIndexPtr(), a.cols() + 1) || !same(inner_, a.innerIndexPtr(), a.nonZeros())) {
+    // METIS draws from the C library's one random sequence, which it starts anew each time: two at once would disturb
+    // each other's orders, and with them the last bits.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     cholesky_.analyzePattern(a);
     outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1);
     inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
