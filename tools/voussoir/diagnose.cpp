@@ -70,12 +70,16 @@ int diagnose_case(const DiagnosisRequest& request) {
   result.diagnosis = diagnose(input.coarse, request.settings, say);
   Diagnosis& d = result.diagnosis;
   result.before = input.coarsened ? fit(input.full, {}, {}, 0) : d.plain;
-  // The same effects on the case's own mesh, whose stiffness is a little different.
-  const Fit own = input.coarsened ? fit(input.full, d.best.hypothesis, d.best.best.x, 2) : d.best;
-  const std::string text = corrected_text(input, own.hypothesis.settings(own.best.x));
+  // The same effects on the case's own mesh, whose stiffness is a little different: these values are the ones to
+  // report.
+  if (input.coarsened) {
+    say("fitting the values anew on the case's own mesh");
+    d.best = fit(input.full, d.best.hypothesis, d.best.best.x, 3);
+  }
+  const std::string text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
   const Case corrected = parse_case(text, input.c.path, CaseUse::geometry);
   result.corrected = text;
-  result.after = rerun(input.full, make_assembly(corrected), corrected.settings.damping.ratio, own);
+  result.after = rerun(input.full, make_assembly(corrected), corrected.settings.damping.ratio, d.best);
   result.modes = compare_modes(input.full, result.before, result.after);
   result.where = locate(input.full, result.before.best);
   result.where_after = locate(input.full, result.after.best);

@@ -168,9 +168,8 @@ std::string unexplained_sentences(const DiagnosisResult& result) {
   if (const std::string parts = disagreeing_parts(result.where_after); !parts.empty())
     text += fmt::format(" The model still disagrees most in {}.", escaped(parts));
   text += "</p>\n";
-  const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
-  for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i)
-    text += fmt::format("<p>Helps, but is not enough: {}.</p>\n", escaped(found_text(d.best, i, *rounds[i])));
+  for (const Round* round : accepted_rounds(d.rounds))
+    text += fmt::format("<p>Helps, but is not enough: {}.</p>\n", escaped(round->trials[0].candidate.text()));
   return text;
 }
 
@@ -285,7 +284,7 @@ std::string where_section(const DiagnosisResult& result) {
   if (chart.empty()) return text + paragraph("Nothing could be located: no measured mode has a computed partner.");
   text += note(
       "Shares of each part in the strain energy of the displacements that would correct the measured modes, with the "
-      "axis along which the residual force does most work. The size is that energy over the modes' own: 10 % is about "
+      "axis along which the residual force does most work. The size is that energy over the modes' own: 1 % is about "
       "10 % of the squared frequency. Where the size is small the shares are those of noise.");
   return text + figure(chart);
 }
