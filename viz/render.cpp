@@ -167,7 +167,7 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
   if (options.outline) words.lines = "outline at rest", words.line_colour = kInk;
   if (cracks)
     words.lines = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
-                                          : std::string("bond lost, opened or slipped");
+                                         : std::string("bond lost, opened or slipped");
   return words;
 }
 
@@ -234,8 +234,7 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
   const Content content = content_of(faces, undeformed);
   vtkPoints* points = content.points;
   if (options.outline)
-    for (vtkIdType i = 0; i < undeformed->GetNumberOfPoints(); ++i)
-      points->InsertNextPoint(undeformed->GetPoint(i));
+    for (vtkIdType i = 0; i < undeformed->GetNumberOfPoints(); ++i) points->InsertNextPoint(undeformed->GetPoint(i));
   Sheet sheet = make_sheet(options, view, points);
   place_camera(renderer, view, points, sheet);
   add_lights(renderer, view);

@@ -39,11 +39,11 @@ struct RejectedMode {
 };
 
 struct SsiResult {
-  std::vector<std::string> channels;  // those that all recordings have
-  std::vector<PoorChannel> poor;      // left out
-  std::vector<int> references;        // channels
-  std::vector<IdentifiedMode> modes;  // ascending in frequency
-  std::vector<RejectedMode> set_aside;    // ascending in frequency
+  std::vector<std::string> channels;    // those that all recordings have
+  std::vector<PoorChannel> poor;        // left out
+  std::vector<int> references;          // channels
+  std::vector<IdentifiedMode> modes;    // ascending in frequency
+  std::vector<RejectedMode> set_aside;  // ascending in frequency
   std::vector<Pole> poles;  // of the stabilisation diagram: ascending in order and frequency, shapes over used channels
   SsiSettings settings;     // with what was chosen for zeros, and what the recordings allow
   double dt = 0.0;          // s, after decimation

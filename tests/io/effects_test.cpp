@@ -57,9 +57,9 @@ TEST(EffectCase, FaultsOfSensorsActOnTheSensors) {
       "[[sensor]]\nid = \"b\"\nposition = [0.2, 0.2, 0.2]\ndirection = [0.0, 1.0, 0.0]\n";
   const std::string wall = "[bridge]\ngenerator = \"wall\"\n" + sensors;
   const auto fault = [&](const std::string& where) {
-    return make_assembly(parse_case(
-        wall + "[[effect]]\nname = \"sensor_fault\"\nwhere = \"" + where + "\"\ngain = -1.0\n", "c.toml",
-        CaseUse::geometry));
+    return make_assembly(
+        parse_case(wall + "[[effect]]\nname = \"sensor_fault\"\nwhere = \"" + where + "\"\ngain = -1.0\n", "c.toml",
+                   CaseUse::geometry));
   };
   EXPECT_EQ(fault("channel b").sensors[1].direction, -Vec3::UnitY());
   EXPECT_EQ(fault("channel b").sensors[0].direction, Vec3::UnitX());
