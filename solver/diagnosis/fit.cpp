@@ -17,7 +17,8 @@ double step_up(const FitParameter& p, double x, double step) {
   return std::min(x + step, std::max(x, p.x(p.high)));
 }
 
-/// All effects but scour are linear in their parameter: the central difference is exact but for rounding.
+/// By central difference: K and M are linear in most parameters, or in their exponentials; a step of a thousandth of
+/// the prior's spread leaves errors of its square in the others.
 Derivative model_derivative(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
                             Eigen::Index index) {
   constexpr double step = 1e-3;

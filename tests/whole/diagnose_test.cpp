@@ -42,6 +42,9 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   EXPECT_LT(json["gap"]["fit"]["after"].get<double>(), 0.5 * json["gap"]["fit"]["before"].get<double>());
   EXPECT_TRUE(json["gap"]["held_back"].contains("after"));
   EXPECT_FALSE(json["where"].empty());
+  double all = 0.0;  // f goes with the root of all stiffness
+  for (const auto& part : json["modes"][0]["sensitivity"]) all += part["stiffness"].get<double>();
+  EXPECT_NEAR(all, 0.5, 1e-6);
   for (const char* file : {"corrected.toml", "diagnosis.html", "images/residual_before.png", "images/mode_1_after.png"})
     EXPECT_TRUE(exists(folder / ("out/" + std::string(file)))) << file;
   // The corrected case is a case.

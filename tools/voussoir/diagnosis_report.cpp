@@ -106,6 +106,15 @@ json ties_json(const Diagnosis& d) {
   return all;
 }
 
+/// d ln f/d ln k and d ln f/d ln m of each part of the bridge, in the case as it is.
+void add_sensitivities(const Evaluation& e, json& modes) {
+  for (std::size_t m = 0; m < e.pairing.computed.size(); ++m) {
+    if (e.pairing.computed[m] < 0) continue;
+    for (const PartSensitivity& s : sensitivities(e, e.pairing.computed[m]))
+      modes[m]["sensitivity"][s.part] = {{"stiffness", s.stiffness}, {"mass", s.mass}};
+  }
+}
+
 double period(const Evaluation& e, int computed) {
   return computed < 0 ? 0.0 : std::exp(-e.response.log_frequency[computed]);
 }
@@ -183,6 +192,7 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
                           {"mac_after", number(m.mac_after)},
                           {"computed_before", m.words_before},
                           {"computed_after", m.words_after}});
+  add_sensitivities(result.before.best, j["modes"]);
   j["rounds"] = rounds_json(d.rounds);
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     j["nameless"] = json::array();

@@ -284,14 +284,19 @@ int hide_run(const std::vector<std::string>& arguments) {
                                               "that are measured")(
       "minutes", options::value<double>(&request.minutes)->default_value(0.0),
       "of ambient vibration instead of modes; the noise of its channels is five times --noise")(
-      "noise", options::value<double>(&request.noise)->default_value(request.noise),
+      "noise", options::value<double>(&request.noise)->default_value(request.noise, fmt::format("{}", request.noise)),
       "standard deviation of periods, share; of shapes twice that")(
-      "scatter", options::value<double>(&request.scatter)->default_value(request.scatter),
+      "scatter",
+      options::value<double>(&request.scatter)->default_value(request.scatter, fmt::format("{}", request.scatter)),
       "of the stiffness of each part (standard deviation of the logarithm)")(
-      "materials", options::value<double>(&request.materials)->default_value(request.materials),
-      "the same, of each material")("defects", options::value<double>(&request.defects)->default_value(request.defects),
-                                    "m, standard deviation of every dimension")(
-      "mesh", options::value<double>(&request.mesh)->default_value(request.mesh),
+      "materials",
+      options::value<double>(&request.materials)
+          ->default_value(request.materials, fmt::format("{}", request.materials)),
+      "the same, of each material")(
+      "defects",
+      options::value<double>(&request.defects)->default_value(request.defects, fmt::format("{}", request.defects)),
+      "m, standard deviation of every dimension")(
+      "mesh", options::value<double>(&request.mesh)->default_value(request.mesh, fmt::format("{}", request.mesh)),
       "size of the true bridge's blocks over the case's")(
       "seed", options::value<std::uint64_t>(&request.seed)->default_value(request.seed), "of all that is random")(
       "output,o", options::value<std::string>(&request.directory)->value_name("DIR"), "where to");
