@@ -21,6 +21,7 @@ double outside(const Polyhedron& cell, const Vec3& point) {
 NearestBlock nearest_block(const Assembly& assembly, const Vec3& point) {
   NearestBlock nearest;
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    if (assembly.blocks[i].component == Component::restraint) continue;
     const Box box = block_box(assembly.blocks[i]);
     const double apart = std::max((box.low - point).maxCoeff(), (point - box.high).maxCoeff());
     if (apart >= nearest.distance) continue;

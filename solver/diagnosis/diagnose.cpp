@@ -20,9 +20,12 @@ int fitted_rows(const DiagnosisProblem& problem) {
   return n;
 }
 
-/// Probability of a misfit at least as large if the model were right.
+/// Probability of a misfit at least as large if the model were right. The scale of each shape is free.
 double tail(const DiagnosisProblem& problem, const Fit& fit) {
-  return chi_square_tail(fit.misfit, fitted_rows(problem));
+  int shapes = 0;
+  for (std::size_t m = 0; m < problem.features.modes.size(); ++m)
+    shapes += !problem.features.modes[m].held_back && m < problem.whitening.size() && problem.whitening[m].size() > 0;
+  return chi_square_tail(fit.misfit, fitted_rows(problem) - shapes);
 }
 
 /// Materials that the fit has pulled farther than their priors like.
@@ -185,11 +188,18 @@ Fit add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, F
   for (int added = 0; added < most && !consistent(problem, settings, current); ++added) {
     rounds.push_back(run_round(problem, settings, current, candidates, say));
     if (!rounds.back().accepted) break;
-    // Its modes have other neighbours.
+    // Its modes have other neighbours, and the mesh does something else to them.
     current = rounds.back().trials[0].fit;
+    set_mesh_error(problem, current.best.response, current.hypothesis, current.best.x);
     set_shape_errors(problem, current.best.response);
     current = fit(problem, current.hypothesis, current.best.x, 2);
     drop_superseded(problem, settings, current, rounds, say);
+    say(fmt::format(
+        "with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; a misfit as large has "
+        "probability {:.2g}",
+        rounds.back().trials[0].candidate.text(), current.gap, 100.0 * problem.error.frequency,
+        100.0 * problem.error.shape, tail(problem, current)));
+    for (const std::string& alarm : alarms_of(current)) say("  compensation: " + alarm);
   }
   return current;
 }

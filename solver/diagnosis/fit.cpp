@@ -140,24 +140,38 @@ double mean_square_root(const Eigen::VectorXd& r) {
   return r.size() > 0 ? std::sqrt(r.squaredNorm() / double(r.size())) : 0.0;
 }
 
-/// Leave one mode out of a linear fit with priors: what is left of its rows is (1 − H)⁻¹ r of them, H their part of
-/// the hat matrix, with the covariance (1 − H)⁻¹ (Cook and Weisberg 1982, §2.2).
-double predicted_gap(const std::vector<ResidualRow>& rows, const Split& split, const Eigen::VectorXd& r,
-                     const Eigen::MatrixXd& j) {
-  if (j.cols() == 0) return mean_square_root(r);
+/// Leaving each mode out in turn of a linear fit with priors.
+struct LeftOut {
+  double gap = 0.0;  // root mean square of what the others leave of its rows
+  /// Of x: jackknife over the modes (Efron and Stein 1981), whose rows share errors of the model that the covariance of
+  /// the fit takes as independent.
+  Eigen::VectorXd std;
+};
+/// What is left of its rows is (1 − H)⁻¹ r of them, H their part of the hat matrix, with the covariance (1 − H)⁻¹ (Cook
+/// and Weisberg 1982, §2.2); x moves by −(1 + JᵀJ)⁻¹ Jᵀ of that.
+LeftOut leave_out(const std::vector<ResidualRow>& rows, const Split& split, const Eigen::VectorXd& r,
+                  const Eigen::MatrixXd& j) {
+  LeftOut result = {mean_square_root(r), Eigen::VectorXd::Zero(j.cols())};
+  if (j.cols() == 0) return result;
   const Eigen::MatrixXd inverse =
       (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).ldlt().solve(j.transpose());
   double sum = 0.0;
   Eigen::Index count = 0;
+  int modes = 0;
   for (std::size_t begin = 0, end = 0; begin < split.fitted.size(); begin = end) {
     const int mode = rows[std::size_t(split.fitted[begin])].mode;
     while (end < split.fitted.size() && rows[std::size_t(split.fitted[end])].mode == mode) ++end;
     const auto at = Eigen::Index(begin), n = Eigen::Index(end - begin);
     const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - j.middleRows(at, n) * inverse.middleCols(at, n);
-    sum += r.segment(at, n).dot(left.ldlt().solve(r.segment(at, n)));
+    const Eigen::VectorXd predicted = left.ldlt().solve(r.segment(at, n));
+    sum += r.segment(at, n).dot(predicted);
+    result.std += (inverse.middleCols(at, n) * predicted).cwiseAbs2();
     count += n;
+    ++modes;
   }
-  return count > 0 ? std::sqrt(sum / double(count)) : 0.0;
+  result.gap = count > 0 ? std::sqrt(sum / double(count)) : 0.0;
+  result.std = (result.std * (modes > 0 ? double(modes - 1) / modes : 0.0)).cwiseSqrt();
+  return result;
 }
 
 }  // namespace
@@ -227,13 +241,18 @@ Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eig
   result.jacobian = jacobian(problem, rows, hypothesis, result.best, memory);
   const Eigen::VectorXd r = result.best.residuals(split.fitted);
   const Eigen::MatrixXd j = result.jacobian(split.fitted, Eigen::all);
+  const LeftOut left_out = leave_out(rows, split, r, j);
   if (best.size() > 0)
-    result.std = (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).inverse().diagonal().cwiseSqrt();
+    result.std = (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j)
+                     .inverse()
+                     .diagonal()
+                     .cwiseSqrt()
+                     .cwiseMax(left_out.std);
   result.misfit = r.squaredNorm() + best.squaredNorm();
   result.log_evidence = log_evidence(r, j, best);
   result.gap = mean_square_root(r);
   result.held_gap = mean_square_root(result.best.residuals(split.held));
-  result.predicted_gap = predicted_gap(rows, split, r, j);
+  result.predicted_gap = left_out.gap;
   const std::vector<FitParameter> parameters = hypothesis.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& p = parameters[i];

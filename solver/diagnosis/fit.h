@@ -1,8 +1,9 @@
 // Fitting a hypothesis to measured features: residuals in standard deviations, priors, Laplace's evidence.
 #pragma once
+#include <memory>
+
 #include "solver/diagnosis/features.h"
-#include "solver/diagnosis/hypothesis.h"
-#include "solver/diagnosis/response.h"
+#include "solver/diagnosis/mesh_error.h"
 
 namespace voussoir {
 
@@ -11,12 +12,21 @@ struct DiagnosisProblem {
   Assembly base;
   Features features;
   ModelError error;
+  /// What the model would be wrong by if its mesh were perfect; `error` has the mesh's beside it where a coarser one is
+  /// there to measure it by.
+  ModelError apart_from_mesh;
+  std::shared_ptr<const CoarserMesh> coarser;
+  MeshError mesh;
   double damping = 0.0;  // ratio of the case; 0: it has none
   int modes = 20;        // to compute
   /// By measured mode: what turns the differences of its shape, in the order of its rows, into independent ones of
   /// standard deviation 1. Empty: no shape.
   std::vector<Eigen::MatrixXd> whitening;
 };
+/// Measures what the mesh does with a hypothesis in place (of which this is the response) and sets `error` by it.
+/// Leaves both as they are without a coarser mesh, or where the hypothesis cannot act on it.
+void set_mesh_error(DiagnosisProblem& problem, const Response& response, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x);
 /// Fills in `whitening`. Errors of the model mix a mode with its neighbours; what the measurement and the mesh do is
 /// independent from sensor to sensor (docs/theory/diagnosis.md).
 void set_shape_errors(DiagnosisProblem& problem);
@@ -70,7 +80,7 @@ struct Fit {
   Hypothesis hypothesis;
   Evaluation best;
   Eigen::MatrixXd jacobian;   // there, row × parameter
-  Eigen::VectorXd std;        // of x
+  Eigen::VectorXd std;        // of x: of the fit, or of leaving each mode out where that is more
   double misfit = 0.0;        // sum of squares of the fitted rows and of x: χ² of as many degrees as fitted rows
   double log_evidence = 0.0;  // up to a constant that is the same for all fits to the same rows
   int evaluations = 0;

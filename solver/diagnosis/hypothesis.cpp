@@ -59,13 +59,12 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, std::vector<Candidate
 }
 
 /// Effects by their own weights; of an effect's places, the one that is all of them counts as much as the others
-/// together: what the ground, the mason or time has done to one part it has mostly done to all of its kind; neighbours
-/// are another matter.
+/// together: what the ground, the mason or time has done to one part it has mostly done to all of its kind.
 void share_priors(std::vector<Candidate>& all) {
   std::map<std::string, std::pair<double, double>> counts;  // name: collective places, others
   const auto collective = [](const Candidate& c) {
     static const std::vector<std::string> words = {"both", "all", "arches", "piers", "abutments", "spandrels", "deck"};
-    return c.name != "neighbouring_structure" && std::find(words.begin(), words.end(), c.where) != words.end();
+    return std::find(words.begin(), words.end(), c.where) != words.end();
   };
   for (const Candidate& c : all) (collective(c) ? counts[c.name].first : counts[c.name].second) += 1.0;
   double sum = 0.0;
@@ -76,6 +75,22 @@ void share_priors(std::vector<Candidate>& all) {
     sum += c.prior;
   }
   for (Candidate& c : all) c.prior /= sum;
+}
+
+/// Springs of this stiffness (Pa/m) along one axis between the end faces and ground that is not in the model.
+void hold_end(Assembly& assembly, bool left, bool lengthways, double stiffness) {
+  const std::vector<EndFace> faces = end_faces(assembly, left);
+  Box box = box_of(faces);
+  (left ? box.low : box.high).x() += left ? -1.0 : 1.0;
+  const std::int64_t ground = add_box_block(assembly, box.low, box.high, Component::restraint, 0, true);
+  const std::int32_t law = elastic_law_index(assembly);
+  for (const EndFace& face : faces) {
+    Joint& joint = add_joint(assembly, face.block, ground, face.polygon, polygon_normal(face.polygon),
+                             lengthways ? stiffness : 0.0, lengthways ? 0.0 : stiffness, law);
+    joint.cell_a = face.cell;
+    joint.face_a = face.face;
+  }
+  sort_joints(assembly);
 }
 
 /// The joints of a part, with what is around it too.
@@ -200,6 +215,17 @@ std::vector<Candidate> nameless_factors(const Assembly& assembly) {
         if (joint.a == base || joint.b == base) joint.kn *= factor, joint.ks *= factor;
     });
   }
+  for (const std::string& end : free_ends(assembly))
+    for (const bool lengthways : {true, false}) {
+      add(lengthways ? "springs along x" : "springs across", end == "both" ? "both abutments" : "abutment " + end, 2.0,
+          [end, lengthways](Assembly& a, double stiffness) {
+            for (const bool left : {true, false})
+              if (acts_at(end, left)) hold_end(a, left, lengthways, stiffness);
+          });
+      Candidate& springs = all.back();
+      springs.parameters = {{"stiffness", "Pa/m", 1e8, 2.0, true, 1e4, 1e11}};
+      springs.starts = {{0.0}};
+    }
   for (Candidate& c : all) c.prior = 1.0 / double(all.size());
   return all;
 }

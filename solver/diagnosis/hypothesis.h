@@ -50,7 +50,8 @@ struct CandidateChoice {
 std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Sensor>& sensors,
                                   const CandidateChoice& choice);
 
-/// Factors on the stiffness and on the mass of each part of the bridge: what is left to try when no effect fits.
+/// Factors on the stiffness and on the mass of each part of the bridge, and springs between its ends and the ground,
+/// along it and across: what is left to try when no effect fits.
 std::vector<Candidate> nameless_factors(const Assembly& assembly);
 
 /// A model that is tried: the case's, with factors on its materials and candidates in place.

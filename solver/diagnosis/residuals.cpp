@@ -142,6 +142,19 @@ Eigen::VectorXd measured_eigenvalues(const Features& features, const Response& p
 
 }  // namespace
 
+void set_mesh_error(DiagnosisProblem& problem, const Response& response, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x) {
+  if (!problem.coarser) return;
+  try {
+    problem.mesh = mesh_error(*problem.coarser, response, hypothesis, x, int(problem.features.modes.size()) + 2);
+  } catch (const std::runtime_error&) {
+    return;  // what was measured without it is the best that is known
+  }
+  const double farther = problem.coarser->farther;
+  problem.error.frequency = std::hypot(problem.apart_from_mesh.frequency, farther * problem.mesh.scatter);
+  problem.error.shape = std::hypot(problem.apart_from_mesh.shape, farther * problem.mesh.shape);
+}
+
 void set_shape_errors(DiagnosisProblem& problem) {
   EigenMemory memory;
   set_shape_errors(problem,

@@ -54,7 +54,7 @@ std::vector<std::string> places(const Assembly&) {
 Effect added_mass() {
   return {"added_mass",
           "mass on the deck that the model does not have: pavement, ballast, a water main",
-          {{"mass_per_length", "kg/m", "over the whole length", 0.0, 50000.0, 0.0, 3000.0, 3000.0}},
+          {{"mass_per_length", "kg/m", "over the whole length", 0.0, 50000.0, 0.0, 5000.0, 8000.0}},
           places,
           apply,
           nullptr};

@@ -42,8 +42,14 @@ void stand_beside(Assembly& assembly, bool left, double stiffness, double mass) 
 }
 
 void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
-  for (bool left : {true, false})
-    if (acts_at(where, left)) stand_beside(assembly, left, values[0], values[1]);
+  stand_beside(assembly, where == "left", values[0], values[1]);
+}
+
+/// One end each: two neighbours are two effects.
+std::vector<std::string> places(const Assembly& assembly) {
+  std::vector<std::string> names = free_ends(assembly);
+  std::erase(names, "both");
+  return names;
 }
 
 }  // namespace
@@ -53,7 +59,7 @@ Effect neighbouring_structure() {
           "another structure stands against an end of the bridge",
           {{"stiffness", "N/m", "of its springs to the ground, in each direction", 1e5, 1e12, 1e5, 1e9, 1.5, true},
            {"mass", "kg", "that moves with the end face", 1e2, 1e7, 1e2, 1e5, 1.5, true}},
-          free_ends,
+          places,
           apply,
           nullptr,
           nullptr,

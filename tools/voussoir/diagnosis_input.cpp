@@ -17,28 +17,6 @@ constexpr double default_period_std = 0.01;  // share, where a measurement gives
 constexpr double default_shape_std = 0.05;   // share of the largest component
 constexpr double default_damping_std = 0.3;  // share
 
-MeasuredFeature feature_of(const MeasuredMode& mode, std::size_t sensors) {
-  MeasuredFeature f;
-  f.name = mode.name;
-  f.frequency = 1.0 / mode.period;
-  f.frequency_std = mode.period_std > 0.0 ? mode.period_std / mode.period : default_period_std;
-  f.direction = mode.direction;
-  if (mode.damping && *mode.damping > 0.0) {
-    f.damping = mode.damping;
-    f.damping_std = mode.damping_std > 0.0 ? mode.damping_std / *mode.damping : default_damping_std;
-  }
-  if (mode.shape.empty()) return f;
-  f.shape = Eigen::VectorXd::Constant(Eigen::Index(sensors), std::nan(""));
-  f.shape_std = Eigen::VectorXd::Zero(Eigen::Index(sensors));
-  double largest = 0.0;
-  for (const MeasuredValue& v : mode.shape) largest = std::max(largest, std::abs(v.value));
-  for (const MeasuredValue& v : mode.shape) {
-    f.shape[Eigen::Index(v.sensor)] = v.value;
-    f.shape_std[Eigen::Index(v.sensor)] = v.std > 0.0 ? v.std : default_shape_std * largest;
-  }
-  return f;
-}
-
 /// Modes from the recordings, where none are given.
 void identify(Measured& measured) {
   if (!measured.modes.empty() || measured.records.empty()) return;
@@ -91,64 +69,34 @@ bool can_remesh(const Case& c) {
   return !c.generator.empty() && c.generator_input.values.contains("block_scale");
 }
 
-Response plain_response(const Assembly& assembly, const std::vector<Sensor>& sensors, int modes) {
-  EigenMemory memory;
-  return response(assembly, linear_model(assembly), sensors, modes, memory);
-}
-
-/// Which mode of `other` is each of `r`: of the same direction, the k-th of it, when their frequencies are near.
-std::vector<int> same_modes(const Response& r, const Response& other) {
-  std::vector<int> partner(r.words.size(), -1);
-  std::vector<bool> taken(other.words.size(), false);
-  for (std::size_t i = 0; i < r.words.size(); ++i)
-    for (std::size_t j = 0; j < other.words.size(); ++j) {
-      if (taken[j] || other.words[j].direction != r.words[i].direction || r.words[i].direction == "local") continue;
-      if (std::abs(r.log_frequency[Eigen::Index(i)] - other.log_frequency[Eigen::Index(j)]) > 0.15) continue;
-      partner[i] = int(j);
-      taken[j] = true;
-      break;
-    }
-  return partner;
-}
-
-/// What blocks 1.25 times as large do to frequencies and shapes: their common shift is one of stiffness, which is
-/// fitted; the rest is an error of the model.
-void measure_mesh(DiagnosisInput& input, const DiagnosisRequest& request) {
-  if (!can_remesh(input.c)) return;
-  const DiagnosisProblem& p = input.coarse;
-  const Assembly coarser = remeshed(input.c, 1.25 * input.block_scale);
-  const std::vector<Sensor>& sensors = p.features.sensors;
-  std::vector<Sensor> moved = sensors;
-  const std::vector<std::int64_t> blocks = place_sensors(input.measured, coarser);
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i].block = blocks[i];
-  const int modes = int(p.features.modes.size()) + 2;
-  const Response a = plain_response(p.base, sensors, modes), b = plain_response(coarser, moved, modes);
-  const std::vector<int> partner = same_modes(a, b);
-  std::vector<double> shifts;
-  double squares = 0.0;
-  int entries = 0;
-  for (std::size_t i = 0; i < partner.size(); ++i) {
-    if (partner[i] < 0) continue;
-    shifts.push_back(b.log_frequency[partner[i]] - a.log_frequency[Eigen::Index(i)]);
-    if (sensors.empty()) continue;
-    const Eigen::VectorXd u = a.sensors.col(Eigen::Index(i)), v = b.sensors.col(partner[i]);
-    const double scale = u.dot(v) / std::max(v.squaredNorm(), 1e-300), largest = u.cwiseAbs().maxCoeff();
-    if (u.dot(v) * u.dot(v) < 0.8 * u.squaredNorm() * v.squaredNorm()) continue;  // close modes that mix otherwise
-    squares += (u - scale * v).squaredNorm() / (largest * largest);
-    entries += int(u.size());
-  }
-  if (shifts.empty()) return;
-  for (double s : shifts) input.mesh_shift += s / double(shifts.size());
-  for (double s : shifts) input.mesh_scatter += (s - input.mesh_shift) * (s - input.mesh_shift);
-  input.mesh_scatter = std::sqrt(input.mesh_scatter / double(shifts.size()));
-  if (entries > 0) input.mesh_shape = std::sqrt(squares / entries);
+/// Blocks 1.25 times as large, to see what their size does.
+std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
+  if (!can_remesh(input.c)) return nullptr;
+  auto mesh = std::make_shared<CoarserMesh>();
+  mesh->assembly = remeshed(input.c, 1.25 * input.block_scale);
+  mesh->sensors = features_of(input.measured, mesh->assembly).sensors;
   // The stones are those of the case: what is coarser is so many times farther off; and no mesh is better than half.
   const double own = input.c.generator_input.values.at("block_scale");
-  const double farther = std::max(0.5, (input.block_scale - own) / (0.25 * input.block_scale));
-  input.coarse.error.frequency = std::hypot(request.model_error, farther * input.mesh_scatter);
-  input.coarse.error.shape = std::hypot(request.shape_error, farther * input.mesh_shape);
-  input.full.error.frequency = std::hypot(request.model_error, 0.5 * input.mesh_scatter);
-  input.full.error.shape = std::hypot(request.shape_error, 0.5 * input.mesh_shape);
+  mesh->farther = std::max(0.5, (input.block_scale - own) / (0.25 * input.block_scale));
+  return mesh;
+}
+
+/// What the mesh does to the case as it is, and errors of shapes, for both problems.
+void measure_mesh(DiagnosisInput& input) {
+  EigenMemory memory;
+  DiagnosisProblem& p = input.coarse;
+  p.coarser = coarser_mesh(input);
+  const Response plain = response(p.base, linear_model(p.base), p.features.sensors, p.modes, memory);
+  set_mesh_error(p, plain, {}, {});
+  set_shape_errors(p, plain);
+  if (!input.coarsened) {
+    input.full = p;
+    return;
+  }
+  input.full.mesh = p.mesh;
+  input.full.error.frequency = std::hypot(p.apart_from_mesh.frequency, 0.5 * p.mesh.scatter);
+  input.full.error.shape = std::hypot(p.apart_from_mesh.shape, 0.5 * p.mesh.shape);
+  set_shape_errors(input.full);
 }
 
 void hold_back(Features& features, const std::vector<std::string>& names) {
@@ -165,8 +113,9 @@ DiagnosisProblem problem_of(const DiagnosisRequest& request, const DiagnosisInpu
   problem.features = features_of(input.measured, assembly);
   hold_back(problem.features, request.hold_back);
   problem.base = std::move(assembly);
-  problem.error.frequency = request.model_error;
-  problem.error.shape = request.shape_error;
+  problem.apart_from_mesh.frequency = request.model_error;
+  problem.apart_from_mesh.shape = request.shape_error;
+  problem.error = problem.apart_from_mesh;
   const DampingSettings& damping = input.c.settings.damping;
   using Kind = DampingSettings::Kind;
   if (damping.kind == Kind::maxwell || damping.kind == Kind::rayleigh) problem.damping = damping.ratio;
@@ -175,6 +124,28 @@ DiagnosisProblem problem_of(const DiagnosisRequest& request, const DiagnosisInpu
 }
 
 }  // namespace
+
+MeasuredFeature feature_of(const MeasuredMode& mode, std::size_t sensors) {
+  MeasuredFeature f;
+  f.name = mode.name;
+  f.frequency = 1.0 / mode.period;
+  f.frequency_std = mode.period_std > 0.0 ? mode.period_std / mode.period : default_period_std;
+  f.direction = mode.direction;
+  if (mode.damping && *mode.damping > 0.0) {
+    f.damping = mode.damping;
+    f.damping_std = mode.damping_std > 0.0 ? mode.damping_std / *mode.damping : default_damping_std;
+  }
+  if (mode.shape.empty()) return f;
+  f.shape = Eigen::VectorXd::Constant(Eigen::Index(sensors), std::nan(""));
+  f.shape_std = Eigen::VectorXd::Zero(Eigen::Index(sensors));
+  double largest = 0.0;
+  for (const MeasuredValue& v : mode.shape) largest = std::max(largest, std::abs(v.value));
+  for (const MeasuredValue& v : mode.shape) {
+    f.shape[Eigen::Index(v.sensor)] = v.value;
+    f.shape_std[Eigen::Index(v.sensor)] = v.std > 0.0 ? v.std : default_shape_std * largest;
+  }
+  return f;
+}
 
 Features features_of(const Measured& measured, const Assembly& assembly) {
   Features features;
@@ -205,12 +176,7 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   }
   input.full = problem_of(request, input, std::move(own));
   input.coarse = problem_of(request, input, std::move(coarse));
-  measure_mesh(input, request);
-  set_shape_errors(input.coarse);
-  if (input.coarsened)
-    set_shape_errors(input.full);
-  else
-    input.full = input.coarse;
+  measure_mesh(input);
   return input;
 }
 

@@ -21,13 +21,14 @@ struct DiagnosisInput {
   Measured measured;
   DiagnosisProblem full, coarse;  // the case's own mesh; the one that is searched on
   bool coarsened = false;
-  double block_scale = 0.0;                                       // of the coarse mesh; 0: it has none
-  double mesh_shift = 0.0, mesh_scatter = 0.0, mesh_shape = 0.0;  // of a mesh 1.25 times as coarse
+  double block_scale = 0.0;  // of the coarse mesh; 0: it has none
 };
 
 /// Reads both and measures what the mesh does. Throws InputError.
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request);
 
+/// With usual standard deviations where none are given.
+MeasuredFeature feature_of(const MeasuredMode& mode, std::size_t sensors);
 /// Given modes, else those identified from the recordings. Sensors are on their blocks.
 Features features_of(const Measured& measured, const Assembly& assembly);
 

@@ -142,14 +142,6 @@ std::string found_sentences(const Diagnosis& d) {
   return text;
 }
 
-/// "too little stiffness in pier 1: it should be 1.8 ± 0.2 times as much".
-std::string nameless_text(const Fit& fit, std::size_t index) {
-  const FittedValue factor = fitted_values(fit, index).front();
-  const Candidate& c = fit.hypothesis.effects[index];
-  return fmt::format("too {} {} in {}: it should be {} times as much", factor.value > 1.0 ? "little" : "much", c.name,
-                     c.where, with_std(factor.value, factor.std));
-}
-
 std::string disagreeing_parts(const Location& location) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, location.parts.size()); ++i)
@@ -163,8 +155,9 @@ std::string unexplained_sentences(const DiagnosisResult& result) {
   for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
     factors += fmt::format("{}{}", i ? "; " : "", nameless_text(d.nameless_best, i));
   std::string text = "<p><strong>Unexplained:</strong> no effect of the library brings the residuals to noise. ";
-  text += factors.empty() ? std::string("Nor does a factor on the stiffness or mass of any one part.")
-                          : fmt::format("By what the data ask for, the model has {}.", escaped(factors));
+  text += factors.empty()
+              ? std::string("Nor does a factor on the stiffness or mass of any one part, or a spring to the ground.")
+              : fmt::format("By what the data ask for: {}.", escaped(factors));
   if (const std::string parts = disagreeing_parts(result.where_after); !parts.empty())
     text += fmt::format(" The model still disagrees most in {}.", escaped(parts));
   text += "</p>\n";
@@ -381,25 +374,27 @@ std::string candidates_section(const Diagnosis& d) {
   return text;
 }
 
-/// What is left when no effect has a name: factors on parts.
+/// What is left when no effect has a name: factors on parts, and springs to the ground.
 std::string nameless_section(const Diagnosis& d) {
   if (d.verdict != Diagnosis::Verdict::unexplained) return "";
   std::string text = heading("Where stiffness or mass is missing, without a name");
   const Fit& fit = d.nameless_best;
   if (fit.hypothesis.effects.empty())
-    return text + paragraph("No factor on the stiffness or mass of a part improves the model either.");
+    return text +
+           paragraph(
+               "No factor on the stiffness or mass of a part and no spring to the ground improves the model either.");
   const std::vector<const Round*> rounds = accepted_rounds(d.nameless);
-  text += "<table>\n" + table_row({{"part"}, {"what"}, {"factor", true}, {"probability", true}}, "th");
+  text += "<table>\n" + table_row({{"part"}, {"what"}, {"value", true}, {"probability", true}}, "th");
   for (std::size_t i = 0; i < fit.hypothesis.effects.size(); ++i) {
-    const FittedValue factor = fitted_values(fit, i).front();
-    const std::string bound = factor.at_bound ? " (at its bound)" : "";
+    const FittedValue value = fitted_values(fit, i).front();
+    const std::string unit = value.name == "factor" ? "×" : value.unit, bound = value.at_bound ? " (at its bound)" : "";
     text += table_row({words_cell(fit.hypothesis.effects[i].where),
                        words_cell(fit.hypothesis.effects[i].name),
-                       {with_std(factor.value, factor.std) + bound, true},
+                       {fmt::format("{} {}{}", with_std(value.value, value.std), unit, bound), true},
                        {i < rounds.size() ? probability_text(rounds[i]->trials[0].probability) : std::string(), true}},
                       "td");
   }
-  text += fmt::format("</table>\n<p>Gap with these factors: {:.2f}.</p>\n", fit.gap);
+  text += fmt::format("</table>\n<p>Gap with these: {:.2f}.</p>\n", fit.gap);
   return text + note("A factor above 1: the bridge has more of it than the model.");
 }
 
@@ -429,11 +424,11 @@ std::string model_error_text(const DiagnosisInput& input) {
   std::string text = fmt::format(
       "A right model is taken to be right to {:.1f} % of frequencies and {:.1f} % of a shape's largest value.",
       100.0 * input.coarse.error.frequency, 100.0 * input.coarse.error.shape);
-  if (input.mesh_scatter > 0.0 || input.mesh_shift != 0.0)
+  if (input.coarse.mesh.scatter > 0.0 || input.coarse.mesh.shift != 0.0)
     text += fmt::format(
         " Blocks 1.25 times as large shift all frequencies by {:+.1f} %, scatter them by {:.1f} % and shapes by {:.1f} "
         "%.",
-        100.0 * input.mesh_shift, 100.0 * input.mesh_scatter, 100.0 * input.mesh_shape);
+        100.0 * input.coarse.mesh.shift, 100.0 * input.coarse.mesh.scatter, 100.0 * input.coarse.mesh.shape);
   if (input.coarsened)
     text += fmt::format(
         " Effects were looked for on a coarser mesh (block_scale {:.2f}); “before” and “after” are on the case's own.",

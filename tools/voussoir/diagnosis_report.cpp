@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tools/voussoir/diagnosis_values.h"
+
 namespace voussoir {
 
 namespace {
@@ -20,16 +22,10 @@ json parameter_json(const FitParameter& p, double x, double std) {
   return {{"value", value}, {"std", spread}, {"unit", p.unit}};
 }
 
-/// Parameters of the candidate that stands at `index` of the fit's effects.
 json parameters_json(const Fit& fit, std::size_t index) {
-  auto at = Eigen::Index(fit.hypothesis.materials.size());
-  for (std::size_t i = 0; i < index; ++i) at += Eigen::Index(fit.hypothesis.effects[i].parameters.size());
-  const Candidate& c = fit.hypothesis.effects[index];
   json parameters = json::object();
-  for (std::size_t i = 0; i < c.parameters.size(); ++i, ++at)
-    parameters[c.parameters[i].name] = parameter_json(c.parameters[i], fit.best.x[at], fit.std[at]);
-  if (c.kind == Candidate::Kind::gain && c.parameters.empty())
-    parameters["gain"] = {{"value", c.gain}, {"std", 0.0}, {"unit", "-"}};
+  for (const FittedValue& v : fitted_values(fit, index))
+    parameters[v.name] = {{"value", v.value}, {"std", v.std}, {"unit", v.unit}};
   return parameters;
 }
 
@@ -208,8 +204,8 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
   j["remarks"] = input.measured.remarks;
   j["model_error"] = {{"frequency", input.coarse.error.frequency},
                       {"shape", input.coarse.error.shape},
-                      {"mesh_shift", input.mesh_shift},
-                      {"mesh_scatter", input.mesh_scatter}};
+                      {"mesh_shift", input.coarse.mesh.shift},
+                      {"mesh_scatter", input.coarse.mesh.scatter}};
   j["seconds"] = d.seconds;
   return j;
 }
@@ -250,12 +246,8 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
     ++index;
   }
   if (d.verdict == Diagnosis::Verdict::unexplained)
-    for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i) {
-      const Candidate& c = d.nameless_best.hypothesis.effects[i];
-      const json p = parameters_json(d.nameless_best, i)["factor"];
-      text += fmt::format("  {} of {} should be × {:.2f} ± {:.2f}, for a reason that has no name here\n", c.name,
-                          c.where, p["value"].get<double>(), p["std"].get<double>());
-    }
+    for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
+      text += fmt::format("  {}, for a reason that has no name here\n", nameless_text(d.nameless_best, i));
   for (const Advice& a : d.advice) text += fmt::format("to tell it from {}: {}\n", a.against, a.text);
   for (const SetAside& s : input.measured.set_aside) text += fmt::format("set aside: {}: {}\n", s.place, s.what);
   for (const std::string& remark : input.measured.remarks) text += fmt::format("remark: {}\n", remark);

@@ -75,6 +75,15 @@ std::string fitted_text(const Fit& fit, std::size_t index) {
   return text;
 }
 
+std::string nameless_text(const Fit& fit, std::size_t index) {
+  const FittedValue value = fitted_values(fit, index).front();
+  const Candidate& c = fit.hypothesis.effects[index];
+  if (value.name != "factor")
+    return fmt::format("{} between {} and the ground are missing: {} {}", c.name, c.where,
+                       with_std(value.value, value.std), value.unit);
+  return fmt::format("{} of {} should be {} times as much", c.name, c.where, with_std(value.value, value.std));
+}
+
 std::string probability_text(double probability) {
   if (probability < 0.005) return "below 0.01";
   if (probability > 0.995) return "above 0.99";

@@ -19,6 +19,8 @@ std::string fitted_text(const Fit& fit, std::size_t index);
 
 /// "0.48 ± 0.05", "(2.1 ± 0.3) × 10⁸": as many digits as the standard deviation allows.
 std::string with_std(double value, double std);
+/// What a nameless factor or spring says: "stiffness of pier 1 should be 1.8 ± 0.2 times as much".
+std::string nameless_text(const Fit& fit, std::size_t index);
 /// "0.97", "below 0.01", "above 0.99".
 std::string probability_text(double probability);
 /// "sensor_fault at channel A01x, reversed": its text, and what tells apart faults of the same channel.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -10,8 +11,9 @@
 #include "io/hdf5/atomic_file.h"
 #include "io/measured/measured.h"
 #include "solver/base/error.h"
-#include "solver/diagnosis/response.h"
+#include "solver/diagnosis/fit.h"
 #include "solver/effects/parts.h"
+#include "tools/voussoir/diagnosis_input.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {
@@ -30,20 +32,22 @@ struct HideRequest {
   double mesh = 0.85;      // block_scale of the true bridge over the case's
   int modes = 6;
   double minutes = 0.0;  // of ambient vibration instead of modes
+  bool trace = false;    // say how much of the effects shows
   std::uint64_t seed = 1;
 };
 
 /// The same numbers everywhere: std's distributions differ between libraries.
 class Noise {
  public:
-  explicit Noise(std::uint64_t seed) : bits_(seed) {}
+  explicit Noise(std::uint64_t seed, double size = 1.0) : bits_(seed), size_(size) {}
   double normal() {  // Box and Muller (1958)
     const double u = (double(bits_() >> 11) + 0.5) * 0x1p-53, v = (double(bits_() >> 11) + 0.5) * 0x1p-53;
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * EIGEN_PI * v);
+    return size_ * std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * EIGEN_PI * v);
   }
 
  private:
   std::mt19937_64 bits_;
+  double size_ = 1.0;
 };
 
 /// "abutment_restraint both stiffness_share=0.5": what stands between the name and the parameters is the place.
@@ -79,10 +83,16 @@ bool is_dimension(const Parameter& p) {
 Assembly surveyed_wrongly(const Case& model, const HideRequest& request, Noise& noise) {
   for (int tries = 0;; ++tries) {
     Case c = model;
+    // Two dimensions that are the same number are one on the bridge: backing that reaches the end still does, instead
+    // of ending a centimetre short of it behind a slot of fill.
+    std::map<double, double> errors;
     for (const Parameter& p : find_generator(c.generator).parameters) {
       double& value = c.generator_input.values.at(p.name);
       if (p.name == "block_scale") value = std::clamp(value * request.mesh, p.low, p.high);
-      if (is_dimension(p) && value > 0.0) value = std::clamp(value + request.defects * noise.normal(), p.low, p.high);
+      if (!is_dimension(p) || value <= 0.0) continue;
+      const auto [error, first] = errors.try_emplace(value, 0.0);
+      if (first) error->second = request.defects * noise.normal();
+      value = std::clamp(value + error->second, p.low, p.high);
     }
     try {
       return make_assembly(c);
@@ -229,6 +239,25 @@ Recording ambient(const Response& r, const std::vector<MeasuredSensor>& sensors,
   return record;
 }
 
+/// Sum of squares, in standard deviations, of what fitted materials leave of the effects in these modes if all else is
+/// known: without noise, with the true mesh, dimensions and stiffness of parts. Half of it is the most that evidence
+/// for the effects can come to.
+double trace_of(const Assembly& bare, const Response& truth, const std::vector<Sensor>& sensors,
+                const HideRequest& request, double ratio, double bare_ratio) {
+  Noise none(0, 0.0);
+  DiagnosisProblem problem;
+  problem.base = bare;
+  problem.features.sensors = sensors;
+  for (const MeasuredMode& mode : measured_modes(truth, request, ratio, none))
+    problem.features.modes.push_back(feature_of(mode, sensors.size()));
+  problem.damping = bare_ratio;
+  problem.modes = int(problem.features.modes.size()) + 8;
+  problem.error.shape = 0.01;  // as diagnose takes it without what its mesh does
+  set_shape_errors(problem);
+  const Hypothesis materials = {calibrations(bare), {}};
+  return fit(problem, materials, Eigen::VectorXd::Zero(Eigen::Index(materials.size())), 8).misfit;
+}
+
 std::string answer(const HideRequest& request, const Response& truth) {
   std::string text =
       fmt::format("# What voussoir hide put into the measurements beside this file.\nseed = {}\n", request.seed);
@@ -245,16 +274,19 @@ int hide(const HideRequest& request) {
   const Case c = read_case(request.case_file, CaseUse::geometry);
   Noise noise(request.seed);
   Assembly assembly = true_bridge(c, request, noise);
+  const Assembly bare = assembly;
+  // Before there is ground at the ends, which a sensor near the edge would be put on.
+  Measured measured;
+  measured.sensors = instruments(bare, request.sensors);
+  std::vector<Sensor> sensors;
+  for (const MeasuredSensor& s : measured.sensors)
+    sensors.push_back({s.id, s.position, s.direction, nearest_block(bare, s.position).block});
   SolverSettings settings = c.settings;
   for (const EffectSetting& effect : request.effects) {
     if (!find_effect(effect.name).apply_to_sensors) apply_effect(assembly, effect);
     apply_effect(settings, effect);
   }
-  Measured measured;
-  measured.sensors = instruments(assembly, request.sensors);
-  std::vector<Sensor> sensors;
-  for (const MeasuredSensor& s : measured.sensors)
-    sensors.push_back({s.id, s.position, s.direction, nearest_block(assembly, s.position).block});
+  const std::vector<Sensor> sound = sensors;
   for (const EffectSetting& effect : request.effects) apply_effect(sensors, effect);
   EigenMemory memory;
   const Response truth = response(assembly, linear_model(assembly), sensors, 2 * request.modes + 6, memory);
@@ -265,7 +297,12 @@ int hide(const HideRequest& request) {
   measured.what = fmt::format("made by voussoir hide from {}", fs::path(request.case_file).filename().string());
   fs::create_directories(request.directory);
   write_measured(measured, request.directory + "/measured");
-  write_atomically(request.directory + "/answer.toml", answer(request, truth));
+  std::string text = answer(request, truth);
+  if (request.trace)
+    text = fmt::format("trace = {:.1f}\n",
+                       trace_of(bare, truth, sound, request, settings.damping.ratio, c.settings.damping.ratio)) +
+           text;
+  write_atomically(request.directory + "/answer.toml", text);
   fmt::print("{} at {} sensors in {}/measured; the answer is in {}/answer.toml\n",
              request.minutes > 0.0 ? fmt::format("{:g} min of vibration", request.minutes)
                                    : fmt::format("{} modes", measured.modes.size()),
@@ -298,6 +335,9 @@ int hide_run(const std::vector<std::string>& arguments) {
       "m, standard deviation of every dimension")(
       "mesh", options::value<double>(&request.mesh)->default_value(request.mesh, fmt::format("{}", request.mesh)),
       "size of the true bridge's blocks over the case's")(
+      "trace",
+      "write to answer.toml how much of the effects shows in the modes: their sum of squares in standard "
+      "deviations that fitted materials leave")(
       "seed", options::value<std::uint64_t>(&request.seed)->default_value(request.seed), "of all that is random")(
       "output,o", options::value<std::string>(&request.directory)->value_name("DIR"), "where to");
   line.positional = {"CASE"};
@@ -309,6 +349,7 @@ int hide_run(const std::vector<std::string>& arguments) {
   for (double x : {request.noise, request.scatter, request.materials, request.defects})
     if (!(x >= 0.0 && x < 1.0)) throw InputError("noise, scatter, materials and defects must be from 0 to below 1");
   if (!(request.mesh > 0.2 && request.mesh < 5.0)) throw InputError("--mesh is {}; give 0.2 to 5", request.mesh);
+  request.trace = values.count("trace") > 0;
   if (request.minutes < 0.0 || (request.minutes > 0.0 && request.sensors == "none"))
     throw InputError("--minutes needs sensors, and cannot be negative");
   if (values.count("effect"))
