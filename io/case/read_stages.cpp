@@ -179,10 +179,18 @@ void read_drives(TableReader& table, StageSettings& stage) {
     drive.group = sub.required_text("group");
     if (sub.has("velocity") && sub.has("displacement"))
       sub.fail("velocity", "and 'displacement' are both given: keep one");
-    if (!sub.has("velocity") && !sub.has("displacement"))
-      sub.missing("displacement", "[x, y, z] in m, from rest to rest over the stage; or 'velocity', constant, in m/s");
+    const bool departs = sub.has("factor") || sub.has("delay");
+    if (departs && stage.kind != StageSettings::Kind::motion)
+      sub.fail(sub.has("factor") ? "factor" : "delay",
+               "compares with the ground's motion, but this stage has none: set kind = \"motion\" or remove it");
+    if (!sub.has("velocity") && !sub.has("displacement") && !departs)
+      sub.missing("displacement",
+                  "[x, y, z] in m, from rest to rest over the stage; or 'velocity', constant, in m/s; in a motion "
+                  "stage also 'factor' or 'delay'");
     drive.velocity = sub.vector("velocity", Vec3::Zero());
     drive.displacement = sub.vector("displacement", Vec3::Zero());
+    drive.factor = sub.number("factor", 1.0, {-10.0, 10.0, ""});
+    drive.delay = sub.number("delay", 0.0, {-10.0, 10.0, "s"});
     if (!(drive.velocity.norm() <= 10.0)) sub.fail("velocity", "is above 10 m/s: look at its unit");
     if (!(drive.displacement.norm() <= 10.0 * stage.duration))
       sub.fail("displacement", "asks for more than 10 m/s on average: look at its unit");

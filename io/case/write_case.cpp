@@ -149,8 +149,11 @@ void write_drives(TomlText& out, const std::vector<Drive>& drives) {
   std::vector<std::string> texts;
   for (const Drive& d : drives) {
     const bool constant = !d.velocity.isZero(0.0);
-    texts.push_back(fmt::format("{{ group = {}, {} = {} }}", quoted(d.group), constant ? "velocity" : "displacement",
-                                list_text(constant ? d.velocity : d.displacement)));
+    // Only where they say something: stages without a motion have no such keys.
+    const std::string departs =
+        d.with_ground() ? "" : fmt::format(", factor = {}, delay = {}", number_text(d.factor), number_text(d.delay));
+    texts.push_back(fmt::format("{{ group = {}, {} = {}{} }}", quoted(d.group), constant ? "velocity" : "displacement",
+                                list_text(constant ? d.velocity : d.displacement), departs));
   }
   if (!texts.empty()) out.raw("drive", fmt::format("[{}]", fmt::join(texts, ", ")));
 }

@@ -6,7 +6,7 @@ namespace voussoir {
 
 namespace {
 
-void apply(SolverSettings& settings, const std::vector<double>& values) {
+void apply(SolverSettings& settings, const std::string&, const std::vector<double>& values) {
   using Kind = DampingSettings::Kind;
   if (settings.damping.kind != Kind::maxwell && settings.damping.kind != Kind::rayleigh)
     throw InputError(

@@ -29,8 +29,9 @@ struct Effect {
   /// Changes a finished assembly (blocks, joints, stiffness, laws). `where` is one of places(), `values` are the
   /// parameters in their order and within their bounds.
   void (*apply)(Assembly&, const std::string& where, const std::vector<double>& values) = nullptr;
-  /// What does not act on the assembly: once or twice gives the same.
-  void (*apply_to_settings)(SolverSettings&, const std::vector<double>& values) = nullptr;
+  /// What does not act on the assembly: once or twice gives the same. `where` as the case has it, perhaps empty and not
+  /// yet compared with places().
+  void (*apply_to_settings)(SolverSettings&, const std::string& where, const std::vector<double>& values) = nullptr;
   /// What is wrong with the sensors that a case attaches.
   void (*apply_to_sensors)(std::vector<Sensor>&, const std::string& where, const std::vector<double>& values) = nullptr;
   double weight = 1.0;  // prior: how often it is met, against the other effects; 0: no candidate
@@ -75,6 +76,7 @@ Effect parapet_not_structural();
 Effect neighbouring_structure();
 Effect amplitude_stiffness();
 Effect damping_ratio();
+Effect support_motion();
 Effect sensor_fault();
 Effect calibration();
 

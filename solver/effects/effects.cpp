@@ -27,6 +27,7 @@ const std::vector<Effect>& effects() {
       neighbouring_structure(),  //
       amplitude_stiffness(),     //
       damping_ratio(),           //
+      support_motion(),          //
       sensor_fault(),            //
       calibration(),
   };
@@ -96,7 +97,7 @@ void apply_effect(std::vector<Sensor>& sensors, const EffectSetting& setting) {
 
 void apply_effect(SolverSettings& settings, const EffectSetting& setting) {
   const Effect& effect = find_effect(setting.name);
-  if (effect.apply_to_settings) effect.apply_to_settings(settings, values_of(effect, setting));
+  if (effect.apply_to_settings) effect.apply_to_settings(settings, setting.where, values_of(effect, setting));
 }
 
 }  // namespace voussoir

@@ -13,6 +13,12 @@ Vec3 Drive::at(double time, double duration) const {
   return std::clamp(time, 0.0, duration) * velocity + eased(time, duration) * displacement;
 }
 
+Vec3 drive_path(const Drive& drive, const GroundPath& ground, double time, double duration) {
+  const Vec3 own = drive.at(time, duration);
+  if (drive.with_ground()) return own;
+  return own + drive.factor * ground.displacement(time - drive.delay) - ground.displacement(time);
+}
+
 const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::string& name, const std::string& who,
                                           bool fixed) {
   const auto group = assembly.groups.find(name);
@@ -49,18 +55,32 @@ std::vector<std::string> names_held(const SolverSettings& settings) {
   return {names.begin(), names.end()};
 }
 
+namespace {
+
+void check_against_guide(const StageSettings& stage, const Drive& drive, const Guide& guide) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!guide.free[c]) continue;
+    if (drive.velocity[long(c)] != 0.0 || drive.displacement[long(c)] != 0.0)
+      throw InputError(
+          "stage '{}' drives the group '{}' along {}, but a [[guide]] leaves it free there: set that number "
+          "to 0, or hold it",
+          stage.label, drive.group, "xyz"[c]);
+    if (!drive.with_ground())
+      throw InputError(
+          "stage '{}' moves the group '{}' otherwise than the ground ('factor', 'delay'), but a [[guide]] leaves it "
+          "free along {}: take both numbers away, or hold it",
+          stage.label, drive.group, "xyz"[c]);
+  }
+}
+
+}  // namespace
+
 void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages,
                   const std::vector<Guide>& guides) {
   for (const StageSettings& stage : stages)
     for (const Drive& drive : stage.drives)
       for (const Guide& guide : guides)
-        for (std::size_t c = 0; c < 3; ++c)
-          if (guide.group == drive.group && guide.free[c] &&
-              (drive.velocity[long(c)] != 0.0 || drive.displacement[long(c)] != 0.0))
-            throw InputError(
-                "stage '{}' drives the group '{}' along {}, but a [[guide]] leaves it free there: set that number "
-                "to 0, or hold it",
-                stage.label, drive.group, "xyz"[c]);
+        if (guide.group == drive.group) check_against_guide(stage, drive, guide);
   for (const StageSettings& stage : stages) {
     std::set<std::int64_t> driven;
     for (const Drive& drive : stage.drives)

@@ -2,6 +2,7 @@
 #pragma once
 #include "geometry/assembly.h"
 #include "solver/model/model.h"
+#include "solver/motion/ground_path.h"
 
 namespace voussoir {
 
@@ -9,6 +10,13 @@ namespace voussoir {
 /// the groups of fixed blocks, else of those of free ones.
 const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::string& name, const std::string& who,
                                           bool fixed);
+
+/// Where the blocks of a drive are relative to the ground, m, `time` (s) after the beginning of a stage of this
+/// duration (s): its own path, and by how much its share of the ground's motion u, perhaps delayed, differs from that
+/// motion,
+///   d(t) = Drive::at(t) + factor u(t − delay) − u(t).
+/// `ground` is not looked at when the blocks move with the ground.
+Vec3 drive_path(const Drive& drive, const GroundPath& ground, double time, double duration);
 
 /// Throws InputError when a stage drives a group that the assembly does not have, a block that is not fixed, a block
 /// twice, or one along an axis on which it is free.

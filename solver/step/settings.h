@@ -25,15 +25,20 @@ struct GroundMotion {
   double duration() const { return acceleration.empty() ? 0.0 : dt * double(acceleration.size() - 1); }
 };
 
-/// Fixed blocks that are moved without turning: a settling support, a loading plate. Relative to the ground.
+/// Fixed blocks that are moved without turning: a settling support, a loading plate. Relative to the ground. In a
+/// motion stage they may also make another motion than the ground: a support on softer soil, or one that waves reach
+/// later.
 struct Drive {
   std::string group;                 // of the assembly; all its blocks are fixed
   Vec3 velocity = Vec3::Zero();      // m/s, constant from the stage's first step to its last
   Vec3 displacement = Vec3::Zero();  // m, over the stage, from rest to rest
+  double factor = 1.0;               // share of the ground's motion that the blocks make; motion only
+  double delay = 0.0;                // s, how much later than the ground; negative: earlier; motion only
 
   /// Where the blocks are `time` (s) after the beginning of a stage of this duration (s). The displacement follows
   /// the cycloid x = D (τ − sin 2πτ / 2π): velocity and acceleration vanish at both ends.
   Vec3 at(double time, double duration) const;
+  bool with_ground() const { return factor == 1.0 && delay == 0.0; }
 };
 
 /// A dead force on a group of free blocks, shared by mass at their centroids, or at a point of a single block.

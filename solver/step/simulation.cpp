@@ -327,6 +327,10 @@ void Simulation::impose(const StageSettings& stage) {
   stepper_.loads = loads_at_work(*assembly_, model_, before, loads_after(settings_.stages, at));
   stepper_.stage_duration = stage.duration;
   stepper_.drives = stage.drives;
+  const bool departs =
+      std::any_of(stage.drives.begin(), stage.drives.end(), [](const Drive& d) { return !d.with_ground(); });
+  const bool shaken = stage.kind == StageSettings::Kind::motion;
+  stepper_.ground = departs && shaken ? ground_path(stage.motion) : GroundPath{};
   stepper_.drive.assign(stage.drives.empty() ? 0 : model_.bodies.size(), -1);
   for (std::size_t i = 0; i < stage.drives.size(); ++i)
     for (std::int64_t block : assembly_->groups.at(stage.drives[i].group))

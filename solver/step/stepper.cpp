@@ -4,6 +4,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/contact/search.h"
+#include "solver/step/drive.h"
 
 namespace voussoir {
 
@@ -58,7 +59,8 @@ void move_base(const Stepper& s, double time, BodyPass& pass) {
   if (pass.loads && s.stage_duration > 0.0) pass.load_share = eased(since, s.stage_duration);
   for (std::size_t i = 0; i < s.drives.size(); ++i) {
     const Drive& d = s.drives[i];
-    pass.drive_velocity[i] = (d.at(since + s.dt, s.stage_duration) - d.at(since, s.stage_duration)) / s.dt;
+    const auto path = [&](double at) { return drive_path(d, s.ground, at, s.stage_duration); };
+    pass.drive_velocity[i] = (path(since + s.dt) - path(since)) / s.dt;
   }
 }
 

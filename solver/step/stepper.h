@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 
+#include "solver/motion/ground_path.h"
 #include "solver/step/body_pass.h"
 #include "solver/step/damping.h"
 #include "solver/step/settings.h"
@@ -36,6 +37,7 @@ struct Stepper {
   double stage_duration = 0.0;           // s
   std::vector<Drive> drives;             // of the stage
   Array<std::int32_t> drive;             // of each body, see BodyPass
+  GroundPath ground;                     // of the motion, for drives that depart from it; else empty
   LoadsAtWork loads;                     // of the stage, eased over its duration; at once in equilibrium
   double search_distance = 1e300;        // m, see BodyPass
 

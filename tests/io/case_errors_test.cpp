@@ -20,6 +20,8 @@ const std::string head = "[bridge]\ngenerator = \"wall\"\n";                  //
 const std::string gravity = "[[stage]]\nkind = \"gravity\"\n";                // two lines
 const std::string motion = "[[stage]]\nkind = \"motion\"\nduration = 2.0\n";  // three lines
 
+const std::string pulse =  // one line
+    "pulse = { kind = \"sine\", axis = \"x\", amplitude = 1.0, frequency = 2.0 }\n";
 const std::string free_stage = "[[stage]]\nkind = \"free\"\nduration = 2.0\n";  // three lines
 
 const std::vector<Wrong> table = {
@@ -86,6 +88,21 @@ const std::vector<Wrong> table = {
     {"DriveNotFinite",
      head + free_stage + "drive = [{ group = \"base\", displacement = [0, 0, nan] }]\n",
      {"c.toml:6: 'displacement'", "finite"}},
+    {"DriveFactorWithoutMotion",
+     head + free_stage + "drive = [{ group = \"base\", factor = 0.5 }]\n",
+     {"c.toml:6: 'factor'", "this stage has none", "kind = \"motion\" or remove it"}},
+    {"DriveDelayWithoutMotion",
+     head + free_stage + "drive = [{ group = \"base\", velocity = [0, 0, 1], delay = 0.5 }]\n",
+     {"c.toml:6: 'delay'", "this stage has none"}},
+    {"DriveFactorRange",
+     head + motion + pulse + "drive = [{ group = \"base\", factor = 11 }]\n",
+     {"c.toml:7: 'factor'", "from -10 to 10"}},
+    {"DriveDelayRange",
+     head + motion + pulse + "drive = [{ group = \"base\", delay = -50.0 }]\n",
+     {"c.toml:7: 'delay'", "from -10 to 10", "s"}},
+    {"DriveWithoutWayInAMotion",
+     head + motion + pulse + "drive = [{ group = \"base\" }]\n",
+     {"c.toml:7:", "needs 'displacement'", "'factor' or 'delay'"}},
     {"DriveUnderGravity",
      head + gravity + "drive = [{ group = \"base\", velocity = [0, 0, 1] }]\n",
      {"c.toml:5: 'drive'", "takes no time"}},

@@ -197,6 +197,27 @@ TEST_F(CaseFile, DrivesSurviveResolving) {
   }
 }
 
+TEST_F(CaseFile, SupportsThatMoveOtherwiseSurviveResolving) {
+  const std::string text =
+      "[bridge]\ngenerator = \"arch\"\n[[stage]]\nkind = \"motion\"\nduration = 2.0\n"
+      "pulse = { kind = \"sine\", axis = \"x\", amplitude = 1.0, frequency = 2.0 }\n"
+      "drive = [{ group = \"springing left\", factor = 0.8, delay = 0.05 }, "
+      "{ group = \"springing right\", velocity = [0.01, 0.02, 0.03], delay = -0.1 }]\n";
+  const Case c = parse_case(text, folder / "case.toml");
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const std::vector<Drive>& drives = one->settings.stages.at(0).drives;
+    ASSERT_EQ(drives.size(), 2u);
+    EXPECT_EQ(drives[0].factor, 0.8);
+    EXPECT_EQ(drives[0].delay, 0.05);
+    EXPECT_EQ(drives[0].displacement, Vec3(0, 0, 0));
+    EXPECT_EQ(drives[1].factor, 1.0);
+    EXPECT_EQ(drives[1].delay, -0.1);
+    EXPECT_EQ(drives[1].velocity, Vec3(0.01, 0.02, 0.03));
+  }
+}
+
 TEST_F(CaseFile, GuidesSurviveResolving) {
   const std::string text =
       "[bridge]\ngenerator = \"arch\"\n[[guide]]\ngroup = \"springing left\"\nfree = [\"z\", \"x\"]\n[[guide]]\ngroup "

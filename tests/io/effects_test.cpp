@@ -68,6 +68,26 @@ TEST(EffectCase, FaultsOfSensorsActOnTheSensors) {
   EXPECT_THROW(fault("channel c"), InputError);
 }
 
+/// It acts through the drives of the motion stages; the resolved case has both and means the same.
+TEST(EffectCase, SupportMotionBecomesADrive) {
+  const std::string motion =
+      "[[stage]]\nkind = \"motion\"\nduration = 2.0\n"
+      "pulse = { kind = \"sine\", axis = \"x\", amplitude = 1.0, frequency = 2.0 }\n";
+  const std::string late = "[[effect]]\nname = \"support_motion\"\nwhere = \"pier 0\"\nfactor = 0.9\ndelay = 0.02\n";
+  const Case c = parse_case(plain + motion + late, "c.toml");
+  const Case copy = parse_case(resolved_text(c), "c.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const std::vector<Drive>& drives = one->settings.stages.at(0).drives;
+    ASSERT_EQ(drives.size(), 1u);
+    EXPECT_EQ(drives[0].group, "base pier 0");
+    EXPECT_EQ(drives[0].factor, 0.9);
+    EXPECT_EQ(drives[0].delay, 0.02);
+  }
+  EXPECT_TRUE(make_assembly(c).effects.empty()) << "the bridge itself is the same";
+  EXPECT_NO_THROW(make_assembly(parse_case(plain + late, "c.toml", CaseUse::geometry)));
+}
+
 TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   const auto holds = [](const std::string& text, const std::vector<std::string>& pieces) {
     const std::string message =
@@ -82,6 +102,9 @@ TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   holds("[damping]\nkind = \"local\"\n[[effect]]\nname = \"damping\"\n", {"c.toml:6:", "has no ratio"});
   holds("[[effect]]\nname = \"damping\"\nwhere = \"pier 0\"\n", {"its places here are: all"});
   holds("[[effect]]\nname = \"scour\"\n", {"c.toml", "its places here are: abutment left x-"});
+  holds("[[effect]]\nname = \"support_motion\"\n", {"c.toml:4:", "which support", "pier 0"});
+  holds("[[effect]]\nname = \"support_motion\"\nwhere = \"pier 9\"\n",
+        {"c.toml", "its places here are: abutment left"});
   holds("[[effect]]\nname = \"parapet_not_structural\"\n", {"c.toml", "no place"});
 }
 

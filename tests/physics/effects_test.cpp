@@ -1,6 +1,9 @@
 // Effects: each acts where it says, does nothing at its neutral value, and leaves a model that can be analysed.
 #include "solver/base/error.h"
 #include "solver/effects/effect.h"
+#include "solver/motion/ground_path.h"
+#include "solver/motion/pulse.h"
+#include "solver/step/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -137,6 +140,59 @@ TEST(Effects, AddedMassIsAdded) {
   for (const Block& block : plain.blocks) before += block.mass;
   for (const Block& block : loaded.blocks) after += block.mass;
   EXPECT_NEAR(after - before, 2000.0 * 54.4, 1e-3);
+}
+
+/// The base of pier 0 makes half of the ground's motion, the next one all of it; asked for twice it is the same.
+TEST(Effects, SupportMotionMovesOneBaseOtherwise) {
+  const Assembly plain = bridge();
+  EffectSetting setting = {"support_motion", "pier 0", {{"factor", 0.5}, {"delay", 0.01}}};
+  complete(setting);
+  StageSettings shaken, after;
+  shaken.kind = StageSettings::Kind::motion;
+  shaken.duration = 0.05;
+  shaken.motion = make_pulse({.kind = PulseSettings::Kind::half_sine, .axis = 1, .amplitude = 1.0, .frequency = 5.0});
+  after.kind = StageSettings::Kind::free;
+  after.duration = 0.01;
+  SolverSettings settings = undamped();
+  settings.stages = {shaken, after};
+  apply_effect(settings, setting);
+  apply_effect(settings, setting);
+  ASSERT_EQ(settings.stages[0].drives.size(), 1u);
+  EXPECT_TRUE(settings.stages[1].drives.empty()) << "the ground does not move then";
+  const Assembly assembly = with(plain, "support_motion", "pier 0");
+  EXPECT_TRUE(assembly.effects.empty()) << "the bridge itself is the same";
+  Simulation run(assembly, settings, 1, {});
+  ASSERT_EQ(run.run(0.04), RunEnd::interrupted) << run.failure();
+  const auto off = [&](const std::string& base) {
+    const auto body = std::size_t(run.model().body_of_block[std::size_t(plain.groups.at(base)[0])]);
+    return Vec3(Eigen::Map<const Vec3>(&run.state().pose[pose_width * body]) - run.state().base_displacement());
+  };
+  const GroundPath ground = ground_path(shaken.motion);
+  const double t = run.state().time();
+  const Vec3 expected = 0.5 * ground.displacement(t - 0.01) - ground.displacement(t);
+  EXPECT_LT(expected.y(), -1e-5);
+  EXPECT_LT((off("base pier 0") - expected).norm(), 1e-12);
+  EXPECT_LT(off("base pier 1").norm(), 1e-15);
+}
+
+/// What the case says of the support otherwise stays; without a motion nothing happens.
+TEST(Effects, SupportMotionKeepsTheCasesOwnDrives) {
+  EffectSetting setting = {"support_motion", "pier 1", {{"factor", 1.2}}};
+  complete(setting);
+  SolverSettings settings;
+  settings.stages.resize(2);
+  apply_effect(settings, setting);
+  for (const StageSettings& stage : settings.stages) EXPECT_TRUE(stage.drives.empty());
+  settings.stages[1].kind = StageSettings::Kind::motion;
+  settings.stages[1].drives = {{"base pier 1", Vec3::Zero(), {0, 0, -0.01}}, {"base pier 0", Vec3::Zero(), {0, 0, 1}}};
+  apply_effect(settings, setting);
+  const std::vector<Drive>& drives = settings.stages[1].drives;
+  ASSERT_EQ(drives.size(), 2u);
+  EXPECT_EQ(drives[0].displacement, Vec3(0, 0, -0.01));
+  EXPECT_EQ(drives[0].factor, 1.2);
+  EXPECT_EQ(drives[0].delay, 0.0);
+  EXPECT_TRUE(drives[1].with_ground());
+  EXPECT_THROW(apply_effect(settings, {"support_motion", "", setting.values}), InputError);
 }
 
 TEST(Effects, AskedWronglySayWhatIsRight) {

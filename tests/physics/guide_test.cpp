@@ -208,6 +208,11 @@ TEST(Guide, RefusesWhatCannotBeGuided) {
   moved.drives = {{"beam", Vec3::Zero(), {0, 0, 0.01}}};
   settings.stages.push_back(moved);
   refused(settings, "leaves it free there");
+  StageSettings& shaken = settings.stages.back();
+  shaken.kind = StageSettings::Kind::motion;
+  shaken.drives[0].displacement.setZero();
+  shaken.drives[0].delay = 0.1;
+  refused(settings, "otherwise than the ground ('factor', 'delay'), but a [[guide]] leaves it free along z");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
+#include "solver/motion/ground_path.h"
 #include "solver/motion/pulse.h"
 #include "solver/motion/synthesis.h"
 
@@ -52,6 +53,43 @@ TEST(Pulse, LengthAndFrequencyFollowFromEachOther) {
   EXPECT_THROW(make_pulse({.kind = PulseSettings::Kind::rectangular, .frequency = 2.0}), InputError);
   EXPECT_THROW(make_pulse({.kind = PulseSettings::Kind::sine}), InputError);
   EXPECT_THROW(make_pulse({.kind = PulseSettings::Kind::half_sine, .frequency = 2.0, .length = 1.0}), InputError);
+}
+
+/// From rest under a constant acceleration a: u = a t²/2, then on at the velocity reached; nothing before the start.
+TEST(GroundPath, UnderConstantAcceleration) {
+  const Vec3 a = {2.0, -1.0, 0.5};
+  const GroundPath path = ground_path({0.1, std::vector<Vec3>(11, a)});
+  EXPECT_EQ(path.displacement(-0.3), Vec3(0, 0, 0));
+  EXPECT_EQ(path.displacement(0.0), Vec3(0, 0, 0));
+  for (const double t : {0.03, 0.1, 0.57, 1.0}) EXPECT_LT((path.displacement(t) - 0.5 * t * t * a).norm(), 1e-15) << t;
+  for (const double t : {1.0 + 1e-9, 1.4, 7.0})
+    EXPECT_LT((path.displacement(t) - (0.5 + (t - 1.0)) * a).norm(), 1e-14) << t;
+}
+
+/// a = j t: u = j t³/6, whatever the samples; its velocity is continuous where it ends.
+TEST(GroundPath, UnderLinearAcceleration) {
+  const Vec3 jerk = {3.0, 0.0, -2.0};
+  for (const int intervals : {1, 4, 25}) {
+    GroundMotion motion = {1.0 / intervals, {}};
+    for (int i = 0; i <= intervals; ++i) motion.acceleration.push_back(double(i) / intervals * jerk);
+    const GroundPath path = ground_path(motion);
+    for (const double t : {0.1, 0.25, 0.5, 0.77, 1.0})
+      EXPECT_LT((path.displacement(t) - t * t * t / 6.0 * jerk).norm(), 1e-14) << t;
+    EXPECT_LT((path.displacement(3.0) - (1.0 / 6.0 + 2.0 * 0.5) * jerk).norm(), 1e-14);
+  }
+}
+
+/// Up and down again within three samples: the triangle's area is the velocity that stays, its centre the time from
+/// which that velocity seems to count.
+TEST(GroundPath, AfterATriangle) {
+  const GroundPath path = ground_path({0.2, {Vec3::Zero(), Vec3(5, 0, 0), Vec3::Zero()}});
+  EXPECT_NEAR(path.displacement(0.4).x(), 0.2 * 1.0, 1e-15);
+  EXPECT_NEAR(path.displacement(1.2).x(), 1.0 * 1.0, 1e-15);
+}
+
+TEST(GroundPath, OfNothingOrOneSampleIsNoWay) {
+  EXPECT_EQ(GroundPath{}.displacement(1.0), Vec3(0, 0, 0));
+  EXPECT_EQ(ground_path({0.1, {Vec3(1, 1, 1)}}).displacement(1.0), Vec3(0, 0, 0));
 }
 
 TEST(Baseline, RemovesAnyCubicVelocityDriftAndEndsAtRest) {

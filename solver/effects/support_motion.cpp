@@ -1,0 +1,46 @@
+// A support whose ground moves otherwise than the record says: softer or stiffer soil under it, or waves that reach it
+// later. Of its base alone: displacement factor × u(t − delay), u being the ground's (drive_path()).
+#include <algorithm>
+
+#include "solver/base/error.h"
+#include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+/// The stage's drive of the group; a new one where it has none.
+Drive& drive_of(StageSettings& stage, const std::string& group) {
+  const auto at =
+      std::find_if(stage.drives.begin(), stage.drives.end(), [&](const Drive& d) { return d.group == group; });
+  if (at != stage.drives.end()) return *at;
+  stage.drives.push_back({});
+  stage.drives.back().group = group;
+  return stage.drives.back();
+}
+
+void apply(SolverSettings& settings, const std::string& where, const std::vector<double>& values) {
+  // The settings are read before there is an assembly whose only support could be meant.
+  if (where.empty()) throw InputError("effect support_motion: which support? Give 'where', such as \"pier 0\"");
+  for (StageSettings& stage : settings.stages) {
+    if (stage.kind != StageSettings::Kind::motion) continue;
+    Drive& drive = drive_of(stage, "base " + where);
+    drive.factor = values[0];
+    drive.delay = values[1];
+  }
+}
+
+}  // namespace
+
+Effect support_motion() {
+  return {"support_motion",
+          "one support moves otherwise than the ground's record says",
+          {{"factor", "-", "share of the ground's motion that its base makes", 0.0, 3.0, 1.0, 1.0, 0.3},
+           {"delay", "s", "how much later than the ground; negative: earlier", -0.5, 0.5, 0.0, 0.0, 0.05}},
+          supports,
+          nullptr,
+          apply};
+}
+
+}  // namespace voussoir
