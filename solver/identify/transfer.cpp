@@ -21,7 +21,7 @@ struct Roles {
   std::vector<int> inputs, outputs;
 };
 
-Roles roles_of(const Prepared& p) {
+Roles sorted(const Prepared& p) {
   Roles roles;
   double largest = 0.0;
   for (const Eigen::MatrixXd& x : p.signals) largest = std::max(largest, x.cwiseAbs().maxCoeff());
@@ -33,6 +33,11 @@ Roles roles_of(const Prepared& p) {
     else if (moves > 1e-9 * largest)
       roles.inputs.push_back(c);
   }
+  return roles;
+}
+
+Roles roles_of(const Prepared& p) {
+  Roles roles = sorted(p);
   if (roles.inputs.empty())
     throw InputError(
         "transfer functions: no channel base_x, base_y or base_z moves in all recordings; give the "
@@ -102,6 +107,10 @@ void solve_line(const Eigen::MatrixXcd& g, const Roles& roles, Eigen::Index line
 }
 
 }  // namespace
+
+bool has_base_motion(const std::vector<Recording>& recordings) {
+  return !sorted(gathered(recordings, 0.0)).inputs.empty();
+}
 
 TransferFunctions transfer_functions(const std::vector<Recording>& recordings, const TransferSettings& settings) {
   const Prepared p = gathered(recordings, settings.highest_frequency);

@@ -25,4 +25,9 @@ struct TransferFunctions {
 /// same motion, and for recordings too short for as many windows as there are inputs and two more.
 TransferFunctions transfer_functions(const std::vector<Recording>& recordings, const TransferSettings& settings = {});
 
+/// Whether the ground's motion was recorded: a channel base_x, base_y or base_z that all recordings have, and that
+/// moves. Throws InputError as check_recordings() does, without a channel in common and for recordings too short to
+/// identify modes from.
+bool has_base_motion(const std::vector<Recording>& recordings);
+
 }  // namespace voussoir
