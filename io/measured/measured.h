@@ -6,6 +6,7 @@
 //   records/*.csv   t,<sensor id>,…: s, m/s2; the ground's motion as base_x, base_y, base_z
 //   about.toml      what, when, units ("SI"), notes: texts
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,9 +27,10 @@ struct MeasuredSensor {
 
 /// What one sensor showed in a mode.
 struct MeasuredValue {
-  std::size_t sensor = 0;  // index into Measured::sensors
-  double value = 0.0;      // in the scale of its mode
-  double std = 0.0;        // in the same scale; 0: not given
+  std::size_t sensor = 0;   // index into Measured::sensors
+  double value = 0.0;       // in the scale of its mode
+  double std = 0.0;         // in the same scale; 0: not given
+  double quadrature = 0.0;  // imaginary part, of modes that were identified from recordings
 };
 
 struct MeasuredMode {
@@ -40,6 +42,11 @@ struct MeasuredMode {
   std::string direction;             // one of mode_directions(), or empty
   std::vector<MeasuredValue> shape;  // in the file's order, each sensor at most once; empty: none (or set aside)
   int row = 0;                       // in modes.csv
+  // Of modes that were identified from recordings, never in files:
+  bool phases = false;  // the shape has imaginary parts
+  /// What the ground's motion along x, y, z does: see MeasuredFeature. Not finite: not known.
+  Eigen::Vector3cd participation = Eigen::Vector3cd::Constant(std::nan(""));
+  Eigen::Vector3d participation_std = Eigen::Vector3d::Zero();
 };
 
 /// Something that was found and is not used.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "solver/base/error.h"
 
@@ -20,12 +21,37 @@ int fitted_rows(const DiagnosisProblem& problem) {
   return n;
 }
 
-/// Probability of a misfit at least as large if the model were right. The scale of each shape is free.
-double tail(const DiagnosisProblem& problem, const Fit& fit) {
-  int shapes = 0;
-  for (std::size_t m = 0; m < problem.features.modes.size(); ++m)
-    shapes += !problem.features.modes[m].held_back && m < problem.whitening.size() && problem.whitening[m].size() > 0;
-  return chi_square_tail(fit.misfit, fitted_rows(problem) - shapes);
+/// How well the standard deviations themselves are known: the model's are measured on half a dozen modes.
+constexpr double std_doubt = 1.1;
+
+/// Probability of a misfit at least as large if the model were right and all standard deviations `wider` times as
+/// large: with hundreds of rows a tenth would make noise look like an effect. Of all rows, or of the kind of rows that
+/// is worst (Bonferroni): hundreds of shape values that agree do not excuse a few frequencies that do not. The scale of
+/// each shape is free, and its phase where that is known.
+double tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_doubt) {
+  const std::vector<ResidualRow> rows = residual_rows(problem);
+  std::map<ResidualRow::Kind, std::pair<double, int>> kinds;  // sum of squares, degrees of freedom
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (problem.features.modes[std::size_t(rows[i].mode)].held_back) continue;
+    const double r = fit.best.residuals[Eigen::Index(i)];
+    auto& [sum, freedom] = kinds[rows[i].kind];
+    sum += r * r;
+    ++freedom;
+  }
+  for (std::size_t m = 0; m < problem.whitening.size(); ++m) {
+    const MeasuredFeature& mode = problem.features.modes[m];
+    if (mode.held_back || problem.whitening[m].size() == 0) continue;
+    --kinds[ResidualRow::Kind::shape].second;
+    if (mode.quadrature.size() > 0) --kinds[ResidualRow::Kind::quadrature].second;
+  }
+  const auto tail_of = [&](double misfit, int freedom) { return chi_square_tail(misfit / (wider * wider), freedom); };
+  int all = 0;
+  double worst = 1.0;
+  for (const auto& [kind, of] : kinds) {
+    all += of.second;
+    worst = std::min(worst, double(kinds.size()) * tail_of(of.first, of.second));
+  }
+  return std::min(worst, tail_of(fit.misfit, all));
 }
 
 /// Materials that the fit has pulled farther than their priors like.
@@ -42,8 +68,13 @@ std::vector<std::string> alarms_of(const Fit& fit) {
   return alarms;
 }
 
-bool consistent(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
-  return tail(problem, fit) > settings.consistent && alarms_of(fit).empty();
+bool is_noise(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
+  return tail(problem, fit) > settings.consistent;
+}
+
+/// Without the doubt about standard deviations: nothing is looked for.
+bool plainly_right(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
+  return tail(problem, fit, 1.0) > settings.consistent && alarms_of(fit).empty();
 }
 
 /// Of each candidate its best start, best first; at most `count`.
@@ -85,7 +116,7 @@ void mark_ties(Round& round, const std::vector<Signature>& signatures, const std
   const auto of = [&](const Trial& trial) {
     return std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) {
       const Candidate& c = candidates[s.candidate];
-      return s.possible && c.text() == trial.candidate.text() &&
+      return s.possible && c.text() == trial.candidate.text() && c.kind == trial.candidate.kind &&
              c.parameters.size() == trial.candidate.parameters.size();
     });
   };
@@ -114,11 +145,25 @@ Eigen::VectorXd without(const Fit& fit, std::size_t effect) {
 bool accepts(const DiagnosisProblem& problem, const Round& round, const Fit& current,
              const DiagnosisSettings& settings) {
   if (round.trials.empty()) return false;
-  const double margin = tail(problem, current) > settings.consistent ? settings.doubt : settings.margin;
   const Fit& best = round.trials[0].fit;
+  const bool noise = is_noise(problem, settings, current);
+  const double margin = noise ? settings.doubt : settings.margin;
+  // What is looked for only because a material pays for something must make it stop paying.
+  const std::size_t alarms = alarms_of(current).size();
+  if (noise && alarms > 0 && alarms_of(best).size() >= alarms) return false;
   const double gain = best.log_evidence + std::log(round.trials[0].candidate.prior) - current.log_evidence;
   const bool predicts = !settings.predict || best.predicted_gap < current.predicted_gap;
   return gain > margin && predicts && best.gap < current.gap;
+}
+
+/// The same thing, or one that cannot be beside it: a base on springs is no base that could be driven.
+bool excludes(const Candidate& there, const Candidate& c) {
+  if (there.text() == c.text()) return there.kind == c.kind;
+  const auto on_springs = [](const Candidate& a, const Candidate& b) {
+    return a.name == "foundation_flexibility" && b.kind == Candidate::Kind::motion &&
+           (a.where == b.where || a.where == "all");
+  };
+  return on_springs(there, c) || on_springs(c, there);
 }
 
 Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
@@ -127,7 +172,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   std::vector<Candidate> candidates;  // those that are not there already
   for (const Candidate& c : all_candidates)
     if (std::none_of(current.hypothesis.effects.begin(), current.hypothesis.effects.end(),
-                     [&](const Candidate& there) { return there.text() == c.text(); }))
+                     [&](const Candidate& there) { return excludes(there, c); }))
       candidates.push_back(c);
   Eigen::VectorXd x = current.best.x;
   x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
@@ -185,7 +230,7 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
 /// Adds candidates one by one while each one pays; returns the last fit.
 Fit add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit current, int most,
                  const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
-  for (int added = 0; added < most && !consistent(problem, settings, current); ++added) {
+  for (int added = 0; added < most && !plainly_right(problem, settings, current); ++added) {
     rounds.push_back(run_round(problem, settings, current, candidates, say));
     if (!rounds.back().accepted) break;
     // Its modes have other neighbours, and the mesh does something else to them.
@@ -232,11 +277,16 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
                   d.alarms.size() == 1 ? "" : "s"));
   CandidateChoice choice;
   choice.without = settings.without;
-  for (const MeasuredFeature& mode : problem.features.modes) choice.damping |= mode.damping.has_value();
+  choice.driven = problem.features.driven();
+  for (const MeasuredFeature& mode : problem.features.modes) {
+    choice.damping |= mode.damping.has_value();
+    choice.clocks |= mode.quadrature.size() > 0;
+  }
   const std::vector<Candidate> all = candidates(problem.base, problem.features.sensors, choice);
   d.best = add_greedily(problem, settings, d.calibrated, settings.effects, all, d.rounds, say);
   const bool added = !d.best.hypothesis.effects.empty();
-  if (consistent(problem, settings, d.best) || (added && tail(problem, d.best) > settings.credible))
+  const bool right = is_noise(problem, settings, d.best) && alarms_of(d.best).empty();
+  if (right || (added && tail(problem, d.best) > settings.credible))
     d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     d.best = d.calibrated;  // what only helps is not named

@@ -37,19 +37,27 @@ std::vector<bool> paired(const ModePairs& pairing, Eigen::Index modes) {
   return wanted;
 }
 
+ModalData along(const ModalData& modes, const ModalData& d, double step) {
+  ModalData moved = modes;
+  moved.log_frequency += step * d.log_frequency;
+  moved.sensors += step * d.sensors;
+  if (d.participation.size() > 0) moved.participation += step * d.participation;
+  for (std::size_t k = 0; k < d.at_support.size(); ++k) moved.at_support[k] += step * d.at_support[k];
+  return moved;
+}
+
 /// Column of the Jacobian: the residuals a small step along the derivative of the response.
 Eigen::VectorXd column(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
                        const Hypothesis& hypothesis, const Evaluation& at, Eigen::Index index,
                        const EigenMemory& memory) {
   constexpr double step = 1e-5;
   const Derivative change = model_derivative(problem, hypothesis, at.x, index);
-  const ResponseDerivative d = response_derivative(at.assembly, at.response, at.model, change, problem.features.sensors,
-                                                   memory, paired(at.pairing, at.response.eigenvalues.size()));
+  const ModalData d = response_derivative(at.assembly, at.response, at.model, change, problem.features.sensors, memory,
+                                          paired(at.pairing, at.response.eigenvalues.size()));
   Eigen::VectorXd x = at.x;
   x[index] += step;
   const Eigen::VectorXd moved =
-      residuals(problem, rows, at.pairing, at.response.log_frequency + step * d.log_frequency,
-                hypothesis.readings(at.response.sensors + step * d.sensors, x), hypothesis.damping(problem.damping, x));
+      residuals(problem, rows, at.pairing, hypothesis.observe(along(at.response, d, step), problem.damping, x));
   return (moved - at.residuals) / step;
 }
 
@@ -182,11 +190,12 @@ Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualR
   e.x = x;
   e.assembly = hypothesis.assembly(problem.base, x);
   e.model = linear_model(e.assembly);
-  e.response = response(e.assembly, e.model, problem.features.sensors, problem.modes, memory);
-  e.readings = hypothesis.readings(e.response.sensors, x);
+  e.response =
+      response(e.assembly, e.model, problem.features.sensors, problem.modes, memory, problem.features.driven());
+  const Observed observed = hypothesis.observe(e.response, problem.damping, x);
+  e.readings = observed.readings;
   e.pairing = pair_features(problem.features, e.response, e.readings);
-  e.residuals =
-      residuals(problem, rows, e.pairing, e.response.log_frequency, e.readings, hypothesis.damping(problem.damping, x));
+  e.residuals = residuals(problem, rows, e.pairing, observed);
   return e;
 }
 

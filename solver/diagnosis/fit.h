@@ -22,6 +22,10 @@ struct DiagnosisProblem {
   /// By measured mode: what turns the differences of its shape, in the order of its rows, into independent ones of
   /// standard deviation 1. Empty: no shape.
   std::vector<Eigen::MatrixXd> whitening;
+  /// By measured mode: what close neighbours may add to the imaginary parts of its shape, per sensor, and to its
+  /// participation, per axis, as shares of the largest component of the shape.
+  std::vector<Eigen::VectorXd> quadrature_mixing;
+  std::vector<Eigen::Vector3d> participation_mixing;
 };
 /// Measures what the mesh does with a hypothesis in place (of which this is the response) and sets `error` by it.
 /// Leaves both as they are without a coarser mesh, or where the hypothesis cannot act on it.
@@ -41,10 +45,10 @@ struct ModePairs {
 
 /// A row of the residuals.
 struct ResidualRow {
-  enum class Kind { frequency, shape, damping };
+  enum class Kind { frequency, shape, damping, quadrature, participation, lag };
   Kind kind = Kind::frequency;
   int mode = 0;      // of the features
-  int sensor = 0;    // shape
+  int sensor = 0;    // shape and quadrature; the axis of participation (its real part) and lag (its imaginary part)
   double std = 1.0;  // of the logarithm of a frequency or ratio; a share of the largest component of a shape
 };
 /// All rows of the features, held back ones too, and their standard deviations: of measurement and model together.
@@ -54,11 +58,9 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem);
 /// with a direction only by their order within it, those without by their order.
 ModePairs pair_features(const Features& features, const Response& response, const Eigen::MatrixXd& readings);
 
-/// (measured − computed)/std by row, of modes at these frequencies (logarithms of Hz), sensor readings (sensor × mode)
-/// and ratio of damping. Shapes are scaled to fit best.
+/// (measured − computed)/std by row. Shapes are scaled to fit best, participation with them.
 Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                          const ModePairs& pairing, const Eigen::VectorXd& log_frequency,
-                          const Eigen::MatrixXd& readings, double damping);
+                          const ModePairs& pairing, const Observed& observed);
 
 /// What a hypothesis makes of the features at x.
 struct Evaluation {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
 
 #include "solver/effects/parts.h"
@@ -32,7 +33,32 @@ std::vector<std::vector<double>> starts_of(const Effect& effect) {
   return {up, down};
 }
 
-void add_sensor_faults(const std::vector<Sensor>& sensors, std::vector<Candidate>& all) {
+/// A clock that is late, or early, by what a tenth of a second and less mostly is.
+Candidate late_clock(const Candidate& fault) {
+  Candidate clock = fault;
+  clock.kind = Candidate::Kind::clock;
+  clock.gain = 1.0;
+  clock.parameters = {{"delay", "s", 0.0, 0.02, false, -0.2, 0.2}};
+  clock.starts = {{-0.5}, {0.5}};
+  return clock;
+}
+
+void add_support_motions(const Assembly& assembly, std::vector<Candidate>& all) {
+  const Effect effect = find_effect("support_motion");
+  const std::vector<std::string> places = supports(assembly);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Candidate motion;
+    motion.kind = Candidate::Kind::motion;
+    motion.name = effect.name;
+    motion.where = places[i];
+    motion.support = i;
+    for (const EffectParameter& p : effect.parameters) motion.parameters.push_back(fit_parameter(p));
+    motion.starts = {{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}};
+    all.push_back(std::move(motion));
+  }
+}
+
+void add_sensor_faults(const std::vector<Sensor>& sensors, bool clocks, std::vector<Candidate>& all) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     Candidate reversed;
     reversed.kind = Candidate::Kind::gain;
@@ -47,6 +73,7 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, std::vector<Candidate
     gain.parameters = {{"gain", "-", 1.0, 0.7, true, 0.05, 20.0}};
     gain.starts = {{-1.0}, {1.0}};
     all.push_back(gain);
+    if (clocks) all.push_back(late_clock(reversed));
     for (std::size_t j = i + 1; j < sensors.size(); ++j) {
       if ((sensors[i].position - sensors[j].position).norm() > sensor_housing) continue;
       Candidate swap = reversed;
@@ -149,6 +176,7 @@ EffectSetting Candidate::setting(const double* x) const {
   EffectSetting setting = {name, where, {}};
   for (std::size_t i = 0; i < parameters.size(); ++i) setting.values[parameters[i].name] = parameters[i].value(x[i]);
   if (kind == Kind::gain && parameters.empty()) setting.values["gain"] = gain;
+  if (kind != Kind::factor) complete(setting);
   return setting;
 }
 
@@ -180,7 +208,8 @@ std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Se
       all.push_back(std::move(c));
     }
   }
-  if (!left_out("sensor_fault")) add_sensor_faults(sensors, all);
+  if (!left_out("sensor_fault")) add_sensor_faults(sensors, choice.clocks, all);
+  if (choice.driven && !left_out("support_motion")) add_support_motions(assembly, all);
   share_priors(all);
   return all;
 }
@@ -198,19 +227,21 @@ std::vector<Candidate> nameless_factors(const Assembly& assembly) {
     c.apply = std::move(apply);
     all.push_back(std::move(c));
   };
-  const auto add_both = [&](const std::string& where, const BlockSet& part) {
-    add("stiffness", where, 0.6, [part](Assembly& a, double factor) { scale_around(a, part, factor); });
-    add("mass", where, 0.2, [part](Assembly& a, double factor) { scale_density(a, part, factor); });
+  // Parts by their names: they act on other meshes too.
+  const auto add_both = [&](const std::string& where, const std::function<BlockSet(const Assembly&)>& part) {
+    add("stiffness", where, 0.6, [part](Assembly& a, double factor) { scale_around(a, part(a), factor); });
+    add("mass", where, 0.2, [part](Assembly& a, double factor) { scale_density(a, part(a), factor); });
   };
   for (const std::string& name : masonry_parts(assembly)) {
     static const std::vector<std::string> groups = {"arches", "piers", "abutments", "spandrels", "all"};
-    if (std::find(groups.begin(), groups.end(), name) == groups.end()) add_both(name, masonry_part(assembly, name));
+    if (std::find(groups.begin(), groups.end(), name) == groups.end())
+      add_both(name, [name](const Assembly& a) { return masonry_part(a, name); });
   }
   if (!all_if_any(assembly, Component::backfill).empty())
-    add_both("backfill", component(assembly, Component::backfill));
+    add_both("backfill", [](const Assembly& a) { return component(a, Component::backfill); });
   for (const std::string& support : supports(assembly)) {
-    const std::int64_t base = base_of(assembly, support);
-    add("stiffness", "base of " + support, 1.0, [base](Assembly& a, double factor) {
+    add("stiffness", "base of " + support, 1.0, [support](Assembly& a, double factor) {
+      const std::int64_t base = base_of(a, support);
       for (Joint& joint : a.joints)
         if (joint.a == base || joint.b == base) joint.kn *= factor, joint.ks *= factor;
     });
@@ -256,25 +287,39 @@ Assembly Hypothesis::assembly(const Assembly& base, const Eigen::VectorXd& x) co
   return changed;
 }
 
-double Hypothesis::damping(double base, const Eigen::VectorXd& x) const {
-  auto at = Eigen::Index(materials.size());
-  for (const Candidate& c : effects) {
-    if (c.kind == Candidate::Kind::damping) base = c.parameters[0].value(x[at]);
-    at += Eigen::Index(c.parameters.size());
+namespace {
+
+/// A support that moves by `factor`, `delay` (s) late: its part of the participation is multiplied by f e^(−iωτ).
+void move_support(std::size_t support, double factor, double delay, const ModalData& modes, Observed& seen) {
+  if (support >= modes.at_support.size()) return;
+  for (Eigen::Index m = 0; m < modes.log_frequency.size(); ++m) {
+    const double omega = 2.0 * EIGEN_PI * std::exp(modes.log_frequency[m]);
+    seen.participation.col(m) += (std::polar(factor, -omega * delay) - 1.0) * modes.at_support[support].col(m);
   }
-  return base;
 }
 
-Eigen::MatrixXd Hypothesis::readings(Eigen::MatrixXd rows, const Eigen::VectorXd& x) const {
+}  // namespace
+
+Observed Hypothesis::observe(const ModalData& modes, double damping, const Eigen::VectorXd& x) const {
+  Observed seen;
+  seen.log_frequency = modes.log_frequency;
+  seen.readings = modes.sensors;
+  seen.participation = modes.participation.cast<std::complex<double>>();
+  seen.delays = Eigen::VectorXd::Zero(modes.sensors.rows());
+  seen.damping = damping;
   auto at = Eigen::Index(materials.size());
   for (const Candidate& c : effects) {
-    if (c.kind == Candidate::Kind::gain)
-      rows.row(Eigen::Index(c.sensors[0])) *= c.parameters.empty() ? c.gain : c.parameters[0].value(x[at]);
-    if (c.kind == Candidate::Kind::swap)
-      rows.row(Eigen::Index(c.sensors[0])).swap(rows.row(Eigen::Index(c.sensors[1])));
+    const auto value = [&](std::size_t i) { return c.parameters[i].value(x[at + Eigen::Index(i)]); };
+    using Kind = Candidate::Kind;
+    if (c.kind == Kind::damping) seen.damping = value(0);
+    if (c.kind == Kind::gain) seen.readings.row(Eigen::Index(c.sensors[0])) *= c.parameters.empty() ? c.gain : value(0);
+    if (c.kind == Kind::swap)
+      seen.readings.row(Eigen::Index(c.sensors[0])).swap(seen.readings.row(Eigen::Index(c.sensors[1])));
+    if (c.kind == Kind::clock) seen.delays[Eigen::Index(c.sensors[0])] += value(0);
+    if (c.kind == Kind::motion) move_support(c.support, value(0), value(1), modes, seen);
     at += Eigen::Index(c.parameters.size());
   }
-  return rows;
+  return seen;
 }
 
 Hypothesis Hypothesis::with(const Candidate& candidate) const {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/diagnosis/response.h"
 #include "solver/effects/effect.h"
 
 namespace voussoir {
@@ -28,13 +29,14 @@ std::vector<Calibration> calibrations(const Assembly& assembly);
 
 /// An effect at a place, what is wrong with the readings of a sensor, or a factor on a part that has no name.
 struct Candidate {
-  enum class Kind { effect, damping, gain, swap, factor };
+  enum class Kind { effect, damping, gain, swap, clock, motion, factor };
   Kind kind = Kind::effect;
   std::string name, where;
   double prior = 1.0;  // probability before any data, that one of all candidates acts being 1
   std::vector<FitParameter> parameters;
   std::vector<std::vector<double>> starts;              // x to begin fits at
-  std::vector<std::size_t> sensors;                     // gain: one; swap: two
+  std::vector<std::size_t> sensors;                     // gain, clock: one; swap: two
+  std::size_t support = 0;                              // motion: of supports()
   double gain = 1.0;                                    // gain without a parameter: −1, a polarity
   std::function<void(Assembly&, double factor)> apply;  // factor
   std::string text() const;                             // "abutment_restraint at both"
@@ -43,6 +45,8 @@ struct Candidate {
 
 struct CandidateChoice {
   bool damping = false;              // the data say something of it
+  bool clocks = false;               // of phases between sensors
+  bool driven = false;               // of the ground's motion
   std::vector<std::string> without;  // names that are not to be tried
 };
 /// Every effect of the library at each of its places in this assembly, and the faults of sensors: of those that are in
@@ -53,6 +57,15 @@ std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Se
 /// Factors on the stiffness and on the mass of each part of the bridge, and springs between its ends and the ground,
 /// along it and across: what is left to try when no effect fits.
 std::vector<Candidate> nameless_factors(const Assembly& assembly);
+
+/// What instruments would show of a model's modes.
+struct Observed {
+  Eigen::VectorXd log_frequency;   // of Hz
+  Eigen::MatrixXd readings;        // sensor × mode
+  Eigen::MatrixXcd participation;  // axis × mode, of M-normalised modes; empty: not asked for
+  Eigen::VectorXd delays;          // s, of each sensor's clock
+  double damping = 0.0;            // share of critical
+};
 
 /// A model that is tried: the case's, with factors on its materials and candidates in place.
 struct Hypothesis {
@@ -65,10 +78,9 @@ struct Hypothesis {
   std::vector<EffectSetting> settings(const Eigen::VectorXd& x) const;
   /// Throws InputError where an effect cannot act.
   Assembly assembly(const Assembly& base, const Eigen::VectorXd& x) const;
-  /// The ratio of damping (share of critical), where an effect sets it.
-  double damping(double base, const Eigen::VectorXd& x) const;
-  /// What the sensors would read of the displacements (rows) along their directions.
-  Eigen::MatrixXd readings(Eigen::MatrixXd true_displacements, const Eigen::VectorXd& x) const;
+  /// What would be observed of modes, with faults of sensors and motions of supports; `damping` (share of critical) is
+  /// that of the case.
+  Observed observe(const ModalData& modes, double damping, const Eigen::VectorXd& x) const;
   /// The same with a further candidate.
   Hypothesis with(const Candidate& candidate) const;
 };

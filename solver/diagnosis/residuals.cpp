@@ -1,6 +1,7 @@
 // Rows of residuals, and which computed mode is which measured one.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "solver/diagnosis/assignment.h"
@@ -47,6 +48,32 @@ int kth(const Response& response, const std::string& direction, int k) {
   return -1;
 }
 
+void add_quadrature(const DiagnosisProblem& problem, int m, double scale, std::vector<ResidualRow>& rows) {
+  const MeasuredFeature& mode = problem.features.modes[std::size_t(m)];
+  for (Eigen::Index s = 0; s < mode.quadrature.size(); ++s) {
+    if (!std::isfinite(mode.shape[s]) || !std::isfinite(mode.quadrature[s])) continue;
+    const double mixing =
+        std::size_t(m) < problem.quadrature_mixing.size() ? problem.quadrature_mixing[std::size_t(m)][s] : 0.0;
+    rows.push_back({ResidualRow::Kind::quadrature, m, int(s),
+                    std::hypot(mode.shape_std[s] / scale, problem.error.quadrature, mixing)});
+  }
+}
+
+void add_participation(const DiagnosisProblem& problem, int m, double scale, std::vector<ResidualRow>& rows) {
+  const MeasuredFeature& mode = problem.features.modes[std::size_t(m)];
+  double most = 0.0;
+  for (const std::complex<double>& p : mode.participation)
+    if (std::isfinite(p.real())) most = std::max(most, scale * std::abs(p));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(mode.participation[axis].real())) continue;
+    const double mixing =
+        std::size_t(m) < problem.participation_mixing.size() ? problem.participation_mixing[std::size_t(m)][axis] : 0.0;
+    const double std = std::hypot(scale * mode.participation_std[axis], problem.error.participation * most, mixing);
+    rows.push_back({ResidualRow::Kind::participation, m, axis, std});
+    rows.push_back({ResidualRow::Kind::lag, m, axis, std});
+  }
+}
+
 }  // namespace
 
 std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
@@ -63,6 +90,8 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
       if (std::isfinite(mode.shape[s]))
         rows.push_back(
             {ResidualRow::Kind::shape, at, int(s), std::hypot(mode.shape_std[s] / scale, problem.error.shape)});
+    add_quadrature(problem, at, scale, rows);
+    add_participation(problem, at, scale, rows);
   }
   return rows;
 }
@@ -157,12 +186,15 @@ void set_mesh_error(DiagnosisProblem& problem, const Response& response, const H
 
 void set_shape_errors(DiagnosisProblem& problem) {
   EigenMemory memory;
-  set_shape_errors(problem,
-                   response(problem.base, linear_model(problem.base), problem.features.sensors, problem.modes, memory));
+  set_shape_errors(problem, response(problem.base, linear_model(problem.base), problem.features.sensors, problem.modes,
+                                     memory, problem.features.driven()));
 }
 
 void set_shape_errors(DiagnosisProblem& problem, const Response& plain) {
   problem.whitening.assign(problem.features.modes.size(), {});
+  problem.quadrature_mixing.assign(problem.features.modes.size(),
+                                   Eigen::VectorXd::Zero(Eigen::Index(problem.features.sensors.size())));
+  problem.participation_mixing.assign(problem.features.modes.size(), Eigen::Vector3d::Zero());
   const std::vector<ResidualRow> rows = residual_rows(problem);
   const ModePairs pairs = pair_features(problem.features, plain, plain.sensors);
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
@@ -183,23 +215,65 @@ void set_shape_errors(DiagnosisProblem& problem, const Response& plain) {
       const double share = std::min(1.0, problem.error.mixing / std::max(apart, 1e-6));
       const Eigen::VectorXd neighbour = share / unit * seen(rows, shape, plain.sensors.col(j));
       covariance += neighbour * neighbour.transpose();
+      // Neighbours that dampers couple add to the imaginary part; half as much is the most that is usual.
+      problem.quadrature_mixing[m] += (0.5 * share / unit * plain.sensors.col(j)).cwiseAbs2();
+      if (plain.participation.size() > 0)
+        problem.participation_mixing[m] += (share * unit * plain.participation.col(j)).cwiseAbs2();
     }
+    problem.quadrature_mixing[m] = problem.quadrature_mixing[m].cwiseSqrt();
+    problem.participation_mixing[m] = problem.participation_mixing[m].cwiseSqrt();
     problem.whitening[m] = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(shape.count(), shape.count()));
   }
 }
 
+namespace {
+
+/// What follows a shape that is `stretch` times a computed mode, both with their largest measured component 1.
+void add_phases(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, int m, int computed,
+                double stretch, const Observed& seen, Eigen::VectorXd& r) {
+  const MeasuredFeature& mode = problem.features.modes[std::size_t(m)];
+  const double scale = largest(mode.shape), omega = 2.0 * EIGEN_PI * mode.frequency;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ResidualRow& row = rows[i];
+    if (row.mode != m) continue;
+    double measured = 0.0, said = 0.0;
+    if (row.kind == ResidualRow::Kind::quadrature) {
+      measured = mode.quadrature[row.sensor] / scale;
+      if (computed >= 0)
+        said = -stretch * seen.readings(row.sensor, computed) * std::sin(omega * seen.delays[row.sensor]);
+    } else if (row.kind == ResidualRow::Kind::participation || row.kind == ResidualRow::Kind::lag) {
+      const std::complex<double> given = scale * mode.participation[row.sensor];
+      const std::complex<double> model =
+          computed < 0 || stretch == 0.0 ? 0.0 : seen.participation(row.sensor, computed) / stretch;
+      const bool real = row.kind == ResidualRow::Kind::participation;
+      measured = real ? given.real() : given.imag();
+      said = real ? model.real() : model.imag();
+    } else {
+      continue;
+    }
+    r[Eigen::Index(i)] = (measured - said) / row.std;
+  }
+}
+
+/// The part of a late clock's readings that is in phase with the mode.
+Eigen::VectorXd in_phase(const Observed& seen, int computed, double frequency) {
+  const Eigen::VectorXd turn = 2.0 * EIGEN_PI * frequency * seen.delays;
+  return seen.readings.col(computed).array() * turn.array().cos();
+}
+
+}  // namespace
+
 Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                          const ModePairs& pairing, const Eigen::VectorXd& log_frequency,
-                          const Eigen::MatrixXd& readings, double damping) {
+                          const ModePairs& pairing, const Observed& observed) {
   constexpr double unpaired = 5.0;  // a mode that the model does not have
   Eigen::VectorXd r = Eigen::VectorXd::Zero(Eigen::Index(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const MeasuredFeature& mode = problem.features.modes[std::size_t(rows[i].mode)];
     const int c = pairing.computed[std::size_t(rows[i].mode)];
     if (rows[i].kind == ResidualRow::Kind::damping)
-      r[Eigen::Index(i)] = (std::log(*mode.damping) - std::log(damping)) / rows[i].std;
+      r[Eigen::Index(i)] = (std::log(*mode.damping) - std::log(observed.damping)) / rows[i].std;
     else if (rows[i].kind == ResidualRow::Kind::frequency)
-      r[Eigen::Index(i)] = c < 0 ? unpaired : (std::log(mode.frequency) - log_frequency[c]) / rows[i].std;
+      r[Eigen::Index(i)] = c < 0 ? unpaired : (std::log(mode.frequency) - observed.log_frequency[c]) / rows[i].std;
   }
   for (std::size_t m = 0; m < problem.whitening.size(); ++m) {
     const ShapeRows shape = shape_rows(rows, int(m));
@@ -208,10 +282,14 @@ Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<Res
     const MeasuredFeature& mode = problem.features.modes[m];
     const Eigen::VectorXd measured = white * seen(rows, shape, mode.shape) / largest(mode.shape);
     r.segment(Eigen::Index(shape.begin), shape.count()) = measured;
-    if (pairing.computed[m] < 0) continue;
-    const Eigen::VectorXd computed = white * seen(rows, shape, readings.col(pairing.computed[m]));
-    const double stretch = measured.dot(computed) / std::max(computed.squaredNorm(), 1e-300);  // what fits best
-    r.segment(Eigen::Index(shape.begin), shape.count()) -= stretch * computed;
+    const int c = pairing.computed[m];
+    double stretch = 0.0;
+    if (c >= 0) {
+      const Eigen::VectorXd computed = white * seen(rows, shape, in_phase(observed, c, mode.frequency));
+      stretch = measured.dot(computed) / std::max(computed.squaredNorm(), 1e-300);  // what fits best
+      r.segment(Eigen::Index(shape.begin), shape.count()) -= stretch * computed;
+    }
+    add_phases(problem, rows, int(m), c, stretch, observed, r);
   }
   return r;
 }

@@ -5,31 +5,45 @@
 
 namespace voussoir {
 
-struct Response {
-  Eigen::VectorXd eigenvalues;    // rad2/s2, ascending
+/// What instruments, and the ground's motion, have of the modes; or how that changes with a parameter.
+struct ModalData {
   Eigen::VectorXd log_frequency;  // of Hz
   Eigen::MatrixXd sensors;        // sensor × mode, of M-normalised modes
+  /// φᵀ M r of each axis (rows) and mode: how a common motion of all supports drives it. Empty: not asked for.
+  Eigen::MatrixXd participation;
+  std::vector<Eigen::MatrixXd> at_support;  // the part of it that comes through each of supports()
+};
+
+/// What the ground's motion does to the unknowns, a column an axis.
+struct GroundForces {
+  Eigen::MatrixXd inertia;            // M r, r a common translation
+  std::vector<std::int64_t> bases;    // of each of supports()
+  std::vector<Eigen::MatrixXd> pull;  // −K_uf e of each base that moves alone
+};
+
+struct Response : ModalData {
+  Eigen::VectorXd eigenvalues;  // rad2/s2, ascending
   std::vector<ModeWords> words;
   Eigen::MatrixXd vectors;  // over the unknowns, M-normalised
   double shift = 0.0;       // rad2/s2, of the memory's factor
+  GroundForces ground;      // empty where participation was not asked for
 };
 
-/// Change of a response with a parameter.
-struct ResponseDerivative {
-  Eigen::VectorXd log_frequency;
-  Eigen::MatrixXd sensors;
-};
-
-/// The `count` lowest modes; fewer where there are fewer.
+/// The `count` lowest modes; fewer where there are fewer. `driven`: with what the ground's motion does to them.
 Response response(const Assembly& assembly, const LinearModel& model, const std::vector<Sensor>& sensors, int count,
-                  EigenMemory& memory);
+                  EigenMemory& memory, bool driven = false);
 
 /// λ′ = φᵀ (K′ − λ M′) φ (Fox and Kapoor 1968, eq. 8), and φ′ from all modes that are known and a static solution for
 /// the others (Wang 1991, eq. 20): of what those others take part with a share λ/λ_n is left out. Only of
 /// the modes that are `wanted`; the memory must be that of the response.
-ResponseDerivative response_derivative(const Assembly& assembly, const Response& response, const LinearModel& model,
-                                       const Derivative& d, const std::vector<Sensor>& sensors,
-                                       const EigenMemory& memory, const std::vector<bool>& wanted);
+ModalData response_derivative(const Assembly& assembly, const Response& response, const LinearModel& model,
+                              const Derivative& d, const std::vector<Sensor>& sensors, const EigenMemory& memory,
+                              const std::vector<bool>& wanted);
+
+/// How the bridge follows its supports without resonance: accelerations that the sensors read (rows) for a unit
+/// acceleration of one support's base alone along x, y, z, K⁻¹ of its pull; the memory must be that of the response.
+Eigen::MatrixXd follow_support(const Assembly& assembly, const Response& response, const LinearModel& model,
+                               std::size_t support, const std::vector<Sensor>& sensors, const EigenMemory& memory);
 
 /// Displacement along the sensors' directions: rows of sensors, columns of vectors.
 Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,

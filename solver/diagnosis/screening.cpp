@@ -60,10 +60,9 @@ Eigen::VectorXd residuals_with(const Linearised& l, const Hypothesis& hypothesis
   x << l.at.x, Eigen::Map<const Eigen::VectorXd>(start.data(), Eigen::Index(start.size()));
   const bool model_changes = candidate.kind == Candidate::Kind::effect || candidate.kind == Candidate::Kind::factor;
   if (model_changes) return evaluate(*l.problem, l.rows, more, x, memory).residuals;
-  const Eigen::MatrixXd readings = more.readings(l.at.response.sensors, x);
-  const ModePairs pairing = pair_features(l.problem->features, l.at.response, readings);
-  return residuals(*l.problem, l.rows, pairing, l.at.response.log_frequency, readings,
-                   more.damping(l.problem->damping, x));
+  const Observed observed = more.observe(l.at.response, l.problem->damping, x);
+  const ModePairs pairing = pair_features(l.problem->features, l.at.response, observed.readings);
+  return residuals(*l.problem, l.rows, pairing, observed);
 }
 
 Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {

@@ -1,5 +1,5 @@
-// A channel that does not read what it should: a reversed or wrong gain, or two channels of one place that were
-// swapped.
+// A channel that does not read what it should: a reversed or wrong gain, a late clock, or two channels of one place
+// that were swapped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,8 +43,9 @@ void apply(std::vector<Sensor>& sensors, const std::string& where, const std::ve
 
 Effect sensor_fault() {
   return {"sensor_fault",
-          "a channel has the wrong gain or sign, or two of one place are swapped",
-          {{"gain", "-", "what it reads of the truth; −1 is a reversed channel", -20.0, 20.0, 1.0, 1.0, 0.5}},
+          "a channel has the wrong gain or sign or a late clock, or two of one place are swapped",
+          {{"gain", "-", "what it reads of the truth; −1 is a reversed channel", -20.0, 20.0, 1.0, 1.0, 0.5},
+           {"delay", "s", "of its clock: in recordings; a run's histories are not shifted", -0.2, 0.2, 0.0, 0.0, 0.02}},
           places,
           nullptr,
           nullptr,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/nearest_block.h"
 #include "solver/base/error.h"
 #include "tests/geometry/shapes.h"
 
@@ -30,6 +31,15 @@ TEST(FinishBlocks, FillsMassCentroidAndInertia) {
   const Box box = block_box(block);
   EXPECT_EQ(box.low, Vec3(1, 0, 0));
   EXPECT_EQ(box.high, Vec3(3, 1, 2));
+}
+
+/// A sensor that the survey puts a centimetre off the end is on the bridge, whatever stands against it.
+TEST(NearestBlock, IsNeverTheGroundBehindAnEnd) {
+  const Assembly assembly = assembly_of(
+      {block_of({make_box({0, 0, 0}, {1, 1, 1})}), block_of({make_box({1, 0, 0}, {2, 1, 1})}, Component::restraint)});
+  const NearestBlock nearest = nearest_block(assembly, {1.01, 0.5, 0.5});
+  EXPECT_EQ(nearest.block, 0);
+  EXPECT_NEAR(nearest.distance, 0.01, 1e-12);
 }
 
 /// The error of finishing two blocks of which the second is a pier's, changed by `spoil`.

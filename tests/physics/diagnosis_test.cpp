@@ -7,57 +7,10 @@
 #include "solver/diagnosis/assignment.h"
 #include "solver/diagnosis/diagnose.h"
 #include "solver/diagnosis/locate.h"
-#include "tests/solver/models.h"
+#include "tests/physics/measured_bridge.h"
 
 namespace voussoir::test {
 namespace {
-
-Assembly bridge(double block_scale = 4.0) {
-  const Generator& generator = find_generator("cs1");
-  GeneratorInput input = default_input(generator);
-  input.choices.at("abutments") = "free";
-  input.values.at("block_scale") = block_scale;
-  Assembly assembly = generator.build(input);
-  assembly.generator = "cs1";
-  return assembly;
-}
-
-/// Along x, y and z on a few blocks of the deck and a pier.
-std::vector<Sensor> sensors_on(const Assembly& assembly) {
-  std::vector<Sensor> sensors;
-  for (const char* group : {"keystone 0", "keystone 1", "keystone 2", "keystone 3", "spandrel y- pier 1"})
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t block = assembly.groups.at(group)[0];
-      sensors.push_back({fmt::format("{}{}", group, "xyz"[axis]), assembly.blocks[std::size_t(block)].centroid,
-                         Vec3::Unit(axis), block});
-    }
-  return sensors;
-}
-
-/// What a model would give if it were measured, exactly.
-DiagnosisProblem measured(const Assembly& base, const Assembly& truth, int modes) {
-  DiagnosisProblem problem;
-  problem.base = base;
-  problem.modes = modes + 8;
-  problem.damping = 0.02;
-  problem.features.sensors = sensors_on(base);
-  EigenMemory memory;
-  const Response r = response(truth, linear_model(truth), sensors_on(truth), modes, memory);
-  for (int i = 0; i < modes; ++i) {
-    MeasuredFeature f;
-    f.name = std::to_string(i + 1);
-    f.frequency = std::exp(r.log_frequency[i]);
-    f.frequency_std = 0.01;
-    f.direction = r.words[std::size_t(i)].direction;
-    f.damping = 0.02;
-    f.damping_std = 0.1;
-    f.shape = r.sensors.col(i);
-    f.shape_std = Eigen::VectorXd::Constant(r.sensors.rows(), 0.02 * f.shape.cwiseAbs().maxCoeff());
-    problem.features.modes.push_back(f);
-  }
-  set_shape_errors(problem);
-  return problem;
-}
 
 TEST(LinearModel, HasTheModesOfTheModelForRuns) {
   const Assembly assembly = bridge();
@@ -75,9 +28,9 @@ class EachCandidate : public testing::TestWithParam<std::string> {};
 /// K′ and M′ of every parameter of every effect, and what follows of them, against models solved a step to either side.
 TEST_P(EachCandidate, DerivativesAreThoseOfFiniteDifferences) {
   const Assembly base = bridge();
-  DiagnosisProblem problem = measured(base, base, 4);
+  DiagnosisProblem problem = measured(base, base, 4, true);
   problem.modes = 40;  // derivatives of vectors lack a share λ/λ_n of what further modes would add
-  std::vector<Candidate> all = candidates(base, problem.features.sensors, {true, {}});
+  std::vector<Candidate> all = candidates(base, problem.features.sensors, {true, true, true, {}});
   std::erase_if(all, [](const Candidate& c) { return c.name != GetParam(); });
   ASSERT_FALSE(all.empty());
   const Candidate& candidate = all.back();
@@ -126,11 +79,12 @@ TEST_P(EachCandidate, DerivativesAreThoseOfFiniteDifferences) {
       EigenMemory own;
       const Evaluation e = evaluate(problem, rows, hypothesis, y, own);
       // The pairs of the middle: where two modes cross, the derivative is that of each.
-      return residuals(problem, rows, at.pairing, e.response.log_frequency, e.readings, hypothesis.damping(0.02, y));
+      return residuals(problem, rows, at.pairing, hypothesis.observe(e.response, 0.02, y));
     };
     const Eigen::VectorXd expected = (moved(step) - moved(-step)) / (2.0 * step);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double tolerance = rows[i].kind == ResidualRow::Kind::shape ? 0.02 : 1e-4;
+      using Kind = ResidualRow::Kind;
+      const double tolerance = rows[i].kind == Kind::frequency || rows[i].kind == Kind::damping ? 1e-4 : 0.02;
       const double size = std::max(expected.cwiseAbs().maxCoeff(), 1e-6);
       ASSERT_NEAR(j(Eigen::Index(i), p), expected[Eigen::Index(i)], tolerance * size)
           << "parameter " << p << " row " << i;
@@ -194,21 +148,6 @@ TEST(Assignment, IsTheBestOfAllPermutations) {
     EXPECT_EQ(found, least);
     EXPECT_EQ(transposed, least);
   }
-}
-
-Assembly with(Assembly assembly, const std::string& name, const std::string& where,
-              const std::map<std::string, double>& values) {
-  EffectSetting setting = {name, where, values};
-  complete(setting);
-  apply_effect(assembly, setting);
-  return assembly;
-}
-
-DiagnosisSettings quick(int threads) {
-  DiagnosisSettings settings;
-  settings.fits = 4;
-  settings.threads = threads;
-  return settings;
 }
 
 TEST(Diagnosis, OfARightModelIsConsistent) {

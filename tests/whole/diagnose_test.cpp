@@ -54,6 +54,29 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   EXPECT_NE(modal.out.find("abutment_restraint both"), std::string::npos);
 }
 
+/// A support that moves otherwise shows only where the ground's motion is known; the explicit solver then follows the
+/// recording better with it.
+TEST(Diagnose, UnderARecordedMotionFindsTheSupportThatMovesOtherwise) {
+  const Folder folder;
+  hide(folder,
+       {"--effect", "support_motion pier 0 factor=0.3 delay=0", "--sensors", "rich", "--shaken", "60", "--noise",
+        "0.005", "--scatter", "0.01", "--materials", "0.02", "--defects", "0", "--mesh", "1", "--seed", "3"});
+  const Outcome outcome = voussoir({"diagnose", "bridge.toml", "--measured", "hidden/measured", "-o", "out", "--fits",
+                                    "6", "--threads", "2", "--run-seconds", "3"},
+                                   {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json json = diagnosis(folder / "out");
+  EXPECT_EQ(json["verdict"], "found") << outcome.out;
+  ASSERT_GE(json["effects"].size(), 1u);
+  EXPECT_EQ(json["effects"][0]["name"], "support_motion") << outcome.out;
+  EXPECT_EQ(json["effects"][0]["where"], "pier 0");
+  ASSERT_TRUE(json.contains("recorded"));
+  EXPECT_LT(json["recorded"]["error"]["after"].get<double>(), json["recorded"]["error"]["before"].get<double>());
+  const std::string page = bytes_of(folder / "out/diagnosis.html");
+  EXPECT_NE(page.find("Under the recorded motion of the ground"), std::string::npos);
+  EXPECT_NE(bytes_of(folder / "out/corrected.toml").find("support_motion"), std::string::npos);
+}
+
 /// The answer lies beside the measurements here; what the program opens is watched.
 TEST(Diagnose, OpensNothingButTheCaseAndTheMeasurements) {
   const Folder folder;
