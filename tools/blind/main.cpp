@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <boost/program_options.hpp>
 #include <chrono>
@@ -36,7 +37,7 @@ struct Outcome {
   bool wrong = false, false_alarm = true;
   int values = 0, values_right = 0;
   double gap_before = 0.0, gap_after = 0.0, held_back = 1e9;
-  double trace = 0.0;  // of what is hidden: see voussoir hide --trace
+  double trace = -1.0;  // of what is hidden: see voussoir hide --trace; below 0: not known of recordings
   double seconds = 0.0;
 };
 
@@ -84,8 +85,11 @@ Named parse(const std::string& text) {
   return n;
 }
 
+/// Also of the same sort: a late clock is not a wrong gain.
 bool same(const json& effect, const Named& hidden) {
-  return effect["name"] == hidden.name && effect["where"] == hidden.where;
+  const bool sort = std::all_of(hidden.values.begin(), hidden.values.end(),
+                                [&](const auto& value) { return effect["parameters"].contains(value.first); });
+  return effect["name"] == hidden.name && effect["where"] == hidden.where && sort;
 }
 
 std::string said(const json& d) {
@@ -161,7 +165,7 @@ double trace_in(const std::string& file) {
   std::ifstream text(file);
   std::string name, equals;
   double value = 0.0;
-  return text >> name >> equals >> value && name == "trace" ? value : 0.0;
+  return text >> name >> equals >> value && name == "trace" ? value : -1.0;
 }
 
 Outcome run_trial(std::size_t number, const std::string& program, const std::string& directory) {
@@ -175,6 +179,7 @@ Outcome run_trial(std::size_t number, const std::string& program, const std::str
   // The case and the measurements lie apart from the answer.
   const std::string model = folder + "/seen/case.toml";
   write_case(o.trial->bridge, model);
+  const bool recorded = o.trial->minutes > 0.0 || o.trial->shaken > 0.0;
   std::vector<std::string> hide = {program,
                                    "hide",
                                    model,
@@ -184,15 +189,18 @@ Outcome run_trial(std::size_t number, const std::string& program, const std::str
                                    fmt::format("{}", o.trial->noise),
                                    "--seed",
                                    fmt::format("{}", 1000 + number),
-                                   "--trace",
                                    "-o",
                                    folder + "/sealed"};
   for (const std::string& effect : o.trial->effects) hide.insert(hide.end(), {"--effect", effect});
+  if (!recorded) hide.push_back("--trace");
+  if (o.trial->minutes > 0.0) hide.insert(hide.end(), {"--minutes", fmt::format("{}", o.trial->minutes)});
+  if (o.trial->shaken > 0.0) hide.insert(hide.end(), {"--shaken", fmt::format("{}", o.trial->shaken)});
   if (execute(hide, log) != 0) throw RunError("trial {}: hide failed; see {}", number + 1, log);
   o.trace = trace_in(folder + "/sealed/answer.toml");
   fs::rename(folder + "/sealed/measured", folder + "/seen/measured");
-  std::vector<std::string> diagnose = {program,     "diagnose", model,       "--measured", folder + "/seen/measured",
-                                       "--threads", "1",        "--no-page", "-o",         folder + "/said"};
+  std::vector<std::string> diagnose = {
+      program,     "diagnose",      model, "--measured", folder + "/seen/measured", "--threads", "1",
+      "--no-page", "--run-seconds", "0",   "-o",         folder + "/said"};
   if (!o.trial->without.empty()) diagnose.insert(diagnose.end(), {"--without", o.trial->without});
   if (execute(diagnose, log) != 0) {
     o.said = fmt::format("failed: see {}", log);
@@ -208,6 +216,8 @@ std::string hidden_text(const BlindTrial& t) {
   std::string text;
   for (const std::string& e : t.effects) text += (text.empty() ? "" : " + ") + e;
   if (text.empty()) text = "nothing";
+  if (t.minutes > 0.0) text += fmt::format(", {:g} min recorded", t.minutes);
+  if (t.shaken > 0.0) text += fmt::format(", {:g} s of an earthquake", t.shaken);
   return t.without.empty() ? text : fmt::format("{}, out of the library", text);
 }
 
@@ -216,10 +226,10 @@ std::string table(const std::vector<Outcome>& all) {
       "| # | bridge | sensors | noise % | hidden | trace | said | score | gap before | after | held back |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Outcome& o : all)
-    text +=
-        fmt::format("| {} | {} | {} | {:g} | {} | {:.0f} | {} | {:.2g}{} | {:.2f} | {:.2f} | {:.2f} |\n", o.number + 1,
-                    o.trial->bridge, o.trial->sensors, 100.0 * o.trial->noise, hidden_text(*o.trial), o.trace, o.said,
-                    o.score, o.wrong ? " (confident and wrong)" : "", o.gap_before, o.gap_after, o.held_back);
+    text += fmt::format("| {} | {} | {} | {:g} | {} | {} | {} | {:.2g}{} | {:.2f} | {:.2f} | {:.2f} |\n", o.number + 1,
+                        o.trial->bridge, o.trial->sensors, 100.0 * o.trial->noise, hidden_text(*o.trial),
+                        o.trace >= 0.0 ? fmt::format("{:.0f}", o.trace) : "-", o.said, o.score,
+                        o.wrong ? " (confident and wrong)" : "", o.gap_before, o.gap_after, o.held_back);
   return text;
 }
 

@@ -87,6 +87,14 @@ const std::vector<BlindTrial>& blind_trials() {
        {"abutment_restraint both stiffness_share=0.5", "sensor_fault channel A06y gain=-1"},
        "",
        ""},
+      {"cs1", "rich", 0.010, {}, "", "", 10.0, 0.0},
+      {"cs2", "rich", 0.010, {"abutment_restraint both stiffness_share=0.5"}, "", "", 10.0, 0.0},
+      {"cs2", "rich", 0.010, {"sensor_fault channel A05y delay=0.02"}, "", "", 10.0, 0.0},
+      {"cs2", "rich", 0.010, {}, "", "", 0.0, 60.0},
+      {"cs1", "rich", 0.010, {}, "", "", 0.0, 60.0},
+      {"cs2", "rich", 0.010, {"support_motion pier 0 factor=0.4"}, "", "", 0.0, 60.0},
+      {"cs1", "rich", 0.010, {"support_motion abutment left factor=0.5 delay=0.03"}, "", "", 0.0, 60.0},
+      {"cs1", "rich", 0.010, {"abutment_restraint both stiffness_share=0.5"}, "", "", 0.0, 60.0},
   };
   return list;
 }

@@ -11,6 +11,8 @@ struct BlindTrial {
   std::vector<std::string> effects;  // as hide takes them; empty: nothing is hidden
   std::string without;               // effects that diagnose may not try: it should end unexplained
   std::string where;                 // then: what the place it gives should contain
+  double minutes = 0.0;              // of ambient vibration that is recorded instead of modes
+  double shaken = 0.0;               // s of an earthquake, recorded on the ground too
 };
 const std::vector<BlindTrial>& blind_trials();
 

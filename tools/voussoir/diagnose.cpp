@@ -30,7 +30,7 @@ std::string corrected_text(const DiagnosisInput& input, const std::vector<Effect
                      effects_text(model));
 }
 
-/// The hypothesis' faults of sensors alone: what the corrected case does not hold.
+/// The hypothesis' faults of sensors and motions of supports alone: what the corrected assembly does not hold.
 Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, const Fit& found) {
   DiagnosisProblem problem = full;
   problem.base = std::move(corrected);
@@ -39,7 +39,8 @@ Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, cons
   std::vector<double> x;
   auto at = Eigen::Index(found.hypothesis.materials.size());
   for (const Candidate& c : found.hypothesis.effects) {
-    const bool fault = c.kind == Candidate::Kind::gain || c.kind == Candidate::Kind::swap;
+    using Kind = Candidate::Kind;
+    const bool fault = c.kind == Kind::gain || c.kind == Kind::swap || c.kind == Kind::clock || c.kind == Kind::motion;
     if (fault) faults.effects.push_back(c);
     for (std::size_t i = 0; i < c.parameters.size(); ++i, ++at)
       if (fault) x.push_back(found.best.x[at]);
@@ -83,6 +84,11 @@ int diagnose_case(const DiagnosisRequest& request) {
   result.modes = compare_modes(input.full, result.before, result.after);
   result.where = locate(input.full, result.before.best);
   result.where_after = locate(input.full, result.after.best);
+  try {
+    result.recorded = run_recorded(input, d.best, request.run_seconds, request.settings.threads, say);
+  } catch (const std::runtime_error& error) {
+    say(fmt::format("no runs under the recorded motion: {}", error.what()));
+  }
   fs::create_directories(request.directory);
   write_corrected(corrected, text, request.directory);
   write_atomically(request.directory + "/diagnosis.json", diagnosis_json(input, result).dump(2) + "\n");
@@ -111,7 +117,12 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "model-error", options::value<double>(&request.model_error)->default_value(request.model_error),
       "of a right model's frequencies, share, beside its mesh")(
       "unknowns", options::value<int>(&request.unknowns)->default_value(request.unknowns),
-      "of the mesh that effects are looked for on, at most")("no-page", "no HTML page and no pictures");
+      "of the mesh that effects are looked for on, at most")(
+      "most-modes", options::value<int>(&request.most_modes)->default_value(request.most_modes),
+      "of those found in recordings: the lowest are used")(
+      "run-seconds", options::value<double>(&request.run_seconds)->default_value(request.run_seconds),
+      "of a recording with the ground's motion for which the explicit solver is run before and after; 0: not")(
+      "no-page", "no HTML page and no pictures");
   line.positional = {"CASE"};
   line.required = {"CASE", "measured"};
   options::variables_map values;
@@ -126,6 +137,10 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   request.page = values.count("no-page") == 0;
   if (!(request.model_error > 0.0 && request.model_error < 1.0))
     throw InputError("--model-error is {}; it must be above 0 and below 1", request.model_error);
+  if (request.most_modes < 1 || request.most_modes > 30)
+    throw InputError("--most-modes is {}; it must be from 1 to 30", request.most_modes);
+  if (!(request.run_seconds >= 0.0 && request.run_seconds <= 3600.0))
+    throw InputError("--run-seconds is {}; it must be from 0 to 3600", request.run_seconds);
   if (request.settings.fits < 1 || request.settings.effects < 0)
     throw InputError("--fits must be 1 or more and --effects 0 or more");
   return diagnose_case(request);

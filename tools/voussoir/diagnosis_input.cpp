@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "solver/base/error.h"
+#include "solver/identify/driven_modes.h"
 #include "solver/identify/fdd.h"
 #include "solver/identify/ssi.h"
 
@@ -17,29 +19,51 @@ constexpr double default_period_std = 0.01;  // share, where a measurement gives
 constexpr double default_shape_std = 0.05;   // share of the largest component
 constexpr double default_damping_std = 0.3;  // share
 
-/// Modes from the recordings, where none are given.
-void identify(Measured& measured) {
-  if (!measured.modes.empty() || measured.records.empty()) return;
-  const SsiResult found = identify_modes(measured.records);
-  const Fdd spectra = decompose_spectra(measured.records);
+/// A complex shape turned so that the sum of squares of its imaginary parts is least.
+Eigen::VectorXcd turned(const Eigen::VectorXcd& shape) {
+  std::complex<double> sum = 0.0;
+  for (const std::complex<double>& v : shape)
+    if (std::isfinite(v.real())) sum += v * v;
+  return shape * std::polar(1.0, -0.5 * std::arg(sum));
+}
+
+void add_shape(const std::vector<std::string>& channels, const Eigen::VectorXcd& shape, const Eigen::VectorXd& std,
+               const std::vector<MeasuredSensor>& sensors, MeasuredMode& mode) {
+  mode.phases = true;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const auto at = std::find(channels.begin(), channels.end(), sensors[s].id);
+    if (at == channels.end()) continue;
+    const auto channel = Eigen::Index(at - channels.begin());
+    if (std::isfinite(shape[channel].real()))
+      mode.shape.push_back({s, shape[channel].real(), std[channel], shape[channel].imag()});
+  }
+}
+
+MeasuredMode named_mode(const Measured& measured, double frequency, double frequency_std, double damping,
+                        double damping_std) {
+  MeasuredMode mode;
+  mode.name = fmt::format("{}", measured.modes.size() + 1);
+  mode.period = 1.0 / frequency;
+  mode.period_std = frequency_std / (frequency * frequency);
+  mode.damping = damping;
+  mode.damping_std = damping_std;
+  return mode;
+}
+
+/// Modes under an unknown excitation.
+void identify_ambient(DiagnosisInput& input) {
+  Measured& measured = input.measured;
+  input.ambient = std::make_shared<SsiResult>(identify_modes(measured.records));
+  input.spectra = std::make_shared<Fdd>(decompose_spectra(measured.records));
+  const SsiResult& found = *input.ambient;
+  const Fdd& spectra = *input.spectra;
   for (const PoorChannel& poor : found.poor)
     measured.set_aside.push_back({fmt::format("channel {}", found.channels[std::size_t(poor.channel)]), poor.reason});
   for (const RejectedMode& aside : found.set_aside)
     measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
   for (const IdentifiedMode& m : found.modes) {
-    MeasuredMode mode;
-    mode.name = fmt::format("{}", measured.modes.size() + 1);
-    mode.period = 1.0 / m.frequency;
-    mode.period_std = m.frequency_std / (m.frequency * m.frequency);
-    mode.damping = m.damping;
-    mode.damping_std = m.damping_std;
-    for (std::size_t s = 0; s < measured.sensors.size(); ++s) {
-      const auto at = std::find(found.channels.begin(), found.channels.end(), measured.sensors[s].id);
-      if (at == found.channels.end()) continue;
-      const auto channel = Eigen::Index(at - found.channels.begin());
-      if (std::isfinite(m.shape[channel].real()))
-        mode.shape.push_back({s, m.shape[channel].real(), m.shape_std[channel]});
-    }
+    MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
+    add_shape(found.channels, turned(m.shape), m.shape_std, measured.sensors, mode);
     const FddPeak peak = peak_near(spectra, m.frequency, m.shape);
     measured.remarks.push_back(fmt::format(
         "mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, m.frequency,
@@ -48,6 +72,62 @@ void identify(Measured& measured) {
             ? fmt::format("frequency-domain decomposition: {:.3f} Hz, MAC {:.2f}", peak.frequency, peak.assurance)
             : std::string("no peak of the frequency-domain decomposition")));
     measured.modes.push_back(std::move(mode));
+  }
+}
+
+/// Windows as long as the number of averages allows that three inputs need: a single earthquake is short. Up to half as
+/// high again as as many modes of the model as are used: of more than a dozen the poles are not all found, and what is
+/// missing pulls at the others.
+TransferSettings transfer_settings(const DiagnosisInput& input, const Assembly& assembly, int modes) {
+  EigenMemory memory;
+  const Response plain = response(assembly, linear_model(assembly), {}, modes, memory);
+  double longest = 0.0, dt = 0.0;
+  for (const Recording& r : input.measured.records) longest = std::max(longest, r.duration()), dt = r.dt;
+  TransferSettings settings;
+  settings.window = longest / 5.0;
+  settings.highest_frequency = std::min({20.0, 0.4 / dt, 1.5 * std::exp(plain.log_frequency.tail(1)[0])});
+  return settings;
+}
+
+/// Modes under a recorded motion of the ground.
+void identify_driven(Measured& measured, const TransferSettings& settings) {
+  const DrivenModes found = driven_modes(transfer_functions(measured.records, settings));
+  for (const UndrivenMode& aside : found.set_aside)
+    measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+  for (const DrivenMode& m : found.modes) {
+    MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
+    add_shape(found.outputs, m.shape, m.shape_std, measured.sensors, mode);
+    std::string parts;
+    for (std::size_t i = 0; i < found.inputs.size(); ++i) {
+      const auto axis = Eigen::Index(found.inputs[i].back() - 'x'), input = Eigen::Index(i);
+      mode.participation[axis] = m.participation[input];
+      mode.participation_std[axis] = m.participation_std[input];
+      parts += fmt::format("{} {} {:.2f} ± {:.2f}", i ? "," : "", "xyz"[axis], std::abs(m.participation[input]),
+                           m.participation_std[input]);
+    }
+    measured.remarks.push_back(
+        fmt::format("mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, driven by the ground "
+                    "along{}",
+                    mode.name, m.frequency, m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, parts));
+    measured.modes.push_back(std::move(mode));
+  }
+  measured.remarks.push_back(fmt::format(
+      "these modes explain {:.0f} % of the transfer functions from the ground's motion", 100.0 * found.explained));
+}
+
+/// Modes from the recordings, where none are given.
+void identify(DiagnosisInput& input, const Assembly& assembly, int most) {
+  Measured& measured = input.measured;
+  if (!measured.modes.empty() || measured.records.empty()) return;
+  if (has_base_motion(measured.records))
+    identify_driven(measured, transfer_settings(input, assembly, most));
+  else
+    identify_ambient(input);
+  if (int(measured.modes.size()) > most) {
+    for (std::size_t m = std::size_t(most); m < measured.modes.size(); ++m)
+      measured.set_aside.push_back({fmt::format("mode {}", measured.modes[m].name),
+                                    fmt::format("only the {} lowest modes are used; see --most-modes", most)});
+    measured.modes.resize(std::size_t(most));
   }
   if (measured.modes.empty())
     throw InputError("{}: no mode can be identified from the recordings; record longer, or give modes.csv",
@@ -119,7 +199,9 @@ DiagnosisProblem problem_of(const DiagnosisRequest& request, const DiagnosisInpu
   const DampingSettings& damping = input.c.settings.damping;
   using Kind = DampingSettings::Kind;
   if (damping.kind == Kind::maxwell || damping.kind == Kind::rayleigh) problem.damping = damping.ratio;
-  problem.modes = std::min(int(problem.features.modes.size()) + 8, 40);
+  // Identification leaves out modes that nothing drove.
+  const int measured = int(problem.features.modes.size());
+  problem.modes = std::min(input.measured.records.empty() ? measured + 8 : 2 * measured + 8, 40);
   return problem;
 }
 
@@ -136,12 +218,16 @@ MeasuredFeature feature_of(const MeasuredMode& mode, std::size_t sensors) {
     f.damping_std = mode.damping_std > 0.0 ? mode.damping_std / *mode.damping : default_damping_std;
   }
   if (mode.shape.empty()) return f;
+  f.participation = mode.participation;
+  f.participation_std = mode.participation_std;
+  if (mode.phases) f.quadrature = Eigen::VectorXd::Constant(Eigen::Index(sensors), std::nan(""));
   f.shape = Eigen::VectorXd::Constant(Eigen::Index(sensors), std::nan(""));
   f.shape_std = Eigen::VectorXd::Zero(Eigen::Index(sensors));
   double largest = 0.0;
   for (const MeasuredValue& v : mode.shape) largest = std::max(largest, std::abs(v.value));
   for (const MeasuredValue& v : mode.shape) {
     f.shape[Eigen::Index(v.sensor)] = v.value;
+    if (mode.phases) f.quadrature[Eigen::Index(v.sensor)] = v.quadrature;
     f.shape_std[Eigen::Index(v.sensor)] = v.std > 0.0 ? v.std : default_shape_std * largest;
   }
   return f;
@@ -163,7 +249,7 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   DiagnosisInput input;
   input.c = read_case(request.case_file, CaseUse::geometry);
   input.measured = read_measured(request.measured);
-  identify(input.measured);
+  input.without = request.settings.without;
   Assembly own = make_assembly(input.c);
   if (can_remesh(input.c)) input.block_scale = input.c.generator_input.values.at("block_scale");
   Assembly coarse = own;
@@ -174,6 +260,7 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
     input.coarsened = true;
     coarse = remeshed(input.c, input.block_scale);
   }
+  identify(input, coarse, request.most_modes);
   input.full = problem_of(request, input, std::move(own));
   input.coarse = problem_of(request, input, std::move(coarse));
   measure_mesh(input);

@@ -3,6 +3,8 @@
 #include "io/case/case.h"
 #include "io/measured/measured.h"
 #include "solver/diagnosis/diagnose.h"
+#include "solver/identify/fdd.h"
+#include "solver/identify/ssi.h"
 
 namespace voussoir {
 
@@ -13,6 +15,8 @@ struct DiagnosisRequest {
   double shape_error = 0.01;           // of shapes, share of the largest component, beside what the mesh does
   std::vector<std::string> hold_back;  // names of modes
   DiagnosisSettings settings;
+  int most_modes = 10;        // of those that are identified from recordings: the lowest
+  double run_seconds = 10.0;  // of a recording with the ground's motion that the explicit solver is run for
   bool quiet = false, page = true;
 };
 
@@ -21,7 +25,11 @@ struct DiagnosisInput {
   Measured measured;
   DiagnosisProblem full, coarse;  // the case's own mesh; the one that is searched on
   bool coarsened = false;
-  double block_scale = 0.0;  // of the coarse mesh; 0: it has none
+  double block_scale = 0.0;          // of the coarse mesh; 0: it has none
+  std::vector<std::string> without;  // effects that are not tried
+  // How modes were identified from recordings of ambient vibration; empty: they were not.
+  std::shared_ptr<const SsiResult> ambient;
+  std::shared_ptr<const Fdd> spectra;
 };
 
 /// Reads both and measures what the mesh does. Throws InputError.

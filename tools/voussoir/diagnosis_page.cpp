@@ -1,6 +1,7 @@
 #include "tools/voussoir/diagnosis_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,8 @@
 #include "solver/effects/effect.h"
 #include "tools/voussoir/diagnosis_charts.h"
 #include "tools/voussoir/diagnosis_values.h"
+#include "tools/voussoir/html.h"
+#include "tools/voussoir/recorded_charts.h"
 #include "tools/voussoir/svg.h"
 
 namespace voussoir {
@@ -51,50 +54,6 @@ summary { cursor: pointer; margin: 8px 0; }
   svg, img { max-width: 100%; height: auto; } .wide { overflow: visible; } pre { white-space: pre-wrap; }
 }
 )";
-
-std::string paragraph(std::string_view text) {
-  return fmt::format("<p>{}</p>\n", escaped(text));
-}
-
-std::string note(std::string_view text) {
-  return fmt::format("<p class=\"note\">{}</p>\n", escaped(text));
-}
-
-std::string heading(std::string_view text) {
-  return fmt::format("<h2>{}</h2>\n", escaped(text));
-}
-
-std::string figure(const std::string& svg) {
-  return svg.empty() ? std::string() : fmt::format("<figure class=\"wide\">{}</figure>\n", svg);
-}
-
-std::string list(const std::vector<std::string>& items) {
-  std::string text = "<ul>\n";
-  for (const std::string& item : items) text += fmt::format("<li>{}</li>\n", escaped(item));
-  return text + "</ul>\n";
-}
-
-struct Cell {
-  std::string html;
-  bool number = false;
-};
-Cell words_cell(std::string_view words) {
-  return {escaped(words), false};
-}
-Cell number_cell(double value, const char* none = "none") {
-  return {std::isfinite(value) ? fmt::format("{:.2f}", value) : std::string(none), true};
-}
-
-Cell signed_cell(double value) {
-  return {fmt::format("{}{:.1f}", value < 0.0 ? "−" : "+", std::abs(value)), true};
-}
-
-std::string table_row(const std::vector<Cell>& cells, const char* tag, const char* kind = "") {
-  std::string text = *kind ? fmt::format("<tr class=\"{}\">", kind) : std::string("<tr>");
-  for (const Cell& cell : cells)
-    text += fmt::format("<{0}{1}>{2}</{0}>", tag, cell.number ? " class=\"number\"" : "", cell.html);
-  return text + "</tr>\n";
-}
 
 // What was found, in sentences.
 
@@ -436,8 +395,52 @@ std::string model_error_text(const DiagnosisInput& input) {
   return text;
 }
 
+/// Runs of the explicit solver against the recording.
+std::string recorded_section(const DiagnosisInput& input, const DiagnosisResult& result) {
+  if (!result.recorded) return "";
+  const RecordedMatch& m = *result.recorded;
+  std::string text = heading("Under the recorded motion of the ground");
+  text += paragraph(fmt::format(
+      "The explicit solver was run under {:.1f} s of {}, from {:.1f} s on, from rest under gravity, on the mesh that "
+      "was searched ({:.0f} s of computing). Below {:.1f} Hz, accelerations differ from the recorded ones by {:.0f} % "
+      "of them before and by "
+      "{:.0f} % after; transfer functions by {:.1f} standard deviations before and by {:.1f} after.",
+      m.duration, m.record, m.from, m.seconds, m.highest_frequency, 100.0 * m.error_before, 100.0 * m.error_after,
+      m.transfer_before, m.transfer_after));
+  text += figure(transfer_chart(input, m));
+  text += note(
+      "Acceleration of a sensor per acceleration of the ground along its axis. Grey: two standard deviations of "
+      "the measured one. All three are estimated alike.");
+  text += figure(history_chart(input, m));
+  text += "<table>\n" +
+          table_row({{"channel"}, {"rms, m/s²", true}, {"differs before, %", true}, {"after, %", true}}, "th");
+  for (const ChannelMatch& c : m.channels)
+    text += table_row({words_cell(c.channel),
+                       {fmt::format("{:.3g}", c.size), true},
+                       {fmt::format("{:.0f}", 100.0 * c.error_before), true},
+                       {fmt::format("{:.0f}", 100.0 * c.error_after), true}},
+                      "td");
+  return text + "</table>\n" +
+         note(
+             "Root mean square of the difference over that of the recording. What resonates a little late differs by "
+             "as much as itself.");
+}
+
+std::string identification_section(const DiagnosisInput& input) {
+  if (!input.ambient) return "";
+  return heading("Modes found in the recordings") + figure(stabilisation_chart(*input.ambient, *input.spectra)) +
+         note(
+             "Stochastic subspace identification: a pole of the model of each order is a full circle where frequency, "
+             "damping and shape agree with the order before, else a small square; lines mark the modes that were "
+             "taken. "
+             "The curve is the first singular value of the spectra (frequency-domain decomposition), on a scale of "
+             "its own.");
+}
+
 std::string data_section(const DiagnosisInput& input) {
   std::string text = heading("Data and model error") + paragraph(model_error_text(input));
+  if (!input.without.empty())
+    text += paragraph(fmt::format("Left out of the library by request: {}.", fmt::join(input.without, ", ")));
   std::vector<std::string> items;
   for (const SetAside& s : input.measured.set_aside) items.push_back(fmt::format("set aside: {}: {}", s.place, s.what));
   for (const std::string& remark : input.measured.remarks) items.push_back(fmt::format("remark: {}", remark));
@@ -505,9 +508,11 @@ std::string diagnosis_page(const DiagnosisInput& input, const DiagnosisResult& r
       "<style>{}</style>\n</head>\n<body>\n<main>\n<h1>Diagnosis of {}</h1>\n",
       name, kStyle, name);
   page += verdict_box(result) + gap_section(result) + facts(input, result);
-  page += modes_section(result.modes) + shapes_section(input, result) + where_section(result);
+  page += modes_section(result.modes) + shapes_section(input, result) + recorded_section(input, result);
+  page += where_section(result);
   page += nameless_section(d) + candidates_section(d) + materials_section(d) + advice_section(d);
-  page += pictures_section(pictures) + data_section(input) + corrected_section(input, result);
+  page += pictures_section(pictures) + identification_section(input) + data_section(input) +
+          corrected_section(input, result);
   return page + "</main>\n</body>\n</html>\n";
 }
 

@@ -119,6 +119,20 @@ std::string words(const Evaluation& e, int computed) {
   return computed < 0 ? "none" : e.response.words[std::size_t(computed)].text();
 }
 
+json recorded_json(const RecordedMatch& m) {
+  json j = {{"record", m.record},
+            {"from", m.from},
+            {"duration", m.duration},
+            {"error", {{"before", m.error_before}, {"after", m.error_after}}},
+            {"transfer_functions", {{"before", m.transfer_before}, {"after", m.transfer_after}}},
+            {"channels", json::array()},
+            {"seconds", m.seconds}};
+  for (const ChannelMatch& c : m.channels)
+    j["channels"].push_back(
+        {{"channel", c.channel}, {"size", c.size}, {"before", c.error_before}, {"after", c.error_after}});
+  return j;
+}
+
 }  // namespace
 
 std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before, const Fit& after) {
@@ -206,6 +220,8 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
                       {"shape", input.coarse.error.shape},
                       {"mesh_shift", input.coarse.mesh.shift},
                       {"mesh_scatter", input.coarse.mesh.scatter}};
+  if (result.recorded) j["recorded"] = recorded_json(*result.recorded);
+  j["without"] = input.without;
   j["seconds"] = d.seconds;
   return j;
 }
@@ -251,6 +267,12 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
   for (const Advice& a : d.advice) text += fmt::format("to tell it from {}: {}\n", a.against, a.text);
   for (const SetAside& s : input.measured.set_aside) text += fmt::format("set aside: {}: {}\n", s.place, s.what);
   for (const std::string& remark : input.measured.remarks) text += fmt::format("remark: {}\n", remark);
+  if (const auto& m = result.recorded)
+    text += fmt::format(
+        "under {:.1f} s of {}: accelerations differ by {:.0f} % before, {:.0f} % after; transfer functions by {:.1f} "
+        "and "
+        "{:.1f} standard deviations\n",
+        m->duration, m->record, 100.0 * m->error_before, 100.0 * m->error_after, m->transfer_before, m->transfer_after);
   text += fmt::format("gap: {:.2f} before, {:.2f} with fitted materials, {:.2f} after; predicted {:.2f} ({:.1f} s)\n",
                       result.before.gap, d.calibrated.gap, result.after.gap, d.best.predicted_gap, d.seconds);
   return text;

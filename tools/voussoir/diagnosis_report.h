@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solver/diagnosis/locate.h"
-#include "tools/voussoir/diagnosis_input.h"
+#include "tools/voussoir/diagnosis_runs.h"
 
 namespace voussoir {
 
@@ -23,7 +23,8 @@ struct DiagnosisResult {
   Fit before, after;  // on the case's own mesh: the case as it is; the corrected one
   std::vector<ModeComparison> modes;
   Location where, where_after;
-  std::string corrected;  // text of corrected.toml
+  std::optional<RecordedMatch> recorded;  // the explicit solver under the recorded motion of the ground
+  std::string corrected;                  // text of corrected.toml
 };
 
 std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before, const Fit& after);

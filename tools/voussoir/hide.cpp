@@ -13,6 +13,8 @@
 #include "solver/base/error.h"
 #include "solver/diagnosis/fit.h"
 #include "solver/effects/parts.h"
+#include "solver/motion/synthesis.h"
+#include "solver/step/stepper.h"
 #include "tools/voussoir/diagnosis_input.h"
 #include "tools/voussoir/verb.h"
 
@@ -32,6 +34,7 @@ struct HideRequest {
   double mesh = 0.85;      // block_scale of the true bridge over the case's
   int modes = 6;
   double minutes = 0.0;  // of ambient vibration instead of modes
+  double shaken = 0.0;   // s of a recorded motion of the ground instead of modes
   bool trace = false;    // say how much of the effects shows
   std::uint64_t seed = 1;
 };
@@ -209,13 +212,11 @@ std::vector<MeasuredMode> measured_modes(const Response& r, const HideRequest& r
 
 /// Ambient vibration: each mode under white noise of its own, exact for forces that are constant within a step, and
 /// noise of each channel's own.
-Recording ambient(const Response& r, const std::vector<MeasuredSensor>& sensors, const HideRequest& request,
-                  double ratio, Noise& noise) {
+Recording ambient(const Response& r, const HideRequest& request, double ratio, Noise& noise) {
   constexpr double dt = 0.01;  // s
   Recording record;
   record.name = "ambient";
   record.dt = dt;
-  for (const MeasuredSensor& s : sensors) record.channels.push_back(s.id);
   const auto samples = Eigen::Index(std::lround(60.0 * request.minutes / dt));
   record.values = Eigen::MatrixXd::Zero(samples, r.sensors.rows());
   for (Eigen::Index mode = 0; mode < r.eigenvalues.size(); ++mode) {
@@ -258,6 +259,105 @@ double trace_of(const Assembly& bare, const Response& truth, const std::vector<S
   return fit(problem, materials, Eigen::VectorXd::Zero(Eigen::Index(materials.size())), 8).misfit;
 }
 
+/// A support that moves otherwise than the ground's record says.
+struct MovedSupport {
+  std::size_t support = 0;  // of supports()
+  double factor = 1.0, delay = 0.0;
+};
+std::vector<MovedSupport> moved_supports(const Assembly& assembly, const HideRequest& request) {
+  std::vector<MovedSupport> all;
+  const std::vector<std::string> places = supports(assembly);
+  for (const EffectSetting& e : request.effects)
+    if (e.name == "support_motion") {
+      const auto at = std::find(places.begin(), places.end(), e.where);
+      all.push_back({std::size_t(at - places.begin()), e.values.at("factor"), e.values.at("delay")});
+    }
+  return all;
+}
+
+/// How much a support's motion (m/s2) differs from the ground's at a time.
+Vec3 astray(const GroundMotion& ground, const MovedSupport& moved, double time) {
+  return moved.factor * base_acceleration(&ground, time - moved.delay) - base_acceleration(&ground, time);
+}
+
+/// Relative acceleration z̈ of an oscillator z̈ + 2ζω ż + ω² z = −a at the samples of a; within a step a is its mean.
+Eigen::VectorXd relative_acceleration(const Eigen::VectorXd& a, double dt, double w, double ratio) {
+  const double wd = w * std::sqrt(1.0 - ratio * ratio), e = std::exp(-ratio * w * dt);
+  const double c = std::cos(wd * dt), s = std::sin(wd * dt);
+  double z = 0.0, v = 0.0;
+  Eigen::VectorXd result(a.size());
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    result[i] = -a[i] - 2.0 * ratio * w * v - w * w * z;
+    const double rest = -0.5 * (a[i] + a[std::min(i + 1, a.size() - 1)]) / (w * w);
+    const double x = z - rest, b = (v + ratio * w * x) / wd;
+    z = rest + e * (x * c + b * s);
+    v = -ratio * w * (z - rest) + e * wd * (b * c - x * s);
+  }
+  return result;
+}
+
+/// A synthetic earthquake, recorded on the ground and at the sensors: each sensor follows the ground (and supports that
+/// go astray, as far as it hangs on them) and the modes resonate.
+Recording earthquake(const Assembly& assembly, const LinearModel& model, const Response& r, const EigenMemory& memory,
+                     const std::vector<Sensor>& sensors, const HideRequest& request, double ratio, Noise& noise) {
+  SyntheticSettings synthetic;
+  synthetic.seed = request.seed;
+  synthetic.peak = 0.5;
+  synthetic.duration = request.shaken;
+  synthetic.axes = {true, true, true};
+  synthetic.frequency = 5.0;
+  synthetic.bandwidth = 0.9;
+  const GroundMotion ground = synthesize(synthetic);
+  const auto samples = Eigen::Index(ground.acceleration.size()), count = r.eigenvalues.size();
+  Recording record;
+  record.name = "earthquake";
+  record.dt = ground.dt;
+  record.values = Eigen::MatrixXd::Zero(samples, Eigen::Index(sensors.size()) + 3);
+  Eigen::MatrixXd drive = Eigen::MatrixXd::Zero(samples, count);  // of each mode
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const Vec3& a = ground.acceleration[std::size_t(i)];
+    for (std::size_t s = 0; s < sensors.size(); ++s) record.values(i, Eigen::Index(s)) = sensors[s].direction.dot(a);
+    record.values.row(i).tail<3>() = a.transpose();
+    drive.row(i) = a.transpose() * r.participation;
+  }
+  for (const MovedSupport& moved : moved_supports(assembly, request)) {
+    const Eigen::MatrixXd follow = follow_support(assembly, r, model, moved.support, sensors, memory);
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      const Vec3 more = astray(ground, moved, double(i) * ground.dt);
+      record.values.row(i).head(follow.rows()) += (follow * more).transpose();
+      drive.row(i) += more.transpose() * r.at_support[moved.support];
+    }
+  }
+  for (Eigen::Index m = 0; m < count; ++m)
+    record.values.leftCols(r.sensors.rows()) +=
+        relative_acceleration(drive.col(m), ground.dt, std::sqrt(r.eigenvalues[m]), ratio) *
+        r.sensors.col(m).transpose();
+  for (Eigen::Index s = 0; s < r.sensors.rows(); ++s) {
+    const double size = std::sqrt(record.values.col(s).squaredNorm() / double(samples));
+    for (Eigen::Index i = 0; i < samples; ++i) record.values(i, s) += 5.0 * request.noise * size * noise.normal();
+  }
+  return record;
+}
+
+/// Channels whose clocks are late: read between their samples (cubic, Catmull and Rom 1974).
+void set_clocks(const HideRequest& request, const std::vector<MeasuredSensor>& sensors, Recording& record) {
+  for (const EffectSetting& e : request.effects) {
+    if (e.name != "sensor_fault" || e.values.at("delay") == 0.0) continue;
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+      if (e.where != "channel " + sensors[s].id) continue;
+      const Eigen::VectorXd y = record.values.col(Eigen::Index(s));
+      const auto sample = [&](Eigen::Index i) { return y[std::clamp<Eigen::Index>(i, 0, y.size() - 1)]; };
+      for (Eigen::Index i = 0; i < y.size(); ++i) {
+        const double at = double(i) - e.values.at("delay") / record.dt, t = at - std::floor(at);
+        const auto k = Eigen::Index(std::floor(at));
+        const double a = sample(k - 1), b = sample(k), c = sample(k + 1), d = sample(k + 2);
+        record.values(i, Eigen::Index(s)) =
+            b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+      }
+    }
+  }
+}
+
 std::string answer(const HideRequest& request, const Response& truth) {
   std::string text =
       fmt::format("# What voussoir hide put into the measurements beside this file.\nseed = {}\n", request.seed);
@@ -289,11 +389,22 @@ int hide(const HideRequest& request) {
   const std::vector<Sensor> sound = sensors;
   for (const EffectSetting& effect : request.effects) apply_effect(sensors, effect);
   EigenMemory memory;
-  const Response truth = response(assembly, linear_model(assembly), sensors, 2 * request.modes + 6, memory);
+  const LinearModel model = linear_model(assembly);
+  // An earthquake drives all modes of its band, of which the sensors see the sum.
+  const int count = request.shaken > 0.0 ? 80 : 2 * request.modes + 6;
+  const Response truth = response(assembly, model, sensors, count, memory, request.shaken > 0.0);
   if (request.minutes > 0.0)
-    measured.records = {ambient(truth, measured.sensors, request, settings.damping.ratio, noise)};
+    measured.records = {ambient(truth, request, settings.damping.ratio, noise)};
+  else if (request.shaken > 0.0)
+    measured.records = {earthquake(assembly, model, truth, memory, sensors, request, settings.damping.ratio, noise)};
   else
     measured.modes = measured_modes(truth, request, settings.damping.ratio, noise);
+  for (Recording& record : measured.records) {
+    record.channels.clear();
+    for (const MeasuredSensor& s : measured.sensors) record.channels.push_back(s.id);
+    if (request.shaken > 0.0) record.channels.insert(record.channels.end(), {"base_x", "base_y", "base_z"});
+    set_clocks(request, measured.sensors, record);
+  }
   measured.what = fmt::format("made by voussoir hide from {}", fs::path(request.case_file).filename().string());
   fs::create_directories(request.directory);
   write_measured(measured, request.directory + "/measured");
@@ -304,8 +415,9 @@ int hide(const HideRequest& request) {
            text;
   write_atomically(request.directory + "/answer.toml", text);
   fmt::print("{} at {} sensors in {}/measured; the answer is in {}/answer.toml\n",
-             request.minutes > 0.0 ? fmt::format("{:g} min of vibration", request.minutes)
-                                   : fmt::format("{} modes", measured.modes.size()),
+             request.shaken > 0.0    ? fmt::format("{:g} s of an earthquake", request.shaken)
+             : request.minutes > 0.0 ? fmt::format("{:g} min of vibration", request.minutes)
+                                     : fmt::format("{} modes", measured.modes.size()),
              measured.sensors.size(), request.directory, request.directory);
   return 0;
 }
@@ -321,6 +433,8 @@ int hide_run(const std::vector<std::string>& arguments) {
                                               "that are measured")(
       "minutes", options::value<double>(&request.minutes)->default_value(0.0),
       "of ambient vibration instead of modes; the noise of its channels is five times --noise")(
+      "shaken", options::value<double>(&request.shaken)->default_value(0.0),
+      "s of a synthetic earthquake, recorded on the ground too, instead of modes; noise as with --minutes")(
       "noise", options::value<double>(&request.noise)->default_value(request.noise, fmt::format("{}", request.noise)),
       "standard deviation of periods, share; of shapes twice that")(
       "scatter",
@@ -350,8 +464,12 @@ int hide_run(const std::vector<std::string>& arguments) {
     if (!(x >= 0.0 && x < 1.0)) throw InputError("noise, scatter, materials and defects must be from 0 to below 1");
   if (!(request.mesh > 0.2 && request.mesh < 5.0)) throw InputError("--mesh is {}; give 0.2 to 5", request.mesh);
   request.trace = values.count("trace") > 0;
-  if (request.minutes < 0.0 || (request.minutes > 0.0 && request.sensors == "none"))
-    throw InputError("--minutes needs sensors, and cannot be negative");
+  const bool recorded = request.minutes > 0.0 || request.shaken > 0.0;
+  if (request.minutes < 0.0 || request.shaken < 0.0 || (recorded && request.sensors == "none"))
+    throw InputError("--minutes and --shaken need sensors, and cannot be negative");
+  if (recorded && values.count("trace"))
+    throw InputError("--trace is of modes, which --minutes and --shaken do not give; leave it out");
+  if (request.minutes > 0.0 && request.shaken > 0.0) throw InputError("give --minutes or --shaken, not both");
   if (values.count("effect"))
     for (const std::string& text : values["effect"].as<std::vector<std::string>>())
       request.effects.push_back(parse_effect(text));

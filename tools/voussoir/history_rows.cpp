@@ -32,7 +32,14 @@ double group_displacement(const Simulation& run, const DemandPoint& point) {
   return sum / double(blocks.size());
 }
 
-/// Velocity of a sensor's point along its direction at the last half step, m/s.
+/// Rotation vector of a sensor's block since the reference placement, rad.
+Vec3 sensor_rotation(const Simulation& run, const Sensor& sensor) {
+  const Eigen::AngleAxisd turn(rotation_of(run.state(), std::size_t(run.model().body_of_block[sensor.block])));
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
 double sensor_velocity(const Simulation& run, const Sensor& sensor) {
   const std::int32_t body = run.model().body_of_block[sensor.block];
   const double* motion = &run.state().motion[motion_width * std::size_t(body)];
@@ -44,14 +51,6 @@ double sensor_velocity(const Simulation& run, const Sensor& sensor) {
   const Vec3 arm = q * (sensor.position - b.centroid);
   return sensor.direction.dot(Vec3(motion[0], motion[1], motion[2]) + spin.cross(arm));
 }
-
-/// Rotation vector of a sensor's block since the reference placement, rad.
-Vec3 sensor_rotation(const Simulation& run, const Sensor& sensor) {
-  const Eigen::AngleAxisd turn(rotation_of(run.state(), std::size_t(run.model().body_of_block[sensor.block])));
-  return turn.angle() * turn.axis();
-}
-
-}  // namespace
 
 std::string demand_channel(const DemandPoint& point) {
   return fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);

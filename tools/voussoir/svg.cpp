@@ -144,6 +144,27 @@ void SvgDrawing::line(double x1, double y1, double x2, double y2, const std::str
                        shape_attributes({"none", colour, width, dashes}));
 }
 
+void SvgDrawing::curve(const std::vector<std::pair<double, double>>& points, const std::string& colour, double width,
+                       const char* dashes) {
+  std::string path;
+  bool down = false;
+  for (const auto& [x, y] : points) {
+    const bool here = std::isfinite(x) && std::isfinite(y);
+    if (here) path += fmt::format("{}{:.1f} {:.1f}", down ? 'L' : 'M', x, y);
+    down = here;
+  }
+  text_ += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"", path, colour, width);
+  if (*dashes) text_ += fmt::format(" stroke-dasharray=\"{}\"", dashes);
+  text_ += "/>\n";
+}
+
+void SvgDrawing::area(const std::vector<std::pair<double, double>>& points, const std::string& fill) {
+  std::string path;
+  for (const auto& [x, y] : points)
+    if (std::isfinite(x) && std::isfinite(y)) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
+  if (!path.empty()) text_ += fmt::format("<path d=\"{}z\" fill=\"{}\" stroke=\"none\"/>\n", path, fill);
+}
+
 void SvgDrawing::rectangle(double x, double y, double width, double height, const ShapeStyle& style,
                            std::string_view hint) {
   text_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"{}>{}</rect>\n", x, y,

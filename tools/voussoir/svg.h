@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "viz/palette.h"
@@ -43,6 +44,11 @@ class SvgDrawing {
   SvgDrawing(double width, double height, std::string_view description);
   void line(double x1, double y1, double x2, double y2, const std::string& colour, double width = 1.0,
             const char* dashes = "");
+  /// Through points (px); those that are not finite break it.
+  void curve(const std::vector<std::pair<double, double>>& points, const std::string& colour, double width = 1.0,
+             const char* dashes = "");
+  /// A filled outline.
+  void area(const std::vector<std::pair<double, double>>& points, const std::string& fill);
   /// `hint` is shown under the mouse.
   void rectangle(double x, double y, double width, double height, const ShapeStyle& style, std::string_view hint = {});
   void text(double x, double y, std::string_view text, const TextStyle& style = {});

@@ -1,0 +1,29 @@
+// Pieces of an HTML page. Words are escaped, what is called html or svg is not.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voussoir {
+
+std::string paragraph(std::string_view words);
+/// Smaller, below what it explains.
+std::string note(std::string_view words);
+std::string heading(std::string_view words);
+/// Empty for an empty drawing.
+std::string figure(const std::string& svg);
+std::string list(const std::vector<std::string>& items);
+
+struct Cell {
+  std::string html;
+  bool number = false;  // to the right
+};
+Cell words_cell(std::string_view words);
+/// Two decimals; `none` where it is not finite.
+Cell number_cell(double value, const char* none = "none");
+/// "+1.2".
+Cell signed_cell(double value);
+/// `tag` is td or th; `kind` the class of the row, may be empty.
+std::string table_row(const std::vector<Cell>& cells, const char* tag, const char* kind = "");
+
+}  // namespace voussoir
