@@ -30,22 +30,24 @@ constexpr double std_doubt = 1.1;
 /// each shape is free, and its phase where that is known.
 double tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_doubt) {
   const std::vector<ResidualRow> rows = residual_rows(problem);
-  std::map<ResidualRow::Kind, std::pair<double, int>> kinds;  // sum of squares, degrees of freedom
+  using Kind = ResidualRow::Kind;
+  // Sum of squares and degrees of freedom; phases by sensor: many right clocks do not excuse one that is late.
+  std::map<std::pair<Kind, int>, std::pair<double, int>> kinds;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (problem.features.modes[std::size_t(rows[i].mode)].held_back) continue;
     const double r = fit.best.residuals[Eigen::Index(i)];
-    auto& [sum, freedom] = kinds[rows[i].kind];
+    auto& [sum, freedom] = kinds[{rows[i].kind, rows[i].kind == Kind::quadrature ? rows[i].sensor : 0}];
     sum += r * r;
     ++freedom;
   }
+  int all = 0;
   for (std::size_t m = 0; m < problem.whitening.size(); ++m) {
     const MeasuredFeature& mode = problem.features.modes[m];
     if (mode.held_back || problem.whitening[m].size() == 0) continue;
-    --kinds[ResidualRow::Kind::shape].second;
-    if (mode.quadrature.size() > 0) --kinds[ResidualRow::Kind::quadrature].second;
+    --kinds[{Kind::shape, 0}].second;
+    if (mode.quadrature.size() > 0) --all;
   }
   const auto tail_of = [&](double misfit, int freedom) { return chi_square_tail(misfit / (wider * wider), freedom); };
-  int all = 0;
   double worst = 1.0;
   for (const auto& [kind, of] : kinds) {
     all += of.second;
@@ -205,18 +207,29 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   return round;
 }
 
+/// A fit from x; nothing where it leads to no bridge that stands, or does not converge.
+std::optional<Fit> fit_if_possible(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
+                                   const Eigen::VectorXd& x, int iterations) {
+  try {
+    return fit(problem, hypothesis, x, iterations);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
 /// Takes out an effect that a later one has made needless: an early choice may have stood in for it.
 void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit& current,
                      std::vector<Round>& rounds, const Say& say) {
   for (std::size_t i = 0; i + 1 < current.hypothesis.effects.size();) {
     const Candidate out = current.hypothesis.effects[i];
-    const Fit less = fit(problem, without(current.hypothesis, i), without(current, i), settings.iterations);
-    if (less.log_evidence < current.log_evidence + std::log(out.prior) + settings.margin) {
+    const std::optional<Fit> less =
+        fit_if_possible(problem, without(current.hypothesis, i), without(current, i), settings.iterations);
+    if (!less || less->log_evidence < current.log_evidence + std::log(out.prior) + settings.margin) {
       ++i;
       continue;
     }
     say(fmt::format("  {} is not needed any more", out.text()));
-    current = less;
+    current = *less;
     std::size_t accepted = 0;
     for (Round& round : rounds)
       if (round.accepted && accepted++ == i) {
@@ -237,7 +250,8 @@ Fit add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, F
     current = rounds.back().trials[0].fit;
     set_mesh_error(problem, current.best.response, current.hypothesis, current.best.x);
     set_shape_errors(problem, current.best.response);
-    current = fit(problem, current.hypothesis, current.best.x, 2);
+    if (std::optional<Fit> again = fit_if_possible(problem, current.hypothesis, current.best.x, 2))
+      current = std::move(*again);
     drop_superseded(problem, settings, current, rounds, say);
     say(fmt::format(
         "with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; a misfit as large has "

@@ -4,6 +4,7 @@
 
 #include "solver/base/error.h"
 #include "solver/modal/loose.h"
+#include "solver/modal/stiffness.h"
 #include "solver/model/quadrature.h"
 
 namespace voussoir {
@@ -12,12 +13,6 @@ namespace {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
-
-Mat3 skew(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
 
 Matrix6 block_mass(const Block& block) {
   Matrix6 m = Matrix6::Zero();

@@ -88,12 +88,6 @@ bool is_open(const Model& model, const State& state, std::size_t index) {
   return true;
 }
 
-Mat3 skew(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
 /// From a body's centroid, where it is now, to the middle of the patch (m).
 Vec3 arm_to(const Model& model, const double* pose, std::int32_t body, const Vec3& place) {
   return place - model.bodies[std::size_t(body)].centroid - Vec3(pose[0], pose[1], pose[2]);

@@ -5,6 +5,13 @@
 
 namespace voussoir {
 
+/// a × b = skew(a) b.
+inline Mat3 skew(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
 enum class PatchTangent {
   intact,   // every patch as if bonded and elastic
   present,  // open points nothing, sliding points only across their slip direction
