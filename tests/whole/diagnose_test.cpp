@@ -151,6 +151,9 @@ TEST(Hide, SaysWhatIsWrongWithItsInput) {
   expect_error(run({"--effect", "scor"}), 2, {"'scor'", "scour"});
   expect_error(run({"--effect", "scour pier 7 x-"}), 2, {"pier 7 x-", "pier 0 x-"});
   expect_error(run({"--effect", "scour pier 0 x- lost_share=much"}), 2, {"lost_share=much"});
+  expect_error(run({"--effect", "support_motion pier 0 factor=0.5"}), 2, {"support_motion", "--shaken"});
+  expect_error(run({"--effect", "sensor_fault channel A01y delay=0.01"}), 2, {"late clock", "--minutes"});
+  expect_error(run({"--trace", "--minutes", "2"}), 2, {"--trace"});
   expect_error(run({"--sensors", "some"}), 2, {"some", "sparse"});
   EXPECT_FALSE(exists(folder / "out/measured"));
 }

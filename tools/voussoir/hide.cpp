@@ -262,6 +262,17 @@ int hide(const HideRequest& request) {
   return 0;
 }
 
+/// What a measurement of this sort cannot hold would be hidden for nothing.
+void check_shows(const HideRequest& request) {
+  const bool recorded = request.minutes > 0.0 || request.shaken > 0.0;
+  for (const EffectSetting& e : request.effects) {
+    if (e.name == "support_motion" && request.shaken == 0.0)
+      throw InputError("support_motion shows only where the ground's motion is recorded: give --shaken too");
+    if (e.name == "sensor_fault" && e.values.at("delay") != 0.0 && !recorded)
+      throw InputError("a late clock shows only in recordings: give --minutes or --shaken too");
+  }
+}
+
 int hide_run(const std::vector<std::string>& arguments) {
   CommandLine line("hide", "hide CASE --effect \"NAME PLACE PARAMETER=VALUE\" -o DIR",
                    "voussoir hide cases/cs1-f.toml --effect \"abutment_restraint both\" --seed 7 -o hidden");
@@ -313,6 +324,7 @@ int hide_run(const std::vector<std::string>& arguments) {
   if (values.count("effect"))
     for (const std::string& text : values["effect"].as<std::vector<std::string>>())
       request.effects.push_back(parse_effect(text));
+  check_shows(request);
   return hide(request);
 }
 
