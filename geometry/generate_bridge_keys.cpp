@@ -41,7 +41,7 @@ const Row kDimensions[] = {
 };
 
 const Row kBlocks[] = {
-    {"block_scale", 1.0, 1.0, 0.5, 6.0, "-", "factor on all block sizes; joints keep stiffness times size"},
+    {"block_scale", 1.0, 1.0, 0.25, 6.0, "-", "factor on all block sizes; joints keep stiffness times size"},
     {"voussoir_length", 0.45, 0.60, 0.05, 10.0, "m", "voussoirs along the middle of the ring, at most"},
     {"voussoir_width", 0.50, 0.60, 0.05, 10.0, "m", "voussoirs across"},
     {"block_length", 0.75, 1.56, 0.05, 10.0, "m", "masonry in courses (walls, backing, solid piers): along the bridge"},

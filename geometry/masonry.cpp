@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace voussoir {
 
@@ -114,6 +115,21 @@ bool join(const Polygon& polygon, const Ring& ring, Piece& left, const Piece& ri
   return false;
 }
 
+/// First wedge whose sector a polygon may reach, and one past the last. Above the springing its corners lie past a
+/// joint or before it in the joints' order, so that both are found by halving.
+std::pair<int, int> sectors_reached(const Polygon& polygon, const Ring& ring) {
+  const auto below = [&](const Vec3& p) { return p.z() < ring.centre.z(); };
+  if (std::any_of(polygon.begin(), polygon.end(), below)) return {0, ring.wedges()};
+  const auto reaches = [&](const Plane& plane) {
+    const auto inside = [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset < kNothing; };
+    return std::any_of(polygon.begin(), polygon.end(), inside);
+  };
+  const auto wedges = std::views::iota(0, ring.wedges());
+  const auto first = std::ranges::partition_point(wedges, [&](int i) { return !reaches(before_joint(ring, i + 1)); });
+  const auto last = std::ranges::partition_point(wedges, [&](int i) { return reaches(past_joint(ring, i)); });
+  return {int(first - wedges.begin()), int(last - wedges.begin())};
+}
+
 bool clear_of(const Polygon& polygon, const Ring& ring) {
   Vec3 low = polygon[0], high = polygon[0];
   for (const Vec3& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -193,7 +209,8 @@ std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, 
 
 std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring) {
   std::vector<Piece> pieces;
-  for (int i = 0; i < ring.wedges(); ++i) {
+  const auto [first, last] = sectors_reached(polygon, ring);
+  for (int i = first; i < last; ++i) {
     Piece piece = {i, i, i, sector(polygon, ring, i, i, i)};
     if (is_nothing(piece.polygon)) continue;
     const bool next = !pieces.empty() && pieces.back().last == i - 1;

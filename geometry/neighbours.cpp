@@ -1,7 +1,9 @@
 #include "geometry/neighbours.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <span>
 
 namespace voussoir {
 namespace {
@@ -19,6 +21,61 @@ int longest_axis(const std::vector<Box>& boxes) {
   return axis;
 }
 
+/// Strips of equal width across the sweep: about two boxes wide, so that a box stands in few of them and each holds few
+/// boxes side by side.
+class Strips {
+ public:
+  Strips(const std::vector<Box>& boxes, int axis, double distance) : axis_(axis), reach_(std::max(distance, 0.0)) {
+    double low = 1e300, high = -1e300, width = 0.0;
+    for (const Box& box : boxes) {
+      low = std::min(low, box.low[axis]), high = std::max(high, box.high[axis]);
+      width += (box.high[axis] - box.low[axis] + reach_) / double(boxes.size());
+    }
+    const double most = std::max(1.0, std::sqrt(double(boxes.size())));
+    count_ = int(std::clamp((high - low) / std::max(2.0 * width, 1e-300), 1.0, most));
+    from_ = low;
+    size_ = (high - low) / count_;
+  }
+  int count() const { return count_; }
+  int at(double x) const { return size_ > 0.0 ? int(std::clamp((x - from_) / size_, 0.0, count_ - 1.0)) : 0; }
+  int first(const Box& box) const { return at(box.low[axis_]); }
+  /// With a little more than the distance asked for, against rounding.
+  int last(const Box& box) const { return std::max(first(box), at(box.high[axis_] + reach_ + 1e-6 * size_)); }
+
+ private:
+  int axis_, count_ = 1;
+  double from_ = 0.0, size_ = 0.0, reach_;
+};
+
+/// Columns along the sweep, each with its boxes in the order in which they were added.
+class Columns {
+ public:
+  Columns(const std::vector<Box>& boxes, int y, int z, double distance)
+      : y_(boxes, y, distance), z_(boxes, z, distance), first_(std::size_t(y_.count() * z_.count()) + 1, 0) {
+    for (const Box& box : boxes) each(box, [&](std::size_t column) { ++first_[column + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    members_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      each(boxes[i], [&](std::size_t column) { members_[next[column]++] = int(i); });
+  }
+  std::size_t count() const { return first_.size() - 1; }
+  std::span<const int> members(std::size_t column) const {
+    return std::span(members_).subspan(first_[column], first_[column + 1] - first_[column]);
+  }
+  std::size_t at(double y, double z) const { return std::size_t(y_.at(y) * z_.count() + z_.at(z)); }
+
+ private:
+  template <class F>
+  void each(const Box& box, F f) const {
+    for (int i = y_.first(box); i <= y_.last(box); ++i)
+      for (int j = z_.first(box); j <= z_.last(box); ++j) f(std::size_t(i * z_.count() + j));
+  }
+  Strips y_, z_;
+  std::vector<std::size_t> first_;
+  std::vector<int> members_;
+};
+
 }  // namespace
 
 std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, double distance) {
@@ -29,17 +86,27 @@ std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, doubl
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return std::pair(boxes[i].low[x], i) < std::pair(boxes[j].low[x], j); });
-  std::vector<Box> sorted;  // in the order of the sweep, so that the inner loop reads straight on
+  std::vector<Box> sorted;
   sorted.reserve(boxes.size());
   for (int i : order) sorted.push_back(boxes[i]);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const Vec3 low = sorted[i].low.array() - distance, high = sorted[i].high.array() + distance;
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[x] <= high[x]; ++j) {
-      const Box& b = sorted[j];
-      // All six comparisons: with a negative distance a box thinner than it meets nothing.
-      if (b.low[y] > high[y] || b.high[y] < low[y] || b.low[z] > high[z] || b.high[z] < low[z]) continue;
-      if (b.high[x] < low[x]) continue;
-      out.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+  const Columns columns(sorted, y, z, distance);
+  std::vector<Box> column;  // in the order of the sweep, so that the inner loop reads straight on
+  for (std::size_t c = 0; c < columns.count(); ++c) {
+    const std::span<const int> members = columns.members(c);
+    column.clear();
+    for (int i : members) column.push_back(sorted[i]);
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      const Box& a = column[i];
+      const Vec3 low = a.low.array() - distance, high = a.high.array() + distance;
+      for (std::size_t j = i + 1; j < column.size() && column[j].low[x] <= high[x]; ++j) {
+        const Box& b = column[j];
+        // All six comparisons: with a negative distance a box thinner than it meets nothing.
+        if (b.low[y] > high[y] || b.high[y] < low[y] || b.low[z] > high[z] || b.high[z] < low[z]) continue;
+        if (b.high[x] < low[x]) continue;
+        // A pair that shares several columns counts in the one where both have begun.
+        if (columns.at(std::max(a.low[y], b.low[y]), std::max(a.low[z], b.low[z])) != c) continue;
+        out.push_back(std::minmax({order[members[i]], order[members[j]]}));
+      }
     }
   }
   std::sort(out.begin(), out.end());

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <random>
 
+#include "geometry/neighbours.h"
 #include "solver/base/error.h"
 #include "tests/geometry/shapes.h"
 
@@ -18,6 +20,30 @@ void expect_sound(const Joint& joint) {
   EXPECT_GT(polygon_normal(joint.polygon).dot(joint.normal), 1.0 - 1e-9);
   EXPECT_NEAR(polygon_area(joint.polygon), joint.area, 1e-12);
   EXPECT_NEAR(joint.normal.norm(), 1.0, 1e-14);
+}
+
+/// All pairs, each looked at.
+std::vector<std::pair<int, int>> all_neighbours(const std::vector<Box>& boxes, double distance) {
+  std::vector<std::pair<int, int>> pairs;
+  const auto near = [&](const Box& a, const Box& b) { return ((b.low - a.high).array() <= distance).all(); };
+  for (int i = 0; i < int(boxes.size()); ++i)
+    for (int j = i + 1; j < int(boxes.size()); ++j)
+      if (near(boxes[i], boxes[j]) && near(boxes[j], boxes[i])) pairs.emplace_back(i, j);
+  return pairs;
+}
+
+/// Small boxes, some as long as all of them, some flat, in rows whose faces coincide and anywhere.
+TEST(Neighbours, AreThoseFoundByLookingAtEveryPair) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::vector<Box> boxes;
+  for (int i = 0; i < 600; ++i) {
+    const Vec3 place = Vec3(20 * unit(random), 6 * unit(random), 4 * unit(random)), size(unit(random), 0.5, 0.25);
+    const Vec3 low = i % 2 ? place : Vec3(0.5 * place.array().floor());
+    boxes.push_back({low, low + (i % 50 ? size : Vec3(20.0, i % 100 ? 0.0 : 6.0, 0.5))});
+  }
+  for (double distance : {0.0, 1e-3, 0.4, -1e-3, -0.3})
+    EXPECT_EQ(neighbours(boxes, distance), all_neighbours(boxes, distance)) << distance;
 }
 
 TEST(FindJoints, OfTwoStackedBoxesOffset) {
