@@ -44,10 +44,10 @@ struct MovedBodies {
 /// Bodies more than a quarter of the trigger from where they were last looked at; their place is noted anew.
 void mark(const State& state, std::int32_t body, State& to, MovedBodies& moved) {
   moved.flag[body] = 1;
-  for (int c = 0; c < 3; ++c)
-    to.searched[7 * std::size_t(body) + c] =
-        state.pose[pose_width * std::size_t(body) + c] - state.base_displacement()[c];
-  for (int c = 3; c < 7; ++c) to.searched[7 * std::size_t(body) + c] = state.pose[pose_width * std::size_t(body) + c];
+  const double* pose = &state.pose[pose_width * std::size_t(body)];
+  float* place = &to.searched[searched_width * std::size_t(body)];
+  for (int c = 0; c < 3; ++c) place[c] = float(pose[c] - state.base_displacement()[c]);
+  for (int c = 3; c < 7; ++c) place[c] = float(pose[c]);
 }
 
 MovedBodies find_moved(const Model& model, State& state) {
@@ -125,6 +125,9 @@ struct Clipper {
                                  double energy, const double* largest, const double* slid) {
     std::optional<NewContact> fresh = make_contact(model, state, old.a, old.cell_a, old.b, old.cell_b, skin(model));
     if (fresh) {
+      // The same joint, elsewhere: what is left of a brittle law is its unbonded part.
+      fresh->patch.kn = old.kn, fresh->patch.ks = old.ks;
+      if (model.laws[std::size_t(old.law)].kind == JointLaw::Kind::brittle) fresh->patch.law = old.law;
       carry_over(model, state, old, points, memory, energy, *fresh);
       fresh->carried_opening = largest[0];
       const Vec3 before(slid[0], slid[1], slid[2]), after = before + mean_slip(state, old, points, memory);
@@ -154,31 +157,51 @@ bool boxes_meet(const Box& a, const Box& b, double distance) {
   return (a.low.array() - distance <= b.high.array()).all() && (b.low.array() - distance <= a.high.array()).all();
 }
 
+/// A cell where it is now.
+struct PlacedCell {
+  std::int32_t body = 0, cell = 0;
+  Box box;
+};
+
+void place_cells(const Model& model, const State& state, std::int32_t body, std::vector<PlacedCell>& cells) {
+  for (const Convex& cell : model.cells[body])
+    cells.push_back({body, std::int32_t(&cell - model.cells[body].data()), placed_box(model, state, body, cell)});
+}
+
+/// Whether the sphere about a body comes within a distance of a box.
+bool sphere_meets(const Model& model, const State& state, std::int32_t body, const Box& box, double distance) {
+  const double* p = &state.pose[pose_width * std::size_t(body)];
+  const Vec3 centre = model.bodies[body].centroid + Vec3(p[0], p[1], p[2]);
+  const double reach = 1.000001 * model.bodies[body].radius + distance;
+  return (centre.cwiseMax(box.low).cwiseMin(box.high) - centre).squaredNorm() <= reach * reach;
+}
+
 /// Pairs of cells of different bodies, at least one moved and one free, whose boxes come within the skin.
 std::vector<Key> candidate_pairs(const Model& model, const State& state, const MovedBodies& moved) {
-  std::vector<Box> boxes;
-  std::vector<std::pair<std::int32_t, std::int32_t>> owner;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    for (std::size_t c = 0; c < model.cells[i].size(); ++c) {
-      boxes.push_back(placed_box(model, state, std::int32_t(i), model.cells[i][c]));
-      owner.emplace_back(std::int32_t(i), std::int32_t(c));
-    }
+  constexpr std::size_t few = 20;  // cells: less work to look past every body than to sort all of them
   std::vector<Key> pairs;
-  const auto consider = [&](std::size_t i, std::size_t j) {
-    const auto [a, ca] = owner[i];
-    const auto [b, cb] = owner[j];
+  const auto consider = [&](const PlacedCell& p, const PlacedCell& q) {
+    const std::int32_t a = p.body, b = q.body;
     if (a == b || (model.bodies[a].still() && model.bodies[b].still()) || !(moved.flag[a] || moved.flag[b])) return;
-    pairs.push_back(a < b ? Key{a, b, ca, cb} : Key{b, a, cb, ca});
+    pairs.push_back(a < b ? Key{a, b, p.cell, q.cell} : Key{b, a, q.cell, p.cell});
   };
-  std::vector<std::size_t> few;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    if (moved.flag[owner[i].first]) few.push_back(i);
-  if (few.size() > 20) {
-    for (const auto& [i, j] : neighbours(boxes, skin(model))) consider(std::size_t(i), std::size_t(j));
+  const auto bodies = std::int32_t(model.bodies.size());
+  std::vector<PlacedCell> from, cells;
+  for (std::int32_t i = 0; i < bodies && from.size() <= few; ++i)
+    if (moved.flag[i]) place_cells(model, state, i, from);
+  if (from.size() <= few) {
+    for (std::int32_t i = 0; i < bodies; ++i) {
+      const auto near = [&](const PlacedCell& p) { return sphere_meets(model, state, i, p.box, skin(model)); };
+      if (std::any_of(from.begin(), from.end(), near)) place_cells(model, state, i, cells);
+    }
+    for (const PlacedCell& p : from)
+      for (const PlacedCell& q : cells)
+        if (boxes_meet(p.box, q.box, skin(model))) consider(p, q);
   } else {
-    for (std::size_t i : few)
-      for (std::size_t j = 0; j < boxes.size(); ++j)
-        if (boxes_meet(boxes[i], boxes[j], skin(model))) consider(i, j);
+    for (std::int32_t i = 0; i < bodies; ++i) place_cells(model, state, i, cells);
+    std::vector<Box> boxes;
+    for (const PlacedCell& p : cells) boxes.push_back(p.box);
+    for (const auto& [i, j] : neighbours(boxes, skin(model))) consider(cells[std::size_t(i)], cells[std::size_t(j)]);
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -61,6 +61,18 @@ TEST(Clipping, KeepsTheForceWhereItMay) {
   EXPECT_LE(elastic(bench), before * (1.0 + 1e-9));
 }
 
+/// What has slid is the same joint: softer than its stones' moduli would make it, and with its own friction.
+TEST(Clipping, KeepsStiffnessAndLaw) {
+  const auto made = pressed(1e-4, 0.03, 0.5);
+  Bench& bench = *made;
+  const Patch joint = bench.model.joints[0];
+  ASSERT_EQ(update_contacts(bench.model, bench.state, Branches{}).clipped, 1);
+  const Patch& contact = bench.state.contacts.at(0);
+  EXPECT_EQ(contact.kn, joint.kn);
+  EXPECT_EQ(contact.ks, joint.ks);
+  EXPECT_EQ(contact.law, joint.law);
+}
+
 /// A block that slides 0.3 m down a slope is clipped anew on the way, and has slipped 0.3 m all the same.
 TEST(Clipping, ForgetsNoSlip) {
   Assembly assembly = stone(2000.0, 1e10, 0.2);
