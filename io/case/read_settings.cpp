@@ -23,8 +23,9 @@ void read_analysis(TableReader& table, SolverSettings& settings) {
   s.safety = table.number("safety", s.safety, {0.0, 1.0, "", true});
   s.mass_scaling_limit = table.number("mass_scaling_limit", s.mass_scaling_limit, {0.0, 1.0, ""});
   s.mass_scaling_step = table.number("mass_scaling_step", s.mass_scaling_step, {0.0, 1.0, "s"});
-  if (s.mass_scaling_limit > 0.0 && s.mass_scaling_step == 0.0)
-    table.missing("mass_scaling_step", "s, the time step to aim for, because 'mass_scaling_limit' is given");
+  if (s.mass_scaling_step > 0.0 && s.mass_scaling_limit == 0.0)
+    table.missing("mass_scaling_limit",
+                  "the share of the mass that may be added, because 'mass_scaling_step' is given");
   s.equilibrium_tolerance = table.number("equilibrium_tolerance", s.equilibrium_tolerance, {0.0, 0.1, "", true});
   s.intact_shortcut = table.flag("intact_shortcut", s.intact_shortcut);
   table.finish();

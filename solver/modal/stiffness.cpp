@@ -160,6 +160,11 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
   return is_open(model, state, index) ? Matrix6(Matrix6::Zero()) : intact_stiffness(patch);
 }
 
+std::array<Matrix6, 2> own_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
+  const Matrix12 pair = pair_stiffness(model, state, index, kind);
+  return {pair.topLeftCorner<6, 6>(), pair.bottomRightCorner<6, 6>()};
+}
+
 BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind) {
   const std::size_t all = model.joints.size() + state.contacts.size();
   std::vector<std::pair<std::int32_t, std::int32_t>> coupled;

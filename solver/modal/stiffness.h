@@ -19,6 +19,8 @@ enum class PatchTangent {
 
 /// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
+/// What that patch adds to the two diagonal blocks of K: of its bodies a and b.
+std::array<Matrix6, 2> own_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
 
 /// The material part of K with patches taken at the bodies' present placements, fixed bodies' rows and columns
 /// included. The unit of a block: N/m, N, N m.

@@ -1,6 +1,5 @@
 #include "solver/step/critical_step.h"
 
-#include "solver/base/error.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
@@ -38,8 +37,11 @@ void name_the_fastest(const Model& model, const State& state, const Unknowns& un
 }  // namespace
 
 CriticalStep critical_step(const Model& model, const State& state) {
+  return critical_step(model, state, number_unknowns(model));
+}
+
+CriticalStep critical_step(const Model& model, const State& state, const Unknowns& unknowns) {
   CriticalStep result;
-  const Unknowns unknowns = number_unknowns(model);
   const SparseMatrix k = assemble_stiffness(model, state, unknowns, PatchTangent::intact);
   Eigen::VectorXd x = scattered(unknowns.count);
   double lambda = 0.0, ten_ago = 0.0;
@@ -60,44 +62,6 @@ CriticalStep critical_step(const Model& model, const State& state) {
   result.step = 2.0 / result.highest;
   name_the_fastest(model, state, unknowns, x, result);
   return result;
-}
-
-MassScaling scale_mass(Model& model, const State& state, double step, double limit) {
-  MassScaling scaling;
-  double total = 0.0, added = 0.0;
-  std::vector<double> translation(model.bodies.size(), 0.0);  // N/m, bound on the body's own stiffness
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Patch& p = model.joints[i];
-    const double k = p.area * std::max(p.kn, p.ks);
-    translation[p.a] += k;
-    translation[p.b] += k;
-  }
-  for (const Body& body : model.bodies)
-    if (!body.fixed) total += body.mass;
-  for (int round = 0; round < 40; ++round) {
-    const CriticalStep critical = critical_step(model, state);
-    if (critical.step >= step || critical.body < 0) break;
-    // All bodies about as stiff for their mass as the one that sets the step are raised together.
-    const Body& worst = model.bodies[critical.body];
-    const double rate = 0.9 * translation[critical.body] / worst.inertial_mass;
-    const double factor = std::min(2.0, std::pow(step / critical.step, 2) * 1.02);
-    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-      Body& body = model.bodies[i];
-      if (body.fixed || translation[i] / body.inertial_mass < rate) continue;
-      if (body.inertial_mass == body.mass) ++scaling.bodies;
-      added += (factor - 1.0) * body.inertial_mass;
-      body.inertial_mass *= factor;
-      body.inertia *= factor;
-      body.inverse_inertia /= factor;
-    }
-    scaling.share = added / total;
-    if (scaling.share > limit)
-      throw InputError(
-          "mass scaling to a step of {:.3g} s would add {:.2f} % of the mass, more than mass_scaling_limit = {:.2f} %; "
-          "lower mass_scaling_step or raise the limit",
-          step, 100 * scaling.share, 100 * limit);
-  }
-  return scaling;
 }
 
 }  // namespace voussoir

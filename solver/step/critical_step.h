@@ -1,5 +1,6 @@
 // The critical time step, 2/ω_max of the intact assembly, by power iteration on M⁻¹K.
 #pragma once
+#include "solver/modal/unknowns.h"
 #include "solver/model/state.h"
 
 namespace voussoir {
@@ -14,13 +15,7 @@ struct CriticalStep {
 /// Rayleigh quotient after at most 200 power iterations, stopped when it grows by less than 1e-4 in ten. It approaches
 /// ω_max from below; the safety factor of the step covers the rest.
 CriticalStep critical_step(const Model& model, const State& state);
-
-struct MassScaling {
-  double share = 0.0;       // added inertia over the mass of all free bodies
-  std::int64_t bodies = 0;  // scaled ones
-};
-/// Raises inertia, never weight, of the bodies whose own bound (Gershgorin over its patches) asks for a step below
-/// `step` until the assembly's critical step reaches it. Throws InputError when the added share would pass `limit`.
-MassScaling scale_mass(Model& model, const State& state, double step, double limit);
+/// The same with only these unknowns, the others held.
+CriticalStep critical_step(const Model& model, const State& state, const Unknowns& unknowns);
 
 }  // namespace voussoir

@@ -109,8 +109,8 @@ struct ContactSettings {
 struct StepSettings {
   double time_step = 0.0;  // s; 0: safety × critical
   double safety = 0.8;
-  double mass_scaling_limit = 0.0;      // largest allowed added share of mass (inertia only); 0: off
-  double mass_scaling_step = 0.0;       // s: the step mass scaling aims for
+  double mass_scaling_limit = 0.0;      // largest added share of mass (inertia only); 0: no mass scaling
+  double mass_scaling_step = 0.0;       // s: critical step it aims for; 0: the largest within the limit
   double equilibrium_tolerance = 1e-6;  // out-of-balance force over the weight of an average block
   bool intact_shortcut = true;          // off: every patch takes the point-by-point path (verification)
 };

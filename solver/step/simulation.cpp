@@ -9,6 +9,7 @@
 #include "solver/step/critical_step.h"
 #include "solver/step/drive.h"
 #include "solver/step/loads.h"
+#include "solver/step/step_report.h"
 
 namespace voussoir {
 
@@ -22,6 +23,7 @@ double seconds_since(Clock::time_point t) {
 
 constexpr std::size_t least_joints_per_thread = 500;  // below, the hand-over costs more than the share saves
 constexpr double confirm_margin = 0.02;   // of the multiplier: dynamic runs confirm it from below and from above
+constexpr int frequencies_compared = 6;   // of mass scaling, with and without
 constexpr double runaway_balance = 10.0;  // the energy balance is off by ten times its largest term: give up
 
 int useful_threads(int wanted, const Model& model) {
@@ -87,11 +89,20 @@ void Simulation::report_progress(bool force, const std::string& note) {
   observers_.progress(p);
 }
 
+bool Simulation::scales_mass() const {
+  return settings_.step.mass_scaling_limit > 0.0 || settings_.step.mass_scaling_step > 0.0;
+}
+
+/// From the reference placement, so that a resumed run has the same inertia. Before Stepper::prepare().
+void Simulation::scale() {
+  scaling_ =
+      scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+}
+
 void Simulation::restore(const RunPosition& position) {
   position_ = position;
+  if (scales_mass() && position.dt > 0.0) scale();  // else it is still to come, with the choice of the step
   stepper_.prepare();
-  if (settings_.step.mass_scaling_step > 0.0)
-    scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
   if (position.dt > 0.0) {
     stepper_.dt = position.dt;
     stepper_.damping = damping_at_work(settings_.damping, position.dt, position.highest);
@@ -118,16 +129,29 @@ double Simulation::contact_bound() const {
 }
 
 void Simulation::check() {
-  if (settings_.step.time_step > 0.0 || settings_.step.mass_scaling_step > 0.0) choose_step();
+  if (settings_.step.time_step > 0.0 || scales_mass()) choose_step();
+}
+
+void Simulation::scale_and_say() {
+  const State reference = initial_state(model_);
+  const double before = critical_step(model_, reference).step;
+  scale();
+  stepper_.prepare();
+  if (!observers_.log) return;
+  if (!scaling_.at_work()) return log("mass scaling: none is needed");
+  log(
+      fmt::format("mass scaling: critical step {:.4g} s instead of {:.4g} s; inertia of {} blocks raised (at most × "
+                  "{:.3g}), mass of {} of them (at most × {:.3g}): {:.4f} % of the mass added, weights unchanged",
+                  critical_step(model_, reference).step, before, scaling_.bodies, scaling_.largest_rotary,
+                  scaling_.heavier, scaling_.largest, 100 * scaling_.share));
+  const std::vector<double> shifts = frequency_shifts(model_, reference, scaling_, frequencies_compared);
+  if (shifts.empty()) return;
+  log(fmt::format("mass scaling: the first {} frequencies fall by at most {:.3g} %, the first by at most {:.3g} %",
+                  shifts.size(), 100 * *std::max_element(shifts.begin(), shifts.end()), 100 * shifts.front()));
 }
 
 void Simulation::choose_step() {
-  if (settings_.step.mass_scaling_step > 0.0) {
-    const MassScaling scaling =
-        scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
-    log(fmt::format("mass scaling: inertia of {} blocks raised, {:.3f} % of the mass added (weights unchanged)",
-                    scaling.bodies, 100 * scaling.share));
-  }
+  if (scales_mass()) scale_and_say();
   const CriticalStep critical = critical_step(model_, state_);
   if (critical.highest <= 0.0 && settings_.step.time_step <= 0.0)
     throw InputError("no joint holds any block, so there is no critical step: set [analysis] time_step");
@@ -145,7 +169,7 @@ void Simulation::choose_step() {
   stepper_.dt = position_.dt;
   if (critical.body < 0) return;
   log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s",
-                  critical.step, body_name(*assembly_, model_, critical.body), factor, position_.dt));
+                  critical.step, describe_stiff_body(*assembly_, model_, critical.body), factor, position_.dt));
 }
 
 bool Simulation::gravity(const StageSettings& stage) {

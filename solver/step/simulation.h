@@ -8,6 +8,7 @@
 
 #include "solver/modal/collapse.h"
 #include "solver/step/energy.h"
+#include "solver/step/mass_scaling.h"
 #include "solver/step/stepper.h"
 
 namespace voussoir {
@@ -78,7 +79,8 @@ class Simulation {
   const Equilibrium& equilibrium() const { return equilibrium_; }
   /// Groups that are guided or driven: whose reactions a Sample holds.
   const std::vector<std::string>& held_groups() const { return held_groups_; }
-  const Collapse& collapse() const { return collapse_; }  // of a collapse stage, empty without
+  const Collapse& collapse() const { return collapse_; }        // of a collapse stage, empty without
+  const MassScaling& mass_scaling() const { return scaling_; }  // once the step is chosen
   int threads() const { return stepper_.threads; }
   double end_time() const;                                                               // s, of all stages
   double worst_balance() const { return worst_balance_; }                                // largest share so far
@@ -98,6 +100,9 @@ class Simulation {
   RunEnd timed(const StageSettings& stage, double until);
   void change_contacts();
   void sample(const BodyPass& pass);
+  bool scales_mass() const;
+  void scale();
+  void scale_and_say();
   void choose_step();
   double contact_bound() const;
   void report_progress(bool force, const std::string& note);
@@ -110,6 +115,7 @@ class Simulation {
   State state_;
   Stepper stepper_;
   RunPosition position_;
+  MassScaling scaling_;
   Equilibrium equilibrium_;
   Collapse collapse_;
   std::vector<std::string> held_groups_;

@@ -105,9 +105,14 @@ TEST(Restart, GivesTheSameBitsUnderMassScaling) {
     const Bench bench(weak_wall(4, 5));
     return critical_step(bench.model, bench.state);
   }();
-  settings.step.mass_scaling_step = 1.3 * critical.step;
-  settings.step.mass_scaling_limit = 2.0;
-  EXPECT_EQ(in_pieces(assembly, settings, {0.3}), in_one_go(assembly, settings, 1));
+  const std::uint64_t unscaled = in_one_go(assembly, settings, 1);
+  for (const auto& [step, limit] : {std::pair{1.3 * critical.step, 2.0}, std::pair{0.0, 0.05}}) {
+    settings.step.mass_scaling_step = step;
+    settings.step.mass_scaling_limit = limit;
+    const std::uint64_t whole = in_one_go(assembly, settings, 1);
+    EXPECT_EQ(in_pieces(assembly, settings, {0.3}), whole);
+    EXPECT_NE(whole, unscaled);
+  }
 }
 
 /// Checkpoints taken by the run itself, at their times and at the ends of stages, are all good to go on from.

@@ -193,6 +193,12 @@ void RunSession::write_summary(RunEnd end) {
                            {"newton_iterations", e.iterations},
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}}};
+  if (const MassScaling& scaling = run.mass_scaling(); scaling.at_work())
+    json["mass_scaling"] = {{"share", scaling.share},
+                            {"blocks", scaling.bodies},
+                            {"heavier", scaling.heavier},
+                            {"largest", scaling.largest},
+                            {"largest_rotary", scaling.largest_rotary}};
   json.update(summary_of_state(run, make_snapshot(run.model(), run.state()), history_));
   if (!json.contains("collapse"))
     if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))

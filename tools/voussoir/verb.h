@@ -23,6 +23,7 @@ Verb resume_verb();
 Verb modal_verb();
 Verb render_verb();
 Verb check_verb();
+Verb step_verb();
 Verb effects_verb();
 Verb diagnose_verb();
 Verb hide_verb();
