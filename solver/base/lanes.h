@@ -1,56 +1,151 @@
-// Eight doubles side by side: a SIMD lane is a patch. The compiler splits them where registers are narrower, so the
-// bits do not depend on how many lanes a register has.
+// Eight doubles side by side: a SIMD lane is a patch (or a body). The compiler splits them where registers are
+// narrower, so the bits do not depend on how many lanes a register has.
 #pragma once
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 namespace voussoir {
 
 constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
-using LaneMask = long __attribute__((vector_size(8 * lane_count)));  // all bits set where true
-
 using Singles = float __attribute__((vector_size(4 * lane_count)));  // half the bytes, where seven digits do
+using LaneInts = std::int64_t __attribute__((vector_size(8 * lane_count)));
+using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
 
-inline Lanes widen(const Singles& x) {
+[[gnu::always_inline]] inline Lanes splat(double x) {
+  return Lanes{x, x, x, x, x, x, x, x};
+}
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+/// True or false in each lane: one bit a lane, in a mask register.
+struct LaneMask {
+  __mmask8 bits = 0;
+  static LaneMask first(int count) { return {__mmask8((1u << count) - 1u)}; }
+  bool operator[](int lane) const { return (bits >> lane) & 1; }
+  LaneMask operator&(LaneMask m) const { return {__mmask8(bits & m.bits)}; }
+  LaneMask operator|(LaneMask m) const { return {__mmask8(bits | m.bits)}; }
+  LaneMask operator^(LaneMask m) const { return {__mmask8(bits ^ m.bits)}; }
+  LaneMask operator~() const { return {__mmask8(~bits)}; }
+};
+[[gnu::always_inline]] inline Lanes widen(const Singles& x) {
+  return _mm512_cvtps_pd(x);
+}
+[[gnu::always_inline]] inline Singles narrow(const Lanes& x) {
+  return _mm512_cvtpd_ps(x);
+}
+[[gnu::always_inline]] inline LaneMask less(Lanes a, Lanes b) {
+  return {_mm512_cmp_pd_mask(a, b, _CMP_LT_OQ)};
+}
+[[gnu::always_inline]] inline LaneMask at_most(Lanes a, Lanes b) {
+  return {_mm512_cmp_pd_mask(a, b, _CMP_LE_OQ)};
+}
+[[gnu::always_inline]] inline Lanes select(LaneMask m, Lanes a, Lanes b) {
+  return _mm512_mask_blend_pd(m.bits, b, a);
+}
+[[gnu::always_inline]] inline Lanes square_root(Lanes x) {
+  return _mm512_sqrt_pd(x);
+}
+[[gnu::always_inline]] inline bool any(LaneMask m) {
+  return m.bits != 0;
+}
+[[gnu::always_inline]] inline bool all(LaneMask m) {
+  return m.bits == 0xff;
+}
+[[gnu::always_inline]] inline int count_of(LaneMask m) {
+  return __builtin_popcount(m.bits);
+}
+/// Lanes whose byte has any of these bits set.
+[[gnu::always_inline]] inline LaneMask bytes_with(LaneBytes bytes, int bits) {
+  std::int64_t packed;
+  std::memcpy(&packed, &bytes, lane_count);
+  return {_mm512_test_epi64_mask(_mm512_cvtepu8_epi64(_mm_cvtsi64_si128(packed)), _mm512_set1_epi64(bits))};
+}
+#else
+struct LaneMask {
+  LaneInts bits = {};  // all of a lane's set where true
+  static LaneMask first(int count) {
+    LaneMask m;
+    for (int i = 0; i < count; ++i) m.bits[i] = -1;
+    return m;
+  }
+  bool operator[](int lane) const { return bits[lane] != 0; }
+  LaneMask operator&(LaneMask m) const { return {bits & m.bits}; }
+  LaneMask operator|(LaneMask m) const { return {bits | m.bits}; }
+  LaneMask operator^(LaneMask m) const { return {bits ^ m.bits}; }
+  LaneMask operator~() const { return {~bits}; }
+};
+[[gnu::always_inline]] inline Lanes widen(const Singles& x) {
   return __builtin_convertvector(x, Lanes);
 }
-inline Singles narrow(const Lanes& x) {
+[[gnu::always_inline]] inline Singles narrow(const Lanes& x) {
   return __builtin_convertvector(x, Singles);
 }
-
-inline Lanes splat(double x) {
-  return Lanes{} + x;
+[[gnu::always_inline]] inline LaneMask less(Lanes a, Lanes b) {
+  return {a < b};
 }
-
-inline Lanes square_root(Lanes x) {
+[[gnu::always_inline]] inline LaneMask at_most(Lanes a, Lanes b) {
+  return {a <= b};
+}
+[[gnu::always_inline]] inline Lanes select(LaneMask m, Lanes a, Lanes b) {
+  return m.bits ? a : b;
+}
+[[gnu::always_inline]] inline Lanes square_root(Lanes x) {
   Lanes r;
   for (int i = 0; i < lane_count; ++i) r[i] = std::sqrt(x[i]);
   return r;
 }
+[[gnu::always_inline]] inline int count_of(LaneMask m) {
+  std::int64_t n = 0;
+  for (int i = 0; i < lane_count; ++i) n -= m.bits[i];
+  return int(n);
+}
+[[gnu::always_inline]] inline bool any(LaneMask m) {
+  return count_of(m) != 0;
+}
+[[gnu::always_inline]] inline bool all(LaneMask m) {
+  return count_of(m) == lane_count;
+}
+[[gnu::always_inline]] inline LaneMask bytes_with(LaneBytes bytes, int bits) {
+  return {(__builtin_convertvector(bytes, LaneInts) & std::int64_t(bits)) != 0};
+}
+#endif
 
-inline bool any(LaneMask m) {
-  long bits = 0;
-  for (int i = 0; i < lane_count; ++i) bits |= m[i];
-  return bits != 0;
+[[gnu::always_inline]] inline LaneMask& operator&=(LaneMask& a, LaneMask b) {
+  return a = a & b;
+}
+[[gnu::always_inline]] inline LaneMask& operator|=(LaneMask& a, LaneMask b) {
+  return a = a | b;
+}
+[[gnu::always_inline]] inline LaneMask without(LaneMask a, LaneMask b) {
+  return a & ~b;
+}
+[[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
+  return select(less(b, a), a, b);
 }
 
-using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
-
-/// One byte a lane.
-inline LaneMask load_bytes(const std::uint8_t* bytes) {
-  LaneBytes b;
-  std::memcpy(&b, bytes, lane_count);
-  return __builtin_convertvector(b, LaneMask);
+/// A byte a lane: 1 where `first`, 2 where `second`, or their sum.
+[[gnu::always_inline]] inline void store_flags(LaneMask first, LaneMask second, std::uint8_t* bytes) {
+  for (int lane = 0; lane < lane_count; ++lane)
+    bytes[lane] = std::uint8_t((first[lane] ? 1 : 0) + (second[lane] ? 2 : 0));
 }
-inline void store_bytes(LaneMask m, std::uint8_t* bytes) {
-  const LaneBytes b = __builtin_convertvector(m, LaneBytes);
-  std::memcpy(bytes, &b, lane_count);
+
+/// The first `count` bytes, zeros in the other lanes.
+[[gnu::always_inline]] inline LaneBytes load_bytes(const std::uint8_t* bytes, int count = lane_count) {
+  LaneBytes b = {};
+  if (count == lane_count)
+    std::memcpy(&b, bytes, lane_count);
+  else
+    std::memcpy(&b, bytes, std::size_t(count));
+  return b;
 }
 
 /// Rows become columns: eight records of eight numbers to the same number of all eight side by side, and back.
-inline void transpose(Lanes (&r)[lane_count]) {
+[[gnu::always_inline]] inline void transpose(Lanes (&r)[lane_count]) {
   Lanes pairs[8], fours[8];
   for (int i = 0; i < 8; i += 2) {
     pairs[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
@@ -73,23 +168,23 @@ struct Triple {
   T x, y, z;
 };
 template <class T>
-inline Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class T>
-inline Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class T>
-inline Triple<T> operator*(T s, const Triple<T>& a) {
+[[gnu::always_inline]] inline Triple<T> operator*(T s, const Triple<T>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class T>
-inline Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class T>
-inline T dot(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline T dot(const Triple<T>& a, const Triple<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
@@ -100,25 +195,25 @@ struct Quat {
   Triple<T> v;
 };
 template <class T>
-inline Quat<T> operator*(const Quat<T>& a, const Quat<T>& b) {
+[[gnu::always_inline]] inline Quat<T> operator*(const Quat<T>& a, const Quat<T>& b) {
   const Triple<T> c = cross(a.v, b.v);
   return {a.w * b.w - dot(a.v, b.v),
           {a.w * b.v.x + b.w * a.v.x + c.x, a.w * b.v.y + b.w * a.v.y + c.y, a.w * b.v.z + b.w * a.v.z + c.z}};
 }
 /// R x − x without cancellation: 2 w (v × x) + 2 v × (v × x).
 template <class T>
-inline Triple<T> turn_change(const Quat<T>& q, const Triple<T>& x) {
+[[gnu::always_inline]] inline Triple<T> turn_change(const Quat<T>& q, const Triple<T>& x) {
   const Triple<T> c = cross(q.v, x);
   const Triple<T> d = cross(q.v, c);
   const T w = q.w;
   return {2.0 * (w * c.x + d.x), 2.0 * (w * c.y + d.y), 2.0 * (w * c.z + d.z)};
 }
 template <class T>
-inline Triple<T> turn(const Quat<T>& q, const Triple<T>& x) {
+[[gnu::always_inline]] inline Triple<T> turn(const Quat<T>& q, const Triple<T>& x) {
   return x + turn_change(q, x);
 }
 template <class T>
-inline Triple<T> turn_back(const Quat<T>& q, const Triple<T>& x) {
+[[gnu::always_inline]] inline Triple<T> turn_back(const Quat<T>& q, const Triple<T>& x) {
   return turn(Quat<T>{q.w, {-q.v.x, -q.v.y, -q.v.z}}, x);
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <exception>
 #include <optional>
 
 #if defined(__x86_64__)
@@ -49,6 +50,138 @@ void Barrier::wait() {
     pause_briefly();
   }
   generation_.wait(generation, std::memory_order_acquire);
+}
+
+namespace {
+
+/// A thread's share of a round: round number, first and one past the last item that nobody has taken, in one word.
+class Share {
+ public:
+  void set(std::uint64_t round, std::uint64_t begin, std::uint64_t end) {
+    word_.store(round << 48 | begin << 24 | end, std::memory_order_release);
+  }
+  /// The first item, or the last; −1 when there is none left or another round has begun.
+  std::int64_t take(std::uint64_t round, bool last) {
+    std::uint64_t word = word_.load(std::memory_order_acquire);
+    for (;;) {
+      const std::uint64_t begin = word >> 24 & most, end = word & most;
+      if (word >> 48 != (round & 0xffff) || begin == end) return -1;
+      const std::uint64_t left = last ? word - 1 : word + (std::uint64_t(1) << 24);
+      if (word_.compare_exchange_weak(word, left, std::memory_order_acq_rel, std::memory_order_acquire))
+        return std::int64_t(last ? end - 1 : begin);
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t most = 0xffffff;
+  alignas(64) std::atomic<std::uint64_t> word_{0};
+};
+
+class Rounds {
+ public:
+  Rounds(int team, const Dependencies& items, const RoundWork& work)
+      : items_(items), work_(work), shares_(std::size_t(team)), arrived_(items.waits.size()) {
+    // Neighbouring items to the same thread, by cost.
+    double total = 0.0, sum = 0.0;
+    for (double c : items.cost) total += c;
+    starts_.push_back(0);
+    for (std::size_t i = 0; i < items.cost.size(); ++i) {
+      while (int(starts_.size()) < team && sum >= total * double(starts_.size()) / team) starts_.push_back(i);
+      sum += items.cost[i];
+    }
+    while (int(starts_.size()) <= team) starts_.push_back(items.cost.size());
+  }
+
+  void begin(RoundKind kind) { publish(kind); }
+
+  void work(int thread) {
+    for (;;) {
+      const std::uint32_t now = round_.load(std::memory_order_acquire);
+      const auto kind = RoundKind(now & kind_mask);
+      if (kind == RoundKind::end) return;
+      for (std::int64_t item = take(thread, now >> kind_bits); item >= 0; item = take(thread, now >> kind_bits))
+        work_on(std::size_t(item), kind);
+      wait_for_change(now);
+    }
+  }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::int64_t take(int thread, std::uint64_t round) {
+    const int team = int(shares_.size());
+    std::int64_t item = shares_[std::size_t(thread)].take(round, false);
+    for (int i = 1; i < team && item < 0; ++i) item = shares_[std::size_t((thread + i) % team)].take(round, true);
+    return item;
+  }
+
+  void work_on(std::size_t item, RoundKind kind) {
+    if (kind == RoundKind::between) return work_.between(item), finished(kind);
+    if (kind == RoundKind::second_only) return work_.second(item), finished(kind);
+    work_.first(item);
+    if (kind == RoundKind::first_only) return finished(kind);
+    arrive(item);
+    for (const std::int32_t follower : items_.followers[item]) arrive(std::size_t(follower));
+  }
+
+  void arrive(std::size_t item) {
+    if (arrived_[item].fetch_add(1, std::memory_order_acq_rel) + 1 != items_.waits[item]) return;
+    arrived_[item].store(0, std::memory_order_relaxed);
+    work_.second(item);
+    finished(RoundKind::both);
+  }
+
+  /// The thread that finishes the last item of a round says what comes next.
+  void finished(RoundKind kind) {
+    if (finished_.fetch_add(1, std::memory_order_acq_rel) + 1 != items_.waits.size()) return;
+    finished_.store(0, std::memory_order_relaxed);
+    RoundKind next = RoundKind::end;
+    try {
+      next = work_.next(kind);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    publish(next);
+  }
+
+  void publish(RoundKind kind) {
+    const std::uint32_t round = (round_.load(std::memory_order_relaxed) >> kind_bits) + 1;
+    for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i].set(round & 0xffff, starts_[i], starts_[i + 1]);
+    round_.store(round << kind_bits | std::uint32_t(kind), std::memory_order_release);
+    if (shares_.size() > 1) round_.notify_all();
+  }
+
+  void wait_for_change(std::uint32_t now) {
+    for (int i = 0; i < spins; ++i) {
+      if (round_.load(std::memory_order_acquire) != now) return;
+      pause_briefly();
+    }
+    round_.wait(now, std::memory_order_acquire);
+  }
+
+  static constexpr std::uint32_t kind_bits = 3, kind_mask = 7;
+  const Dependencies& items_;
+  const RoundWork& work_;
+  std::vector<std::size_t> starts_;
+  std::vector<Share> shares_;
+  std::vector<std::atomic<std::int32_t>> arrived_;
+  alignas(64) std::atomic<std::size_t> finished_{0};
+  alignas(64) std::atomic<std::uint32_t> round_{0};
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void run_rounds(int threads, const Dependencies& items, RoundKind begin, const RoundWork& work) {
+  std::optional<Rounds> rounds;
+  run_team(threads, [&](int thread, int team, Barrier& barrier) {
+    if (thread == 0) rounds.emplace(team, items, work).begin(begin);
+    barrier.wait();
+    rounds->work(thread);
+  });
+  rounds->rethrow();
 }
 
 void run_team(int threads, const std::function<void(int, int, Barrier&)>& work) {

@@ -3,7 +3,9 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace voussoir {
 
@@ -31,6 +33,26 @@ class Barrier {
   std::atomic<int> arrived_{0};
   std::atomic<int> generation_{0};
 };
+
+/// Items of work in two stages: the second of an item may begin once its own first stage and those of all items before
+/// it are done.
+struct Dependencies {
+  std::vector<std::vector<std::int32_t>> followers;  // of each item: later items whose second stage waits for it
+  std::vector<std::int32_t> waits;  // of each item: first stages its second waits for, its own included
+  std::vector<double> cost;         // of each item, in any unit: the threads begin with equal shares
+};
+
+enum class RoundKind { both, first_only, between, second_only, end };
+
+struct RoundWork {
+  std::function<void(std::size_t)> first, between, second;
+  std::function<RoundKind(RoundKind)> next;  // called by one thread when a round is over: what comes next
+};
+
+/// Works through rounds over all items in a team of up to `threads` threads. Who is done takes from the others' shares,
+/// and a thread that the system has put aside holds up nobody unless it is within an item. An exception of `next` ends
+/// the rounds and is thrown again.
+void run_rounds(int threads, const Dependencies& items, RoundKind begin, const RoundWork& work);
 
 /// Runs `work(thread, team, barrier)` once in each of `team` threads: `threads`, or fewer where the system grants
 /// fewer.

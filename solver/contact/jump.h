@@ -17,21 +17,24 @@ struct Jump {
   T n, s, t;        // δc
   T rn, rs, rt;     // θ'
   T cosine;         // of half the relative rotation
+  T share;          // 1/(4 (1 + cosine))
   Quat<T> frame;    // local axes → world
   Triple<T> place;  // midway between the two material points at the patch's centroid, m
 };
 
-/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `frame` the normalised half-way rotation times the
-/// local axes.
+/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `norm` = 1/|q_a + q_b|, `frame` the normalised
+/// half-way rotation times the local axes.
 template <class T>
-inline Jump<T> local_jump(const Triple<T>& move_a, const Triple<T>& move_b, const Triple<T>& place,
-                          const Triple<T>& shift, const Quat<T>& relative, const Quat<T>& frame) {
+[[gnu::always_inline]] inline Jump<T> local_jump(const Triple<T>& move_a, const Triple<T>& move_b,
+                                                 const Triple<T>& place, const Triple<T>& shift,
+                                                 const Quat<T>& relative, T norm, const Quat<T>& frame) {
   Jump<T> j;
   const Triple<T> d = turn_back(frame, shift + (move_b - move_a));
   const Triple<T> r = turn_back(frame, relative.v);
   j.n = d.x, j.s = d.y, j.t = d.z;
   j.rn = 2.0 * r.x, j.rs = 2.0 * r.y, j.rt = 2.0 * r.z;
   j.cosine = relative.w;
+  j.share = 0.5 * norm * norm;  // |q_a + q_b|² = 2 (1 + cosine)
   j.frame = frame;
   const Triple<T> sum = shift + (move_a + move_b);
   j.place = {place.x + 0.5 * sum.x, place.y + 0.5 * sum.y, place.z + 0.5 * sum.z};
@@ -71,7 +74,7 @@ inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const d
   const Triple<double> arm_a = triple(patch.arm_a), arm_b = triple(patch.arm_b);
   const Triple<double> move_a = pose_displacement(pose_a) + turn_change(qa, arm_a);
   const Triple<double> move_b = pose_displacement(pose_b) + turn_change(qb, arm_b);
-  Jump<double> j = local_jump(move_a, move_b, triple(patch.place), triple(patch.shift), relative, frame);
+  Jump<double> j = local_jump(move_a, move_b, triple(patch.place), triple(patch.shift), relative, norm, frame);
   return j;
 }
 

@@ -25,9 +25,9 @@ void store_memory(const Patch& patch, int i, const PointMemory& point, PatchMemo
 }
 
 /// The jump of the pass before, six numbers; contacts keep theirs one after the other, joints eight side by side.
-double& last_jump(const Patch& patch, std::size_t index, int c, PatchMemory& memory) {
+float& last_jump(const Patch& patch, std::size_t index, int c, PatchMemory& memory) {
   return patch.stride == 1 ? memory.last[6 * index + std::size_t(c)]
-                           : memory.last[lane_count * (6 * (index / lane_count) + std::size_t(c)) + index % lane_count];
+                           : memory.last[last_index(std::size_t(patch.batch), c) + std::size_t(patch.lane)];
 }
 
 /// How much a point's jump has changed since the pass before, and its elastic jump then.
@@ -60,10 +60,10 @@ void book_losses(const Patch& patch, const PointBefore& b, double plastic_openin
   }
 }
 
-/// Viscous jump of one point's branches after an elastic move to (n, s, t); the branches are emptied when the point
-/// yields.
+/// Viscous jump of one point's branches after an elastic move to (n, s, t), and the work done on them over the step, by
+/// the mean of their tractions at both ends; they are emptied when the point yields.
 Triple<double> advance_branches(const Branches& branches, const Patch& patch, int i, const PointResult& r,
-                                const PointBefore& before, double weight, PatchMemory& memory, double& loss) {
+                                const PointBefore& before, double weight, PatchMemory& memory, double& work) {
   Triple<double> viscous = {0.0, 0.0, 0.0};
   const double u[3] = {r.n, r.s, r.t};
   double* v = &viscous.x;
@@ -72,10 +72,7 @@ Triple<double> advance_branches(const Branches& branches, const Patch& patch, in
       float& kept = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * k + c)];
       const double then = kept, stiffness = weight * (c == 0 ? patch.kn : patch.ks);
       const double q = r.elastic ? branches.e[k] * then + branches.g[k] * (u[c] - before.elastic[c]) : 0.0;
-      if (branches.e[k] > 0.0)  // work done on the branch less what its spring now holds more
-        loss += 0.5 * stiffness * (then + q) * (before.du[c] - branches.stored[k] * (q - then));
-      else
-        loss += branches.loss[k] * stiffness * q * q;
+      work += 0.5 * stiffness * (then + q) * before.du[c];
       v[c] += q;
       kept = float(q);
     }
@@ -136,9 +133,9 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
   const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
   double change[6];
   for (int c = 0; c < 6; ++c) {
-    double& last = last_jump(patch, index, c, memory);
-    change[c] = now[c] - last;
-    last = now[c];
+    float& last = last_jump(patch, index, c, memory);
+    change[c] = double(float(now[c])) - double(last);  // of rounded jumps: the changes add up to the jump
+    last = float(now[c]);
   }
   const PointSums sums =
       with_law(law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, points, branches, change, memory); });
@@ -156,9 +153,14 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
   return j.s * j.s + j.t * j.t > limit_slip2 || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
 }
 
+bool in_tile_energy(const Model& model, const State& state, std::size_t joint) {
+  return model.laws[std::size_t(model.joints[joint].law)].kind == JointLaw::Kind::brittle ||
+         !(state.joint.mode[joint] & mode_points);
+}
+
 void joint_to_points(const Model& model, State& state, const Branches& branches, std::size_t index) {
-  const std::size_t batch = index / lane_count, lane = index % lane_count;
   const Patch& patch = model.joints[index];
+  const auto batch = std::size_t(patch.batch), lane = std::size_t(patch.lane);
   const double* slip = &state.slip[3 * lane_count * batch + lane];
   const double a = slip[0], b = slip[lane_count], r = slip[2 * lane_count];
   const bool broken = state.joint.mode[index] & mode_broken;
@@ -174,14 +176,14 @@ void joint_to_points(const Model& model, State& state, const Branches& branches,
     }
   }
   state.joint.mode[index] |= mode_points;
-  state.joint.mode[index] &= std::uint8_t(~(mode_broken | mode_open));
+  state.joint.mode[index] &= std::uint8_t(~(mode_broken | mode_open | mode_slid));
 }
 
 PassReport PatchPass::contacts(std::size_t begin, std::size_t end) const {
   PassReport report;
   for (std::size_t i = begin; i < end; ++i) {
     report.reclip |= point_patch(*model, state->contacts[i], i, state->contact_points, state->pose.data(), branches,
-                                 state->contact, wrenches + wrench_width * (model->joints.size() + i));
+                                 state->contact, contact_wrenches + wrench_width * i);
     ++report.points;
   }
   return report;

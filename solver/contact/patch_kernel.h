@@ -1,10 +1,11 @@
-// First pass of a step: every patch reads its two bodies, updates its own memory and stores one wrench in its own slot.
+// The patches of a step: every one reads its two bodies and updates its own memory. The wrenches of a tile's joints are
+// added up body by body in the order of the joints, those of contacts are stored one by one.
 #pragma once
 #include "solver/contact/jump.h"
 
 namespace voussoir {
 
-constexpr int wrench_width = 8;  // force 3, moment about the world's origin 3, unused: one cache line a patch
+constexpr int wrench_width = 8;  // force 3, moment about the world's origin 3, unused: one cache line
 
 /// What the pass found, gathered by each thread for itself and merged without regard to order.
 struct PassReport {
@@ -18,16 +19,26 @@ struct PassReport {
   }
 };
 
+/// What the joints of a tile hold, J; those that point_patch() computes are left out.
+struct TileEnergy {
+  double elastic = 0.0, branches = 0.0;
+};
+
+/// Whether a joint's energy is in its tile's: its law has a lane form, or it is on the intact path.
+bool in_tile_energy(const Model& model, const State& state, std::size_t joint);
+
 struct PatchPass {
   const Model* model = nullptr;
   State* state = nullptr;
   Branches branches;
-  double* wrenches = nullptr;  // wrench_width × (joints, then contacts)
-  bool shortcut = true;        // false: every patch point by point, for verification
+  double* sums = nullptr;              // wrench_width × the sums of Model::tiles
+  double* contact_wrenches = nullptr;  // wrench_width × contacts
+  double* wrenches = nullptr;          // wrench_width × joints, or not wanted
+  bool shortcut = true;                // false: every patch point by point, for verification
+  TileEnergy* energies = nullptr;      // of each tile, or not wanted
 
-  /// Batches [begin, end) of joints: intact lanes as generalised springs, the others point by point, eight side by
-  /// side.
-  PassReport batches(std::size_t begin, std::size_t end) const;
+  /// The joints of a tile, eight side by side: intact lanes as generalised springs, the others point by point.
+  PassReport joints(std::size_t tile) const;
   /// Contacts [begin, end).
   PassReport contacts(std::size_t begin, std::size_t end) const;
 };

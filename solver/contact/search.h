@@ -15,10 +15,10 @@ struct ContactUpdate {
 /// bound, m.
 inline double moved_since_search(const Model& model, const State& state, std::size_t body, const double* base) {
   const double* pose = &state.pose[pose_width * body];
-  const double* from = &state.searched[7 * body];
+  const float* from = &state.searched[searched_width * body];
   double d2 = 0.0, r2 = 0.0;
-  for (int c = 0; c < 3; ++c) d2 += (pose[c] - base[c] - from[c]) * (pose[c] - base[c] - from[c]);
-  for (int c = 3; c < 7; ++c) r2 += (pose[c] - from[c]) * (pose[c] - from[c]);
+  for (int c = 0; c < 3; ++c) d2 += (pose[c] - base[c] - double(from[c])) * (pose[c] - base[c] - double(from[c]));
+  for (int c = 3; c < 7; ++c) r2 += (pose[c] - double(from[c])) * (pose[c] - double(from[c]));
   // A turn by φ moves the quaternion by 2 sin(φ/4) >= φ/2.1 up to half a turn.
   return std::sqrt(d2) + 2.1 * std::sqrt(r2) * model.bodies[body].radius;
 }

@@ -14,12 +14,12 @@ struct Resultant {
 
 /// Force and moment about the world's origin on body a, with the exact arms H Q r.
 template <class T>
-inline void world_wrench(const Resultant<T>& q, const Jump<T>& j, Triple<T>& force, Triple<T>& moment) {
+[[gnu::always_inline]] inline void world_wrench(const Resultant<T>& q, const Jump<T>& j, Triple<T>& force,
+                                                Triple<T>& moment) {
   const Triple<T> m0 = {q.st - q.ts, q.tn, -q.sn};
   const Triple<T> turn_vector = {j.rn, j.rs, j.rt};
   const Triple<T> g = {j.rs * q.sn + j.rt * q.tn, j.rs * q.ss + j.rt * q.ts, j.rs * q.st + j.rt * q.tt};
-  const T share = 0.25 / (1.0 + j.cosine);
-  const Triple<T> local = j.cosine * m0 + share * cross(turn_vector, g);
+  const Triple<T> local = j.cosine * m0 + j.share * cross(turn_vector, g);
   force = turn(j.frame, Triple<T>{q.n, q.s, q.t});
   moment = turn(j.frame, local) + cross(j.place, force);
 }

@@ -104,9 +104,10 @@ PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t
 
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   std::vector<PatchShape> shapes;
-  using Key = std::tuple<int, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int64_t>;
-  // Corner class, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
-  // in batches of their own those that go point by point hold up fewer of the others.
+  using Key = std::tuple<std::int32_t, int, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t, std::int32_t,
+                         std::int64_t>;
+  // Tile, shape class, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints
+  // open: in batches of their own those that go point by point hold up fewer of the others.
   std::vector<Key> order;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
@@ -114,12 +115,12 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
     const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
-    order.emplace_back(std::max(4, corners), joint.law, facing, std::min(a, b), std::max(a, b), joint.cell_a,
-                       joint.cell_b, std::int64_t(i));
+    order.emplace_back(tile_of(std::min(a, b)), std::max(4, corners), joint.law, facing, std::min(a, b), std::max(a, b),
+                       joint.cell_a, joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
   for (const Key& key : order) {
-    const std::int64_t index = std::get<7>(key);
+    const std::int64_t index = std::get<8>(key);
     Patch patch;
     shapes.push_back(joint_patch(assembly, assembly.joints[index], index, model, patch));
     patch.first_corner = std::int32_t(model.corners.size() / 2);
@@ -131,10 +132,11 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   return shapes;
 }
 
-void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
+void fill_lane(const Patch& patch, const PatchShape& shape, int lane, JointBatch& batch) {
   batch.a[lane] = patch.a;
   batch.b[lane] = patch.b;
-  batch.law[lane] = patch.law;
+  batch.half_s[lane] = shape.half_s;
+  batch.half_t[lane] = shape.half_t;
   for (int i = 0; i < 3; ++i) {
     batch.arm_a[i][lane] = patch.arm_a[i];
     batch.arm_b[i][lane] = patch.arm_b[i];
@@ -149,7 +151,8 @@ void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
 }
 
 /// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
-void add_points(Model& model, JointBatch& batch, std::int32_t first, const std::vector<PatchShape>& shapes) {
+void add_points(Model& model, JointBatch& batch, const std::vector<PatchShape>& shapes) {
+  const std::int32_t first = batch.first_joint;
   std::size_t most = 0;
   for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, shapes[first + lane].points.size());
   batch.first_point = std::int32_t(model.point_rows);
@@ -169,33 +172,102 @@ void add_points(Model& model, JointBatch& batch, std::int32_t first, const std::
     if (lane >= batch.count) continue;
     Patch& patch = model.joints[first + lane];
     patch.first_point = batch.first_point, patch.stride = lane_count, patch.lane = lane;
+    patch.batch = std::int32_t(model.batches.size());
     patch.point_count = std::int32_t(points.size());
   }
 }
 
-/// Batches of eight in order; missing corners repeat the last one, missing joints the last joint.
-void make_batches(Model& model, const std::vector<PatchShape>& shapes) {
-  const auto joints = std::int32_t(model.joints.size());
-  for (std::int32_t first = 0; first < joints; first += lane_count) {
-    JointBatch batch{};
-    batch.count = std::min<std::int32_t>(lane_count, joints - first);
-    batch.corners = 4;
-    for (int lane = 0; lane < batch.count; ++lane)
-      batch.corners = std::max(batch.corners, model.joints[first + lane].corner_count);
-    batch.first_corner = std::int32_t(model.batch_corners.size());
-    model.batch_corners.resize(model.batch_corners.size() + 2 * std::size_t(batch.corners));
-    for (int lane = 0; lane < lane_count; ++lane) {
-      const Patch& patch = model.joints[first + std::min(lane, batch.count - 1)];
-      fill_lane(patch, lane, batch);
-      for (int c = 0; c < batch.corners; ++c) {
-        const PatchPoint corner = patch_corner(patch, model.corners, std::min(c, patch.corner_count - 1));
-        model.batch_corners[batch.first_corner + 2 * c][lane] = corner.s;
-        model.batch_corners[batch.first_corner + 2 * c + 1][lane] = corner.t;
-      }
+void add_corners(Model& model, JointBatch& batch) {
+  batch.first_corner = std::int32_t(model.batch_corners.size());
+  model.batch_corners.resize(model.batch_corners.size() + 2 * std::size_t(batch.corners));
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const Patch& patch = model.joints[std::size_t(batch.first_joint + std::min(lane, batch.count - 1))];
+    for (int c = 0; c < batch.corners; ++c) {
+      const PatchPoint corner = patch_corner(patch, model.corners, std::min(c, patch.corner_count - 1));
+      model.batch_corners[std::size_t(batch.first_corner + 2 * c)][lane] = corner.s;
+      model.batch_corners[std::size_t(batch.first_corner + 2 * c + 1)][lane] = corner.t;
     }
-    add_points(model, batch, first, shapes);
-    model.batches.push_back(batch);
   }
+}
+
+/// Eight joints from `first` on, or as many as there are before `end`; missing corners repeat the last one, missing
+/// joints the last joint.
+void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::vector<PatchShape>& shapes) {
+  JointBatch batch{};
+  batch.first_joint = first;
+  batch.count = std::min<std::int32_t>(lane_count, end - first);
+  batch.law = model.joints[std::size_t(first)].law;
+  batch.rectangles = true;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const auto joint = std::size_t(first + std::min(lane, batch.count - 1));
+    const Patch& patch = model.joints[joint];
+    fill_lane(patch, shapes[joint], lane, batch);
+    if (patch.law != batch.law) batch.law = -1;
+    batch.corners = std::max(batch.corners, patch.corner_count);
+    batch.rectangles &= shapes[joint].rectangle;
+    batch.dilates |= model.laws[std::size_t(patch.law)].tan_dilation != 0.0;
+  }
+  add_corners(model, batch);
+  add_points(model, batch, shapes);
+  model.batches.push_back(batch);
+}
+
+/// Bodies of later tiles that the joints [first, end) touch, each once and in order.
+std::vector<std::int32_t> bodies_beyond(const Model& model, std::int32_t first, std::int32_t end,
+                                        std::int32_t end_body) {
+  std::vector<std::int32_t> bodies;
+  for (std::int32_t i = first; i < end; ++i)
+    for (const std::int32_t body : {model.joints[std::size_t(i)].a, model.joints[std::size_t(i)].b})
+      if (body >= end_body) bodies.push_back(body);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
+void place_sums(JointBatch& batch, const Tile& tile, const std::vector<std::int32_t>& beyond) {
+  const auto place = [&](std::int32_t body) {
+    if (body < tile.end_body) return tile.first_sum + body - tile.first_body;
+    const auto at = std::lower_bound(beyond.begin(), beyond.end(), body) - beyond.begin();
+    return tile.first_sum + tile.end_body - tile.first_body + std::int32_t(at);
+  };
+  for (int lane = 0; lane < lane_count; ++lane)
+    batch.sum_a[lane] = place(batch.a[lane]), batch.sum_b[lane] = place(batch.b[lane]);
+}
+
+/// Tiles with their batches and sums; the joints are sorted by tile.
+void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
+  const auto bodies = std::int32_t(model.bodies.size()), joints = std::int32_t(model.joints.size());
+  std::vector<std::vector<std::int32_t>> sums_of(model.bodies.size());
+  std::int32_t joint = 0, sum = 0;
+  for (std::int32_t first_body = 0; first_body < bodies; first_body += tile_bodies) {
+    Tile tile;
+    tile.first_body = first_body;
+    tile.end_body = std::min(bodies, first_body + tile_bodies);
+    tile.first_sum = sum;
+    const std::int32_t first = joint;
+    while (joint < joints &&
+           std::min(model.joints[std::size_t(joint)].a, model.joints[std::size_t(joint)].b) < tile.end_body)
+      ++joint;
+    const std::vector<std::int32_t> beyond = bodies_beyond(model, first, joint, tile.end_body);
+    tile.end_sum = sum + tile.end_body - first_body + std::int32_t(beyond.size());
+    tile.first_joint = first, tile.end_joint = joint;
+    tile.first_batch = std::int32_t(model.batches.size());
+    for (std::int32_t i = first; i < joint; i += lane_count) add_batch(model, i, joint, shapes);
+    tile.end_batch = std::int32_t(model.batches.size());
+    for (std::int32_t k = tile.first_batch; k < tile.end_batch; ++k)
+      place_sums(model.batches[std::size_t(k)], tile, beyond);
+    for (std::int32_t body = first_body; body < tile.end_body; ++body) sums_of[std::size_t(body)].push_back(sum++);
+    for (const std::int32_t body : beyond) {
+      sums_of[std::size_t(body)].push_back(sum++);
+      if (tile.followers.empty() || tile.followers.back() != tile_of(body)) tile.followers.push_back(tile_of(body));
+    }
+    model.tiles.push_back(std::move(tile));
+  }
+  for (const std::vector<std::int32_t>& places : sums_of) {
+    model.first_sum.push_back(std::int32_t(model.sums.size()));
+    model.sums.insert(model.sums.end(), places.begin(), places.end());
+  }
+  model.first_sum.push_back(std::int32_t(model.sums.size()));
 }
 
 /// One unbonded, frictional law for each coefficient among the materials; a new contact takes the lower of its two
@@ -226,7 +298,8 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   add_bodies(assembly, model);
   for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
   add_contact_laws(model);
-  make_batches(model, add_joints(assembly, model));
+  model.rule = lobatto_rule(model.contact.points_per_side);
+  make_tiles(model, add_joints(assembly, model));
   return model;
 }
 

@@ -1,6 +1,7 @@
 // The model: everything about bodies and patches that does not change during a run, laid out for the step.
-// Bodies are ordered along a space-filling curve, joints by corner count and then by their pair of bodies; eight joints
-// side by side make a batch whose every quantity is one SIMD register.
+// Bodies are ordered along a space-filling curve and cut into tiles. The joints of a tile are those whose first body
+// in that order lies in it; eight of them side by side make a batch whose every quantity is one SIMD register. A tile
+// sums the wrenches of its joints body by body, so that the order of summation depends on nothing but the model.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -40,6 +41,7 @@ struct Patch {
   std::int32_t law = 0;  // index into Model::laws
   // Its points are rows first_point … of tables whose rows hold `stride` patches side by side, see point_index().
   std::int32_t first_point = 0, point_count = 0, stride = 1, lane = 0;
+  std::int32_t batch = 0;                           // of a joint
   std::int32_t first_corner = 0, corner_count = 0;  // its polygon, for files and pictures
   double arm_a[3] = {}, arm_b[3] = {};              // m, centroid of the body to that of the patch, reference axes
   double place[3] = {};                             // m, X_a + arm_a
@@ -65,17 +67,36 @@ inline PatchPoint patch_corner(const Patch& p, const Array<double>& table, int i
   return {table[at], table[at + 1], 0.0};
 }
 
-/// Eight joints of the assembly, a lane each.
+/// Eight joints of the assembly, a lane each: all that the intact path reads of them.
 struct alignas(64) JointBatch {
   Lanes arm_a[3], arm_b[3], place[3], frame[4];
   Lanes kn, ks, area, ss, tt;
-  std::int32_t a[lane_count], b[lane_count], law[lane_count];
+  Lanes half_s, half_t;  // m: the polygon lies within ±half_s, ±half_t of its centroid; a rectangle fills that
+  std::int32_t a[lane_count], b[lane_count];
+  std::int32_t sum_a[lane_count], sum_b[lane_count];  // where the tile sums the wrenches of each
+  std::int32_t first_joint = 0;
+  std::int32_t count = 0;         // joints in use; further lanes repeat the last one and are never written
+  std::int32_t law = 0;           // of all lanes; −1: they differ
   std::int32_t first_corner = 0;  // into Model::batch_corners
   std::int32_t corners = 4;       // most of any lane
   std::int32_t first_point = 0;   // row of the tables of points
   std::int32_t points = 9;        // most of any lane; missing ones repeat the last with no weight
-  std::int32_t count = 0;         // joints in use; further lanes repeat the last one and are never written
+  bool rectangles = false;        // all lanes: points and corners follow from half_s and half_t
+  bool dilates = false;           // some lane has a law with dilation
 };
+
+/// Bodies next to each other in the order, and the joints whose first body is one of them.
+struct Tile {
+  std::int32_t first_body = 0, end_body = 0;
+  std::int32_t first_joint = 0, end_joint = 0;
+  std::int32_t first_batch = 0, end_batch = 0;
+  std::int32_t first_sum = 0, end_sum = 0;  // its bodies in order, then bodies of later tiles that its joints touch
+  std::vector<std::int32_t> followers;      // those later tiles
+};
+constexpr std::int32_t tile_bodies = 64;  // whole batches of bodies
+inline std::int32_t tile_of(std::int32_t body) {
+  return body / tile_bodies;
+}
 
 struct Model {
   std::vector<Body> bodies;
@@ -89,8 +110,12 @@ struct Model {
   Array<double> points;                      // s, t, weight of the joints' points, eight joints side by side
   Array<double> corners;                     // s, t of the joints' corners
   std::size_t point_rows = 0;
-  Array<JointBatch> batches;   // batch k holds joints 8k … 8k+7
+  Array<JointBatch> batches;
   Array<Lanes> batch_corners;  // s, t of each corner
+  LineRule rule;               // of rectangles: its tensor product
+  std::vector<Tile> tiles;
+  // Sums of each body in the order they are added up: first of each body (and one past the end), places of the sums.
+  std::vector<std::int32_t> first_sum, sums;
 
   // For contacts that appear: what a patch between two bodies is made of.
   struct Matter {

@@ -1,6 +1,6 @@
 #include "solver/model/quadrature.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 #include "solver/base/error.h"
@@ -11,37 +11,28 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-struct Lobatto {
-  std::vector<double> x, w;  // on [0, 1], weights sum to 1
-};
-
-/// Gauss–Lobatto rules (Abramowitz & Stegun 1964, table 25.6).
-Lobatto lobatto(int n) {
-  if (n == 3) return {{0.0, 0.5, 1.0}, {1.0 / 6, 4.0 / 6, 1.0 / 6}};
-  if (n == 4) {
-    const double a = 0.5 / std::sqrt(5.0);
-    return {{0.0, 0.5 - a, 0.5 + a, 1.0}, {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12}};
-  }
-  if (n == 5) {
-    const double a = 0.5 * std::sqrt(3.0 / 7.0);
-    return {{0.0, 0.5 - a, 0.5, 0.5 + a, 1.0}, {1.0 / 20, 49.0 / 180, 64.0 / 180, 49.0 / 180, 1.0 / 20}};
-  }
-  throw InputError("points_per_side is {}; it must be 3, 4 or 5", n);
-}
-
 /// Tensor rule on the bilinear map. A quadratic of the plane is of degree 2 in each map coordinate, the Jacobian of
 /// degree 1, and three Lobatto points integrate degree 3: exact for any convex quadrilateral.
 std::vector<PatchPoint> tensor_rule(const std::vector<Vec2>& p, int per_side) {
-  const Lobatto rule = lobatto(per_side);
+  const LineRule rule = lobatto_rule(per_side);
   const Vec2 e = p[1] - p[0], f = p[3] - p[0], twist = p[0] - p[1] + p[2] - p[3];
   std::vector<PatchPoint> points;
   for (int i = 0; i < per_side; ++i)
     for (int j = 0; j < per_side; ++j) {
-      const double x = rule.x[i], y = rule.x[j];
+      const double x = 0.5 + 0.5 * rule.x[i], y = 0.5 + 0.5 * rule.x[j];
       const Vec2 at = p[0] + x * e + y * f + x * y * twist;
       const Vec2 dx = e + y * twist, dy = f + x * twist;
       points.push_back({at.x(), at.y(), rule.w[i] * rule.w[j] * (dx.x() * dy.y() - dx.y() * dy.x())});
     }
+  return points;
+}
+
+/// The same on the rectangle (±a, ±b).
+std::vector<PatchPoint> rectangle_rule(double a, double b, double area, int per_side) {
+  const LineRule rule = lobatto_rule(per_side);
+  std::vector<PatchPoint> points;
+  for (int i = 0; i < per_side; ++i)
+    for (int j = 0; j < per_side; ++j) points.push_back({a * rule.x[i], b * rule.x[j], rule.w[i] * rule.w[j] * area});
   return points;
 }
 
@@ -83,6 +74,19 @@ Moments moments(const std::vector<Vec2>& p) {
 
 }  // namespace
 
+LineRule lobatto_rule(int n) {
+  if (n == 3) return {3, {-1.0, 0.0, 1.0}, {1.0 / 6, 4.0 / 6, 1.0 / 6}};
+  if (n == 4) {
+    const double a = 1.0 / std::sqrt(5.0);
+    return {4, {-1.0, -a, a, 1.0}, {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12}};
+  }
+  if (n == 5) {
+    const double a = std::sqrt(3.0 / 7.0);
+    return {5, {-1.0, -a, 0.0, a, 1.0}, {1.0 / 20, 49.0 / 180, 64.0 / 180, 49.0 / 180, 1.0 / 20}};
+  }
+  throw InputError("points_per_side is {}; it must be 3, 4 or 5", n);
+}
+
 PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side) {
   PatchShape shape;
   Vec3 mean = Vec3::Zero();
@@ -113,8 +117,19 @@ PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side)
   const Moments principal = moments(p);
   shape.ss = principal.xx;
   shape.tt = principal.yy;
-  for (const Vec2& v : p) shape.corners.push_back({v.x(), v.y(), 0.0});
-  shape.points = p.size() == 4 ? tensor_rule(p, per_side) : fan_rule(p);
+  for (const Vec2& v : p) {
+    shape.corners.push_back({v.x(), v.y(), 0.0});
+    shape.half_s = std::max(shape.half_s, std::abs(v.x()));
+    shape.half_t = std::max(shape.half_t, std::abs(v.y()));
+  }
+  const double slack = 2e-12 * (shape.half_s + shape.half_t);  // rounding of coordinates some 100 m from the origin
+  const auto fills = [&](const Vec2& v) {
+    return std::abs(v.x()) > shape.half_s - slack && std::abs(v.y()) > shape.half_t - slack;
+  };
+  shape.rectangle = p.size() == 4 && std::all_of(p.begin(), p.end(), fills);
+  shape.points = shape.rectangle ? rectangle_rule(shape.half_s, shape.half_t, shape.area, per_side)
+                 : p.size() == 4 ? tensor_rule(p, per_side)
+                                 : fan_rule(p);
   return shape;
 }
 

@@ -12,14 +12,24 @@ struct PatchPoint {
   double weight = 0.0;      // m2
 };
 
+/// Gauss–Lobatto rule on [−1, 1]; weights sum to 1 (Abramowitz & Stegun 1964, table 25.6).
+struct LineRule {
+  int count = 0;
+  double x[5] = {}, w[5] = {};
+};
+/// Of 3, 4 or 5 points; InputError for other numbers.
+LineRule lobatto_rule(int points);
+
 /// Plane frame and moments of a polygon. Axes s, t are principal (∫ s t dA = 0), n = s × t.
 struct PatchShape {
   Vec3 centroid = Vec3::Zero();
-  Mat3 frame = Mat3::Identity();    // columns n, s, t
-  double area = 0.0;                // m2
-  double ss = 0.0, tt = 0.0;        // m4: ∫ s² dA, ∫ t² dA
-  std::vector<PatchPoint> corners;  // weights zero
-  std::vector<PatchPoint> points;   // the rule
+  Mat3 frame = Mat3::Identity();      // columns n, s, t
+  double area = 0.0;                  // m2
+  double ss = 0.0, tt = 0.0;          // m4: ∫ s² dA, ∫ t² dA
+  double half_s = 0.0, half_t = 0.0;  // m: largest |s|, |t| of a corner
+  bool rectangle = false;             // with corners (±half_s, ±half_t): point i n + j of the rule is at s_i, t_j
+  std::vector<PatchPoint> corners;    // weights zero
+  std::vector<PatchPoint> points;     // the rule
 };
 
 /// `polygon` is convex and counter-clockwise about `normal` (unit). Quadrilaterals take the tensor Gauss–Lobatto rule

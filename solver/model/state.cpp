@@ -11,7 +11,6 @@ void PatchMemory::resize(std::size_t patches, std::size_t points) {
   mode.assign(patches, 0);
   largest.assign(2 * patches, 0.0);
   energy.assign(3 * patches, 0.0);
-  last.assign(6 * (patches + 8), 0.0);
 }
 
 namespace {
@@ -93,9 +92,10 @@ std::vector<NamedArray> State::arrays() {
                                   {"bodies/pose", pose_width, "m, -", &pose},
                                   {"bodies/motion", motion_width, "m/s, kg m2/s, J", &motion},
                                   {"bodies/baseline", 3, "m", &baseline},
-                                  {"bodies/searched", 7, "m, -", &searched},
+                                  {"bodies/searched", searched_width, "m, -", &searched},
                                   {"joints/slip", lane_count, "m, m, rad", &slip},
-                                  {"joints/branch", lane_count, "m, rad", &branch}};
+                                  {"joints/branch", lane_count, "m, rad", &branch},
+                                  {"joints/branch_work", lane_count, "J", &branch_work}};
   add(list, "joints", joint);
   list.push_back({"contacts/patches", patch_columns, "SI", &contact_rows});
   list.push_back({"contacts/points", 3, "m, m, m2", &contact_points});
@@ -124,10 +124,13 @@ State initial_state(const Model& model) {
   for (std::size_t i = 0; i < n; ++i) state.pose[pose_width * i + 3] = 1.0;
   state.motion.assign(motion_width * n, 0.0);
   state.baseline.assign(3 * n, 0.0);
-  state.searched.assign(7 * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) state.searched[7 * i] = 1e30;  // never looked for: as if they had come from far
+  state.searched.assign(searched_width * n, 0.0f);
+  for (std::size_t i = 0; i < n; ++i)
+    state.searched[searched_width * i] = 1e18f;  // never looked for: as if they had come from far
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.joint.resize(model.joints.size(), lane_count * model.point_rows);
+  state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);
+  state.branch_work.assign(lane_count * model.tiles.size(), 0.0);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const LawConstants& law = model.laws[model.joints[i].law];
     const bool bondless =

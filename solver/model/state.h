@@ -16,7 +16,7 @@ constexpr int most_branches = 4;
 struct Branches {
   int count = 0;
   double e[most_branches] = {}, g[most_branches] = {};
-  double loss[most_branches] = {};    // dissipated per step and stiffness: loss q²
+
   double stored[most_branches] = {};  // held by the branch's spring per stiffness: ½ stored q²
   double total_g() const {
     double sum = 0.0;
@@ -31,6 +31,7 @@ enum PatchMode : std::uint8_t {
   mode_broken = 2,  // intact path: the whole patch has lost its bond (or never had one)
   mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted
   mode_open = 8,    // intact path: wholly open at the last pass
+  mode_slid = 16,   // intact path: its rigid plastic slip is not zero
 };
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.
@@ -40,13 +41,14 @@ struct PatchMemory {
   Array<float> point_branch;   // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
   Array<double> largest;       // 2 a patch: opening, slip (m)
-  Array<double> last;          // 6 a patch: jump at the last pass (m, rad); joints eight side by side
-  Array<double> energy;        // 3 a patch: friction, fracture, damping (J)
+  Array<float> last;           // 6 a patch: jump at the last pass (m, rad); joints eight side by side
+  Array<double> energy;        // 3 a patch: friction, fracture, work done on the branches point by point (J)
   void resize(std::size_t patches, std::size_t points);
 };
 
 constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
 constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base, loss by body damping (J)
+constexpr int searched_width = 8;
 
 struct State {
   // scalars: time, base velocity and displacement (3 + 3), energies of contacts that are gone (friction, fracture,
@@ -58,12 +60,13 @@ struct State {
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
   Array<double> baseline;  // 3 a body: displacement at the end of the last gravity stage, from which demands count
-  Array<double> searched;  // 7 a body: displacement relative to the base (m) and quaternion when its contacts were last
-                           // looked for
+  Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion when its
+                           // contacts were last looked for
 
-  PatchMemory joint;    // of Model::joints
-  Array<double> slip;   // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
-  Array<float> branch;  // per batch 6 × branches × 8: q of the six generalised jumps
+  PatchMemory joint;          // of Model::joints
+  Array<double> slip;         // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
+  Array<float> branch;        // per batch 6 × branches × 8: q of the six generalised jumps
+  Array<double> branch_work;  // 8 a tile: work done on the branches of the intact path (J)
 
   std::vector<Patch> contacts;    // found during the run, sorted by (a, b, cell_a, cell_b)
   Array<double> contact_points;   // s, t, weight
@@ -100,6 +103,11 @@ inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {
 
 /// All bodies and the base at rest.
 void stop_motion(State& state);
+
+/// First of the eight lanes of jump c of a batch, in PatchMemory::last of joints.
+inline std::size_t last_index(std::size_t batch, int c) {
+  return lane_count * (6 * batch + std::size_t(c));
+}
 
 /// First of the eight lanes of generalised jump c in branch k of a batch, in State::branch.
 inline std::size_t branch_index(int branches, std::size_t batch, int c, int k) {

@@ -1,5 +1,6 @@
 #include "solver/step/body_pass.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/contact/search.h"
@@ -8,50 +9,76 @@ namespace voussoir {
 
 Incidence find_incidence(const Model& model, const State& state) {
   Incidence incidence;
-  const std::size_t joints = model.joints.size(), all = joints + state.contacts.size();
-  const auto patch = [&](std::size_t i) -> const Patch& {
-    return i < joints ? model.joints[i] : state.contacts[i - joints];
-  };
   incidence.first.assign(model.bodies.size() + 1, 0);
-  for (std::size_t i = 0; i < all; ++i) ++incidence.first[patch(i).a + 1], ++incidence.first[patch(i).b + 1];
+  for (const Patch& p : state.contacts) ++incidence.first[p.a + 1], ++incidence.first[p.b + 1];
   for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
-  incidence.patches.resize(incidence.first.back());
+  incidence.contacts.resize(incidence.first.back());
   std::vector<std::int32_t> next(incidence.first.begin(), incidence.first.end() - 1);
-  for (std::size_t i = 0; i < all; ++i) {
-    incidence.patches[next[patch(i).a]++] = std::int32_t(2 * i);
-    incidence.patches[next[patch(i).b]++] = std::int32_t(2 * i + 1);
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    incidence.contacts[next[state.contacts[i].a]++] = std::int32_t(2 * i);
+    incidence.contacts[next[state.contacts[i].b]++] = std::int32_t(2 * i + 1);
   }
   return incidence;
 }
 
+Array<BodyBatch> make_body_batches(const Model& model) {
+  const std::size_t n = model.bodies.size();
+  Array<BodyBatch> batches((n + lane_count - 1) / lane_count);
+  for (std::size_t i = 0; i < lane_count * batches.size(); ++i) {
+    const Body& body = model.bodies[std::min(i, n - 1)];
+    BodyBatch& batch = batches[i / lane_count];
+    const std::size_t lane = i % lane_count;
+    for (int c = 0; c < 3; ++c) batch.centroid[c][lane] = body.centroid[c];
+    batch.mass[lane] = body.mass;
+    batch.inertial_mass[lane] = body.inertial_mass;
+    batch.radius[lane] = body.radius;
+    const Mat3& m = body.inverse_inertia;
+    const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+    for (int c = 0; c < 6; ++c) batch.inverse_inertia[c][lane] = entries[c];
+    if (i < n && !body.fixed) batch.free |= without(LaneMask::first(int(lane) + 1), LaneMask::first(int(lane)));
+  }
+  return batches;
+}
+
 namespace {
 
-Triple<double> times(const Mat3& m, const Triple<double>& x) {
-  return {m(0, 0) * x.x + m(0, 1) * x.y + m(0, 2) * x.z, m(1, 0) * x.x + m(1, 1) * x.y + m(1, 2) * x.z,
-          m(2, 0) * x.x + m(2, 1) * x.y + m(2, 2) * x.z};
+/// Symmetric, by xx, yy, zz, xy, xz, yz.
+template <class T>
+[[gnu::always_inline]] inline Triple<T> times(const T* m, const Triple<T>& x) {
+  return {m[0] * x.x + m[3] * x.y + m[4] * x.z, m[3] * x.x + m[1] * x.y + m[5] * x.z,
+          m[4] * x.x + m[5] * x.y + m[2] * x.z};
+}
+
+template <class T>
+[[gnu::always_inline]] inline Triple<T> spin(const T* inverse_inertia, const Quat<T>& q, const Triple<T>& momentum) {
+  return turn(q, times(inverse_inertia, turn_back(q, momentum)));
 }
 
 Triple<double> spin(const Body& body, const Quat<double>& q, const Triple<double>& momentum) {
-  return turn(q, times(body.inverse_inertia, turn_back(q, momentum)));
+  const Mat3& m = body.inverse_inertia;
+  const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+  return spin(entries, q, momentum);
 }
 
-/// exp(½ dt ω) q; series of sin and cos below a quarter turn a step, which keep full precision and are the
-/// same on every machine.
+constexpr double series_limit = 0.06;  // of |h|², below which the series of rotate() keep full precision
+
+/// exp(h) q by the series of cos |h| and sin |h| / |h|.
+template <class T>
+[[gnu::always_inline]] inline Quat<T> rotate_by_series(const Quat<T>& q, const Triple<T>& h, const T& x) {
+  constexpr double c2 = 1.0 / 12, c3 = 1.0 / 30, c4 = 1.0 / 56, c5 = 1.0 / 90;
+  constexpr double s1 = 1.0 / 6, s2 = 1.0 / 20, s3 = 1.0 / 42, s4 = 1.0 / 72, s5 = 1.0 / 110;
+  const T c = 1.0 - 0.5 * x * (1.0 - c2 * x * (1.0 - c3 * x * (1.0 - c4 * x * (1.0 - c5 * x))));
+  const T s = 1.0 - s1 * x * (1.0 - s2 * x * (1.0 - s3 * x * (1.0 - s4 * x * (1.0 - s5 * x))));
+  return Quat<T>{c, s * h} * q;
+}
+
+/// exp(½ dt ω) q; series below a quarter turn a step, which are the same on every machine.
 Quat<double> rotate(const Quat<double>& q, const Triple<double>& omega, double dt) {
   const Triple<double> h = 0.5 * dt * omega;
   const double x = dot(h, h);
-  double c, s;  // cos |h|, sin |h| / |h|
-  if (x < 0.06) {
-    constexpr double c2 = 1.0 / 12, c3 = 1.0 / 30, c4 = 1.0 / 56, c5 = 1.0 / 90;
-    constexpr double s1 = 1.0 / 6, s2 = 1.0 / 20, s3 = 1.0 / 42, s4 = 1.0 / 72, s5 = 1.0 / 110;
-    c = 1.0 - 0.5 * x * (1.0 - c2 * x * (1.0 - c3 * x * (1.0 - c4 * x * (1.0 - c5 * x))));
-    s = 1.0 - s1 * x * (1.0 - s2 * x * (1.0 - s3 * x * (1.0 - s4 * x * (1.0 - s5 * x))));
-  } else {
-    const double a = std::sqrt(x);
-    c = std::cos(a);
-    s = std::sin(a) / a;
-  }
-  return Quat<double>{c, s * h} * q;
+  if (x < series_limit) return rotate_by_series(q, h, x);
+  const double a = std::sqrt(x);
+  return Quat<double>{std::cos(a), std::sin(a) / a * h} * q;
 }
 
 Quat<double> normalised(const Quat<double>& q) {
@@ -136,23 +163,29 @@ BodyUpdate BodyPass::held_update(std::size_t i, const Triple<double>& patches, c
   return r;
 }
 
+/// Force and moment about the world's origin.
+Lanes BodyPass::wrench_sum(std::size_t i) const {
+  const auto* rows = reinterpret_cast<const Lanes*>(sums);
+  const std::int32_t* place = &(*sum_places)[std::size_t((*first_sum)[i])];
+  const std::int32_t* const end = place + ((*first_sum)[i + 1] - (*first_sum)[i]);
+  Lanes sum = rows[*place];
+  while (++place != end) sum += rows[*place];
+  const auto* contacts = reinterpret_cast<const Lanes*>(contact_wrenches);
+  for (std::int32_t k = incidence->first[i]; k < incidence->first[i + 1]; ++k) {
+    const std::int32_t entry = incidence->contacts[std::size_t(k)];
+    const Lanes w = contacts[entry >> 1];
+    sum = entry & 1 ? sum - w : sum + w;
+  }
+  return sum;
+}
+
 BodyUpdate BodyPass::update(std::size_t i) const {
   const Body& body = model->bodies[i];
   const double* pose = &state->pose[pose_width * i];
   const double* motion = &state->motion[motion_width * i];
   BodyUpdate r;
-  Triple<double> f = {0, 0, 0}, m = {0, 0, 0};
-  for (std::int32_t k = incidence->first[i]; k < incidence->first[i + 1]; ++k) {
-    const std::int32_t entry = incidence->patches[k];
-    const double* w = wrenches + wrench_width * std::size_t(entry >> 1);
-    if (entry & 1) {
-      f.x -= w[0], f.y -= w[1], f.z -= w[2];
-      m.x -= w[3], m.y -= w[4], m.z -= w[5];
-    } else {
-      f.x += w[0], f.y += w[1], f.z += w[2];
-      m.x += w[3], m.y += w[4], m.z += w[5];
-    }
-  }
+  const Lanes sum = wrench_sum(i);
+  Triple<double> f = {sum[0], sum[1], sum[2]}, m = {sum[3], sum[4], sum[5]};
   const Triple<double> x = {body.centroid.x() + pose[0], body.centroid.y() + pose[1], body.centroid.z() + pose[2]};
   m = m - cross(x, f);
   if (body.fixed) return held_update(i, f, m);
@@ -182,34 +215,138 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   return r;
 }
 
-BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
-  BodyReport report;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Body& body = model->bodies[i];
-    double* pose = &state->pose[pose_width * i];
-    double* motion = &state->motion[motion_width * i];
-    const BodyUpdate next = update(i);
-    // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
-    // the loads.
-    for (int c = 0; c < 3; ++c)
-      if (body.held(c)) motion[6] -= 0.5 * dt * (&next.force.x)[c] * (motion[c] + (&next.velocity.x)[c]);
-    if (loads && !body.still())
-      motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
-    motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;
-    motion[3] = next.momentum.x, motion[4] = next.momentum.y, motion[5] = next.momentum.z;
-    motion[7] += next.loss;
-    for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
-    if (body.held(3)) {
-      report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
-      continue;
-    }
+void BodyPass::move_body(std::size_t i, BodyReport& report) const {
+  const Body& body = model->bodies[i];
+  double* pose = &state->pose[pose_width * i];
+  double* motion = &state->motion[motion_width * i];
+  const BodyUpdate next = update(i);
+  // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
+  // the loads.
+  for (int c = 0; c < 3; ++c)
+    if (body.held(c)) motion[6] -= 0.5 * dt * (&next.force.x)[c] * (motion[c] + (&next.velocity.x)[c]);
+  if (loads && !body.still())
+    motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
+  motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;
+  motion[3] = next.momentum.x, motion[4] = next.momentum.y, motion[5] = next.momentum.z;
+  motion[7] += next.loss;
+  for (int c = 0; c < 3; ++c) pose[c] += dt * motion[c];
+  if (!body.held(3)) {
     const Quat<double> q = pose_rotation(pose);
     const Quat<double> half = rotate(q, spin(body, q, next.momentum), 0.5 * dt);
     const Quat<double> turned = normalised(rotate(q, spin(body, half, next.momentum), dt));
     pose[3] = turned.w, pose[4] = turned.v.x, pose[5] = turned.v.y, pose[6] = turned.v.z;
-    report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
-    const double speed2 = dot(next.velocity, next.velocity);
-    if (!(speed2 < 1e6) && report.runaway < 0) report.runaway = std::int32_t(i);
+  }
+  report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
+  if (body.held(3)) return;
+  const double speed2 = dot(next.velocity, next.velocity);
+  if (!(speed2 < 1e6) && report.runaway < 0) report.runaway = std::int32_t(i);
+}
+
+namespace {
+
+struct LaneRows {
+  Lanes r[lane_count];
+};
+
+/// Rows of eight numbers, those of lanes past the last repeated, as columns.
+LaneRows load_rows(const double* rows, int count) {
+  LaneRows l;
+  for (int lane = 0; lane < lane_count; ++lane)
+    l.r[lane] = reinterpret_cast<const Lanes*>(rows)[std::min(lane, count - 1)];
+  transpose(l.r);
+  return l;
+}
+
+void store_rows(LaneRows l, LaneMask which, double* rows) {
+  transpose(l.r);
+  for (int lane = 0; lane < lane_count; ++lane)
+    if (which[lane]) reinterpret_cast<Lanes*>(rows)[lane] = l.r[lane];
+}
+
+LaneRows load_searched(const float* rows, int count) {
+  LaneRows l;
+  for (int lane = 0; lane < lane_count; ++lane)
+    l.r[lane] = widen(reinterpret_cast<const Singles*>(rows)[std::min(lane, count - 1)]);
+  transpose(l.r);
+  return l;
+}
+
+/// As moved_since_search().
+Lanes moved_since_search(const LaneRows& pose, const LaneRows& from, const Vec3& base, Lanes radius) {
+  Lanes d2 = splat(0.0), r2 = splat(0.0);
+  for (int c = 0; c < 3; ++c) {
+    const Lanes d = pose.r[c] - base[c] - from.r[c];
+    d2 += d * d;
+  }
+  for (int c = 3; c < 7; ++c) r2 += (pose.r[c] - from.r[c]) * (pose.r[c] - from.r[c]);
+  return square_root(d2) + 2.1 * square_root(r2) * radius;
+}
+
+}  // namespace
+
+/// Free bodies of the batch that begins at `first`; returns which it has moved: none where one turns too fast for the
+/// series of rotate().
+LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& report) const {
+  const int count = int(std::min<std::size_t>(lane_count, end - first));
+  const BodyBatch& batch = batches[first / lane_count];
+  LaneRows sum, motion = load_rows(&state->motion[motion_width * first], count),
+                pose = load_rows(&state->pose[pose_width * first], count);
+  for (int lane = 0; lane < lane_count; ++lane)
+    sum.r[lane] = wrench_sum(first + std::size_t(std::min(lane, count - 1)));
+  transpose(sum.r);
+  const Triple<Lanes> x = {batch.centroid[0] + pose.r[0], batch.centroid[1] + pose.r[1], batch.centroid[2] + pose.r[2]};
+  Triple<Lanes> f = {sum.r[0], sum.r[1], sum.r[2]};
+  const Triple<Lanes> m = Triple<Lanes>{sum.r[3], sum.r[4], sum.r[5]} - cross(x, f);
+  const Vec3& g = model->gravity;
+  f = f + batch.mass * Triple<Lanes>{splat(g.x()), splat(g.y()), splat(g.z())};
+  const Triple<Lanes> v = {motion.r[0], motion.r[1], motion.r[2]}, l = {motion.r[3], motion.r[4], motion.r[5]};
+  const Quat<Lanes> q = {pose.r[3], {pose.r[4], pose.r[5], pose.r[6]}};
+  Triple<Lanes> velocity = v + (dt / batch.inertial_mass) * f, momentum = l + splat(dt) * m;
+  if (mass_rate > 0.0) {  // as update() and turn()
+    const double h = 0.5 * dt * mass_rate;
+    const Vec3 ground = 0.5 * (base_velocity_now + base_velocity_next);
+    const Triple<Lanes> base = {splat(ground.x()), splat(ground.y()), splat(ground.z())};
+    const Lanes shrink = splat(1.0 / (1.0 + h)), rest = splat(1.0 - h), pull = splat(2.0 * h);
+    velocity = shrink * (rest * v + (dt / batch.inertial_mass) * f + pull * base);
+    momentum = shrink * (rest * l + splat(dt) * m);
+    const Triple<Lanes> mean = splat(0.5) * (v + velocity), turning = splat(0.5) * (l + momentum);
+    motion.r[7] +=
+        mass_rate * dt *
+        (batch.inertial_mass * dot(mean - base, mean) + dot(turning, spin(batch.inverse_inertia, q, turning)));
+  }
+  const Triple<Lanes> first_turn = splat(0.25 * dt) * spin(batch.inverse_inertia, q, momentum);
+  const Quat<Lanes> half = rotate_by_series(q, first_turn, dot(first_turn, first_turn));
+  const Triple<Lanes> whole_turn = splat(0.5 * dt) * spin(batch.inverse_inertia, half, momentum);
+  const Lanes angle2 = dot(whole_turn, whole_turn);
+  if (any(without(batch.free, less(larger(angle2, dot(first_turn, first_turn)), splat(series_limit))))) return {};
+  const Quat<Lanes> turned = rotate_by_series(q, whole_turn, angle2);
+  const Lanes norm = 1.0 / square_root(turned.w * turned.w + dot(turned.v, turned.v));
+  const Lanes moved[6] = {velocity.x, velocity.y, velocity.z, momentum.x, momentum.y, momentum.z};
+  std::copy(moved, moved + 6, motion.r);
+  for (int c = 0; c < 3; ++c) pose.r[c] += dt * moved[c];
+  pose.r[3] = norm * turned.w;
+  pose.r[4] = norm * turned.v.x, pose.r[5] = norm * turned.v.y, pose.r[6] = norm * turned.v.z;
+  const LaneRows from = load_searched(&state->searched[searched_width * first], count);
+  const Lanes distance = moved_since_search(pose, from, base_displacement_next, batch.radius);
+  report.search |= any(batch.free & less(splat(search_distance), distance));
+  const LaneMask runs = without(batch.free, less(dot(velocity, velocity), splat(1e6)));
+  if (any(runs) && report.runaway < 0)
+    for (int lane = count; lane-- > 0;)
+      if (runs[lane]) report.runaway = std::int32_t(first) + lane;
+  store_rows(motion, batch.free, &state->motion[motion_width * first]);
+  store_rows(pose, batch.free, &state->pose[pose_width * first]);
+  return batch.free;
+}
+
+BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
+  BodyReport report;
+  const bool side_by_side = local == 0.0 && !loads;  // these two act on bodies one by one
+  for (std::size_t first = begin; first < end; first += lane_count) {
+    const std::size_t next = std::min(end, first + lane_count);
+    const LaneMask moved =
+        side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, report) : LaneMask{};
+    for (std::size_t i = first; i < next; ++i)
+      if (!moved[int(i - first)]) move_body(i, report);
   }
   return report;
 }

@@ -1,4 +1,5 @@
-// Second pass of a step: every body adds the wrenches of its patches in ascending patch order and moves at once.
+// The bodies of a step: every one adds up what its tiles have summed of its joints, tile by tile, then the wrenches of
+// its contacts in ascending order, and moves at once. Free bodies go eight side by side.
 //
 // Leapfrog: v and L live at half steps. v⁺ = v⁻ + dt (F/m + g), L⁺ = L⁻ + dt T in the spatial frame; ω = R Ib⁻¹ Rᵀ L at
 // the half step from a predicted half rotation (Fincham 1992), the quaternion by the exponential map.
@@ -8,12 +9,20 @@
 
 namespace voussoir {
 
-/// Patches of each body in ascending order: 2 × slot, plus 1 where the body is the patch's second one.
+/// Contacts of each body in ascending order: 2 × index, plus 1 where the body is the contact's second one.
 struct Incidence {
   std::vector<std::int32_t> first;  // per body, and one past the end
-  std::vector<std::int32_t> patches;
+  std::vector<std::int32_t> contacts;
 };
 Incidence find_incidence(const Model& model, const State& state);
+
+/// Constants of eight bodies next to each other; those that the ground or a guide holds are left out.
+struct alignas(64) BodyBatch {
+  Lanes centroid[3], mass, inertial_mass, radius;
+  Lanes inverse_inertia[6];  // xx, yy, zz, xy, xz, yz
+  LaneMask free;
+};
+Array<BodyBatch> make_body_batches(const Model& model);
 
 /// Out-of-balance force and moment about the centroid (gravity and loads included), and the velocities that follow.
 struct BodyUpdate {
@@ -33,11 +42,17 @@ struct BodyReport {
   }
 };
 
+struct Energies;
+
 struct BodyPass {
   const Model* model = nullptr;
   State* state = nullptr;
+  const std::vector<std::int32_t>*first_sum = nullptr, *sum_places = nullptr;  // as Model::first_sum and sums
+  const double* sums = nullptr;                                                // see PatchPass
   const Incidence* incidence = nullptr;
-  const double* wrenches = nullptr;
+  const double* contact_wrenches = nullptr;
+  const BodyBatch* batches = nullptr;
+  const std::vector<Energies>* energies = nullptr;  // of each tile, where a sample has them computed beforehand
   double dt = 0.0;                             // s
   double mass_rate = 0.0;                      // 1/s, Rayleigh
   double local = 0.0;                          // Cundall
@@ -58,7 +73,13 @@ struct BodyPass {
   BodyUpdate update(std::size_t body) const;
   void turn(std::size_t body, Triple<double> moment, BodyUpdate& update) const;
   BodyUpdate held_update(std::size_t body, const Triple<double>& patches, const Triple<double>& moment) const;
+  /// Moves the bodies [begin, end); `begin` is the first of a batch.
   BodyReport bodies(std::size_t begin, std::size_t end) const;
+
+ private:
+  Lanes wrench_sum(std::size_t body) const;
+  void move_body(std::size_t body, BodyReport& report) const;
+  LaneMask move_lanes(std::size_t first, std::size_t end, BodyReport& report) const;
 };
 
 /// Work of the loads on a body over half a step at this velocity and angular momentum, J.

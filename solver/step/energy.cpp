@@ -7,7 +7,7 @@ namespace {
 PatchEnergy intact_energy(const Model& model, const State& state, const Branches& branches, std::size_t index) {
   const Patch& patch = model.joints[index];
   const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
-  const std::size_t batch = index / lane_count, lane = index % lane_count;
+  const auto batch = std::size_t(patch.batch), lane = std::size_t(patch.lane);
   const double* slip = &state.slip[3 * lane_count * batch + lane];
   const double u[6] = {j.n, j.s - slip[0], j.t - slip[lane_count], j.rn - slip[2 * lane_count], j.rs, j.rt};
   if (state.joint.mode[index] & mode_broken) {  // wholly open patches carry nothing
@@ -60,11 +60,12 @@ PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch,
   return e;
 }
 
-void add_losses(const PatchMemory& memory, Energies& e) {
-  for (std::size_t i = 0; i + 2 < memory.energy.size(); i += 3) {
-    e.friction += memory.energy[i];
-    e.fracture += memory.energy[i + 1];
-    e.joint_damping += memory.energy[i + 2];
+/// What patches [begin, end) have lost, and the work done on their branches.
+void add_losses(const PatchMemory& memory, std::size_t begin, std::size_t end, Energies& e) {
+  for (std::size_t i = begin; i < end; ++i) {
+    e.friction += memory.energy[3 * i];
+    e.fracture += memory.energy[3 * i + 1];
+    e.joint_damping += memory.energy[3 * i + 2];
   }
 }
 
@@ -107,21 +108,39 @@ PatchEnergy patch_energy(const Model& model, const State& state, const Branches&
   return intact_energy(model, state, branches, index);
 }
 
-Energies compute_energies(const Stepper& stepper, const BodyPass& pass) {
+Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::size_t index) {
   const Model& model = *stepper.model;
   const State& state = *stepper.state;
+  const Tile& tile = model.tiles[index];
   Energies e;
-  for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
+  e.elastic = stepper.tile_energies[index].elastic;
+  e.damping_springs = stepper.tile_energies[index].branches;
+  const auto add_patch = [&](std::size_t i) {
     const PatchEnergy patch = patch_energy(model, state, stepper.damping.branches, i);
     e.elastic += patch.elastic;
     e.damping_springs += patch.branches;
-  }
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) add_body(stepper, pass, i, e);
-  add_losses(state.joint, e);
-  add_losses(state.contact, e);
+  };
+  for (std::int32_t i = tile.first_joint; i < tile.end_joint; ++i)
+    if (!in_tile_energy(model, state, std::size_t(i))) add_patch(std::size_t(i));
+  const auto first = std::size_t(stepper.first_contact[index]), end = std::size_t(stepper.first_contact[index + 1]);
+  for (std::size_t i = first; i < end; ++i) add_patch(model.joints.size() + i);
+  for (std::int32_t i = tile.first_body; i < tile.end_body; ++i) add_body(stepper, pass, std::size_t(i), e);
+  add_losses(state.joint, std::size_t(tile.first_joint), std::size_t(tile.end_joint), e);
+  add_losses(state.contact, first, end, e);
+  for (int lane = 0; lane < lane_count; ++lane)
+    e.joint_damping += state.branch_work[lane_count * index + std::size_t(lane)];
+  return e;
+}
+
+Energies compute_energies(const Stepper& stepper, const BodyPass& pass) {
+  const State& state = *stepper.state;
+  Energies e;
+  for (std::size_t tile = 0; tile < stepper.model->tiles.size(); ++tile)
+    e.add(pass.energies ? (*pass.energies)[tile] : energies_of_tile(stepper, pass, tile));
   e.friction += state.retired_energy()[0];
   e.fracture += state.retired_energy()[1];
   e.joint_damping += state.retired_energy()[2];
+  e.joint_damping -= e.damping_springs;  // of the work done on the branches, what their springs do not hold is lost
   e.clipping = state.clipped_energy();
   return e;
 }

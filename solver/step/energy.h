@@ -19,10 +19,19 @@ struct Energies {
   double lost() const { return friction + fracture + joint_damping + body_damping + clipping; }
   /// stored + lost − external work: constant in exact arithmetic.
   double total() const { return stored() + lost() - external_work; }
+  void add(const Energies& e) {
+    kinetic += e.kinetic, gravitational += e.gravitational, elastic += e.elastic;
+    damping_springs += e.damping_springs, friction += e.friction, fracture += e.fracture;
+    joint_damping += e.joint_damping, body_damping += e.body_damping, clipping += e.clipping;
+    external_work += e.external_work;
+  }
 };
 
-/// At a sampling point of the step (positions and patches at this step; `pass` knows the velocities to come).
+/// At a sampling point of the step, or after patches_only(): positions and patches are at this step; `pass` knows the
+/// velocities to come.
 Energies compute_energies(const Stepper& stepper, const BodyPass& pass);
+/// The part of a tile: its joints, its contacts, its bodies.
+Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::size_t tile);
 /// Elastic energy of one patch with its branches' springs, J.
 struct PatchEnergy {
   double elastic = 0.0, branches = 0.0;

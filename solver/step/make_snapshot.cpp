@@ -47,7 +47,7 @@ Tractions intact_tractions(const Model& model, const State& state, const Patch& 
                            std::size_t index) {
   Tractions sum;
   const bool broken = state.joint.mode[index] & mode_broken;
-  const double* slip = &state.slip[3 * lane_count * (index / lane_count) + index % lane_count];
+  const double* slip = &state.slip[3 * lane_count * std::size_t(p.batch) + std::size_t(p.lane)];
   double least = 1e300;
   for (int c = 0; c < p.corner_count; ++c) {
     const PatchPoint corner = patch_corner(p, model.corners, c);

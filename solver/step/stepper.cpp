@@ -1,10 +1,14 @@
 #include "solver/step/stepper.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <numeric>
 
-#include "solver/base/parallel.h"
 #include "solver/contact/search.h"
 #include "solver/step/drive.h"
+#include "solver/step/energy.h"
 
 namespace voussoir {
 
@@ -20,17 +24,58 @@ Vec3 base_acceleration(const GroundMotion* motion, double time) {
   return (1.0 - share) * motion->acceleration[i] + share * motion->acceleration[i + 1];
 }
 
+namespace {
+
+/// Contacts whose first body lies in each tile: they are sorted by it.
+std::vector<std::int32_t> contacts_of_tiles(const Model& model, const State& state) {
+  std::vector<std::int32_t> first(model.tiles.size() + 1, 0);
+  for (const Patch& p : state.contacts) ++first[std::size_t(tile_of(std::min(p.a, p.b))) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  return first;
+}
+
+/// A tile's bodies may move once no tile before it still has to read them.
+Dependencies order_of_tiles(const Model& model, const State& state) {
+  constexpr double contact_cost = 2.0;  // against a batch of joints
+  Dependencies order;
+  for (const Tile& tile : model.tiles) {
+    order.followers.push_back(tile.followers);
+    order.cost.push_back(1.0 + tile.end_batch - tile.first_batch);
+  }
+  for (const Patch& p : state.contacts) {
+    const std::int32_t from = tile_of(std::min(p.a, p.b)), to = tile_of(std::max(p.a, p.b));
+    order.cost[std::size_t(from)] += contact_cost;
+    std::vector<std::int32_t>& followers = order.followers[std::size_t(from)];
+    if (from != to && std::find(followers.begin(), followers.end(), to) == followers.end()) followers.push_back(to);
+  }
+  order.waits.assign(model.tiles.size(), 1);
+  for (const auto& followers : order.followers)
+    for (const std::int32_t follower : followers) ++order.waits[std::size_t(follower)];
+  return order;
+}
+
+}  // namespace
+
 void Stepper::prepare() {
   incidence = find_incidence(*model, *state);
-  wrenches.assign(wrench_width * (model->joints.size() + state->contacts.size()), 0.0);
+  body_batches = make_body_batches(*model);
+  first_contact = contacts_of_tiles(*model, *state);
+  order = order_of_tiles(*model, *state);
+  sums.resize(wrench_width * model->sums.size());
+  tile_energies.resize(model->tiles.size());
+  contact_wrenches.assign(wrench_width * state->contacts.size(), 0.0);
 }
 
 BodyPass Stepper::body_pass() const {
   BodyPass pass;
   pass.model = model;
   pass.state = state;
+  pass.first_sum = &model->first_sum;
+  pass.sum_places = &model->sums;
+  pass.sums = sums.data();
   pass.incidence = &incidence;
-  pass.wrenches = wrenches.data();
+  pass.contact_wrenches = contact_wrenches.data();
+  pass.batches = body_batches.data();
   pass.dt = dt;
   pass.mass_rate = damping.mass_rate;
   pass.local = damping.local;
@@ -43,11 +88,24 @@ BodyPass Stepper::body_pass() const {
   return pass;
 }
 
-namespace {
-
-PatchPass patch_pass(Stepper& s) {
-  return {s.model, s.state, s.damping.branches, s.wrenches.data(), s.shortcut};
+PatchPass Stepper::patch_pass() {
+  PatchPass pass;
+  pass.model = model;
+  pass.state = state;
+  pass.branches = damping.branches;
+  pass.sums = sums.data();
+  pass.contact_wrenches = contact_wrenches.data();
+  pass.shortcut = shortcut;
+  return pass;
 }
+
+PassReport Stepper::tile_patches(const PatchPass& pass, std::size_t tile) const {
+  PassReport report = pass.joints(tile);
+  report.merge(pass.contacts(std::size_t(first_contact[tile]), std::size_t(first_contact[tile + 1])));
+  return report;
+}
+
+namespace {
 
 /// The base's next velocity and displacement, from the acceleration at the present time; the driven blocks' next
 /// velocities, from where they have to be; the present share of the loads.
@@ -64,111 +122,146 @@ void move_base(const Stepper& s, double time, BodyPass& pass) {
   }
 }
 
-PassReport patch_share(const PatchPass& pass, int thread, int threads) {
-  const Range b = share(pass.model->batches.size(), thread, threads);
-  PassReport report = pass.batches(b.begin, b.end);
-  const Range c = share(pass.state->contacts.size(), thread, threads);
-  report.merge(pass.contacts(c.begin, c.end));
-  return report;
+/// Runs `work` and adds its wall time (s) to `sum`.
+template <class Work>
+auto timed(double& sum, const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = work();
+  sum += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
 }
 
-/// What each thread found in a step; on its own cache lines.
-struct alignas(64) Found {
+/// What each tile found in a step.
+struct Found {
   PassReport patches;
   BodyReport bodies;
-  bool stop = false;
 };
+
+/// The bodies have moved: so do the scalars.
+void finish_step(State& state, double dt, BodyPass& bodies) {
+  state.time() += dt;
+  ++state.step();
+  state.base_velocity() = bodies.base_velocity_next;
+  state.base_displacement() = bodies.base_displacement_next;
+  bodies.base_velocity_now = bodies.base_velocity_next;
+}
 
 }  // namespace
 
 PassReport Stepper::patches_only() {
-  return patch_share(patch_pass(*this), 0, 1);
+  wrenches.resize(wrench_width * (model->joints.size() + state->contacts.size()));
+  PatchPass pass = patch_pass();
+  pass.wrenches = wrenches.data();
+  pass.energies = tile_energies.data();
+  PassReport report;
+  for (std::size_t tile = 0; tile < model->tiles.size(); ++tile) report.merge(tile_patches(pass, tile));
+  std::copy(contact_wrenches.begin(), contact_wrenches.end(),
+            wrenches.begin() + std::ptrdiff_t(wrench_width * model->joints.size()));
+  return report;
 }
 
 Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
                          const std::function<void(const BodyPass&)>& sample, const std::atomic<bool>* stop) {
   Advance result;
   if (state->step() >= target) return result;
-  std::vector<Found> found(std::size_t(threads), Found{});
-  const PatchPass patches = patch_pass(*this);
-  const double start = state->time();
-  run_team(threads, [&](int thread, int team, Barrier& barrier) {
-    BodyPass bodies = body_pass();
-    const Range mine = share(model->bodies.size(), thread, team);
-    std::int64_t step = state->step();
-    double time = start;
-    barrier.wait();  // nobody moves the state's scalars before all have read them
-    for (;;) {
-      move_base(*this, time, bodies);
-      const PassReport patch_report = patch_share(patches, thread, team);
-      barrier.wait();
-      if (sample && step % sample_every == 0) {
-        if (thread == 0) sample(bodies);
-        barrier.wait();
-      }
-      found[thread].patches = patch_report;
-      found[thread].bodies = bodies.bodies(mine.begin, mine.end);
-      if (thread == 0) found[0].stop = stop && stop->load(std::memory_order_relaxed);
-      ++step;
-      time += dt;
-      if (thread == 0) {
-        state->time() = time;
-        state->step() = step;
-        state->base_velocity() = bodies.base_velocity_next;
-        state->base_displacement() = bodies.base_displacement_next;
-      }
-      barrier.wait();
-      bodies.base_velocity_now = bodies.base_velocity_next;
-      // Every thread reads the same findings and comes to the same decision.
-      PassReport all_patches;
-      BodyReport all_bodies;
-      for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies);
-      all_patches.reclip &= may_clip_at(step);
-      const bool decide =
-          all_patches.reclip || all_bodies.search || all_bodies.runaway >= 0 || found[0].stop || step == target;
-      if (!decide) continue;
-      if (thread == 0) {
-        result.intact = all_patches.intact;
-        result.points = all_patches.points;
-        result.reclip = all_patches.reclip;
-        result.runaway_body = all_bodies.runaway;
-        result.outcome = all_bodies.runaway >= 0                   ? StepOutcome::runaway
-                         : all_patches.reclip || all_bodies.search ? StepOutcome::contacts
-                         : found[0].stop && step != target         ? StepOutcome::interrupted
-                                                                   : StepOutcome::reached;
-      }
-      break;
+  std::vector<Found> found(model->tiles.size());
+  std::vector<Energies> energies(sample ? model->tiles.size() : 0);
+  PatchPass patches = patch_pass();
+  BodyPass bodies = body_pass();
+  bodies.energies = &energies;
+  const auto next_step = [&] {
+    move_base(*this, state->time(), bodies);
+    const bool samples = sample && state->step() % sample_every == 0;
+    patches.energies = samples ? tile_energies.data() : nullptr;
+    return samples ? RoundKind::first_only : RoundKind::both;
+  };
+  /// True when the team has to part.
+  const auto decide = [&] {
+    PassReport all_patches;
+    BodyReport all_bodies;
+    for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies);
+    const bool stopped = stop && stop->load(std::memory_order_relaxed);
+    const bool clip = all_patches.reclip && may_clip_at(state->step());
+    result.intact = all_patches.intact;
+    result.points = all_patches.points;
+    result.reclip = clip;
+    result.runaway_body = all_bodies.runaway;
+    result.outcome = all_bodies.runaway >= 0              ? StepOutcome::runaway
+                     : clip || all_bodies.search          ? StepOutcome::contacts
+                     : stopped && state->step() != target ? StepOutcome::interrupted
+                                                          : StepOutcome::reached;
+    return result.outcome != StepOutcome::reached || state->step() == target;
+  };
+  const auto move_tile = [&](std::size_t tile) {
+    const Tile& t = model->tiles[tile];
+    return bodies.bodies(std::size_t(t.first_body), std::size_t(t.end_body));
+  };
+  RoundWork work;
+  work.first = [&](std::size_t tile) { found[tile].patches = tile_patches(patches, tile); };
+  work.second = [&](std::size_t tile) { found[tile].bodies = move_tile(tile); };
+  work.between = [&](std::size_t tile) { energies[tile] = energies_of_tile(*this, bodies, tile); };
+  if (costs) {
+    costs->resize(model->tiles.size());
+    work.first = [&](std::size_t tile) {
+      TileCost& cost = (*costs)[tile];
+      const PassReport report = timed(cost.patches, [&] { return tile_patches(patches, tile); });
+      const std::int64_t contacts = first_contact[tile + 1] - first_contact[tile];
+      cost.intact += report.intact, cost.points += report.points - contacts, cost.contacts += contacts;
+      found[tile].patches = report;
+    };
+    work.second = [&](std::size_t tile) {
+      found[tile].bodies = timed((*costs)[tile].bodies, [&] { return move_tile(tile); });
+    };
+  }
+  work.next = [&](RoundKind done) {
+    if (done == RoundKind::first_only) return RoundKind::between;
+    if (done == RoundKind::between) {
+      sample(bodies);
+      return RoundKind::second_only;
     }
-  });
+    finish_step(*state, dt, bodies);
+    return decide() ? RoundKind::end : next_step();
+  };
+  run_rounds(threads, order, next_step(), work);
   return result;
 }
 
 void serial_step(Stepper& s) {
   State& state = *s.state;
+  const Model& model = *s.model;
   BodyPass bodies = s.body_pass();
   move_base(s, state.time(), bodies);
   s.patches_only();
-  // Scatter instead of gather: patch by patch into one sum a body.
-  std::vector<double> sums(8 * s.model->bodies.size(), 0.0);
-  const std::size_t joints = s.model->joints.size();
-  for (std::size_t i = 0; i < joints + state.contacts.size(); ++i) {
-    const Patch& patch = i < joints ? s.model->joints[i] : state.contacts[i - joints];
-    for (int c = 0; c < 6; ++c) {
-      sums[8 * std::size_t(patch.a) + c] += s.wrenches[wrench_width * i + c];
-      sums[8 * std::size_t(patch.b) + c] -= s.wrenches[wrench_width * i + c];
-    }
+  const auto add = [](double* sum, const double* wrench, double sign) {
+    for (int c = 0; c < 6; ++c) sum[c] += sign * wrench[c];
+  };
+  std::vector<std::map<std::int32_t, std::array<double, 6>>> tile_sums(model.bodies.size());  // by tile, of each body
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Patch& p = model.joints[i];
+    const std::int32_t tile = tile_of(std::min(p.a, p.b));
+    add(tile_sums[std::size_t(p.a)][tile].data(), &s.wrenches[wrench_width * i], 1.0);
+    add(tile_sums[std::size_t(p.b)][tile].data(), &s.wrenches[wrench_width * i], -1.0);
   }
-  // One "patch" a body, whose wrench is the sum.
-  Incidence single;
-  for (std::size_t i = 0; i <= s.model->bodies.size(); ++i) single.first.push_back(std::int32_t(i));
-  for (std::size_t i = 0; i < s.model->bodies.size(); ++i) single.patches.push_back(std::int32_t(2 * i));
-  bodies.incidence = &single;
-  bodies.wrenches = sums.data();
-  bodies.bodies(0, s.model->bodies.size());
-  state.time() += s.dt;
-  ++state.step();
-  state.base_velocity() = bodies.base_velocity_next;
-  state.base_displacement() = bodies.base_displacement_next;
+  Array<double> sums(wrench_width * model.bodies.size(), 0.0);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    for (const auto& [tile, sum] : tile_sums[i]) add(&sums[wrench_width * i], sum.data(), 1.0);
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    const double* wrench = &s.wrenches[wrench_width * (model.joints.size() + i)];
+    add(&sums[wrench_width * std::size_t(state.contacts[i].a)], wrench, 1.0);
+    add(&sums[wrench_width * std::size_t(state.contacts[i].b)], wrench, -1.0);
+  }
+  // One "sum" a body, and no contacts.
+  std::vector<std::int32_t> first(model.bodies.size() + 1), places(model.bodies.size());
+  std::iota(first.begin(), first.end(), 0);
+  std::iota(places.begin(), places.end(), 0);
+  Incidence none;
+  none.first.assign(model.bodies.size() + 1, 0);
+  bodies.first_sum = &first;
+  bodies.sum_places = &places;
+  bodies.sums = sums.data();
+  bodies.incidence = &none;
+  bodies.bodies(0, model.bodies.size());
+  finish_step(state, s.dt, bodies);
 }
 
 }  // namespace voussoir

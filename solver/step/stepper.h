@@ -1,8 +1,10 @@
-// The step: patches, then bodies, in one team of threads that stays together until there is something to decide.
+// The step: tile by tile, the patches and then, as soon as nothing reads them any more, the bodies; in one team of
+// threads that stays together until there is something to decide.
 #pragma once
 #include <atomic>
 #include <functional>
 
+#include "solver/base/parallel.h"
 #include "solver/motion/ground_path.h"
 #include "solver/step/body_pass.h"
 #include "solver/step/damping.h"
@@ -24,6 +26,12 @@ struct Advance {
   std::int64_t intact = 0, points = 0;  // patches of the last step on either path
 };
 
+/// What the steps have cost a tile, wall time in s, and how many patches went which way.
+struct TileCost {
+  double patches = 0.0, bodies = 0.0;
+  std::int64_t intact = 0, points = 0, contacts = 0;
+};
+
 /// What a step works with. The stepper owns only scratch memory; everything that must survive is in the state.
 struct Stepper {
   const Model* model = nullptr;
@@ -32,32 +40,45 @@ struct Stepper {
   double dt = 0.0;  // s
   int threads = 1;
   bool shortcut = true;
-  const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
-  double stage_start = 0.0;              // s, time of the motion's first sample
-  double stage_duration = 0.0;           // s
-  std::vector<Drive> drives;             // of the stage
-  Array<std::int32_t> drive;             // of each body, see BodyPass
-  GroundPath ground;                     // of the motion, for drives that depart from it; else empty
-  LoadsAtWork loads;                     // of the stage, eased over its duration; at once in equilibrium
-  double search_distance = 1e300;        // m, see BodyPass
+  const GroundMotion* motion = nullptr;    // none: the base keeps its velocity
+  double stage_start = 0.0;                // s, time of the motion's first sample
+  double stage_duration = 0.0;             // s
+  std::vector<Drive> drives;               // of the stage
+  Array<std::int32_t> drive;               // of each body, see BodyPass
+  GroundPath ground;                       // of the motion, for drives that depart from it; else empty
+  LoadsAtWork loads;                       // of the stage, eased over its duration; at once in equilibrium
+  double search_distance = 1e300;          // m, see BodyPass
+  std::vector<TileCost>* costs = nullptr;  // of each tile, added to at every step; none: nothing is timed
 
-  Incidence incidence;
-  Array<double> wrenches;
+  Array<double> wrenches;  // wrench_width × (joints, then contacts), of the last patches_only()
 
-  /// Rebuilds what depends on the list of contacts. Call after it changes and before the first advance().
+  /// Rebuilds what depends on the bodies' constants and on the list of contacts. Call after either changes and before
+  /// the first advance().
   void prepare();
   /// Steps until state->step() is `target` or something has to be decided. Every `sample_every` steps `sample` is
-  /// called, by one thread, between the two passes: positions and patches are at this step, velocities at the half step
-  /// before.
+  /// called, by one thread, between patches and bodies: positions and patches are at this step, velocities at the half
+  /// step before.
   Advance advance(std::int64_t target, std::int64_t sample_every, const std::function<void(const BodyPass&)>& sample,
                   const std::atomic<bool>* stop);
-  /// The first pass alone, serially: wrenches at the present placement (used by the static solver and for reports).
+  /// The patches alone, serially: wrenches at the present placement (used by the static solver and for reports).
   PassReport patches_only();
   BodyPass body_pass() const;
+
+  // Scratch memory that prepare() lays out.
+  Incidence incidence;
+  Array<BodyBatch> body_batches;
+  Array<double> sums, contact_wrenches;
+  std::vector<TileEnergy> tile_energies;    // of the last pass that was asked for them
+  std::vector<std::int32_t> first_contact;  // of each tile: contacts whose first body lies in it; and one past the end
+  Dependencies order;                       // of the tiles
+
+ private:
+  PatchPass patch_pass();
+  PassReport tile_patches(const PatchPass& pass, std::size_t tile) const;
 };
 
-/// The plain serial step, written as the loop it stands for: every patch in order adds its wrench to both bodies, then
-/// every body moves. The oracle that the two passes must equal bit for bit.
+/// The plain serial step, written as the loops it stands for: tile by tile every joint in order adds its wrench to both
+/// bodies, then every body adds up tiles and contacts, then all move. The oracle that advance() must equal bit for bit.
 void serial_step(Stepper& stepper);
 
 Vec3 base_acceleration(const GroundMotion* motion, double time);
