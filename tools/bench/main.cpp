@@ -1,187 +1,160 @@
-// voussoir-bench: how long a block and a step take, beside what the machine's memory could do at best.
+// voussoir-bench: how long a step takes, phase by phase, beside what the machine could do at best.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <chrono>
-#include <cstring>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "geometry/generator.h"
 #include "solver/base/error.h"
-#include "solver/base/parallel.h"
 #include "solver/base/program.h"
-#include "solver/contact/search.h"
-#include "solver/modal/equilibrium.h"
-#include "solver/step/critical_step.h"
+#include "tools/bench/machine.h"
+#include "tools/bench/phases.h"
 
 namespace voussoir {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point t) {
-  return std::chrono::duration<double>(Clock::now() - t).count();
-}
-
-struct Scene {
-  std::string name, help;
-  std::function<Assembly()> build;
-  double step = 0.0;  // s; 0: 0.8 × critical
-  bool maxwell = false;
-  bool shaken = false;
+struct Options {
+  std::vector<std::string> scenes;
+  int threads = 1;
+  double seconds = 5.0;
+  bool quiet = false;
 };
 
-Assembly wall(int size, bool bonded) {
-  const Generator& generator = find_generator("wall");
-  GeneratorInput in = default_input(generator);
-  in.values["length_blocks"] = in.values["courses"] = size;
-  in.values["kn"] = 8.89e9;
-  in.values["ks"] = 3.556e9;
-  if (bonded) in.materials["masonry"].tensile_strength = in.materials["masonry"].cohesion = 1e6;
-  return generator.build(in);
-}
+struct Measured {
+  double step = 0.0, processor = 0.0;  // s of wall and of processor time
+  Progressed all;
+};
 
-Assembly bridge(double scale) {
-  const Generator& generator = find_generator("cs1");
-  GeneratorInput in = default_input(generator);
-  in.values["block_scale"] = scale;
-  return generator.build(in);
-}
-
-const std::vector<Scene>& scenes() {
-  static const std::vector<Scene> list = {
-      {"wall-105", "dry wall of 105 blocks at rest", [] { return wall(10, false); }, 2.5e-5},
-      {"wall-1040", "dry wall of 1040 blocks at rest", [] { return wall(32, false); }, 2.5e-5},
-      {"wall-1040-bonded", "the same, bonded: all joints intact", [] { return wall(32, true); }, 2.5e-5},
-      {"wall-1040-shaken", "dry wall of 1040 blocks under base motion, Maxwell damping", [] { return wall(32, false); },
-       2.5e-5, true, true},
-      {"cs1", "CS1 at full size under base motion, Maxwell damping", [] { return bridge(1.0); }, 0.0, true, true},
-      {"cs1-2", "CS1 at block_scale = 2 under base motion, Maxwell damping", [] { return bridge(2.0); }, 0.0, true,
-       true}};
-  return list;
-}
-
-/// Bytes a second that a plain copy moves (read + write), best of five, on `threads` threads.
-double copy_bandwidth(int threads) {
-  const std::size_t n = 16u << 20;
-  Array<double> from(n, 1.0), to(n, 0.0);
-  double best = 0.0;
-  for (int i = 0; i < 5; ++i) {
-    const auto start = Clock::now();
-    run_team(threads, [&](int thread, int team, Barrier&) {
-      const Range r = share(n, thread, team);
-      std::memcpy(&to[r.begin], &from[r.begin], (r.end - r.begin) * sizeof(double));
-    });
-    best = std::max(best, 2.0 * double(n * sizeof(double)) / seconds_since(start));
+/// Median over pieces of a run that lasts at least `seconds`.
+Measured measure(Running& scene, double movable, double seconds) {
+  const auto piece = std::max<std::int64_t>(20, std::int64_t(1000000.0 / movable));
+  advance_scene(scene, piece / 4);  // warm caches, settled threads
+  Measured m;
+  std::vector<double> steps, processor;
+  while (steps.size() < 3 || (m.all.seconds < seconds && steps.size() < 200)) {
+    const Progressed p = advance_scene(scene, piece);
+    steps.push_back(p.seconds / double(p.steps));
+    processor.push_back(p.processor_seconds / double(p.steps));
+    m.all.steps += p.steps, m.all.intact += p.intact, m.all.points += p.points, m.all.searches += p.searches;
+    m.all.seconds += p.seconds, m.all.search_seconds += p.search_seconds;
   }
-  return best;
+  const auto median = [](std::vector<double>& v) {
+    std::sort(v.begin(), v.end());
+    return v[v.size() / 2];
+  };
+  m.step = median(steps), m.processor = median(processor);
+  return m;
 }
 
-/// What a step reads and writes at least once, every array counted in full: batches, slip, branches, wrenches, poses,
-/// motions; point tables for the share of patches that go point by point.
-double bytes_per_step(const Model& model, const State& state, double points_share) {
-  const auto bytes = [](const auto& array) { return double(array.size() * sizeof(array[0])); };
-  const double once = bytes(model.batches) + bytes(model.batch_corners) + bytes(state.joint.mode);
-  const double intact = 2.0 * (bytes(state.slip) + bytes(state.branch)) * (1.0 - points_share);
-  const double points = (bytes(model.points) + 2.0 * (bytes(state.joint.point) + bytes(state.joint.broken) +
-                                                      bytes(state.joint.point_branch))) *
-                        points_share;
-  const double wrenches =
-      3.0 * 8.0 * wrench_width * double(model.joints.size() + state.contacts.size());  // written once, read twice
-  const double bodies = 8.0 * double(model.bodies.size()) * (3.0 * pose_width + 2.0 * motion_width) +
-                        double(sizeof(Body) * model.bodies.size());
-  return once + intact + points + wrenches + bodies;
+/// Least time (s) that the machine needs for it: bytes or operations, whichever takes longer.
+double least_time(const Work& work, double bandwidth, double peak) {
+  return std::max(work.bytes / bandwidth, work.operations / peak);
 }
 
-GroundMotion shaking() {
-  GroundMotion motion;
-  motion.dt = 0.005;
-  for (int i = 0; i <= 4000; ++i) {
-    const double t = 0.005 * i;
-    motion.acceleration.push_back(
-        {2.5 * std::sin(9.0 * t) * std::sin(2.1 * t), 2.5 * std::sin(11.0 * t) * std::cos(1.7 * t), 0.0});
+nlohmann::json phase_rows(const std::vector<Phase>& phases, double bandwidth, double peak, bool quiet) {
+  nlohmann::json rows = nlohmann::json::array();
+  if (!quiet)
+    fmt::print("  {:<22} {:>10} {:>10} {:>9} {:>10} {:>10} {:>9}\n", "phase, one thread", "items/step", "µs/step",
+               "ns/item", "MB/step", "Mop/step", "of limit");
+  for (const Phase& p : phases) {
+    const double least = least_time(p.work, bandwidth, peak);
+    const double share = p.seconds > 0.0 ? least / p.seconds : 0.0;
+    rows.push_back({{"phase", p.name},
+                    {"items", p.items},
+                    {"seconds", p.seconds},
+                    {"bytes", p.work.bytes},
+                    {"operations", p.work.operations},
+                    {"limit_share", share}});
+    if (quiet || p.items <= 0.0) continue;
+    fmt::print("  {:<22} {:>10.4g} {:>10.1f} {:>9.1f} {:>10} {:>10} {:>9}\n", p.name, p.items, 1e6 * p.seconds,
+               1e9 * p.seconds / p.items, least > 0.0 ? fmt::format("{:.3f}", 1e-6 * p.work.bytes) : "–",
+               least > 0.0 ? fmt::format("{:.3f}", 1e-6 * p.work.operations) : "–",
+               least > 0.0 ? fmt::format("{:.0f} %", 100.0 * share) : "–");
   }
-  return motion;
+  return rows;
 }
 
-void settle(Stepper& stepper, bool quiet) {
-  const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr, nullptr);
-  if (newton.converged) return;
-  const Equilibrium relaxed = relax(stepper, 1e-4, {.steps = 60000}, nullptr, nullptr);
-  if (!quiet) fmt::print(stderr, "  {}\n", relaxed.account);
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
 }
 
-nlohmann::json run_scene(const Scene& scene, int threads, double wall_seconds, double bandwidth, bool quiet) {
-  const Assembly assembly = scene.build();
-  SolverSettings settings;
-  const Model model = build_model(assembly, settings);
-  State state = initial_state(model);
-  const CriticalStep critical = critical_step(model, state);
-  DampingSettings damping;
-  damping.kind = scene.maxwell ? DampingSettings::Kind::maxwell : DampingSettings::Kind::none;
-  Stepper stepper;
-  stepper.model = &model;
-  stepper.state = &state;
-  stepper.threads = threads;
-  stepper.dt = scene.step > 0.0 ? scene.step : 0.8 * critical.step * damping_step_factor(damping, critical.highest);
-  stepper.prepare();
-  settle(stepper, quiet);
-  stepper.damping = damping_at_work(damping, stepper.dt, critical.highest);
-  set_branches(model, state, stepper.damping.branches.count);
-  const GroundMotion motion = scene.shaken ? shaking() : GroundMotion{};
-  if (scene.shaken) stepper.motion = &motion;
-  const std::size_t movable =
-      std::count_if(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return !b.fixed; });
-  const auto piece = std::max<std::int64_t>(20, 2000000 / std::int64_t(movable));
-  stepper.advance(state.step() + piece / 4, 1, nullptr, nullptr);  // warm caches, settled threads
-  std::vector<double> times;
-  std::int64_t intact = 0, points = 0, steps = 0;
-  const auto start = Clock::now();
-  stepper.search_distance = search_distance(model);
-  while (times.size() < 3 || (seconds_since(start) < wall_seconds && times.size() < 200)) {
-    const auto begin = Clock::now();
-    const std::int64_t target = state.step() + piece;
-    while (state.step() < target) {  // searches for contacts are part of the time
-      const Advance a = stepper.advance(target, 1, nullptr, nullptr);
-      if (a.outcome == StepOutcome::runaway) throw RunError("{}: the run went wrong", scene.name);
-      intact += a.intact, points += a.points;
-      if (a.outcome != StepOutcome::contacts) continue;
-      update_contacts(model, state, stepper.damping.branches);
-      stepper.prepare();
-    }
-    times.push_back(seconds_since(begin) / double(piece));
-    steps += piece;
+nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
+  const auto running = begin_scene(scene, o.threads);
+  Running& r = *running;
+  const double movable =
+      double(std::count_if(r.model.bodies.begin(), r.model.bodies.end(), [](const Body& b) { return !b.fixed; }));
+  const Measured m = measure(r, movable, o.seconds);
+  const std::vector<Phase> phases = step_phases(r, std::max<std::int64_t>(20, std::int64_t(300000.0 / movable)));
+  Work work;
+  for (const Phase& p : phases) work.bytes += p.work.bytes, work.operations += p.work.operations;
+  const double bandwidth = copy_bandwidth(work.bytes, o.threads);
+  const double one = o.threads == 1 ? bandwidth : copy_bandwidth(work.bytes, 1);
+  const double joints = double(r.model.joints.size());
+  const double intact = double(m.all.intact) / double(std::max<std::int64_t>(1, m.all.intact + m.all.points));
+  const SideCosts side = side_costs(r);
+  const double limit = least_time(work, bandwidth, peak * o.threads) / m.step;
+  if (!o.quiet) {
+    fmt::print(
+        "\n{}: {:.0f} blocks, {:.0f} joints, {} contacts, {} thread(s), {} steps of {:.3g} s\n"
+        "  {:.3f} µs per block and step ({:.3f} of processor time), {:.1f} ns per joint; {:.1f} % intact; {:.0f} % of "
+        "the limit; {:.4f} simulated s per wall s\n",
+        scene.name, movable, joints, r.state.contacts.size(), o.threads, m.all.steps, r.stepper.dt,
+        1e6 * m.step / movable, 1e6 * m.processor / movable, 1e9 * m.step / joints, 100 * intact, 100 * limit,
+        r.stepper.dt / m.step);
+    fmt::print("  copy bandwidth in {:.1f} MB {:.1f} GB/s\n", 1e-6 * work.bytes, 1e-9 * bandwidth);
+    if (!r.account.empty()) fmt::print("  {}\n", r.account);
   }
-  std::sort(times.begin(), times.end());
-  const double step = times[times.size() / 2];
-  const double share = double(intact) / double(std::max<std::int64_t>(1, intact + points));
-  const double bytes = bytes_per_step(model, state, 1.0 - share);
+  const nlohmann::json rows = phase_rows(phases, one, peak, o.quiet);
+  if (!o.quiet)
+    fmt::print(
+        "  contact search over all bodies {:.4g} ms, row of history {:.4g} ms, checkpoint {:.4g} ms\n"
+        "  per block: generation {:.3g} µs, model {:.3g} µs, first search {:.3g} µs, equilibrium {:.4g} µs, model and "
+        "state {:.2f} kB\n",
+        1e3 * side.search, 1e3 * side.history, 1e3 * side.checkpoint, 1e6 * r.generation / movable,
+        1e6 * r.modelling / movable, 1e6 * r.search / movable, 1e6 * r.equilibrium / movable,
+        1e-3 * bytes_held(r) / movable);
   return {{"blocks", movable},
-          {"joints", model.joints.size()},
-          {"steps", steps},
-          {"threads", threads},
-          {"us_per_block_step", 1e6 * step / double(movable)},
-          {"ns_per_joint_step", 1e9 * step / double(model.joints.size())},
-          {"intact_share", share},
-          {"bytes_per_step", bytes},
+          {"joints", joints},
+          {"steps", m.all.steps},
+          {"threads", o.threads},
+          {"us_per_block_step", 1e6 * m.step / movable},
+          {"us_per_block_step_processor", 1e6 * m.processor / movable},
+          {"ns_per_joint_step", 1e9 * m.step / joints},
+          {"intact_share", intact},
+          {"bytes_per_step", work.bytes},
+          {"operations_per_step", work.operations},
           {"copy_bandwidth", bandwidth},
-          {"contacts", state.contacts.size()},
-          {"limit_share", bytes / bandwidth / step},
-          {"sim_seconds_per_wall_second", stepper.dt / step},
-          {"time_step", stepper.dt}};
+          {"contacts", r.state.contacts.size()},
+          {"searches_per_step", double(m.all.searches) / double(m.all.steps)},
+          {"limit_share", limit},
+          {"sim_seconds_per_wall_second", r.stepper.dt / m.step},
+          {"time_step", r.stepper.dt},
+          {"phases", rows},
+          {"search_seconds", side.search},
+          {"history_seconds", side.history},
+          {"checkpoint_seconds", side.checkpoint},
+          {"generation_seconds", r.generation},
+          {"model_seconds", r.modelling},
+          {"first_search_seconds", r.search},
+          {"equilibrium_seconds", r.equilibrium},
+          {"bytes_held", bytes_held(r)},
+          {"peak_memory", peak_memory()}};
 }
 
-int run(int argc, char** argv) {
+Options parse(int argc, char** argv, bool& done, std::string& folder) {
   namespace po = boost::program_options;
-  po::options_description described("voussoir-bench [SCENE…] [--threads N]: microseconds a block and step");
+  po::options_description described("voussoir-bench [SCENE…] [--threads N]: what a step costs, phase by phase");
   described.add_options()("help,h", "this text")("list", "the scenes")(
       "threads,j", po::value<int>()->default_value(1), "threads")("seconds", po::value<double>()->default_value(5.0),
                                                                   "least wall time a scene")(
       "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
-      "scene", po::value<std::vector<std::string>>(), "scenes (default: all)")("quiet,q", "no table");
+      "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")("quiet,q",
+                                                                                                          "no table");
   po::positional_options_description places;
   places.add("scene", -1);
   po::variables_map values;
@@ -191,37 +164,41 @@ int run(int argc, char** argv) {
   } catch (const po::error& e) {
     throw InputError("{}; see voussoir-bench --help", e.what());
   }
-  if (values.count("help")) return std::cout << described << "\n", 0;
+  done = true;
+  Options o;
+  if (values.count("help")) return std::cout << described << "\n", o;
   if (values.count("list")) {
     for (const Scene& scene : scenes()) fmt::print("{:<18} {}\n", scene.name, scene.help);
-    return 0;
+    return o;
   }
-  std::vector<std::string> wanted;
-  for (const Scene& scene : scenes()) wanted.push_back(scene.name);
-  if (values.count("scene")) wanted = values["scene"].as<std::vector<std::string>>();
-  const int threads = values["threads"].as<int>();
-  if (threads < 1) throw InputError("--threads is {}; it must be at least 1", threads);
-  const bool quiet = values.count("quiet") > 0;
-  const double bandwidth = copy_bandwidth(threads);
-  if (!quiet)
-    fmt::print(
-        "copy bandwidth {:.1f} GB/s on {} thread(s)\n{:<18} {:>7} {:>7} {:>8} {:>12} {:>12} {:>8} {:>10} {:>8} "
-        "{:>10}\n",
-        bandwidth / 1e9, threads, "scene", "blocks", "joints", "steps", "µs/block-st.", "ns/joint-st.", "intact",
-        "MB/step", "of limit", "sim s/s");
+  done = false;
+  if (values.count("scene")) o.scenes = values["scene"].as<std::vector<std::string>>();
+  if (o.scenes.empty())
+    for (const Scene& scene : scenes())
+      if (scene.name.find("wall-10") == 0 && scene.name.find('k') == std::string::npos) o.scenes.push_back(scene.name);
+  o.threads = values["threads"].as<int>();
+  if (o.threads < 1) throw InputError("--threads is {}; it must be at least 1", o.threads);
+  o.seconds = values["seconds"].as<double>();
+  o.quiet = values.count("quiet") > 0;
+  folder = values["output"].as<std::string>();
+  return o;
+}
+
+int run(int argc, char** argv) {
+  bool done = false;
+  std::string folder;
+  const Options o = parse(argc, argv, done, folder);
+  if (done) return 0;
+  for (const std::string& name : o.scenes) find_scene(name);  // before anything is timed
+  const double peak = multiply_add_peak(1);
+  if (!o.quiet)
+    fmt::print("multiply–add peak {:.1f} Gop/s on one thread, copy bandwidth in memory {:.1f} GB/s on {} thread(s)\n",
+               1e-9 * peak, 1e-9 * copy_bandwidth(512e6, o.threads), o.threads);
   nlohmann::json all = nlohmann::json::object();
-  for (const std::string& name : wanted) {
-    const auto found = std::find_if(scenes().begin(), scenes().end(), [&](const Scene& s) { return s.name == name; });
-    if (found == scenes().end()) throw InputError("unknown scene '{}'; voussoir-bench --list names them", name);
-    const nlohmann::json r = all[name] = run_scene(*found, threads, values["seconds"].as<double>(), bandwidth, quiet);
-    if (!quiet)
-      fmt::print("{:<18} {:>7} {:>7} {:>8} {:>12.3f} {:>12.1f} {:>7.1f}% {:>10.2f} {:>7.1f}% {:>10.4f}\n", name,
-                 r["blocks"].get<int>(), r["joints"].get<int>(), r["steps"].get<long>(),
-                 r["us_per_block_step"].get<double>(), r["ns_per_joint_step"].get<double>(),
-                 100 * r["intact_share"].get<double>(), 1e-6 * r["bytes_per_step"].get<double>(),
-                 100 * r["limit_share"].get<double>(), r["sim_seconds_per_wall_second"].get<double>());
+  for (const std::string& name : o.scenes) {
+    all[name] = run_scene(find_scene(name), o, peak);
+    std::ofstream(folder + "/bench.json") << all.dump(2) << "\n";
   }
-  std::ofstream(values["output"].as<std::string>() + "/bench.json") << all.dump(2) << "\n";
   return 0;
 }
 

@@ -1,0 +1,60 @@
+#include "tools/bench/machine.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "solver/base/arrays.h"
+#include "solver/base/lanes.h"
+#include "solver/base/parallel.h"
+
+namespace voussoir {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Shortest wall time (s) of `tries` runs of a team.
+template <class Work>
+double best_time(int tries, int threads, const Work& work) {
+  double best = 1e300;
+  for (int i = 0; i < tries; ++i) {
+    const auto begin = Clock::now();
+    run_team(threads, [&](int thread, int team, Barrier&) { work(thread, team); });
+    best = std::min(best, std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  return best;
+}
+
+}  // namespace
+
+double copy_bandwidth(double bytes, int threads) {
+  const auto n = std::max<std::size_t>(1024, std::size_t(bytes / 16.0));  // half is read, half is written
+  const int rounds = int(std::clamp(4e8 / (16.0 * double(n)), 1.0, 20000.0));
+  Array<double> from(n, 1.0), to(n, 0.0);
+  const double seconds = best_time(7, threads, [&](int thread, int team) {
+    const Range r = share(n, thread, team);
+    for (int i = 0; i < rounds; ++i) {
+      std::memcpy(&to[r.begin], &from[r.begin], (r.end - r.begin) * sizeof(double));
+      asm volatile("" ::: "memory");
+    }
+  });
+  return 16.0 * double(n) * rounds / seconds;
+}
+
+double multiply_add_peak(int threads) {
+  constexpr int chains = 16, rounds = 2000000;  // enough chains to hide the latency of a multiply–add
+  const double seconds = best_time(5, threads, [&](int, int) {
+    Lanes x[chains];
+    for (int c = 0; c < chains; ++c) x[c] = splat(1.0 + c);
+    const Lanes a = splat(0.999999), b = splat(1e-6);
+    for (int i = 0; i < rounds; ++i)
+      for (Lanes& one : x) one = one * a + b;
+    Lanes sum = splat(0.0);
+    for (const Lanes& one : x) sum += one;
+    asm volatile("" ::"m"(sum));
+  });
+  return 2.0 * lane_count * chains * double(rounds) * threads / seconds;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,13 @@
+// What the machine could do at best, measured in the same run as what it is compared with.
+#pragma once
+
+namespace voussoir {
+
+/// Bytes a second (read and written) that a plain copy within `bytes` of memory moves, best of several, on `threads`
+/// threads: data that fit a cache move as fast as that cache allows.
+double copy_bandwidth(double bytes, int threads);
+
+/// Additions and multiplications a second in fused pairs on full registers, best of several, on `threads` threads.
+double multiply_add_peak(int threads);
+
+}  // namespace voussoir

@@ -1,0 +1,139 @@
+#include "tools/bench/phases.h"
+
+#include <unistd.h>
+
+#include <Eigen/Dense>
+#include <chrono>
+#include <filesystem>
+
+#include "io/hdf5/checkpoint_file.h"
+#include "solver/contact/search.h"
+#include "solver/step/energy.h"
+
+namespace voussoir {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto begin = Clock::now();
+  work();
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+Work operator*(double n, const Work& w) {
+  return {n * w.bytes, n * w.operations};
+}
+
+/// What all joints cost, intact or not: constants, mode, the last jump read and written; jump, its change, wrench,
+/// sums and the check for clipping.
+Work joint_work() {
+  const double bytes = double(sizeof(JointBatch)) / lane_count + 1.0 + 2.0 * 6.0 * sizeof(float);
+  constexpr double jump = 210, change = 6, wrench = 100, sums = 12, clip = 10;
+  return {bytes, jump + change + wrench + sums + clip};
+}
+
+}  // namespace
+
+Work intact_work(int branches) {
+  constexpr double check = 66, resultant = 14;
+  Work w = joint_work();
+  w.bytes += 2.0 * 6.0 * branches * sizeof(float);
+  w.operations += check + resultant + (branches > 0 ? 33.0 + 36.0 * branches : 0.0);
+  return w;
+}
+
+Work points_work(int branches, double points, bool rectangle) {
+  Work w = joint_work();
+  // Plastic slip s and t read and written, flags, branches read and written.
+  const double bytes = (rectangle ? 0.0 : 24.0) + 32.0 + 1.0 + 2.0 * 3.0 * branches * sizeof(float);
+  // Jump and change 16, trial 5, law 43, plastic slip 4, tractions and sums 21, losses and largest 11, its place 4.
+  const double operations = 104.0 + (branches > 0 ? 18.0 * branches + 12.0 : 0.0);
+  w.bytes += points * bytes + 2.0 * 5.0 * sizeof(double);  // energies, largest opening and slip
+  w.operations += points * operations;
+  return w;
+}
+
+Work body_work(double sums) {
+  const double bytes = double(sizeof(BodyBatch)) / lane_count + 2.0 * sizeof(double) * (pose_width + motion_width) +
+                       sizeof(float) * searched_width + sizeof(double) * wrench_width * sums + 8.0;
+  // Sums, moment, velocities 30, spin twice 150, rotation twice 112, norm 13, place 6, distance moved 25.
+  return {bytes, 6.0 * sums + 30.0 + 150.0 + 112.0 + 13.0 + 6.0 + 25.0};
+}
+
+std::vector<Phase> step_phases(Running& r, std::int64_t steps) {
+  std::vector<TileCost> costs;
+  const int threads = r.stepper.threads;
+  r.stepper.threads = 1;
+  r.stepper.costs = &costs;
+  const Progressed p = advance_scene(r, steps);
+  r.stepper.costs = nullptr;
+  r.stepper.threads = threads;
+  const auto tiles = Eigen::Index(costs.size());
+  Eigen::MatrixXd counts(tiles, 3);
+  Eigen::VectorXd times(tiles);
+  double bodies = 0.0;
+  for (Eigen::Index i = 0; i < tiles; ++i) {
+    const TileCost& c = costs[std::size_t(i)];
+    counts.row(i) << double(c.intact), double(c.points), double(c.contacts);
+    times[i] = c.patches;
+    bodies += c.bodies;
+  }
+  const Eigen::Vector3d each = counts.completeOrthogonalDecomposition().solve(times);
+  const double n = double(p.steps);
+  const Eigen::Vector3d all = counts.colwise().sum().transpose() / n;
+  const int branches = r.stepper.damping.branches.count;
+  double rectangles = 0.0, points = 0.0;
+  for (const JointBatch& b : r.model.batches) rectangles += b.rectangles, points += b.points;
+  const double batches = double(std::max<std::size_t>(1, r.model.batches.size()));
+  const double share = rectangles / batches, mean_points = points / batches;
+  const double n_bodies = double(r.model.bodies.size());
+  const Work by_points = points_work(branches, mean_points, false),
+             of_rectangle = points_work(branches, mean_points, true);
+  const Work mixed = {share * of_rectangle.bytes + (1.0 - share) * by_points.bytes, by_points.operations};
+  std::vector<Phase> phases = {
+      {"intact patches", all[0], each[0] * all[0], all[0] * intact_work(branches)},
+      {"point-wise patches", all[1], each[1] * all[1], all[1] * mixed},
+      {"contacts, one by one", all[2], each[2] * all[2], {}},
+      {"gather and integrate", n_bodies, bodies / n, n_bodies * body_work(double(r.model.sums.size()) / n_bodies)},
+      {"contact search", double(p.searches) / n, p.search_seconds / n, {}}};
+  return phases;
+}
+
+SideCosts side_costs(Running& r) {
+  SideCosts costs;
+  State copy = r.state;
+  for (std::size_t i = 0; i < copy.searched.size(); i += searched_width) copy.searched[i] = 1e18f;
+  costs.search = seconds_of([&] { update_contacts(r.model, copy, r.stepper.damping.branches); });
+  r.stepper.patches_only();
+  Energies e;
+  costs.history = seconds_of([&] { e = compute_energies(r.stepper, r.stepper.body_pass()); });
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("voussoir-bench-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  costs.checkpoint = seconds_of([&] { write_checkpoint((folder / "one.h5").string(), {}, r.state.arrays()); });
+  std::filesystem::remove_all(folder);
+  return costs;
+}
+
+double bytes_held(const Running& r) {
+  const auto of = [](const auto& list) { return double(list.capacity()) * double(sizeof(list[0])); };
+  const Model& m = r.model;
+  const State& s = r.state;
+  double sum = of(m.bodies) + of(m.joints) + of(m.joint_of_patch) + of(m.points) + of(m.corners) + of(m.batches) +
+               of(m.batch_corners) + of(m.sums) + of(m.first_sum) + of(m.matter) + of(m.contact_law);
+  for (const auto& cells : m.cells) {
+    sum += of(cells);
+    for (const Convex& c : cells) sum += of(c.vertices);
+  }
+  for (const Array<double>* a : {&s.pose, &s.motion, &s.baseline, &s.slip, &s.branch_work}) sum += of(*a);
+  sum += of(s.searched) + of(s.branch);
+  for (const PatchMemory* memory : {&s.joint, &s.contact})
+    sum += of(memory->point) + of(memory->broken) + of(memory->point_branch) + of(memory->mode) + of(memory->largest) +
+           of(memory->last) + of(memory->energy);
+  return sum;
+}
+
+}  // namespace voussoir

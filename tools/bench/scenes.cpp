@@ -1,0 +1,184 @@
+#include "tools/bench/scenes.h"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "geometry/generator.h"
+#include "solver/base/error.h"
+#include "solver/contact/search.h"
+#include "solver/modal/equilibrium.h"
+#include "solver/step/critical_step.h"
+
+namespace voussoir {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+/// Of all threads; does not count while other programs have the cores.
+double processor_time() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+Assembly wall(int length, int courses, double strength, double friction) {
+  const Generator& generator = find_generator("wall");
+  GeneratorInput in = default_input(generator);
+  in.values["length_blocks"] = length;
+  in.values["courses"] = courses;
+  in.values["kn"] = 8.89e9;
+  in.values["ks"] = 3.556e9;
+  Material& masonry = in.materials["masonry"];
+  masonry.tensile_strength = masonry.cohesion = strength;
+  if (friction > 0.0) masonry.friction_angle = friction;
+  return generator.build(in);
+}
+
+Assembly dry(int size) {
+  return wall(size, size, 0.0, 0.0);
+}
+
+Assembly bridge(const char* name, double scale) {
+  const Generator& generator = find_generator(name);
+  GeneratorInput in = default_input(generator);
+  in.values["block_scale"] = scale;
+  return generator.build(in);
+}
+
+std::vector<Scene> make_scenes() {
+  std::vector<Scene> list;
+  const auto add = [&](const char* name, const char* help, std::function<Assembly(double)> build) -> Scene& {
+    Scene scene;
+    scene.name = name, scene.help = help, scene.build = std::move(build);
+    list.push_back(std::move(scene));
+    return list.back();
+  };
+  const auto thin = [](Scene& s) -> Scene& { return s.step = 2.5e-5, s; };
+  const auto shake = [](Scene& s) -> Scene& { return s.maxwell = s.shaken = true, s; };
+  thin(add("wall-105", "dry wall of 105 blocks at rest", [](double) { return dry(10); }));
+  thin(add("wall-1040", "dry wall of 1040 blocks at rest", [](double) { return dry(32); }));
+  thin(add("wall-1040-bonded", "the same, bonded: all joints intact", [](double) { return wall(32, 32, 1e6, 0.0); }));
+  thin(add("wall-1040-damped", "the same with Maxwell damping", [](double) {
+    return wall(32, 32, 1e6, 0.0);
+  })).maxwell = true;
+  Scene& sliding = thin(add("wall-1040-sliding", "almost without friction, under base motion: all joints slide or open",
+                            [](double) { return wall(32, 32, 0.0, 0.002); }));
+  sliding.shaken = true, sliding.settled = false, sliding.before = 0.01;
+  shake(thin(add("wall-1040-shaken", "dry wall of 1040 blocks under base motion, Maxwell damping",
+                 [](double) { return dry(32); })));
+  add("wall-10k", "bonded wall of 10 000 blocks", [](double) { return wall(100, 100, 1e6, 0.0); });
+  add("wall-100k", "bonded wall of 100 000 blocks", [](double) { return wall(316, 316, 1e6, 0.0); });
+  add("wall-500k", "bonded wall of 500 000 blocks", [](double) { return wall(707, 707, 1e6, 0.0); });
+  const auto cs1 = [](double scale) { return bridge("cs1", scale); };
+  shake(add("cs1", "CS1 under base motion that damages it, Maxwell damping (cs1@0.5: block_scale = 0.5)", cs1)).before =
+      1.0;
+  add("cs1-rest", "CS1 unloaded, without damping or equilibrium: for sizes (cs1-rest@0.33)", cs1).settled = false;
+  Scene& coarse = shake(add("cs1-2", "CS1 at block_scale = 2 under base motion that damages it, Maxwell damping", cs1));
+  coarse.scale = 2.0, coarse.before = 1.0;
+  return list;
+}
+
+GroundMotion shaking() {
+  GroundMotion motion;
+  motion.dt = 0.005;
+  for (int i = 0; i <= 4000; ++i) {
+    const double t = 0.005 * i;
+    motion.acceleration.push_back(
+        {2.5 * std::sin(9.0 * t) * std::sin(2.1 * t), 2.5 * std::sin(11.0 * t) * std::cos(1.7 * t), 0.0});
+  }
+  return motion;
+}
+
+std::string settle(Stepper& stepper) {
+  const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr, nullptr);
+  if (newton.converged) return newton.account;
+  return relax(stepper, 1e-4, {.steps = 60000}, nullptr, nullptr).account;
+}
+
+}  // namespace
+
+const std::vector<Scene>& scenes() {
+  static const std::vector<Scene> list = make_scenes();
+  return list;
+}
+
+Scene find_scene(const std::string& name) {
+  const std::size_t at = name.find('@');
+  for (Scene scene : scenes()) {
+    if (scene.name != name.substr(0, at)) continue;
+    if (at == std::string::npos) return scene;
+    char* end = nullptr;
+    scene.scale = std::strtod(name.c_str() + at + 1, &end);
+    if (*end != '\0' || !(scene.scale > 0.0))
+      throw InputError("scene '{}': '{}' is no block_scale; it must be a positive number, as in cs1@0.5", name,
+                       name.substr(at + 1));
+    scene.name = name;
+    return scene;
+  }
+  throw InputError("unknown scene '{}'; voussoir-bench --list names them", name);
+}
+
+std::unique_ptr<Running> begin_scene(const Scene& scene, int threads) {
+  auto running = std::make_unique<Running>();
+  Running& r = *running;
+  auto begin = Clock::now();
+  r.assembly = scene.build(scene.scale);
+  r.generation = seconds_since(begin);
+  begin = Clock::now();
+  r.model = build_model(r.assembly, SolverSettings{});
+  r.state = initial_state(r.model);
+  r.modelling = seconds_since(begin);
+  const CriticalStep critical = critical_step(r.model, r.state);
+  DampingSettings damping;
+  damping.kind = scene.maxwell ? DampingSettings::Kind::maxwell : DampingSettings::Kind::none;
+  r.stepper.model = &r.model;
+  r.stepper.state = &r.state;
+  r.stepper.threads = threads;
+  r.stepper.dt = scene.step > 0.0 ? scene.step : 0.8 * critical.step * damping_step_factor(damping, critical.highest);
+  begin = Clock::now();
+  update_contacts(r.model, r.state, {});
+  r.stepper.prepare();
+  r.search = seconds_since(begin);
+  begin = Clock::now();
+  if (scene.settled) r.account = settle(r.stepper);
+  r.equilibrium = seconds_since(begin);
+  r.stepper.damping = damping_at_work(damping, r.stepper.dt, critical.highest);
+  set_branches(r.model, r.state, r.stepper.damping.branches.count);
+  r.stepper.search_distance = search_distance(r.model);
+  r.motion = shaking();
+  if (scene.shaken) r.stepper.motion = &r.motion;
+  advance_scene(r, std::int64_t(std::ceil(scene.before / r.stepper.dt)));
+  return running;
+}
+
+Progressed advance_scene(Running& r, std::int64_t steps) {
+  Progressed p;
+  const double processor = processor_time();
+  const auto begin = Clock::now();
+  const std::int64_t from = r.state.step(), target = from + steps;
+  while (r.state.step() < target) {
+    const Advance a = r.stepper.advance(target, 1, nullptr, nullptr);
+    if (a.outcome == StepOutcome::runaway) throw RunError("the run went wrong at step {}", r.state.step());
+    p.intact += a.intact, p.points += a.points;
+    if (a.outcome != StepOutcome::contacts) continue;
+    const auto searching = Clock::now();
+    update_contacts(r.model, r.state, r.stepper.damping.branches);
+    r.stepper.prepare();
+    p.search_seconds += seconds_since(searching);
+    ++p.searches;
+  }
+  p.steps = r.state.step() - from;
+  p.seconds = seconds_since(begin);
+  p.processor_seconds = processor_time() - processor;
+  return p;
+}
+
+}  // namespace voussoir
