@@ -131,7 +131,14 @@ Convex placed_cell(const Model& model, const State& state, std::int32_t body, st
 
 std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
                                        std::int32_t b, std::int32_t cell_b, double within) {
-  const Meeting m = meeting(placed_cell(model, state, a, cell_a), placed_cell(model, state, b, cell_b), within);
+  return make_contact(model, state, a, cell_a, placed_cell(model, state, a, cell_a), b, cell_b,
+                      placed_cell(model, state, b, cell_b), within);
+}
+
+std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
+                                       const Convex& placed_a, std::int32_t b, std::int32_t cell_b,
+                                       const Convex& placed_b, double within) {
+  const Meeting m = meeting(placed_a, placed_b, within);
   if (m.kind == Meeting::Kind::apart || m.on_a.empty()) return std::nullopt;
   NewContact contact;
   Patch& p = contact.patch;

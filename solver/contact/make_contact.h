@@ -18,6 +18,10 @@ struct NewContact {
 /// None when the cells are apart by more than `within` (m) or share too little to carry anything.
 std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
                                        std::int32_t b, std::int32_t cell_b, double within);
+/// The same with both cells already in their present placement.
+std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
+                                       const Convex& placed_a, std::int32_t b, std::int32_t cell_b,
+                                       const Convex& placed_b, double within);
 
 /// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
 /// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed. Where

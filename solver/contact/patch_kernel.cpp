@@ -13,6 +13,11 @@ void store_wrench(const Triple<double>& f, const Triple<double>& m, double* wren
   wrench[3] = m.x, wrench[4] = m.y, wrench[5] = m.z;
 }
 
+bool past_limits(const Model& model, const Patch& patch, const Jump<double>& j) {
+  return j.s * j.s + j.t * j.t > model.slip_limit2(patch.area) ||
+         j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
+}
+
 PointMemory load_memory(const Patch& patch, int i, const PatchMemory& memory) {
   const auto column = [&](int c) { return memory.point[point_index(patch, i, 4, c)]; };
   return {column(0), column(1), column(2), column(3), memory.broken[point_index(patch, i, 1, 0)] != 0};
@@ -148,9 +153,8 @@ bool point_patch(const Model& model, const Patch& patch, std::size_t index, cons
   // The gap of a contact that was found apart is no opening of a joint: it only keeps what it was handed.
   if (patch.stride > 1) largest[0] = std::max(largest[0], sums.opening);
   largest[1] = std::max(largest[1], std::sqrt(sums.slip2));
-  if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
-  const double limit_slip2 = model.slip_limit2(patch.area);
-  return j.s * j.s + j.t * j.t > limit_slip2 || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
+  if (sums.all_open && sums.all_broken) memory.mode[index] |= patch.stride > 1 ? mode_broken : mode_broken | mode_open;
+  return past_limits(model, patch, j);
 }
 
 bool in_tile_energy(const Model& model, const State& state, std::size_t joint) {
@@ -179,12 +183,46 @@ void joint_to_points(const Model& model, State& state, const Branches& branches,
   state.joint.mode[index] &= std::uint8_t(~(mode_broken | mode_open | mode_slid));
 }
 
+void follow_open_contact(State& state, std::size_t contact) {
+  std::uint8_t& mode = state.contact.mode[contact];
+  if (!(mode & mode_open)) return;
+  mode &= std::uint8_t(~mode_open);
+  const Patch& patch = state.contacts[contact];
+  const float* last = &state.contact.last[6 * contact];  // n, s, t, θn
+  for (int i = 0; i < patch.point_count; ++i) {
+    const PatchPoint at = patch_point(patch, state.contact_points, i);
+    store_memory(patch, i, {0.0, double(last[1]) - last[3] * at.t, double(last[2]) + last[3] * at.s, 0.0, true},
+                 state.contact);
+  }
+}
+
+namespace {
+
+/// A contact that was wholly open, and is: there is nothing to it but its jump. False when some point may close.
+bool stays_open(const Model& model, State& state, std::size_t contact, double* wrench, bool& reclip) {
+  if (!(state.contact.mode[contact] & mode_open)) return false;
+  const Patch& p = state.contacts[contact];
+  const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
+  const double rs = j.rs + p.gap[1], rt = j.rt + p.gap[2], n = j.n + p.gap[0];
+  if (n <= 0.0 || n * n <= (rs * rs + rt * rt) * p.reach * p.reach) return false;
+  const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
+  for (int c = 0; c < 6; ++c) state.contact.last[6 * contact + std::size_t(c)] = float(now[c]);
+  store_wrench({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, wrench);
+  reclip |= past_limits(model, p, j);
+  return true;
+}
+
+}  // namespace
+
 PassReport PatchPass::contacts(std::size_t begin, std::size_t end) const {
   PassReport report;
   for (std::size_t i = begin; i < end; ++i) {
-    report.reclip |= point_patch(*model, state->contacts[i], i, state->contact_points, state->pose.data(), branches,
-                                 state->contact, contact_wrenches + wrench_width * i);
+    double* wrench = contact_wrenches + wrench_width * i;
     ++report.points;
+    if (stays_open(*model, *state, i, wrench, report.reclip)) continue;
+    follow_open_contact(*state, i);
+    report.reclip |= point_patch(*model, state->contacts[i], i, state->contact_points, state->pose.data(), branches,
+                                 state->contact, wrench);
   }
   return report;
 }

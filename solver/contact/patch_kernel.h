@@ -46,6 +46,10 @@ struct PatchPass {
 /// A joint leaves the intact path: its rigid slip field and affine branch field are handed to its points.
 void joint_to_points(const Model& model, State& state, const Branches& branches, std::size_t index);
 
+/// While a contact is wholly open its points are not looked at; this brings their plastic slip, which follows the jump,
+/// up to the last pass.
+void follow_open_contact(State& state, std::size_t contact);
+
 /// One patch of `memory` point by point; returns true when it has slid or turned past the limits of clipping anew.
 bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points,
                  const double* pose, const Branches& branches, PatchMemory& memory, double* wrench);

@@ -52,7 +52,7 @@ void mark(const State& state, std::int32_t body, State& to, MovedBodies& moved) 
 
 MovedBodies find_moved(const Model& model, State& state) {
   MovedBodies moved{std::vector<char>(model.bodies.size(), 0)};
-  const double near = 0.1 * skin(model), far = search_distance(model);
+  const double near = 0.2 * skin(model), far = search_distance(model);
   const double* base = state.base_displacement().data();
   bool due = false;  // only a patch asks to be clipped: no need to look around everybody
   for (std::size_t i = 0; i < model.bodies.size() && !due; ++i) due = moved_since_search(model, state, i, base) > far;
@@ -77,8 +77,9 @@ void append(State& next, const Branches& branches, const NewContact& c) {
   Patch p = c.patch;
   p.first_point = std::int32_t(next.contact_points.size() / 3);
   p.first_corner = std::int32_t(next.contact_corners.size() / 2);
-  next.contacts.push_back(p);
   for (const PatchPoint& q : c.points) next.contact_points.insert(next.contact_points.end(), {q.s, q.t, q.weight});
+  set_reach(next.contact_points, p);
+  next.contacts.push_back(p);
   for (const PatchPoint& q : c.corners) next.contact_corners.insert(next.contact_corners.end(), {q.s, q.t});
   PatchMemory& m = next.contact;
   m.point.insert(m.point.end(), c.memory.begin(), c.memory.end());
@@ -210,18 +211,42 @@ std::vector<Key> candidate_pairs(const Model& model, const State& state, const M
 
 }  // namespace
 
+namespace {
+
+/// Cells in their present placement, each made when it is first asked for: a cell has several neighbours.
+class PlacedCells {
+ public:
+  PlacedCells(const Model& model, const State& state) : model_(model), state_(state) {
+    for (const auto& cells : model.cells) first_.push_back(first_.back() + cells.size());
+    cells_.resize(first_.back());
+  }
+  const Convex& of(std::int32_t body, std::int32_t cell) {
+    std::optional<Convex>& placed = cells_[first_[std::size_t(body)] + std::size_t(cell)];
+    if (!placed) placed = placed_cell(model_, state_, body, cell);
+    return *placed;
+  }
+
+ private:
+  const Model& model_;
+  const State& state_;
+  std::vector<std::size_t> first_ = {0};
+  std::vector<std::optional<Convex>> cells_;
+};
+
+}  // namespace
+
 double search_distance(const Model& model) {
   return model.contact.search ? 0.4 * skin(model) : 1e300;
 }
 
-ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches) {
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip) {
   ContactUpdate update;
   MovedBodies moved = find_moved(model, state);
   std::vector<Entry> entries;
   Clipper clipper{model, state, branches, update};
   double energy_before = 0.0;
   // 1. Patches past their limits are clipped anew, parted contacts dropped, the others kept.
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+  for (std::size_t i = 0; clip && i < model.joints.size(); ++i) {
     if ((state.joint.mode[i] & mode_gone) || !past_limits(model, state, model.joints[i])) continue;
     const Patch& old = model.joints[i];
     if (!(state.joint.mode[i] & mode_points)) joint_to_points(model, state, branches, i);
@@ -236,15 +261,17 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
   }
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const Patch& old = state.contacts[i];
-    const bool clip = past_limits(model, state, old);
-    if (!clip && least_gap(state, old, state.contact_points) < 2.0 * skin(model)) {
+    const bool past = clip && past_limits(model, state, old);
+    const bool moves = moved.flag[old.a] || moved.flag[old.b];
+    if (!past && (!moves || least_gap(state, old, state.contact_points) < 2.0 * skin(model))) {
       entries.push_back({key_of(old), std::int64_t(i), std::nullopt});
       continue;
     }
     const double energy = patch_energy(model, state, branches, model.joints.size() + i, true).elastic;
     energy_before += energy;
     std::optional<NewContact> fresh;
-    if (clip)
+    follow_open_contact(state, i);
+    if (past)
       fresh = clipper.clip(old, state.contact_points, state.contact, energy, &state.contact.largest[2 * i],
                            &state.contact_slid[4 * i]);
     else
@@ -265,6 +292,7 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     const auto next = std::lower_bound(live.begin(), live.end(), Key{std::get<0>(key), std::get<1>(key), -1, -1});
     return next != live.end() && std::get<0>(*next) == std::get<0>(key) && std::get<1>(*next) == std::get<1>(key);
   };
+  PlacedCells placed(model, state);
   for (const Key& key : candidate_pairs(model, state, moved)) {
     if (std::binary_search(live.begin(), live.end(), key)) continue;
     ++update.examined;
@@ -272,7 +300,8 @@ ContactUpdate update_contacts(const Model& model, State& state, const Branches& 
     // Bodies that a live patch holds within its limits cannot come at each other unseen: their other cells wait until
     // they touch.
     const double within = joined(key) ? 0.0 : skin(model);
-    if (std::optional<NewContact> fresh = make_contact(model, state, a, ca, b, cb, within)) {
+    if (std::optional<NewContact> fresh =
+            make_contact(model, state, a, ca, placed.of(a, ca), b, cb, placed.of(b, cb), within)) {
       entries.push_back({key, -1, std::move(fresh)});
       ++update.made;
     }

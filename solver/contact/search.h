@@ -24,8 +24,8 @@ inline double moved_since_search(const Model& model, const State& state, std::si
 }
 
 /// The distance (m) a body may move, relative to the base, between searches: 0.4 of the skin. Pairs farther apart than
-/// the skin when last examined cannot have met: both bodies have moved at most half a skin since (0.4 more than the 0.1
-/// within which a body counts as not having moved).
+/// the skin when last examined cannot have met: one of the two has moved at most 0.4 of it since, the other that and
+/// the 0.2 within which a body counts as not having moved.
 double search_distance(const Model& model);
 
 /// Patches past their limits of slip and turn are clipped anew at every 32nd step at the earliest, so that a sliding
@@ -34,9 +34,9 @@ inline bool may_clip_at(std::int64_t step) {
   return step % 32 == 0;
 }
 
-/// Looks for new contacts around the bodies that have moved since they were last looked at, clips anew the patches that
-/// have slid or turned past their limits (force and moment carried over), drops contacts that have parted. Serial and
-/// decided by the state alone. Afterwards Stepper::prepare() must be called.
-ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches);
+/// Looks for new contacts around the bodies that have moved since they were last looked at, and drops contacts of
+/// theirs that have parted; with `clip` all patches that have slid or turned past their limits are clipped anew (force
+/// and moment carried over). Serial and decided by the state alone. Afterwards Stepper::prepare() must be called.
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip = true);
 
 }  // namespace voussoir

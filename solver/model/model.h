@@ -50,6 +50,7 @@ struct Patch {
   double gap[3] = {};                     // un (m), θs, θt (rad) when the bodies are where they were when it was made
   double kn = 0.0, ks = 0.0;              // Pa/m
   double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
+  double reach = 0.0;                     // of a contact: m, from its centroid to its farthest point
 };
 
 /// Where point `i` of a patch keeps number `c` of `columns` in a table of points.

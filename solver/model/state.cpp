@@ -1,5 +1,8 @@
 #include "solver/model/state.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "solver/contact/jump.h"
 
 namespace voussoir {
@@ -109,6 +112,15 @@ void State::unpack_contacts() {
   contacts.clear();
   for (std::size_t i = 0; i + patch_columns <= contact_rows.size(); i += patch_columns)
     contacts.push_back(unpack(&contact_rows[i]));
+  for (Patch& patch : contacts) set_reach(contact_points, patch);
+}
+
+void set_reach(const Array<double>& points, Patch& contact) {
+  contact.reach = 0.0;
+  for (int i = 0; i < contact.point_count; ++i) {
+    const PatchPoint p = patch_point(contact, points, i);
+    contact.reach = std::max(contact.reach, std::hypot(p.s, p.t));
+  }
 }
 
 void stop_motion(State& state) {

@@ -30,7 +30,7 @@ enum PatchMode : std::uint8_t {
   mode_points = 1,  // point by point (else as six generalised springs)
   mode_broken = 2,  // intact path: the whole patch has lost its bond (or never had one)
   mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted
-  mode_open = 8,    // intact path: wholly open at the last pass
+  mode_open = 8,    // intact path, or a contact: wholly open at the last pass
   mode_slid = 16,   // intact path: its rigid plastic slip is not zero
 };
 
@@ -94,6 +94,9 @@ struct State {
   std::vector<NamedArray> arrays();
   void unpack_contacts();
 };
+
+/// Sets how far a contact reaches, from its points.
+void set_reach(const Array<double>& points, Patch& contact);
 
 /// Of a body since its reference placement.
 inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {

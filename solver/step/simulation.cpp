@@ -286,7 +286,8 @@ void Simulation::begin_stage(const StageSettings& stage) {
 }
 
 void Simulation::change_contacts() {
-  const ContactUpdate update = update_contacts(model_, state_, stepper_.damping.branches);
+  const ContactUpdate update = update_contacts(model_, state_, stepper_.damping.branches, last_.reclip);
+  if (!update.changed()) return;
   stepper_.prepare();
   if (update.made + update.clipped == 0) return;
   const double bound = contact_bound();

@@ -170,8 +170,7 @@ Progressed advance_scene(Running& r, std::int64_t steps) {
     p.intact += a.intact, p.points += a.points;
     if (a.outcome != StepOutcome::contacts) continue;
     const auto searching = Clock::now();
-    update_contacts(r.model, r.state, r.stepper.damping.branches);
-    r.stepper.prepare();
+    if (update_contacts(r.model, r.state, r.stepper.damping.branches, a.reclip).changed()) r.stepper.prepare();
     p.search_seconds += seconds_since(searching);
     ++p.searches;
   }
