@@ -58,22 +58,22 @@ namespace {
 class Share {
  public:
   void set(std::uint64_t round, std::uint64_t begin, std::uint64_t end) {
-    word_.store(round << 48 | begin << 24 | end, std::memory_order_release);
+    word_.store(round % rounds << 2 * bits | begin << bits | end, std::memory_order_release);
   }
   /// The first item, or the last; −1 when there is none left or another round has begun.
   std::int64_t take(std::uint64_t round, bool last) {
     std::uint64_t word = word_.load(std::memory_order_acquire);
     for (;;) {
-      const std::uint64_t begin = word >> 24 & most, end = word & most;
-      if (word >> 48 != (round & 0xffff) || begin == end) return -1;
-      const std::uint64_t left = last ? word - 1 : word + (std::uint64_t(1) << 24);
+      const std::uint64_t begin = word >> bits & most, end = word & most;
+      if (word >> 2 * bits != round % rounds || begin == end) return -1;
+      const std::uint64_t left = last ? word - 1 : word + (std::uint64_t(1) << bits);
       if (word_.compare_exchange_weak(word, left, std::memory_order_acq_rel, std::memory_order_acquire))
         return std::int64_t(last ? end - 1 : begin);
     }
   }
 
  private:
-  static constexpr std::uint64_t most = 0xffffff;
+  static constexpr std::uint64_t bits = 20, most = (1u << bits) - 1, rounds = 1u << (64 - 2 * bits);
   alignas(64) std::atomic<std::uint64_t> word_{0};
 };
 
@@ -148,7 +148,7 @@ class Rounds {
 
   void publish(RoundKind kind) {
     const std::uint32_t round = (round_.load(std::memory_order_relaxed) >> kind_bits) + 1;
-    for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i].set(round & 0xffff, starts_[i], starts_[i + 1]);
+    for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i].set(round, starts_[i], starts_[i + 1]);
     round_.store(round << kind_bits | std::uint32_t(kind), std::memory_order_release);
     if (shares_.size() > 1) round_.notify_all();
   }

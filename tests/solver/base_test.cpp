@@ -1,7 +1,9 @@
 // Hashes, shares of a loop, barrier and team; the base's acceleration.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <thread>
 
@@ -93,6 +95,70 @@ TEST(Team, DoesNotHangWhenFewerThreadsAreGranted) {
   };
   EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
   unsetenv("OMP_THREAD_LIMIT");
+}
+
+/// Items in a row, each followed by the next two.
+Dependencies chain(std::size_t n) {
+  Dependencies items;
+  items.followers.resize(n);
+  items.waits.assign(n, 1);
+  items.cost.assign(n, 1.0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t next = i + 1; next < std::min(n, i + 3); ++next) {
+      items.followers[i].push_back(std::int32_t(next));
+      ++items.waits[next];
+    }
+  return items;
+}
+
+/// Every item passes both stages once a round, none its second before the first of those it waits for; plain numbers
+/// written in one stage are seen in the next.
+void go_round(int threads, std::size_t n, int rounds) {
+  const Dependencies items = chain(n);
+  std::vector<int> first(n, 0), between(n, 0), second(n, 0);
+  std::atomic<int> wrong{0};
+  int round = 1, sampled = 0;
+  RoundWork work;
+  work.first = [&](std::size_t i) { wrong += ++first[i] != round; };
+  work.between = [&](std::size_t i) { ++between[i]; };
+  work.second = [&](std::size_t i) {
+    for (std::size_t before = i < 2 ? 0 : i - 2; before <= i; ++before) wrong += first[before] != round;
+    wrong += ++second[i] != round;
+  };
+  work.next = [&](RoundKind done) {
+    if (done == RoundKind::first_only) return RoundKind::between;
+    if (done == RoundKind::between) return ++sampled, RoundKind::second_only;
+    if (++round > rounds) return RoundKind::end;
+    return round % 5 == 0 ? RoundKind::first_only : RoundKind::both;
+  };
+  run_rounds(threads, items, RoundKind::both, work);
+  EXPECT_EQ(wrong.load(), 0);
+  EXPECT_EQ(sampled, rounds / 5);
+  EXPECT_EQ(first, std::vector<int>(n, rounds));
+  EXPECT_EQ(second, std::vector<int>(n, rounds));
+  EXPECT_EQ(between, std::vector<int>(n, sampled));
+}
+
+TEST(Rounds, EveryItemOnceAndInOrder) {
+  go_round(1, 17, 200);
+  go_round(2, 17, 20000);
+  go_round(2, 1, 500);
+  go_round(3, 100, 2000);
+  go_round(8, 5, 500);  // more threads than items
+}
+
+TEST(Rounds, AnExceptionBetweenThemEndsThem) {
+  for (int threads : {1, 3}) {
+    int ends = 0;
+    RoundWork work;
+    work.first = work.second = [](std::size_t) {};
+    work.next = [&](RoundKind) -> RoundKind {
+      if (++ends == 7) throw RunError("the disk is full");
+      return RoundKind::both;
+    };
+    EXPECT_THROW(run_rounds(threads, chain(10), RoundKind::both, work), RunError);
+    EXPECT_EQ(ends, 7);
+  }
 }
 
 TEST(BaseAcceleration, IsLinearBetweenSamplesAndZeroOutside) {
