@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "solver/base/arrays.h"
+#include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "tests/solver/models.h"
 
