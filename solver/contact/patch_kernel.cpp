@@ -13,11 +13,6 @@ void store_wrench(const Triple<double>& f, const Triple<double>& m, double* wren
   wrench[3] = m.x, wrench[4] = m.y, wrench[5] = m.z;
 }
 
-bool past_limits(const Model& model, const Patch& patch, const Jump<double>& j) {
-  return j.s * j.s + j.t * j.t > model.slip_limit2(patch.area) ||
-         j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
-}
-
 PointMemory load_memory(const Patch& patch, int i, const PatchMemory& memory) {
   const auto column = [&](int c) { return memory.point[point_index(patch, i, 4, c)]; };
   return {column(0), column(1), column(2), column(3), memory.broken[point_index(patch, i, 1, 0)] != 0};
@@ -130,6 +125,11 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
 }
 
 }  // namespace
+
+bool past_limits(const Model& model, const Patch& patch, const Jump<double>& j) {
+  return j.s * j.s + j.t * j.t > model.slip_limit2(patch.area) ||
+         j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
+}
 
 bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points,
                  const double* pose, const Branches& branches, PatchMemory& memory, double* wrench) {

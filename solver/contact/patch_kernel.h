@@ -46,6 +46,9 @@ struct PatchPass {
 /// A joint leaves the intact path: its rigid slip field and affine branch field are handed to its points.
 void joint_to_points(const Model& model, State& state, const Branches& branches, std::size_t index);
 
+/// Whether a patch has slid or turned so far that it must be clipped anew.
+bool past_limits(const Model& model, const Patch& patch, const Jump<double>& jump);
+
 /// While a contact is wholly open its points are not looked at; this brings their plastic slip, which follows the jump,
 /// up to the last pass.
 void follow_open_contact(State& state, std::size_t contact);

@@ -22,9 +22,7 @@ double skin(const Model& model) {
 }
 
 bool past_limits(const Model& model, const State& state, const Patch& p) {
-  const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
-  const double turn = model.contact.reclip_angle;
-  return j.s * j.s + j.t * j.t > model.slip_limit2(p.area) || j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > turn * turn;
+  return past_limits(model, p, patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]));
 }
 
 double least_gap(const State& state, const Patch& p, const Array<double>& points) {
@@ -159,12 +157,12 @@ bool boxes_meet(const Box& a, const Box& b, double distance) {
 }
 
 /// A cell where it is now.
-struct PlacedCell {
+struct CellBox {
   std::int32_t body = 0, cell = 0;
   Box box;
 };
 
-void place_cells(const Model& model, const State& state, std::int32_t body, std::vector<PlacedCell>& cells) {
+void place_cells(const Model& model, const State& state, std::int32_t body, std::vector<CellBox>& cells) {
   for (const Convex& cell : model.cells[body])
     cells.push_back({body, std::int32_t(&cell - model.cells[body].data()), placed_box(model, state, body, cell)});
 }
@@ -181,37 +179,33 @@ bool sphere_meets(const Model& model, const State& state, std::int32_t body, con
 std::vector<Key> candidate_pairs(const Model& model, const State& state, const MovedBodies& moved) {
   constexpr std::size_t few = 20;  // cells: less work to look past every body than to sort all of them
   std::vector<Key> pairs;
-  const auto consider = [&](const PlacedCell& p, const PlacedCell& q) {
+  const auto consider = [&](const CellBox& p, const CellBox& q) {
     const std::int32_t a = p.body, b = q.body;
     if (a == b || (model.bodies[a].still() && model.bodies[b].still()) || !(moved.flag[a] || moved.flag[b])) return;
     pairs.push_back(a < b ? Key{a, b, p.cell, q.cell} : Key{b, a, q.cell, p.cell});
   };
   const auto bodies = std::int32_t(model.bodies.size());
-  std::vector<PlacedCell> from, cells;
+  std::vector<CellBox> from, cells;
   for (std::int32_t i = 0; i < bodies && from.size() <= few; ++i)
     if (moved.flag[i]) place_cells(model, state, i, from);
   if (from.size() <= few) {
     for (std::int32_t i = 0; i < bodies; ++i) {
-      const auto near = [&](const PlacedCell& p) { return sphere_meets(model, state, i, p.box, skin(model)); };
+      const auto near = [&](const CellBox& p) { return sphere_meets(model, state, i, p.box, skin(model)); };
       if (std::any_of(from.begin(), from.end(), near)) place_cells(model, state, i, cells);
     }
-    for (const PlacedCell& p : from)
-      for (const PlacedCell& q : cells)
+    for (const CellBox& p : from)
+      for (const CellBox& q : cells)
         if (boxes_meet(p.box, q.box, skin(model))) consider(p, q);
   } else {
     for (std::int32_t i = 0; i < bodies; ++i) place_cells(model, state, i, cells);
     std::vector<Box> boxes;
-    for (const PlacedCell& p : cells) boxes.push_back(p.box);
+    for (const CellBox& p : cells) boxes.push_back(p.box);
     for (const auto& [i, j] : neighbours(boxes, skin(model))) consider(cells[std::size_t(i)], cells[std::size_t(j)]);
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
-
-}  // namespace
-
-namespace {
 
 /// Cells in their present placement, each made when it is first asked for: a cell has several neighbours.
 class PlacedCells {

@@ -106,13 +106,20 @@ PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t
   return s;
 }
 
+/// Of a contact, m: while it is wholly open its plastic slip is its jump, and is not kept point by point.
+Vec3 slip_of(const State& state, std::size_t contact) {
+  const Patch& p = state.contacts[contact];
+  if (!(state.contact.mode[contact] & mode_open)) return mean_slip(state, p, state.contact_points, state.contact);
+  const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
+  return vector(turn(j.frame, Triple<double>{0.0, j.s, j.t}));
+}
+
 /// What the patches that a contact replaced had slipped belongs to it.
 void add_earlier_slip(const State& state, std::size_t contact, PatchSnapshot& s) {
   const double* slid = &state.contact_slid[4 * contact];
   const Vec3 before(slid[0], slid[1], slid[2]);
   s.largest_slip = std::max(slid[3], before.norm() + s.largest_slip);
-  if (!before.isZero(0.0))
-    s.slip = (before + mean_slip(state, state.contacts[contact], state.contact_points, state.contact)).norm();
+  if (!before.isZero(0.0)) s.slip = (before + slip_of(state, contact)).norm();
 }
 
 }  // namespace
