@@ -1,8 +1,33 @@
 #include "solver/base/arrays.h"
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 #include <cstring>
 
 namespace voussoir {
+
+namespace {
+
+std::align_val_t alignment_of(std::size_t bytes) {
+  return std::align_val_t{bytes >= 2 * large_page ? large_page : cache_line};
+}
+
+}  // namespace
+
+void* allocate_aligned(std::size_t bytes) {
+  void* memory = ::operator new(bytes, alignment_of(bytes));
+#if defined(__linux__)
+  // A wish: where the system grants no large pages, small ones do.
+  if (bytes >= 2 * large_page) madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE);
+#endif
+  return memory;
+}
+
+void free_aligned(void* memory, std::size_t bytes) {
+  ::operator delete(memory, alignment_of(bytes));
+}
 
 namespace {
 constexpr std::uint64_t fnv_prime = 0x100000001b3ULL;

@@ -9,6 +9,13 @@
 
 namespace voussoir {
 
+constexpr std::size_t cache_line = 64, large_page = std::size_t(2) << 20;
+
+/// Memory on a cache line's boundary, or on a large page's where several fit: with pages of 4 kB a step over a large
+/// bridge waits for page tables.
+void* allocate_aligned(std::size_t bytes);
+void free_aligned(void* memory, std::size_t bytes);
+
 /// Allocates on cache-line boundaries, which the SIMD kernels rely on.
 template <class T>
 struct CacheAligned {
@@ -16,8 +23,8 @@ struct CacheAligned {
   CacheAligned() = default;
   template <class U>
   CacheAligned(const CacheAligned<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
-  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
+  T* allocate(std::size_t n) { return static_cast<T*>(allocate_aligned(n * sizeof(T))); }
+  void deallocate(T* p, std::size_t n) { free_aligned(p, n * sizeof(T)); }
   bool operator==(const CacheAligned&) const { return true; }
 };
 template <class T>

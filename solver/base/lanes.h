@@ -50,6 +50,10 @@ struct LaneMask {
 [[gnu::always_inline]] inline Lanes square_root(Lanes x) {
   return _mm512_sqrt_pd(x);
 }
+/// Lanes of the mask alone are written.
+[[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
+  _mm512_mask_store_pd(&to, m.bits, x);
+}
 [[gnu::always_inline]] inline bool any(LaneMask m) {
   return m.bits != 0;
 }
@@ -99,6 +103,9 @@ struct LaneMask {
   for (int i = 0; i < lane_count; ++i) r[i] = std::sqrt(x[i]);
   return r;
 }
+[[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
+  to = select(m, x, to);
+}
 [[gnu::always_inline]] inline int count_of(LaneMask m) {
   std::int64_t n = 0;
   for (int i = 0; i < lane_count; ++i) n -= m.bits[i];
@@ -126,6 +133,14 @@ struct LaneMask {
 }
 [[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
   return select(less(b, a), a, b);
+}
+
+[[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Singles& to) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+  _mm256_mask_store_ps(reinterpret_cast<float*>(&to), m.bits, narrow(x));
+#else
+  to = narrow(select(m, x, widen(to)));
+#endif
 }
 
 /// A byte a lane: 1 where `first`, 2 where `second`, or their sum.

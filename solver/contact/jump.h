@@ -88,8 +88,8 @@ inline Triple<double> point_jump(const Patch& patch, const Jump<double>& j, doub
 inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, const PatchPoint& at,
                                    const PatchMemory& memory, int i) {
   const Triple<double> u = point_jump(patch, j, at.s, at.t);
-  return {u.x - memory.point[point_index(patch, i, 4, 0)], u.y - memory.point[point_index(patch, i, 4, 1)],
-          u.z - memory.point[point_index(patch, i, 4, 2)]};
+  return {u.x - memory.point_rest[point_index(patch, i, 2, 0)], u.y - memory.point[point_index(patch, i, 2, 0)],
+          u.z - memory.point[point_index(patch, i, 2, 1)]};
 }
 
 }  // namespace voussoir

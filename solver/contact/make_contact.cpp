@@ -129,17 +129,12 @@ Convex placed_cell(const Model& model, const State& state, std::int32_t body, st
                model.bodies[body].centroid, Vec3(p[0], p[1], p[2]));
 }
 
-std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
-                                       std::int32_t b, std::int32_t cell_b, double within) {
-  return make_contact(model, state, a, cell_a, placed_cell(model, state, a, cell_a), b, cell_b,
-                      placed_cell(model, state, b, cell_b), within);
-}
-
-std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
-                                       const Convex& placed_a, std::int32_t b, std::int32_t cell_b,
-                                       const Convex& placed_b, double within) {
+Examined make_contact(const Model& model, const State& state, const CellPair& cells, const Convex& placed_a,
+                      const Convex& placed_b, double within) {
+  const auto [a, b, cell_a, cell_b] = cells;
   const Meeting m = meeting(placed_a, placed_b, within);
-  if (m.kind == Meeting::Kind::apart || m.on_a.empty()) return std::nullopt;
+  if (m.kind == Meeting::Kind::apart) return {std::nullopt, std::max(0.0, m.separation)};
+  if (m.on_a.empty()) return {};
   NewContact contact;
   Patch& p = contact.patch;
   p.a = a, p.b = b, p.cell_a = cell_a, p.cell_b = cell_b;
@@ -152,7 +147,7 @@ std::optional<NewContact> make_contact(const Model& model, const State& state, s
     for (std::size_t i = 0; i < m.on_a.size(); ++i) place += (m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
     make_point_patch(model, state, place, m.normal, m.separation, contact);
   } else {
-    return std::nullopt;  // edge beside edge: nothing to stand on yet
+    return {};  // edge beside edge: nothing to stand on yet
   }
   // Found already overlapping (neighbours that met edge to edge): it begins without force from there.
   double deepest = 0.0;
@@ -163,7 +158,7 @@ std::optional<NewContact> make_contact(const Model& model, const State& state, s
   p.corner_count = std::int32_t(contact.corners.size());
   contact.memory.assign(4 * contact.points.size(), 0.0);
   for (std::size_t i = 0; i < contact.points.size(); ++i) contact.memory[4 * i + 3] = 1.0;
-  return contact;
+  return {std::move(contact)};
 }
 
 namespace {
@@ -242,7 +237,7 @@ void limit_energy(double most, NewContact& c) {
 void match_tractions(const Model& model, const State& state, const Patch& old, const Array<double>& points,
                      const PatchMemory& memory, NewContact& contact) {
   Patch& p = contact.patch;
-  p.kn = old.kn, p.ks = old.ks, p.law = old.law;
+  p.kn = old.kn, p.ks = old.ks;
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
   const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
   const Carried carried = elastic_wrench(model, state, old, points, memory, Vec3(j.place.x, j.place.y, j.place.z));
@@ -266,6 +261,7 @@ void match_tractions(const Model& model, const State& state, const Patch& old, c
   const double twist = worst <= 0.0 && polar > 0.0 ? moment.x() / (p.ks * polar) : 0.0;
   for (std::size_t i = 0; i < contact.points.size(); ++i) {
     const PatchPoint& q = contact.points[i];
+    if (!closed(q)) continue;  // an open point holds no shear
     contact.memory[4 * i + 1] = -(force.y() / (p.ks * area) - twist * q.t);
     contact.memory[4 * i + 2] = -(force.z() / (p.ks * area) + twist * q.s);
   }
@@ -279,7 +275,7 @@ Vec3 mean_slip(const State& state, const Patch& patch, const Array<double>& poin
   double area = 0.0;
   for (int i = 0; i < patch.point_count; ++i) {
     const double weight = patch_point(patch, points, i).weight;
-    sum += weight * Vec3(0.0, memory.point[point_index(patch, i, 4, 1)], memory.point[point_index(patch, i, 4, 2)]);
+    sum += weight * Vec3(0.0, memory.point[point_index(patch, i, 2, 0)], memory.point[point_index(patch, i, 2, 1)]);
     area += weight;
   }
   const Eigen::Quaterniond frame(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z);

@@ -10,18 +10,20 @@ namespace voussoir {
 struct NewContact {
   Patch patch;  // first_point and first_corner are zero
   std::vector<PatchPoint> points, corners;
-  Array<double> memory;           // 4 a point, see PatchMemory::point
+  Array<double> memory;           // 4 a point: plastic jump n, s, t (m), softening
   double carried_opening = 0.0;   // m, largest of the patch it replaces
   double slid[4] = {0, 0, 0, 0};  // see State::contact_slid
 };
 
-/// None when the cells are apart by more than `within` (m) or share too little to carry anything.
-std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
-                                       std::int32_t b, std::int32_t cell_b, double within);
-/// The same with both cells already in their present placement.
-std::optional<NewContact> make_contact(const Model& model, const State& state, std::int32_t a, std::int32_t cell_a,
-                                       const Convex& placed_a, std::int32_t b, std::int32_t cell_b,
-                                       const Convex& placed_b, double within);
+/// How two cells stand to each other.
+struct Examined {
+  std::optional<NewContact> contact;  // none: apart, or they share too little to carry anything
+  double apart = 0.0;                 // m, where they are apart by more than was asked for: at least so far
+};
+
+/// Cells in their present placement; a contact is made when they are within `within` (m).
+Examined make_contact(const Model& model, const State& state, const CellPair& cells, const Convex& placed_a,
+                      const Convex& placed_b, double within);
 
 /// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
 /// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed. Where

@@ -14,20 +14,16 @@ void store_wrench(const Triple<double>& f, const Triple<double>& m, double* wren
 }
 
 PointMemory load_memory(const Patch& patch, int i, const PatchMemory& memory) {
-  const auto column = [&](int c) { return memory.point[point_index(patch, i, 4, c)]; };
-  return {column(0), column(1), column(2), column(3), memory.broken[point_index(patch, i, 1, 0)] != 0};
+  const std::size_t first = point_index(patch, i, 2, 0), second = point_index(patch, i, 2, 1);
+  return {memory.point_rest[first], memory.point[first], memory.point[second], memory.point_rest[second],
+          memory.broken[point_index(patch, i, 1, 0)] != 0};
 }
 
 void store_memory(const Patch& patch, int i, const PointMemory& point, PatchMemory& memory) {
-  const double columns[4] = {point.n, point.s, point.t, point.softening};
-  for (int c = 0; c < 4; ++c) memory.point[point_index(patch, i, 4, c)] = columns[c];
+  const std::size_t first = point_index(patch, i, 2, 0), second = point_index(patch, i, 2, 1);
+  memory.point[first] = point.s, memory.point[second] = point.t;
+  memory.point_rest[first] = point.n, memory.point_rest[second] = point.softening;
   memory.broken[point_index(patch, i, 1, 0)] = point.broken;
-}
-
-/// The jump of the pass before, six numbers; contacts keep theirs one after the other, joints eight side by side.
-float& last_jump(const Patch& patch, std::size_t index, int c, PatchMemory& memory) {
-  return patch.stride == 1 ? memory.last[6 * index + std::size_t(c)]
-                           : memory.last[last_index(std::size_t(patch.batch), c) + std::size_t(patch.lane)];
 }
 
 /// How much a point's jump has changed since the pass before, and its elastic jump then.
@@ -131,30 +127,29 @@ bool past_limits(const Model& model, const Patch& patch, const Jump<double>& j) 
          j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
 }
 
-bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points,
-                 const double* pose, const Branches& branches, PatchMemory& memory, double* wrench) {
-  const Jump<double> j = patch_jump(patch, pose + pose_width * patch.a, pose + pose_width * patch.b);
+void point_patch(const Model& model, std::size_t index, const Branches& branches, State& state, double* wrench) {
+  const Patch& patch = model.joints[index];
+  PatchMemory& memory = state.joint;
+  const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
   const LawConstants& law = model.laws[patch.law];
   const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
   double change[6];
   for (int c = 0; c < 6; ++c) {
-    float& last = last_jump(patch, index, c, memory);
+    float& last = memory.last[last_index(std::size_t(patch.batch), c) + std::size_t(patch.lane)];
     change[c] = double(float(now[c])) - double(last);  // of rounded jumps: the changes add up to the jump
     last = float(now[c]);
   }
-  const PointSums sums =
-      with_law(law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, points, branches, change, memory); });
+  const PointSums sums = with_law(
+      law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, model.points, branches, change, memory); });
   Triple<double> force, moment;
   world_wrench(sums.resultant, j, force, moment);
   store_wrench(force, moment, wrench);
   double* energy = &memory.energy[3 * index];
   energy[0] += sums.friction, energy[1] += sums.fracture, energy[2] += sums.damping;
   double* largest = &memory.largest[2 * index];
-  // The gap of a contact that was found apart is no opening of a joint: it only keeps what it was handed.
-  if (patch.stride > 1) largest[0] = std::max(largest[0], sums.opening);
+  largest[0] = std::max(largest[0], sums.opening);
   largest[1] = std::max(largest[1], std::sqrt(sums.slip2));
-  if (sums.all_open && sums.all_broken) memory.mode[index] |= patch.stride > 1 ? mode_broken : mode_broken | mode_open;
-  return past_limits(model, patch, j);
+  if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
 }
 
 bool in_tile_energy(const Model& model, const State& state, std::size_t joint) {
@@ -188,43 +183,13 @@ void follow_open_contact(State& state, std::size_t contact) {
   if (!(mode & mode_open)) return;
   mode &= std::uint8_t(~mode_open);
   const Patch& patch = state.contacts[contact];
-  const float* last = &state.contact.last[6 * contact];  // n, s, t, θn
-  for (int i = 0; i < patch.point_count; ++i) {
+  const auto last = [&](int c) {
+    return double(state.contact.last[last_index(std::size_t(patch.batch), c) + std::size_t(patch.lane)]);
+  };
+  for (int i = 0; i < state.contact_batches[std::size_t(patch.batch)].patch.points; ++i) {  // those without weight too
     const PatchPoint at = patch_point(patch, state.contact_points, i);
-    store_memory(patch, i, {0.0, double(last[1]) - last[3] * at.t, double(last[2]) + last[3] * at.s, 0.0, true},
-                 state.contact);
+    store_memory(patch, i, {0.0, last(1) - last(3) * at.t, last(2) + last(3) * at.s, 0.0, true}, state.contact);
   }
-}
-
-namespace {
-
-/// A contact that was wholly open, and is: there is nothing to it but its jump. False when some point may close.
-bool stays_open(const Model& model, State& state, std::size_t contact, double* wrench, bool& reclip) {
-  if (!(state.contact.mode[contact] & mode_open)) return false;
-  const Patch& p = state.contacts[contact];
-  const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
-  const double rs = j.rs + p.gap[1], rt = j.rt + p.gap[2], n = j.n + p.gap[0];
-  if (n <= 0.0 || n * n <= (rs * rs + rt * rt) * p.reach * p.reach) return false;
-  const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
-  for (int c = 0; c < 6; ++c) state.contact.last[6 * contact + std::size_t(c)] = float(now[c]);
-  store_wrench({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, wrench);
-  reclip |= past_limits(model, p, j);
-  return true;
-}
-
-}  // namespace
-
-PassReport PatchPass::contacts(std::size_t begin, std::size_t end) const {
-  PassReport report;
-  for (std::size_t i = begin; i < end; ++i) {
-    double* wrench = contact_wrenches + wrench_width * i;
-    ++report.points;
-    if (stays_open(*model, *state, i, wrench, report.reclip)) continue;
-    follow_open_contact(*state, i);
-    report.reclip |= point_patch(*model, state->contacts[i], i, state->contact_points, state->pose.data(), branches,
-                                 state->contact, wrench);
-  }
-  return report;
 }
 
 }  // namespace voussoir

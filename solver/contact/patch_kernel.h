@@ -1,5 +1,5 @@
 // The patches of a step: every one reads its two bodies and updates its own memory. The wrenches of a tile's joints are
-// added up body by body in the order of the joints, those of contacts are stored one by one.
+// added up body by body in the order of the joints, those of contacts are stored slot by slot.
 #pragma once
 #include "solver/contact/jump.h"
 
@@ -10,16 +10,18 @@ constexpr int wrench_width = 8;  // force 3, moment about the world's origin 3, 
 /// What the pass found, gathered by each thread for itself and merged without regard to order.
 struct PassReport {
   bool reclip = false;      // some patch has slid or turned past its limit
-  std::int64_t intact = 0;  // patches on the intact path
-  std::int64_t points = 0;  // patches computed point by point
+  std::int64_t intact = 0;  // joints on the intact path
+  std::int64_t points = 0;  // joints computed point by point
+  std::int64_t contacts = 0;
   void merge(const PassReport& other) {
     reclip |= other.reclip;
     intact += other.intact;
     points += other.points;
+    contacts += other.contacts;
   }
 };
 
-/// What the joints of a tile hold, J; those that point_patch() computes are left out.
+/// What the joints and contacts of a tile hold, J; joints that point_patch() computes are left out.
 struct TileEnergy {
   double elastic = 0.0, branches = 0.0;
 };
@@ -32,15 +34,15 @@ struct PatchPass {
   State* state = nullptr;
   Branches branches;
   double* sums = nullptr;              // wrench_width × the sums of Model::tiles
-  double* contact_wrenches = nullptr;  // wrench_width × contacts
+  double* contact_wrenches = nullptr;  // wrench_width × slots of contacts
   double* wrenches = nullptr;          // wrench_width × joints, or not wanted
   bool shortcut = true;                // false: every patch point by point, for verification
   TileEnergy* energies = nullptr;      // of each tile, or not wanted
 
   /// The joints of a tile, eight side by side: intact lanes as generalised springs, the others point by point.
   PassReport joints(std::size_t tile) const;
-  /// Contacts [begin, end).
-  PassReport contacts(std::size_t begin, std::size_t end) const;
+  /// The contacts of a tile, in these batches of eight; after its joints.
+  PassReport contacts(std::size_t tile, const std::int32_t* begin, const std::int32_t* end) const;
 };
 
 /// A joint leaves the intact path: its rigid slip field and affine branch field are handed to its points.
@@ -53,8 +55,7 @@ bool past_limits(const Model& model, const Patch& patch, const Jump<double>& jum
 /// up to the last pass.
 void follow_open_contact(State& state, std::size_t contact);
 
-/// One patch of `memory` point by point; returns true when it has slid or turned past the limits of clipping anew.
-bool point_patch(const Model& model, const Patch& patch, std::size_t index, const Array<double>& points,
-                 const double* pose, const Branches& branches, PatchMemory& memory, double* wrench);
+/// A joint point by point, for the laws that have no lane form.
+void point_patch(const Model& model, std::size_t joint, const Branches& branches, State& state, double* wrench);
 
 }  // namespace voussoir

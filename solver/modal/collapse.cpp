@@ -95,7 +95,8 @@ std::vector<MechanismJoint> find_mechanism(const Model& model, const State& befo
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     if (!(before.joint.mode[i] & mode_gone)) look(model.joints[i], model.corners);
-  for (const Patch& contact : before.contacts) look(contact, before.contact_corners);
+  for (std::size_t i = 0; i < before.contacts.size(); ++i)
+    if (before.has_contact(i)) look(before.contacts[i], before.contact_corners);
   const double moved = largest_displacement(model, before.pose, after.pose);
   std::vector<MechanismJoint> mechanism;
   for (const Found& f : all) {

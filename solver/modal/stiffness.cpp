@@ -47,6 +47,11 @@ const Patch& patch_at(const Model& model, const State& state, std::size_t index)
   return index < model.joints.size() ? model.joints[index] : state.contacts[index - model.joints.size()];
 }
 
+/// Not a free slot of contacts.
+bool is_there(const Model& model, const State& state, std::size_t index) {
+  return index < model.joints.size() || state.has_contact(index - model.joints.size());
+}
+
 const double* pose_of(const State& state, std::int32_t body) {
   return &state.pose[pose_width * std::size_t(body)];
 }
@@ -170,17 +175,19 @@ BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangen
   std::vector<std::pair<std::int32_t, std::int32_t>> coupled;
   for (std::size_t i = 0; i < all; ++i) {
     const Patch& patch = patch_at(model, state, i);
-    coupled.emplace_back(patch.a, patch.b);
+    if (is_there(model, state, i)) coupled.emplace_back(patch.a, patch.b);
   }
   BlockMatrix k(model.bodies.size(), coupled);
-  for (std::size_t i = 0; i < all; ++i) add_pair(k, patch_at(model, state, i), pair_stiffness(model, state, i, kind));
+  for (std::size_t i = 0; i < all; ++i)
+    if (is_there(model, state, i)) add_pair(k, patch_at(model, state, i), pair_stiffness(model, state, i, kind));
   return k;
 }
 
 void add_geometric_stiffness(BlockMatrix& k, const Model& model, const State& state, const Array<double>& wrenches) {
   for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
     const Patch& patch = patch_at(model, state, i);
-    add_pair(k, patch, geometric_stiffness(model, state, patch, &wrenches[wrench_width * i]));
+    if (is_there(model, state, i))
+      add_pair(k, patch, geometric_stiffness(model, state, patch, &wrenches[wrench_width * i]));
   }
 }
 

@@ -132,11 +132,15 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   return shapes;
 }
 
-void fill_lane(const Patch& patch, const PatchShape& shape, int lane, JointBatch& batch) {
+}  // namespace
+
+CellPair cells_of(const Patch& p) {
+  return p.a < p.b ? CellPair{p.a, p.b, p.cell_a, p.cell_b} : CellPair{p.b, p.a, p.cell_b, p.cell_a};
+}
+
+void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
   batch.a[lane] = patch.a;
   batch.b[lane] = patch.b;
-  batch.half_s[lane] = shape.half_s;
-  batch.half_t[lane] = shape.half_t;
   for (int i = 0; i < 3; ++i) {
     batch.arm_a[i][lane] = patch.arm_a[i];
     batch.arm_b[i][lane] = patch.arm_b[i];
@@ -149,6 +153,8 @@ void fill_lane(const Patch& patch, const PatchShape& shape, int lane, JointBatch
   batch.ss[lane] = patch.ss;
   batch.tt[lane] = patch.tt;
 }
+
+namespace {
 
 /// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
 void add_points(Model& model, JointBatch& batch, const std::vector<PatchShape>& shapes) {
@@ -201,11 +207,12 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto joint = std::size_t(first + std::min(lane, batch.count - 1));
     const Patch& patch = model.joints[joint];
-    fill_lane(patch, shapes[joint], lane, batch);
+    fill_lane(patch, lane, batch);
+    batch.half_s[lane] = shapes[joint].half_s;
+    batch.half_t[lane] = shapes[joint].half_t;
     if (patch.law != batch.law) batch.law = -1;
     batch.corners = std::max(batch.corners, patch.corner_count);
     batch.rectangles &= shapes[joint].rectangle;
-    batch.dilates |= model.laws[std::size_t(patch.law)].tan_dilation != 0.0;
   }
   add_corners(model, batch);
   add_points(model, batch, shapes);
@@ -300,6 +307,9 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   add_contact_laws(model);
   model.rule = lobatto_rule(model.contact.points_per_side);
   make_tiles(model, add_joints(assembly, model));
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(i));
+  std::sort(model.joint_by_cells.begin(), model.joint_by_cells.end());
   return model;
 }
 

@@ -4,6 +4,7 @@
 // sums the wrenches of its joints body by body, so that the order of summation depends on nothing but the model.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct Patch {
   std::int32_t law = 0;  // index into Model::laws
   // Its points are rows first_point … of tables whose rows hold `stride` patches side by side, see point_index().
   std::int32_t first_point = 0, point_count = 0, stride = 1, lane = 0;
-  std::int32_t batch = 0;                           // of a joint
+  std::int32_t batch = 0;                           // of joints, or of contacts
   std::int32_t first_corner = 0, corner_count = 0;  // its polygon, for files and pictures
   double arm_a[3] = {}, arm_b[3] = {};              // m, centroid of the body to that of the patch, reference axes
   double place[3] = {};                             // m, X_a + arm_a
@@ -50,7 +51,6 @@ struct Patch {
   double gap[3] = {};                     // un (m), θs, θt (rad) when the bodies are where they were when it was made
   double kn = 0.0, ks = 0.0;              // Pa/m
   double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
-  double reach = 0.0;                     // of a contact: m, from its centroid to its farthest point
 };
 
 /// Where point `i` of a patch keeps number `c` of `columns` in a table of points.
@@ -83,8 +83,25 @@ struct alignas(64) JointBatch {
   std::int32_t first_point = 0;   // row of the tables of points
   std::int32_t points = 9;        // most of any lane; missing ones repeat the last with no weight
   bool rectangles = false;        // all lanes: points and corners follow from half_s and half_t
-  bool dilates = false;           // some lane has a law with dilation
 };
+
+/// Eight contacts of one tile, a lane each; free lanes are mode_gone. They differ from joints in that their bodies had
+/// turned and moved when they were made, and that they keep a gap.
+struct alignas(64) ContactBatch {
+  JointBatch patch;  // without half sizes, sums, joints and corners; frame is that of body a
+  Lanes frame_b[4], shift[3], gap[3];
+  Lanes reach;                    // m, from the centroid to the farthest point
+  std::int32_t tile = 0;          // that of the lower body
+  std::int32_t first_corner = 0;  // each lane has room for most_corners(points)
+};
+/// Rows of points that a batch for contacts of so many points has, and corners that they can have (a polygon of m
+/// corners has 2 m + 1 points).
+inline std::int32_t point_rows(std::int32_t points) {
+  return 1 + 8 * ((points + 6) / 8);
+}
+inline std::int32_t most_corners(std::int32_t rows) {
+  return std::max(4, (rows - 1) / 2);
+}
 
 /// Bodies next to each other in the order, and the joints whose first body is one of them.
 struct Tile {
@@ -99,6 +116,10 @@ inline std::int32_t tile_of(std::int32_t body) {
   return body / tile_bodies;
 }
 
+/// A cell of one body and a cell of another: bodies in order, then their cells.
+using CellPair = std::array<std::int32_t, 4>;
+CellPair cells_of(const Patch& patch);
+
 struct Model {
   std::vector<Body> bodies;
   std::vector<std::int64_t> block_of_body;
@@ -108,8 +129,9 @@ struct Model {
   std::vector<LawConstants> laws;            // the assembly's, then the contact laws of pairs of materials
   std::vector<Patch> joints;                 // the assembly's joints in batch order
   std::vector<std::int64_t> joint_of_patch;  // index in Assembly::joints
-  Array<double> points;                      // s, t, weight of the joints' points, eight joints side by side
-  Array<double> corners;                     // s, t of the joints' corners
+  std::vector<std::pair<CellPair, std::int32_t>> joint_by_cells;  // sorted
+  Array<double> points;   // s, t, weight of the joints' points, eight joints side by side
+  Array<double> corners;  // s, t of the joints' corners
   std::size_t point_rows = 0;
   Array<JointBatch> batches;
   Array<Lanes> batch_corners;  // s, t of each corner
@@ -139,6 +161,9 @@ struct Model {
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();
 };
+
+/// Constants of one patch into its lane.
+void fill_lane(const Patch& patch, int lane, JointBatch& batch);
 
 /// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError when nothing can move or
 /// a joint has no stiffness.

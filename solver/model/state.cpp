@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contact/jump.h"
-
 namespace voussoir {
 
 void PatchMemory::resize(std::size_t patches, std::size_t points) {
-  point.assign(4 * points, 0.0);
+  point.assign(2 * points, 0.0);
+  point_rest.assign(2 * points, 0.0);
   broken.assign(points, 0);
   point_branch.clear();
   mode.assign(patches, 0);
@@ -76,7 +75,8 @@ Patch unpack(const double* r) {
 }
 
 void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& memory) {
-  list.push_back({prefix + "/point_memory", 4, "m, m, m, -", &memory.point});
+  list.push_back({prefix + "/point_slip", 2, "m, m", &memory.point});
+  list.push_back({prefix + "/point_rest", 2, "m, -", &memory.point_rest});
   list.push_back({prefix + "/point_broken", 1, "-", &memory.broken});
   list.push_back({prefix + "/point_branch", 1, "m", &memory.point_branch});
   list.push_back({prefix + "/mode", 1, "-", &memory.mode});
@@ -96,10 +96,14 @@ std::vector<NamedArray> State::arrays() {
                                   {"bodies/motion", motion_width, "m/s, kg m2/s, J", &motion},
                                   {"bodies/baseline", 3, "m", &baseline},
                                   {"bodies/searched", searched_width, "m, -", &searched},
+                                  {"bodies/listed", searched_width, "m, -", &listed},
+                                  {"pairs/cells", 4, "-", &pair_cells},
+                                  {"pairs/seen", searched_width, "m, -", &pair_seen},
                                   {"joints/slip", lane_count, "m, m, rad", &slip},
                                   {"joints/branch", lane_count, "m, rad", &branch},
                                   {"joints/branch_work", lane_count, "J", &branch_work}};
   add(list, "joints", joint);
+  list.push_back({"contacts/batches", 2, "-", &contact_tiles});
   list.push_back({"contacts/patches", patch_columns, "SI", &contact_rows});
   list.push_back({"contacts/points", 3, "m, m, m2", &contact_points});
   list.push_back({"contacts/corners", 2, "m", &contact_corners});
@@ -112,14 +116,54 @@ void State::unpack_contacts() {
   contacts.clear();
   for (std::size_t i = 0; i + patch_columns <= contact_rows.size(); i += patch_columns)
     contacts.push_back(unpack(&contact_rows[i]));
-  for (Patch& patch : contacts) set_reach(contact_points, patch);
+  contact_batches.clear();
+  for (std::size_t k = 0; 2 * k < contact_tiles.size(); ++k) {
+    append_contact_batch(*this, contact_tiles[2 * k], contact_tiles[2 * k + 1]);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      Patch& p = contacts[lane_count * k + lane];
+      p.stride = lane_count, p.batch = std::int32_t(k), p.lane = std::int32_t(lane);
+      fill_contact_lane(*this, lane_count * k + lane);
+    }
+  }
 }
 
-void set_reach(const Array<double>& points, Patch& contact) {
-  contact.reach = 0.0;
-  for (int i = 0; i < contact.point_count; ++i) {
-    const PatchPoint p = patch_point(contact, points, i);
-    contact.reach = std::max(contact.reach, std::hypot(p.s, p.t));
+std::int64_t State::contact_count() const {
+  return std::count_if(contact.mode.begin(), contact.mode.end(), [](std::uint8_t m) { return !(m & mode_gone); });
+}
+
+void append_contact_batch(State& state, std::int32_t tile, std::int32_t rows) {
+  ContactBatch batch{};
+  batch.tile = tile;
+  batch.patch.points = rows;
+  batch.patch.count = lane_count;
+  if (!state.contact_batches.empty()) {
+    const ContactBatch& last = state.contact_batches.back();
+    batch.patch.first_point = last.patch.first_point + last.patch.points;
+    batch.first_corner = last.first_corner + lane_count * most_corners(last.patch.points);
+  }
+  state.contact_batches.push_back(batch);
+}
+
+void fill_contact_lane(State& state, std::size_t slot) {
+  const Patch& p = state.contacts[slot];
+  ContactBatch& batch = state.contact_batches[slot / lane_count];
+  const int lane = int(slot % lane_count);
+  fill_lane(p, lane, batch.patch);
+  for (int c = 0; c < 4; ++c) batch.frame_b[c][lane] = p.e_b[c];
+  for (int c = 0; c < 3; ++c) batch.shift[c][lane] = p.shift[c], batch.gap[c][lane] = p.gap[c];
+  double reach = 0.0;
+  for (int i = 0; i < p.point_count; ++i) {
+    const PatchPoint q = patch_point(p, state.contact_points, i);
+    reach = std::max(reach, std::hypot(q.s, q.t));
+  }
+  batch.reach[lane] = reach;
+  // One law for all lanes in use, or −1.
+  batch.patch.law = -2;
+  for (std::size_t i = lane_count * (slot / lane_count); i < lane_count * (slot / lane_count + 1); ++i) {
+    const Patch& other = state.contacts[i];
+    if (other.point_count == 0) continue;
+    batch.patch.law = batch.patch.law == -2 || batch.patch.law == other.law ? other.law : -1;
+    if (batch.patch.law == -1) break;
   }
 }
 
@@ -139,6 +183,7 @@ State initial_state(const Model& model) {
   state.searched.assign(searched_width * n, 0.0f);
   for (std::size_t i = 0; i < n; ++i)
     state.searched[searched_width * i] = 1e18f;  // never looked for: as if they had come from far
+  state.listed = state.searched;
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.joint.resize(model.joints.size(), lane_count * model.point_rows);
   state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);

@@ -29,19 +29,20 @@ struct Branches {
 enum PatchMode : std::uint8_t {
   mode_points = 1,  // point by point (else as six generalised springs)
   mode_broken = 2,  // intact path: the whole patch has lost its bond (or never had one)
-  mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted
+  mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted; or a free slot
   mode_open = 8,    // intact path, or a contact: wholly open at the last pass
   mode_slid = 16,   // intact path: its rigid plastic slip is not zero
 };
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.
 struct PatchMemory {
-  Array<double> point;         // 4 columns: plastic jump n, s, t (m), softening
+  Array<double> point;         // 2 columns: plastic jump s, t (m)
+  Array<double> point_rest;    // 2 columns: plastic jump n (m), softening; the step reads them where a law needs them
   Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and with empty branches
   Array<float> point_branch;   // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
   Array<double> largest;       // 2 a patch: opening, slip (m)
-  Array<float> last;           // 6 a patch: jump at the last pass (m, rad); joints eight side by side
+  Array<float> last;           // 6 a patch: jump at the last pass (m, rad); eight patches side by side
   Array<double> energy;        // 3 a patch: friction, fracture, work done on the branches point by point (J)
   void resize(std::size_t patches, std::size_t points);
 };
@@ -62,15 +63,26 @@ struct State {
   Array<double> baseline;  // 3 a body: displacement at the end of the last gravity stage, from which demands count
   Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion when its
                            // contacts were last looked for
+  Array<float> listed;     // the same when its pairs were last listed
+
+  // Pairs of cells that are near each other without a joint between them, sorted.
+  Array<std::int32_t> pair_cells;  // CellPair each
+  Array<float> pair_seen;          // 8 a pair: placement of one body in the frame of the other when they were last
+                                   // examined (m, quaternion); how far it may move before they must be again (m)
 
   PatchMemory joint;          // of Model::joints
   Array<double> slip;         // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
   Array<float> branch;        // per batch 6 × branches × 8: q of the six generalised jumps
   Array<double> branch_work;  // 8 a tile: work done on the branches of the intact path (J)
 
-  std::vector<Patch> contacts;    // found during the run, sorted by (a, b, cell_a, cell_b)
-  Array<double> contact_points;   // s, t, weight
-  Array<double> contact_corners;  // s, t
+  // Contacts found during the run live in slots, eight to a batch; a slot that is free has mode_gone and a patch
+  // without points. Which slot a contact takes depends on those before it, so batches and free slots are part of the
+  // state.
+  std::vector<Patch> contacts;
+  Array<std::int32_t> contact_tiles;    // 2 a batch: tile, rows of points
+  Array<ContactBatch> contact_batches;  // the same patches side by side: made from them, not written
+  Array<double> contact_points;         // s, t, weight; eight contacts side by side
+  Array<double> contact_corners;        // s, t
   PatchMemory contact;
   Array<double>
       contact_slid;  // 4 a contact: slip of the patches it replaced (m, world axes), largest slip while they lived
@@ -90,13 +102,18 @@ struct State {
   double& starting_energy() { return scalars[11]; }
   double& largest_energy() { return scalars[12]; }
 
+  bool has_contact(std::size_t slot) const { return !(contact.mode[slot] & mode_gone); }
+  std::int64_t contact_count() const;
+
   /// All arrays by name, contacts flattened; call unpack_contacts() after reading into them.
   std::vector<NamedArray> arrays();
   void unpack_contacts();
 };
 
-/// Sets how far a contact reaches, from its points.
-void set_reach(const Array<double>& points, Patch& contact);
+/// Room in State::contact_batches for eight contacts of a tile with up to so many points; not in the other arrays.
+void append_contact_batch(State& state, std::int32_t tile, std::int32_t rows);
+/// Mirrors State::contacts[slot] (points included) in its batch.
+void fill_contact_lane(State& state, std::size_t slot);
 
 /// Of a body since its reference placement.
 inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {
@@ -107,7 +124,7 @@ inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {
 /// All bodies and the base at rest.
 void stop_motion(State& state);
 
-/// First of the eight lanes of jump c of a batch, in PatchMemory::last of joints.
+/// First of the eight lanes of jump c of a batch, in PatchMemory::last.
 inline std::size_t last_index(std::size_t batch, int c) {
   return lane_count * (6 * batch + std::size_t(c));
 }

@@ -10,11 +10,13 @@ namespace voussoir {
 Incidence find_incidence(const Model& model, const State& state) {
   Incidence incidence;
   incidence.first.assign(model.bodies.size() + 1, 0);
-  for (const Patch& p : state.contacts) ++incidence.first[p.a + 1], ++incidence.first[p.b + 1];
+  for (std::size_t i = 0; i < state.contacts.size(); ++i)
+    if (state.has_contact(i)) ++incidence.first[state.contacts[i].a + 1], ++incidence.first[state.contacts[i].b + 1];
   for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
   incidence.contacts.resize(incidence.first.back());
   std::vector<std::int32_t> next(incidence.first.begin(), incidence.first.end() - 1);
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    if (!state.has_contact(i)) continue;
     incidence.contacts[next[state.contacts[i].a]++] = std::int32_t(2 * i);
     incidence.contacts[next[state.contacts[i].b]++] = std::int32_t(2 * i + 1);
   }
@@ -236,7 +238,7 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
     const Quat<double> turned = normalised(rotate(q, spin(body, half, next.momentum), dt));
     pose[3] = turned.w, pose[4] = turned.v.x, pose[5] = turned.v.y, pose[6] = turned.v.z;
   }
-  report.search |= moved_since_search(*model, *state, i, base_displacement_next.data()) > search_distance;
+  report.search |= moved_since(*model, *state, state->searched, i, base_displacement_next) > search_distance;
   if (body.held(3)) return;
   const double speed2 = dot(next.velocity, next.velocity);
   if (!(speed2 < 1e6) && report.runaway < 0) report.runaway = std::int32_t(i);
@@ -271,15 +273,15 @@ LaneRows load_searched(const float* rows, int count) {
   return l;
 }
 
-/// As moved_since_search().
-Lanes moved_since_search(const LaneRows& pose, const LaneRows& from, const Vec3& base, Lanes radius) {
+/// As moved_since().
+Lanes lanes_moved(const LaneRows& pose, const LaneRows& from, const Vec3& base, Lanes radius) {
   Lanes d2 = splat(0.0), r2 = splat(0.0);
   for (int c = 0; c < 3; ++c) {
     const Lanes d = pose.r[c] - base[c] - from.r[c];
     d2 += d * d;
   }
   for (int c = 3; c < 7; ++c) r2 += (pose.r[c] - from.r[c]) * (pose.r[c] - from.r[c]);
-  return square_root(d2) + 2.1 * square_root(r2) * radius;
+  return square_root(d2) + quaternion_reach * square_root(r2) * radius;
 }
 
 }  // namespace
@@ -327,7 +329,7 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   pose.r[3] = norm * turned.w;
   pose.r[4] = norm * turned.v.x, pose.r[5] = norm * turned.v.y, pose.r[6] = norm * turned.v.z;
   const LaneRows from = load_searched(&state->searched[searched_width * first], count);
-  const Lanes distance = moved_since_search(pose, from, base_displacement_next, batch.radius);
+  const Lanes distance = lanes_moved(pose, from, base_displacement_next, batch.radius);
   report.search |= any(batch.free & less(splat(search_distance), distance));
   const LaneMask runs = without(batch.free, less(dot(velocity, velocity), splat(1e6)));
   if (any(runs) && report.runaway < 0)

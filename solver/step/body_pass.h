@@ -53,10 +53,10 @@ struct BodyPass {
   const double* contact_wrenches = nullptr;
   const BodyBatch* batches = nullptr;
   const std::vector<Energies>* energies = nullptr;  // of each tile, where a sample has them computed beforehand
-  double dt = 0.0;                             // s
-  double mass_rate = 0.0;                      // 1/s, Rayleigh
-  double local = 0.0;                          // Cundall
-  double search_distance = 1e300;              // m
+  double dt = 0.0;                                  // s
+  double mass_rate = 0.0;                           // 1/s, Rayleigh
+  double local = 0.0;                               // Cundall
+  double search_distance = 1e300;                   // m
   const Array<std::int32_t>* drive = nullptr;  // of each body, which of drive_velocity is its own or -1; empty: none
   std::vector<Vec3> drive_velocity;            // relative to the ground, at the next half step
   const LoadsAtWork* loads = nullptr;          // none: nothing beside gravity

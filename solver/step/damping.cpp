@@ -110,7 +110,7 @@ DampingAtWork maxwell_at_work(const DampingSettings& settings, double step) {
     const double omega = two_pi * fit.frequency[j];
     b.e[j] = std::exp(-omega * step);
     b.g[j] = fit.stiffness[j] * (step > 0.0 ? -std::expm1(-omega * step) / (omega * step) : 1.0);
-    
+
     b.stored[j] = 1.0 / fit.stiffness[j];
     total += fit.stiffness[j];
     work.account += fmt::format(" {:.4f} at {:.3f} Hz,", fit.stiffness[j], fit.frequency[j]);
@@ -131,7 +131,7 @@ DampingAtWork rayleigh_at_work(const DampingSettings& settings, double step, dou
   b.count = 1;
   b.e[0] = 0.0;
   b.g[0] = step > 0.0 ? beta / step : 0.0;
-  
+
   // Central differences with a lagged damping force: stable below 2/ω (√(1 + ξ²) − ξ) (Belytschko 1983).
   const double xi = 0.5 * beta * highest;
   work.step_factor = std::sqrt(1.0 + xi * xi) - xi;

@@ -98,6 +98,7 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
 
 PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index,
                          bool yielding) {
+  if (index >= model.joints.size() && !state.has_contact(index - model.joints.size())) return {};
   if (index >= model.joints.size())
     return points_energy(model, yielding, state.contacts[index - model.joints.size()], state.contact_points,
                          state.contact, state, branches);
@@ -122,11 +123,13 @@ Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::siz
   };
   for (std::int32_t i = tile.first_joint; i < tile.end_joint; ++i)
     if (!in_tile_energy(model, state, std::size_t(i))) add_patch(std::size_t(i));
-  const auto first = std::size_t(stepper.first_contact[index]), end = std::size_t(stepper.first_contact[index + 1]);
-  for (std::size_t i = first; i < end; ++i) add_patch(model.joints.size() + i);
+
   for (std::int32_t i = tile.first_body; i < tile.end_body; ++i) add_body(stepper, pass, std::size_t(i), e);
   add_losses(state.joint, std::size_t(tile.first_joint), std::size_t(tile.end_joint), e);
-  add_losses(state.contact, first, end, e);
+  for (std::int32_t i = stepper.first_contact_batch[index]; i < stepper.first_contact_batch[index + 1]; ++i) {
+    const auto first = lane_count * std::size_t(stepper.contact_batches[std::size_t(i)]);
+    add_losses(state.contact, first, first + lane_count, e);
+  }
   for (int lane = 0; lane < lane_count; ++lane)
     e.joint_damping += state.branch_work[lane_count * index + std::size_t(lane)];
   return e;

@@ -35,7 +35,7 @@ Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<dou
     if (broken) sum.opening = std::max(sum.opening, point_jump(p, j, point.s, point.t).x);
     if (broken && u.x >= 0.0) continue;
     sum.slip =
-        std::max(sum.slip, std::hypot(memory.point[point_index(p, i, 4, 1)], memory.point[point_index(p, i, 4, 2)]));
+        std::max(sum.slip, std::hypot(memory.point[point_index(p, i, 2, 0)], memory.point[point_index(p, i, 2, 1)]));
     sum.normal += w * p.kn * u.x;
     sum.s += w * p.ks * u.y;
     sum.t += w * p.ks * u.z;
@@ -139,6 +139,7 @@ Snapshot make_snapshot(const Model& model, const State& state) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     snapshot.patches[model.joint_of_patch[i]] = joint_snapshot(model, state, i);
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    if (!state.has_contact(i)) continue;
     const Patch& p = state.contacts[i];
     const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
     const Tractions sum = point_tractions(p, j, state.contact_points, state.contact);

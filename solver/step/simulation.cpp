@@ -242,8 +242,8 @@ void Simulation::place(const StageSettings& stage) {
     }
   }
   if (stage.placements.empty() || !model_.contact.search) return;
-  update_contacts(model_, state_, stepper_.damping.branches);
-  stepper_.prepare();
+  update_contacts(model_, state_, stepper_.damping.branches, true, stepper_.threads);
+  stepper_.prepare_contacts();
 }
 
 /// At rest now, out of balance or not: half a step ago a body moved against its acceleration, v(−½) = −½ Δt a(0). With
@@ -286,9 +286,10 @@ void Simulation::begin_stage(const StageSettings& stage) {
 }
 
 void Simulation::change_contacts() {
-  const ContactUpdate update = update_contacts(model_, state_, stepper_.damping.branches, last_.reclip);
+  const ContactUpdate update =
+      update_contacts(model_, state_, stepper_.damping.branches, last_.reclip, stepper_.threads);
   if (!update.changed()) return;
-  stepper_.prepare();
+  stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
   const double bound = contact_bound();
   if (bound <= position_.stiffest) return;
@@ -331,7 +332,7 @@ void Simulation::sample(const BodyPass& pass) {
   if (!(std::abs(s.balance_error) < runaway_balance)) exploded_ = true;
   s.base_displacement = state_.base_displacement();
   s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.stage_start);
-  s.contacts = std::int64_t(state_.contacts.size());
+  s.contacts = state_.contact_count();
   for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
   if (observers_.history) observers_.history(*this, s);
 }
@@ -418,8 +419,8 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
 RunEnd Simulation::run(double until) {
   report_progress(true, "");
   if (state_.counters[1] == 0 && model_.contact.search) {  // who is near whom before anything moves
-    update_contacts(model_, state_, stepper_.damping.branches);
-    stepper_.prepare();
+    update_contacts(model_, state_, stepper_.damping.branches, true, stepper_.threads);
+    stepper_.prepare_contacts();
   }
   // A checkpoint before anything else: whatever happens in the first stage, there is something to resume from.
   if (position_.stage == 0 && position_.stage_begun == 0.0 && observers_.checkpoint)

@@ -26,27 +26,22 @@ Vec3 base_acceleration(const GroundMotion* motion, double time) {
 
 namespace {
 
-/// Contacts whose first body lies in each tile: they are sorted by it.
-std::vector<std::int32_t> contacts_of_tiles(const Model& model, const State& state) {
-  std::vector<std::int32_t> first(model.tiles.size() + 1, 0);
-  for (const Patch& p : state.contacts) ++first[std::size_t(tile_of(std::min(p.a, p.b))) + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  return first;
-}
-
 /// A tile's bodies may move once no tile before it still has to read them.
 Dependencies order_of_tiles(const Model& model, const State& state) {
-  constexpr double contact_cost = 2.0;  // against a batch of joints
+  constexpr double contact_cost = 2.0;  // of eight, against a batch of joints
   Dependencies order;
   for (const Tile& tile : model.tiles) {
     order.followers.push_back(tile.followers);
     order.cost.push_back(1.0 + tile.end_batch - tile.first_batch);
   }
-  for (const Patch& p : state.contacts) {
-    const std::int32_t from = tile_of(std::min(p.a, p.b)), to = tile_of(std::max(p.a, p.b));
-    order.cost[std::size_t(from)] += contact_cost;
-    std::vector<std::int32_t>& followers = order.followers[std::size_t(from)];
-    if (from != to && std::find(followers.begin(), followers.end(), to) == followers.end()) followers.push_back(to);
+  for (const ContactBatch& batch : state.contact_batches) order.cost[std::size_t(batch.tile)] += contact_cost;
+  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    if (!state.has_contact(i)) continue;
+    const std::int32_t a = tile_of(state.contacts[i].a), b = tile_of(state.contacts[i].b);
+    if (a == b) continue;
+    std::vector<std::int32_t>& followers = order.followers[std::size_t(std::min(a, b))];
+    if (std::find(followers.begin(), followers.end(), std::max(a, b)) == followers.end())
+      followers.push_back(std::max(a, b));
   }
   order.waits.assign(model.tiles.size(), 1);
   for (const auto& followers : order.followers)
@@ -57,13 +52,23 @@ Dependencies order_of_tiles(const Model& model, const State& state) {
 }  // namespace
 
 void Stepper::prepare() {
-  incidence = find_incidence(*model, *state);
   body_batches = make_body_batches(*model);
-  first_contact = contacts_of_tiles(*model, *state);
-  order = order_of_tiles(*model, *state);
   sums.resize(wrench_width * model->sums.size());
   tile_energies.resize(model->tiles.size());
+  prepare_contacts();
+}
+
+void Stepper::prepare_contacts() {
+  incidence = find_incidence(*model, *state);
+  order = order_of_tiles(*model, *state);
   contact_wrenches.assign(wrench_width * state->contacts.size(), 0.0);
+  first_contact_batch.assign(model->tiles.size() + 1, 0);
+  for (const ContactBatch& batch : state->contact_batches) ++first_contact_batch[std::size_t(batch.tile) + 1];
+  std::partial_sum(first_contact_batch.begin(), first_contact_batch.end(), first_contact_batch.begin());
+  contact_batches.resize(state->contact_batches.size());
+  std::vector<std::int32_t> next(first_contact_batch.begin(), first_contact_batch.end() - 1);
+  for (std::size_t k = 0; k < contact_batches.size(); ++k)
+    contact_batches[std::size_t(next[std::size_t(state->contact_batches[k].tile)]++)] = std::int32_t(k);
 }
 
 BodyPass Stepper::body_pass() const {
@@ -101,7 +106,8 @@ PatchPass Stepper::patch_pass() {
 
 PassReport Stepper::tile_patches(const PatchPass& pass, std::size_t tile) const {
   PassReport report = pass.joints(tile);
-  report.merge(pass.contacts(std::size_t(first_contact[tile]), std::size_t(first_contact[tile + 1])));
+  const std::int32_t* batches = contact_batches.data();
+  report.merge(pass.contacts(tile, batches + first_contact_batch[tile], batches + first_contact_batch[tile + 1]));
   return report;
 }
 
@@ -205,8 +211,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
     work.first = [&](std::size_t tile) {
       TileCost& cost = (*costs)[tile];
       const PassReport report = timed(cost.patches, [&] { return tile_patches(patches, tile); });
-      const std::int64_t contacts = first_contact[tile + 1] - first_contact[tile];
-      cost.intact += report.intact, cost.points += report.points - contacts, cost.contacts += contacts;
+      cost.intact += report.intact, cost.points += report.points, cost.contacts += report.contacts;
       found[tile].patches = report;
     };
     work.second = [&](std::size_t tile) {
@@ -246,6 +251,7 @@ void serial_step(Stepper& s) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     for (const auto& [tile, sum] : tile_sums[i]) add(&sums[wrench_width * i], sum.data(), 1.0);
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
+    if (!state.has_contact(i)) continue;
     const double* wrench = &s.wrenches[wrench_width * (model.joints.size() + i)];
     add(&sums[wrench_width * std::size_t(state.contacts[i].a)], wrench, 1.0);
     add(&sums[wrench_width * std::size_t(state.contacts[i].b)], wrench, -1.0);

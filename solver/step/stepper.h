@@ -55,6 +55,8 @@ struct Stepper {
   /// Rebuilds what depends on the bodies' constants and on the list of contacts. Call after either changes and before
   /// the first advance().
   void prepare();
+  /// What depends on the list of contacts alone.
+  void prepare_contacts();
   /// Steps until state->step() is `target` or something has to be decided. Every `sample_every` steps `sample` is
   /// called, by one thread, between patches and bodies: positions and patches are at this step, velocities at the half
   /// step before.
@@ -68,9 +70,10 @@ struct Stepper {
   Incidence incidence;
   Array<BodyBatch> body_batches;
   Array<double> sums, contact_wrenches;
-  std::vector<TileEnergy> tile_energies;    // of the last pass that was asked for them
-  std::vector<std::int32_t> first_contact;  // of each tile: contacts whose first body lies in it; and one past the end
-  Dependencies order;                       // of the tiles
+  std::vector<TileEnergy> tile_energies;  // of the last pass that was asked for them
+  // Batches of contacts of each tile: first of each in contact_batches (and one past the end).
+  std::vector<std::int32_t> first_contact_batch, contact_batches;
+  Dependencies order;  // of the tiles
 
  private:
   PatchPass patch_pass();

@@ -21,6 +21,7 @@ struct Options {
   int threads = 1;
   double seconds = 5.0;
   bool quiet = false;
+  std::string keep;
 };
 
 struct Measured {
@@ -40,6 +41,7 @@ Measured measure(Running& scene, double movable, double seconds) {
     processor.push_back(p.processor_seconds / double(p.steps));
     m.all.steps += p.steps, m.all.intact += p.intact, m.all.points += p.points, m.all.searches += p.searches;
     m.all.seconds += p.seconds, m.all.search_seconds += p.search_seconds;
+    m.all.examined += p.examined, m.all.changed += p.changed, m.all.listed += p.listed;
   }
   const auto median = [](std::vector<double>& v) {
     std::sort(v.begin(), v.end());
@@ -84,7 +86,7 @@ double peak_memory() {
 }
 
 nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
-  const auto running = begin_scene(scene, o.threads);
+  const auto running = begin_scene(scene, o.threads, o.keep);
   Running& r = *running;
   const double movable =
       double(std::count_if(r.model.bodies.begin(), r.model.bodies.end(), [](const Body& b) { return !b.fixed; }));
@@ -103,9 +105,17 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
         "\n{}: {:.0f} blocks, {:.0f} joints, {} contacts, {} thread(s), {} steps of {:.3g} s\n"
         "  {:.3f} µs per block and step ({:.3f} of processor time), {:.1f} ns per joint; {:.1f} % intact; {:.0f} % of "
         "the limit; {:.4f} simulated s per wall s\n",
-        scene.name, movable, joints, r.state.contacts.size(), o.threads, m.all.steps, r.stepper.dt,
+        scene.name, movable, joints, r.state.contact_count(), o.threads, m.all.steps, r.stepper.dt,
         1e6 * m.step / movable, 1e6 * m.processor / movable, 1e9 * m.step / joints, 100 * intact, 100 * limit,
         r.stepper.dt / m.step);
+    if (m.all.searches > 0)
+      fmt::print(
+          "  contact searches: one every {:.1f} steps, {:.3g} ms each, {:.0f} pairs examined; {:.0f} % change "
+          "contacts, "
+          "{:.1f} % list pairs anew\n",
+          double(m.all.steps) / double(m.all.searches), 1e3 * m.all.search_seconds / double(m.all.searches),
+          double(m.all.examined) / double(m.all.searches), 100.0 * double(m.all.changed) / double(m.all.searches),
+          100.0 * double(m.all.listed) / double(m.all.searches));
     fmt::print("  copy bandwidth in {:.1f} MB {:.1f} GB/s\n", 1e-6 * work.bytes, 1e-9 * bandwidth);
     if (!r.account.empty()) fmt::print("  {}\n", r.account);
   }
@@ -129,7 +139,7 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
           {"bytes_per_step", work.bytes},
           {"operations_per_step", work.operations},
           {"copy_bandwidth", bandwidth},
-          {"contacts", r.state.contacts.size()},
+          {"contacts", r.state.contact_count()},
           {"searches_per_step", double(m.all.searches) / double(m.all.steps)},
           {"limit_share", limit},
           {"sim_seconds_per_wall_second", r.stepper.dt / m.step},
@@ -152,6 +162,7 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
   described.add_options()("help,h", "this text")("list", "the scenes")(
       "threads,j", po::value<int>()->default_value(1), "threads")("seconds", po::value<double>()->default_value(5.0),
                                                                   "least wall time a scene")(
+      "keep", po::value<std::string>()->default_value(""), "folder of scenes' states, to begin from another time")(
       "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
       "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")("quiet,q",
                                                                                                           "no table");
@@ -180,6 +191,7 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
   if (o.threads < 1) throw InputError("--threads is {}; it must be at least 1", o.threads);
   o.seconds = values["seconds"].as<double>();
   o.quiet = values.count("quiet") > 0;
+  o.keep = values["keep"].as<std::string>();
   folder = values["output"].as<std::string>();
   return o;
 }

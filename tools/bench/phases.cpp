@@ -96,7 +96,7 @@ std::vector<Phase> step_phases(Running& r, std::int64_t steps) {
   std::vector<Phase> phases = {
       {"intact patches", all[0], each[0] * all[0], all[0] * intact_work(branches)},
       {"point-wise patches", all[1], each[1] * all[1], all[1] * mixed},
-      {"contacts, one by one", all[2], each[2] * all[2], {}},
+      {"contacts", all[2], each[2] * all[2], {}},
       {"gather and integrate", n_bodies, bodies / n, n_bodies * body_work(double(r.model.sums.size()) / n_bodies)},
       {"contact search", double(p.searches) / n, p.search_seconds / n, {}}};
   return phases;
@@ -131,8 +131,8 @@ double bytes_held(const Running& r) {
   for (const Array<double>* a : {&s.pose, &s.motion, &s.baseline, &s.slip, &s.branch_work}) sum += of(*a);
   sum += of(s.searched) + of(s.branch);
   for (const PatchMemory* memory : {&s.joint, &s.contact})
-    sum += of(memory->point) + of(memory->broken) + of(memory->point_branch) + of(memory->mode) + of(memory->largest) +
-           of(memory->last) + of(memory->energy);
+    sum += of(memory->point) + of(memory->point_rest) + of(memory->broken) + of(memory->point_branch) +
+           of(memory->mode) + of(memory->largest) + of(memory->last) + of(memory->energy);
   return sum;
 }
 

@@ -5,8 +5,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "geometry/generator.h"
+#include "io/hdf5/checkpoint_file.h"
 #include "solver/base/error.h"
 #include "solver/contact/search.h"
 #include "solver/modal/equilibrium.h"
@@ -126,7 +128,23 @@ Scene find_scene(const std::string& name) {
   throw InputError("unknown scene '{}'; voussoir-bench --list names them", name);
 }
 
-std::unique_ptr<Running> begin_scene(const Scene& scene, int threads) {
+namespace {
+
+/// Of the same scene and the same program.
+void recall(const std::string& path, Running& r) {
+  CheckpointHeader header;
+  const std::size_t bodies = r.state.pose.size(), joints = r.state.joint.mode.size();
+  read_checkpoint(path, header, r.state.arrays());
+  if (r.state.pose.size() != bodies || r.state.joint.mode.size() != joints)
+    throw InputError("{} is of another assembly than the scene: remove it", path);
+  r.state.unpack_contacts();
+  r.stepper.prepare();
+  r.account = "begun from " + path;
+}
+
+}  // namespace
+
+std::unique_ptr<Running> begin_scene(const Scene& scene, int threads, const std::string& keep) {
   auto running = std::make_unique<Running>();
   Running& r = *running;
   auto begin = Clock::now();
@@ -144,18 +162,23 @@ std::unique_ptr<Running> begin_scene(const Scene& scene, int threads) {
   r.stepper.threads = threads;
   r.stepper.dt = scene.step > 0.0 ? scene.step : 0.8 * critical.step * damping_step_factor(damping, critical.highest);
   begin = Clock::now();
-  update_contacts(r.model, r.state, {});
+  update_contacts(r.model, r.state, {}, true, threads);
   r.stepper.prepare();
   r.search = seconds_since(begin);
-  begin = Clock::now();
-  if (scene.settled) r.account = settle(r.stepper);
-  r.equilibrium = seconds_since(begin);
-  r.stepper.damping = damping_at_work(damping, r.stepper.dt, critical.highest);
-  set_branches(r.model, r.state, r.stepper.damping.branches.count);
-  r.stepper.search_distance = search_distance(r.model);
+  const DampingAtWork at_work = damping_at_work(damping, r.stepper.dt, critical.highest);
   r.motion = shaking();
+  const std::string path = keep.empty() ? "" : fmt::format("{}/{}.h5", keep, scene.name);
+  const bool kept = !path.empty() && std::filesystem::exists(path);
+  begin = Clock::now();
+  if (scene.settled && !kept) r.account = settle(r.stepper);
+  r.equilibrium = seconds_since(begin);
+  set_branches(r.model, r.state, at_work.branches.count);
+  if (kept) recall(path, r);
+  r.stepper.damping = at_work;
+  r.stepper.search_distance = search_distance(r.model);
   if (scene.shaken) r.stepper.motion = &r.motion;
-  advance_scene(r, std::int64_t(std::ceil(scene.before / r.stepper.dt)));
+  if (!kept) advance_scene(r, std::int64_t(std::ceil(scene.before / r.stepper.dt)));
+  if (!kept && !path.empty()) write_checkpoint(path, {}, r.state.arrays());
   return running;
 }
 
@@ -170,7 +193,10 @@ Progressed advance_scene(Running& r, std::int64_t steps) {
     p.intact += a.intact, p.points += a.points;
     if (a.outcome != StepOutcome::contacts) continue;
     const auto searching = Clock::now();
-    if (update_contacts(r.model, r.state, r.stepper.damping.branches, a.reclip).changed()) r.stepper.prepare();
+    const ContactUpdate update =
+        update_contacts(r.model, r.state, r.stepper.damping.branches, a.reclip, r.stepper.threads);
+    if (update.changed()) r.stepper.prepare_contacts();
+    p.examined += update.examined, p.changed += update.changed(), p.listed += update.listed;
     p.search_seconds += seconds_since(searching);
     ++p.searches;
   }

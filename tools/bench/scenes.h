@@ -34,10 +34,11 @@ struct Running {
   double generation = 0.0, modelling = 0.0, search = 0.0, equilibrium = 0.0;  // s of wall time
   std::string account;                                                        // of the equilibrium
 };
-std::unique_ptr<Running> begin_scene(const Scene& scene, int threads);
+std::unique_ptr<Running> begin_scene(const Scene& scene, int threads, const std::string& keep = "");
 
 struct Progressed {
-  std::int64_t steps = 0, intact = 0, points = 0, searches = 0;
+  std::int64_t steps = 0, intact = 0, points = 0;
+  std::int64_t searches = 0, examined = 0, changed = 0, listed = 0;  // pairs; searches that changed, or listed anew
   double search_seconds = 0.0, seconds = 0.0, processor_seconds = 0.0;
 };
 /// `steps` more steps, contact searches included. Throws RunError when the run goes wrong.

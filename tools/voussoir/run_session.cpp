@@ -187,7 +187,7 @@ void RunSession::write_summary(RunEnd end) {
                          {"energy_error", run.worst_balance()},
                          {"blocks", assembly_.blocks.size()},
                          {"joints", assembly_.joints.size()},
-                         {"contacts", run.state().contacts.size()},
+                         {"contacts", run.state().contact_count()},
                          {"equilibrium",
                           {{"converged", e.converged},
                            {"newton_iterations", e.iterations},

@@ -1,0 +1,133 @@
+// Eight contacts at a time, always point by point; while they stay wholly open their jump alone.
+#include "solver/contact/lane_points.h"
+
+namespace voussoir {
+
+namespace {
+
+/// As patch_jump().
+[[gnu::always_inline]] inline Jump<Lanes> contact_jump(const ContactBatch& c, const double* pose) {
+  const LanePoses a = gather(pose, c.patch.a), b = gather(pose, c.patch.b);
+  const Quat<Lanes> fa = a.q * Quat<Lanes>{c.patch.frame[0], load(c.patch.frame + 1)};
+  Quat<Lanes> fb = b.q * Quat<Lanes>{c.frame_b[0], load(c.frame_b + 1)};
+  const Lanes sign = select(less(fa.w * fb.w + dot(fa.v, fb.v), splat(0.0)), splat(-1.0), splat(1.0));
+  fb = {sign * fb.w, sign * fb.v};
+  const Quat<Lanes> relative = fb * Quat<Lanes>{fa.w, {-fa.v.x, -fa.v.y, -fa.v.z}};
+  const Lanes norm = 1.0 / square_root(2.0 + 2.0 * relative.w);
+  const Quat<Lanes> frame = {norm * (fa.w + fb.w), norm * (fa.v + fb.v)};
+  const Triple<Lanes> move_a = a.u + turn_change(a.q, load(c.patch.arm_a));
+  const Triple<Lanes> move_b = b.u + turn_change(b.q, load(c.patch.arm_b));
+  return local_jump(move_a, move_b, load(c.patch.place), load(c.shift), relative, norm, frame);
+}
+
+/// Lanes in which every point is open, judged by the gap at the centroid and how far the turn can close it.
+[[gnu::always_inline]] inline LaneMask surely_open(const ContactBatch& c, const Jump<Lanes>& gaps) {
+  const Lanes closes = (gaps.rs * gaps.rs + gaps.rt * gaps.rt) * c.reach * c.reach;
+  return less(splat(0.0), gaps.n) & less(closes, gaps.n * gaps.n);
+}
+
+template <int count>
+struct ContactPass {
+  const PatchPass& pass;
+  std::size_t k;
+  const ContactBatch& batch;
+  PatchMemory& memory;
+  std::uint8_t* mode;
+  Lanes change[6];
+
+  ContactPass(const PatchPass& p, std::size_t index)
+      : pass(p),
+        k(index),
+        batch(p.state->contact_batches[index]),
+        memory(p.state->contact),
+        mode(&memory.mode[lane_count * index]) {}
+
+  void run(PassReport& report, TileEnergy* energy) {
+    const LaneBytes modes = load_bytes(mode);
+    const LaneMask live = ~bytes_with(modes, mode_gone);
+    if (!any(live)) return;
+    const Jump<Lanes> j = contact_jump(batch, pass.state->pose.data());
+    Jump<Lanes> gaps = j;
+    gaps.n += batch.gap[0], gaps.rs += batch.gap[1], gaps.rt += batch.gap[2];
+    const LaneMask was_open = live & bytes_with(modes, mode_open);
+    const LaneMask still = was_open & surely_open(batch, gaps);
+    const LaneMask leaving = without(was_open, still), active = without(live, still);
+    for (int lane = 0; any(leaving) && lane < lane_count; ++lane)
+      if (leaving[lane]) mode[lane] &= std::uint8_t(~mode_open);
+    note_change(j, LaneMask{}, reinterpret_cast<Singles*>(&memory.last[last_index(k, 0)]), change);
+    Triple<Lanes> force{}, moment{};
+    if (any(active)) {
+      const Resultant<Lanes> nothing{};
+      world_wrench(select(active, points(gaps, active, leaving, energy), nothing), j, force, moment);
+    }
+    store_wrenches(force, moment, pass.contact_wrenches + wrench_width * lane_count * k);
+    report.reclip |= any(live & past_limits(*pass.model, batch.patch, j));
+    report.contacts += count_of(live);
+  }
+
+  [[gnu::noinline]] Resultant<Lanes> points(const Jump<Lanes>& gaps, LaneMask active, LaneMask leaving,
+                                            TileEnergy* energy) {
+    const LaneStrength strength = unbonded();
+    const PointRows rows(pass.model->rule, pass.state->contact_points, batch.patch);
+    PointsPass<count> all(batch.patch, strength, gaps, pass.branches, active, leaving, change, energy != nullptr,
+                          memory);
+    const LanePoints found = all.run(rows);
+    note(found, active);
+    if (energy) {
+      energy->elastic += sum_of(select(active, found.elastic, splat(0.0)));
+      energy->branches += sum_of(select(active, found.stored, splat(0.0)));
+    }
+    return found.resultant;
+  }
+
+  /// Contacts have no bond, and often one law each.
+  [[gnu::always_inline]] LaneStrength unbonded() const {
+    LaneStrength s{};
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const Patch& patch = pass.state->contacts[lane_count * k + std::size_t(lane)];
+      const LawConstants& law = pass.model->laws[std::size_t(patch.law)];
+      s.residual_cohesion[lane] = law.residual_cohesion;
+      s.residual_tangent[lane] = law.residual_tan_friction;
+      s.dilation[lane] = law.tan_dilation;
+    }
+    return s;
+  }
+
+  /// The gap of a contact that was found apart is no opening of a joint: it only keeps what it was handed.
+  void note(const LanePoints& found, LaneMask active) const {
+    LanePoints noted = found;
+    noted.opening = splat(0.0);
+    note_points(noted, active, lane_count, lane_count * k, memory);
+    const LaneMask open = active & found.all_open & found.all_broken;
+    for (int lane = 0; any(open) && lane < lane_count; ++lane)
+      if (open[lane]) mode[lane] |= mode_broken | mode_open;
+  }
+};
+
+template <int count>
+PassReport contacts_of(const PatchPass& pass, const std::int32_t* begin, const std::int32_t* end, TileEnergy* energy) {
+  PassReport report;
+  for (; begin != end; ++begin) ContactPass<count>(pass, std::size_t(*begin)).run(report, energy);
+  return report;
+}
+
+}  // namespace
+
+PassReport PatchPass::contacts(std::size_t tile, const std::int32_t* begin, const std::int32_t* end) const {
+  static_assert(most_branches == 4);
+  TileEnergy* energy = energies ? &energies[tile] : nullptr;
+  switch (branches.count) {
+    case 0:
+      return contacts_of<0>(*this, begin, end, energy);
+    case 1:
+      return contacts_of<1>(*this, begin, end, energy);
+    case 2:
+      return contacts_of<2>(*this, begin, end, energy);
+    case 3:
+      return contacts_of<3>(*this, begin, end, energy);
+    default:
+      return contacts_of<4>(*this, begin, end, energy);
+  }
+}
+
+}  // namespace voussoir
