@@ -106,8 +106,9 @@ struct LaneTrial {
 };
 
 /// The points of eight patches whose jump, gaps included, is `jump`, and has changed by `change` since the pass before.
-/// Lanes that are `following` were wholly open in it: their plastic slip was the jump. First all points are tried, then
-/// all entered: a step that asked at every point what it is about to do would mostly guess wrong.
+/// Lanes that are `following` were wholly open in it: their plastic slip was the jump. Every point computes all it
+/// might need but a root and a quotient: a step that asked at every point what it is about to do would mostly guess
+/// wrong.
 template <int count>
 struct PointsPass {
   const LaneStrength& law;
@@ -152,26 +153,12 @@ struct PointsPass {
                    zero,
                    active,
                    active};
-    constexpr int most = 16;
-    LaneTrial trial[most];
-    for (int n = most; n == most;) {
-      PointRows again = at;
-      LaneMask yields = following, slides{};
-      for (n = 0; n < most && at.next(); ++n) {
-        trial[n] = try_point(n, at.s, at.t);
-        yields |= active & (trial[n].breaks | trial[n].open | trial[n].slides);
-        slides |= active & trial[n].slides;
-      }
-      for (int i = 0; i < n; ++i) {
-        again.next();
-        if (any(slides))
-          enter<true, true>(i, again, trial[i], sum);
-        else if (any(yields))
-          enter<true, false>(i, again, trial[i], sum);
-        else
-          enter<false, false>(i, again, trial[i], sum);
-      }
-      plastic += 2 * n, rest += 2 * n, kept += 3 * count * n, broken += lane_count * n;
+    for (int i = 0; at.next(); ++i) {
+      const LaneTrial trial = try_point(i, at.s, at.t);
+      if (any(active & trial.slides))
+        enter<true>(i, at, trial, sum);
+      else
+        enter<false>(i, at, trial, sum);
     }
     return sum;
   }
@@ -199,45 +186,43 @@ struct PointsPass {
     return e;
   }
 
-  template <bool yields, bool slides>
+  template <bool slides>
   [[gnu::always_inline]] void enter(int i, const PointRows& at, const LaneTrial& e, LanePoints& sum) const {
     const Lanes zero = splat(0.0), s = at.s, t = at.t, w = at.weight;
     const auto [n0, s0, t0] = e.now;
     const LaneMask is_broken = e.was_broken | e.breaks;
-    const LaneMask elastic = yields ? ~(e.open | e.slides | e.breaks) : ~LaneMask{};
+    const LaneMask elastic = ~(e.open | e.slides | e.breaks);
     Lanes slip = zero, keep = splat(1.0);
     if constexpr (slides) {
       const Lanes shear = square_root(e.shear2);
       slip = select(e.slides, (shear - e.limit) * ease, zero);
       keep = select(e.slides, 1.0 - ks * slip / shear, keep);
     }
-    Triple<Lanes> v = e.now;
-    if constexpr (yields)
-      v = {select(e.open, zero, n0 - slip * law.dilation), select(e.open, zero, keep * s0),
-           select(e.open, zero, keep * t0)};
-    const Triple<Lanes> before = e.now - e.du, now = v;
-    Lanes moved_s = e.plastic_s, moved_t = e.plastic_t;
-    if constexpr (yields) {
-      const LaneMask changes = active & (e.open | e.slides | e.breaks | following);
-      moved_s = e.plastic_s + select(e.open, s0, (1.0 - keep) * s0);
-      moved_t = e.plastic_t + select(e.open, t0, (1.0 - keep) * t0);
+    const Triple<Lanes> now = {select(e.open, zero, n0 - slip * law.dilation), select(e.open, zero, keep * s0),
+                               select(e.open, zero, keep * t0)};
+    const Triple<Lanes> before = e.now - e.du;
+    const LaneMask changes = active & (e.open | e.slides | e.breaks | following);
+    const Lanes moved_s = e.plastic_s + select(e.open, s0, (1.0 - keep) * s0);
+    const Lanes moved_t = e.plastic_t + select(e.open, t0, (1.0 - keep) * t0);
+    if (any(changes)) {  // most points rest, and what is not written need not be written back
       if (dilates) store_lanes(changes, select(e.open, zero, e.plastic_n + slip * law.dilation), rest[2 * i]);
       store_lanes(changes, moved_s, plastic[2 * i]);
       store_lanes(changes, moved_t, plastic[2 * i + 1]);
-      // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more:
-      // by the traction at the end alone the ledger would leak in proportion to the step.
-      const Lanes lost_shear = 0.5 * ks *
-                               ((now.y + before.y) * e.du.y + (now.z + before.z) * e.du.z -
-                                (now.y * now.y + now.z * now.z) + (before.y * before.y + before.z * before.z));
-      const Lanes lost_normal = 0.5 * kn * ((now.x + before.x) * e.du.x - now.x * now.x + before.x * before.x);
-      sum.friction += select(without(e.was_broken, elastic), w * (lost_shear + kn * now.x * law.dilation * slip), zero);
-      sum.fracture += select(e.breaks, w * (lost_shear + lost_normal), zero);
     }
+    // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by
+    // the traction at the end alone the ledger would leak in proportion to the step.
+    const Lanes lost_shear = 0.5 * ks *
+                             ((now.y + before.y) * e.du.y + (now.z + before.z) * e.du.z -
+                              (now.y * now.y + now.z * now.z) + (before.y * before.y + before.z * before.z));
+    const Lanes lost_normal = 0.5 * kn * ((now.x + before.x) * e.du.x - now.x * now.x + before.x * before.x);
+    sum.friction += select(without(e.was_broken, elastic), w * (lost_shear + kn * now.x * law.dilation * slip), zero);
+    sum.fracture += select(e.breaks, w * (lost_shear + lost_normal), zero);
     // Broken, and broken with empty branches.
     const LaneMask broken_now = (active & is_broken) | without(e.was_broken, active);
     const LaneMask idle_now = without(active, elastic) | without(e.was_idle, active);
     if (any((broken_now ^ e.was_broken) | (idle_now ^ e.was_idle)))
       store_flags(broken_now, idle_now, broken + lane_count * i);
+    Triple<Lanes> v = now;
     if constexpr (count > 0) {
       const LaneMask opened = e.was_broken & less(zero, before.x), live = active & elastic;
       const Triple<Lanes> since = {now.x - select(opened, zero, before.x), now.y - before.y, now.z - before.z};

@@ -1,0 +1,137 @@
+// What a contact search looks at, and where the contacts it finds live.
+#include "solver/contact/search.h"
+
+#include "solver/contact/contact_slots.h"
+#include "solver/contact/pairs.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+/// Cubes of 0.5 m in a row on a slab, `gap` m apart, none joined to another.
+std::unique_ptr<Bench> row_of_cubes(int count, double gap) {
+  Assembly assembly = stone(2000.0, 1e9, 0.5);
+  const double length = count * (0.5 + gap);
+  add_box(assembly, {-1, -1, -0.5}, {length + 1, 1.5, 0}, true);
+  for (int i = 0; i < count; ++i) {
+    const double x = i * (0.5 + gap);
+    add_box(assembly, {x, 0, 0}, {x + 0.5, 0.5, 0.5});
+  }
+  auto bench = std::make_unique<Bench>(joined(std::move(assembly), 1e9, 4e8, dry_law(0.5)));
+  bench->begin(1e-5);
+  return bench;
+}
+
+void move_all(Bench& bench, int count, const Vec3& by, const Eigen::Quaterniond& turn) {
+  const Vec3 about(0.3, 0.2, 0.1);
+  for (int i = 1; i <= count; ++i) {
+    const Vec3 arm = bench.assembly.blocks[std::size_t(i)].centroid - about;
+    bench.place(i, by + turn * arm - arm, turn);
+  }
+}
+
+/// A search that follows from a move of many skins, but of all alike, examines nobody: not even after a turn.
+TEST(Search, AsksNothingOfWhatMovesTogether) {
+  constexpr int count = 5;
+  const auto made = row_of_cubes(count, 0.05);
+  Bench& bench = *made;
+  const double skin_width = skin(bench.model);
+  ASSERT_LT(skin_width, 0.05);
+  EXPECT_GT(update_contacts(bench.model, bench.state, {}, false).examined, 0) << "the first search knows nothing";
+  EXPECT_EQ(update_contacts(bench.model, bench.state, {}, false).examined, 0);
+  // The slab is no neighbour any more once they hang above it.
+  move_all(bench, count, {0.0, 0.0, 1.0}, Eigen::Quaterniond::Identity());
+  update_contacts(bench.model, bench.state, {}, false);
+  for (int i = 1; i <= 10; ++i) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.02 * i, Vec3(1, 2, 3).normalized()));  // boxes stay alike
+    move_all(bench, count, {0.0, 0.0, 3.0 + 0.02 * i}, turn);
+    EXPECT_EQ(update_contacts(bench.model, bench.state, {}, false).examined, 0) << i;
+  }
+  // One of them leaves the row: its pairs alone.
+  bench.pose(3)[1] += 2.0 * skin_width;
+  const ContactUpdate update = update_contacts(bench.model, bench.state, {}, false);
+  EXPECT_EQ(update.examined, 2);
+  EXPECT_EQ(update.made, 0);
+}
+
+/// Nothing slips through: however it comes, there is a contact before the cells overlap.
+TEST(Search, FindsWhatComesFromAfarBeforeItTouches) {
+  const auto made = row_of_cubes(2, 0.5);
+  Bench& bench = *made;
+  const double least = search_share * skin(bench.model);  // the farthest a body goes before a search
+  for (const Vec3& way : std::vector<Vec3>{Vec3(-1, 0, 0), Vec3(-1, 0.3, 0.2), Vec3(-1, 0, -0.02)}) {
+    bench.state = fresh_state(bench.model);
+    update_contacts(bench.model, bench.state, {}, false);
+    Vec3 at(0, 0, 0.2);
+    const Vec3 step = 0.99 * least * way.normalized();
+    bool found = false;
+    for (int i = 0; i < 300 && !found; ++i) {
+      bench.place(2, at += step, Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Vec3::UnitY())));
+      bench.place(1, {0, 0, 0.2}, Eigen::Quaterniond::Identity());
+      const ContactUpdate update = update_contacts(bench.model, bench.state, {}, false);
+      for (const Patch& p : bench.state.contacts)
+        found |= p.point_count > 0 && std::min(p.a, p.b) != bench.body(0) && std::max(p.a, p.b) != bench.body(0);
+      if (!found) {
+        EXPECT_EQ(bench.overlap(1, 2), 0.0) << i << ", " << update.examined << " examined";
+      }
+      if (bench.overlap(1, 2) > 0.0) break;
+    }
+    EXPECT_TRUE(found);
+  }
+}
+
+NewContact between(std::int32_t a, std::int32_t b, std::size_t points) {
+  NewContact c;
+  c.patch.a = a, c.patch.b = b, c.patch.kn = c.patch.ks = 1e9, c.patch.area = 0.1;
+  for (std::size_t i = 0; i < points; ++i) c.points.push_back({0.1 * double(i), 0.0, 0.1 / double(points)});
+  c.corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  c.memory.assign(4 * points, 0.0);
+  return c;
+}
+
+TEST(ContactSlots, AreReusedAndNeverMoved) {
+  const auto made = row_of_cubes(3, 0.3);
+  State& state = made->state;
+  std::vector<std::size_t> taken;
+  {
+    ContactSlots slots(state, {});
+    for (int i = 0; i < 11; ++i) taken.push_back(slots.add(between(1, 2, 9)));
+    EXPECT_EQ(slots.add(between(1, 3, 1)), 16u) << "a batch of its own: it has one point";
+  }
+  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i], i);
+  EXPECT_EQ(state.contacts.size(), 24u);
+  EXPECT_EQ(state.contact_count(), 12);
+  state.contact.energy[3 * 4] = 7.0;
+  {
+    ContactSlots slots(state, {});
+    slots.remove(9), slots.remove(4);
+    EXPECT_EQ(slots.add(between(2, 3, 7)), 4u) << "the lowest that is free";
+  }
+  EXPECT_EQ(state.retired_energy()[0], 7.0);
+  EXPECT_EQ(state.contact.energy[3 * 4], 0.0);
+  EXPECT_FALSE(state.has_contact(9));
+  ContactSlots again(state, {});  // knows from the state alone what is free
+  EXPECT_EQ(again.add(between(1, 2, 9)), 9u);
+  EXPECT_EQ(again.add(between(1, 2, 9)), 11u);
+  // Seven points in nine rows: the two that are missing weigh nothing.
+  const Patch& p = state.contacts[4];
+  double weight = 0.0;
+  for (int i = 0; i < 9; ++i) weight += patch_point(p, state.contact_points, i).weight;
+  EXPECT_NEAR(weight, 0.1, 1e-15);
+}
+
+/// A spring without limits stays the spring it is, however far it turns.
+TEST(Search, LeavesElasticJointsWhereTheyAre) {
+  Assembly assembly = stone(2000.0, 1e9, 0.5);
+  add_box(assembly, {0, 0, -0.5}, {0.5, 0.5, 0}, true);
+  add_box(assembly, {0, 0, 0}, {0.5, 0.5, 0.5});
+  Bench bench(joined(std::move(assembly), 4e9, 1.6e9, elastic_law()));
+  bench.begin(1e-5);
+  bench.place(1, {0.2, 0, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vec3::UnitX())));
+  const ContactUpdate update = update_contacts(bench.model, bench.state, {});
+  EXPECT_EQ(update.clipped + update.dropped, 0);
+  EXPECT_FALSE(bench.state.joint.mode[0] & mode_gone);
+}
+
+}  // namespace
+}  // namespace voussoir::test
