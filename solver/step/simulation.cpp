@@ -21,6 +21,19 @@ double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
 }
 
+/// Adds the wall time from its making to its end to a sum.
+class Timed {
+ public:
+  explicit Timed(double& sum) : sum_(sum) {}
+  ~Timed() { sum_ += seconds_since(begun_); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& sum_;
+  Clock::time_point begun_ = Clock::now();
+};
+
 constexpr std::size_t least_joints_per_thread = 500;  // below, the hand-over costs more than the share saves
 constexpr double confirm_margin = 0.02;   // of the multiplier: dynamic runs confirm it from below and from above
 constexpr int frequencies_compared = 6;   // of mass scaling, with and without
@@ -62,6 +75,18 @@ double Simulation::end_time() const {
   double end = 0.0;
   for (const StageSettings& stage : settings_.stages) end += stage.duration;
   return end;
+}
+
+void Simulation::write_fields() {
+  if (!observers_.fields) return;
+  const Timed timed(costs_.fields);
+  observers_.fields(*this);
+}
+
+void Simulation::write_checkpoint(bool stage_end) {
+  if (!observers_.checkpoint) return;
+  const Timed timed(costs_.checkpoints);
+  observers_.checkpoint(*this, stage_end);
 }
 
 bool Simulation::stopped() const {
@@ -173,6 +198,7 @@ void Simulation::choose_step() {
 }
 
 bool Simulation::gravity(const StageSettings& stage) {
+  const Timed timed(costs_.equilibrium);
   stepper_.damping = DampingAtWork{};
   set_branches(model_, state_, 0);
   const double tolerance = settings_.step.equilibrium_tolerance;
@@ -280,12 +306,13 @@ void Simulation::begin_stage(const StageSettings& stage) {
     set_branches(model_, state_, damping.branches.count);
     stepper_.damping = damping;
     log(damping.account);
-    if (!stage.placements.empty() && observers_.fields) observers_.fields(*this);  // where they are let go
+    if (!stage.placements.empty()) write_fields();  // where they are let go
   }
   position_.stage_begun = 1.0;
 }
 
 void Simulation::change_contacts() {
+  const Timed timed(costs_.searches);
   const ContactUpdate update =
       update_contacts(model_, state_, stepper_.damping.branches, last_.reclip, stepper_.threads);
   if (!update.changed()) return;
@@ -320,6 +347,7 @@ Vec3 Simulation::reaction(const BodyPass& pass, const std::string& group) const 
 }
 
 void Simulation::sample(const BodyPass& pass) {
+  const Timed timed(costs_.history);
   Sample s;
   s.time = state_.time();
   s.energies = compute_energies(stepper_, pass);
@@ -381,8 +409,11 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     const auto left = std::max<std::int64_t>(1, std::int64_t(std::ceil((next - state_.time()) / stepper_.dt - 1e-6)));
     const std::int64_t piece =
         std::min<std::int64_t>(left, std::max<std::int64_t>(50, 4000000 / std::int64_t(model_.joints.size() + 1)));
+    const double sampled = costs_.history;
+    const Clock::time_point begun = Clock::now();
     last_ = stepper_.advance(
         state_.step() + piece, every, [&](const BodyPass& pass) { sample(pass); }, observers_.stop);
+    costs_.steps += seconds_since(begun) - (costs_.history - sampled);
     if (last_.outcome == StepOutcome::runaway || exploded_) {
       failure_ = last_.outcome == StepOutcome::runaway
                      ? fmt::format(
@@ -399,14 +430,14 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     }
     if (last_.outcome == StepOutcome::contacts) change_contacts();
     if (last_.outcome == StepOutcome::interrupted || stopped()) {
-      if (observers_.checkpoint) observers_.checkpoint(*this, false);
+      write_checkpoint(false);
       return RunEnd::interrupted;
     }
     const double slack = 1e-6 * stepper_.dt;
-    if (state_.time() >= fields_at - slack && observers_.fields) observers_.fields(*this);
+    if (state_.time() >= fields_at - slack) write_fields();
     const bool wall = seconds_since(saved_) > output.checkpoint_wall;
     if ((state_.time() >= save_at - slack || wall) && state_.time() < end - slack && observers_.checkpoint) {
-      observers_.checkpoint(*this, false);
+      write_checkpoint(false);
       saved_ = Clock::now();
     }
     report_progress(false, fmt::format("{:.1f} % of patches point by point",
@@ -423,8 +454,7 @@ RunEnd Simulation::run(double until) {
     stepper_.prepare_contacts();
   }
   // A checkpoint before anything else: whatever happens in the first stage, there is something to resume from.
-  if (position_.stage == 0 && position_.stage_begun == 0.0 && observers_.checkpoint)
-    observers_.checkpoint(*this, false);
+  if (position_.stage == 0 && position_.stage_begun == 0.0) write_checkpoint(false);
   while (position_.stage < std::int64_t(settings_.stages.size())) {
     const StageSettings& stage = settings_.stages[position_.stage];
     log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));
@@ -439,8 +469,8 @@ RunEnd Simulation::run(double until) {
     }
     ++position_.stage;
     position_.stage_begun = 0.0;
-    if (observers_.fields) observers_.fields(*this);
-    if (observers_.checkpoint) observers_.checkpoint(*this, true);
+    write_fields();
+    write_checkpoint(true);
     saved_ = Clock::now();
   }
   report_progress(true, "");

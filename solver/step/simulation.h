@@ -45,6 +45,12 @@ struct Observers {
   const std::atomic<bool>* stop = nullptr;  // set by a signal: the run stops at the next step
 };
 
+/// Where the wall time of a run has gone, s; of this part of it, if it was resumed.
+struct RunCosts {
+  double equilibrium = 0.0, steps = 0.0, searches = 0.0;
+  double history = 0.0, fields = 0.0, checkpoints = 0.0;  // by the observers; history with its energies
+};
+
 enum class RunEnd { finished, interrupted, failed };
 
 /// What must be known beside the state's arrays to go on exactly where a run stopped.
@@ -82,6 +88,7 @@ class Simulation {
   const Collapse& collapse() const { return collapse_; }        // of a collapse stage, empty without
   const MassScaling& mass_scaling() const { return scaling_; }  // once the step is chosen
   int threads() const { return stepper_.threads; }
+  const RunCosts& costs() const { return costs_; }
   double end_time() const;                                                               // s, of all stages
   double worst_balance() const { return worst_balance_; }                                // largest share so far
   void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }  // of the part before a restart
@@ -105,6 +112,8 @@ class Simulation {
   void scale_and_say();
   void choose_step();
   double contact_bound() const;
+  void write_fields();
+  void write_checkpoint(bool stage_end);
   void report_progress(bool force, const std::string& note);
   void log(const std::string& text) const;
 
@@ -121,6 +130,7 @@ class Simulation {
   std::vector<std::string> held_groups_;
   std::string failure_;
   Advance last_;
+  RunCosts costs_;
   double worst_balance_ = 0.0;
   bool exploded_ = false;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;

@@ -79,6 +79,7 @@ namespace {
 nlohmann::json essence(const std::string& run_directory) {
   nlohmann::json json = summary(run_directory);
   json.erase("wall_seconds");
+  json.erase("seconds_of_this_part");
   json.erase("threads");
   return json;
 }

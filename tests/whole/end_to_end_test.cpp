@@ -60,6 +60,10 @@ TEST(EndToEnd, SummaryHasTheKeysThatScriptsRead) {
   EXPECT_NEAR(json.at("end_time").get<double>(), 0.6, 1e-3);
   EXPECT_GT(json.at("steps").get<int>(), 1000);
   EXPECT_GT(json.at("wall_seconds").get<double>(), 0.0);
+  double known = 0.0;
+  for (const auto& [what, seconds] : json.at("seconds_of_this_part").items()) known += seconds.get<double>();
+  EXPECT_GT(json.at("seconds_of_this_part").at("steps").get<double>(), 0.0);
+  EXPECT_LE(known, json.at("wall_seconds").get<double>());
   EXPECT_EQ(json.at("threads").get<int>(), 1);  // 99 joints are not worth two
   EXPECT_EQ(json.at("state_hash").get<std::string>().size(), 16u);
   EXPECT_EQ(json.at("state_hash").get<std::string>().find_first_not_of("0123456789abcdef"), std::string::npos);

@@ -85,7 +85,8 @@ TEST(Modal, AfterDamageSaysTheFrequencyDrop) {
     least = std::min(least, pair["change"].get<double>());
   }
   EXPECT_LT(least, -0.05) << outcome.out;
-  expect_error(voussoir({"modal", "run", "--state", "intact"}, {.folder = folder.path()}), 2, {"--state is for a case"});
+  expect_error(voussoir({"modal", "run", "--state", "intact"}, {.folder = folder.path()}), 2,
+               {"--state is for a case"});
   // A checkpoint of the intact beginning: no drop at all.
   std::string begin;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "run/checkpoints"))
@@ -142,9 +143,9 @@ TEST(Modal, AgainstAnotherStructureIsRefused) {
   folder.write("column.toml", column);
   write_wall(folder);
   ASSERT_EQ(voussoir({"modal", "column.toml", "-q", "--no-pictures"}, {.folder = folder.path()}).status, 0);
-  expect_error(voussoir({"modal", "wall.toml", "-o", "out", "--against", "column-modes/modes.h5"},
-                        {.folder = folder.path()}),
-               2, {"same structure"});
+  expect_error(
+      voussoir({"modal", "wall.toml", "-o", "out", "--against", "column-modes/modes.h5"}, {.folder = folder.path()}), 2,
+      {"same structure"});
 }
 
 TEST(Modal, OfWhatCannotMoveIsRefused) {

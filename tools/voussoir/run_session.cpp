@@ -193,6 +193,10 @@ void RunSession::write_summary(RunEnd end) {
                            {"newton_iterations", e.iterations},
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}}};
+  const RunCosts& costs = run.costs();
+  json["seconds_of_this_part"] = {
+      {"equilibrium", costs.equilibrium}, {"steps", costs.steps},   {"contact_searches", costs.searches},
+      {"history", costs.history},         {"fields", costs.fields}, {"checkpoints", costs.checkpoints}};
   if (const MassScaling& scaling = run.mass_scaling(); scaling.at_work())
     json["mass_scaling"] = {{"share", scaling.share},
                             {"blocks", scaling.bodies},
