@@ -122,6 +122,7 @@ bool Simulation::scales_mass() const {
 void Simulation::scale() {
   scaling_ =
       scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
+  joint_bound_.clear();
 }
 
 void Simulation::restore(const RunPosition& position) {
@@ -134,22 +135,34 @@ void Simulation::restore(const RunPosition& position) {
   }
 }
 
+namespace {
+
+/// Adds to both bodies a patch's stiffness over their mass, times `sign`.
+void add_bound(const Model& model, const Patch& p, double sign, std::vector<double>& bound) {
+  for (const auto& [body, arm] : {std::pair{p.a, p.arm_a}, std::pair{p.b, p.arm_b}}) {
+    const Body& b = model.bodies[std::size_t(body)];
+    if (b.still()) continue;
+    const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
+    const double inertia = b.inertia.diagonal().minCoeff();
+    bound[std::size_t(body)] +=
+        sign * std::max(p.kn, p.ks) * (p.area / b.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
+  }
+}
+
+}  // namespace
+
 /// Σ over a body's patches of stiffness over mass: bodies whose bound stays below the assembly's largest cannot have
 /// lowered the critical step, so that most new contacts need no new power iteration.
-double Simulation::contact_bound() const {
-  std::vector<double> bound(model_.bodies.size(), 0.0);
-  const auto add = [&](const Patch& p) {
-    for (const auto& [body, arm] : {std::pair{p.a, p.arm_a}, std::pair{p.b, p.arm_b}}) {
-      const Body& b = model_.bodies[body];
-      if (b.still()) continue;
-      const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
-      const double inertia = b.inertia.diagonal().minCoeff();
-      bound[body] += std::max(p.kn, p.ks) * (p.area / b.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
-    }
-  };
+double Simulation::contact_bound() {
+  if (joint_bound_.empty()) {  // those of the joints stay until joints go
+    joint_bound_.assign(model_.bodies.size(), 0.0);
+    for (const Patch& p : model_.joints) add_bound(model_, p, 1.0, joint_bound_);
+  }
+  std::vector<double> bound = joint_bound_;
   for (std::size_t i = 0; i < model_.joints.size(); ++i)
-    if (!(state_.joint.mode[i] & mode_gone)) add(model_.joints[i]);
-  for (const Patch& p : state_.contacts) add(p);
+    if (state_.joint.mode[i] & mode_gone) add_bound(model_, model_.joints[i], -1.0, bound);
+  for (std::size_t i = 0; i < state_.contacts.size(); ++i)
+    if (state_.has_contact(i)) add_bound(model_, state_.contacts[i], 1.0, bound);
   return *std::max_element(bound.begin(), bound.end());
 }
 
@@ -319,7 +332,7 @@ void Simulation::change_contacts() {
   stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
   const double bound = contact_bound();
-  if (bound <= position_.stiffest) return;
+  if (bound <= position_.stiffest * (1.0 + 1e-9)) return;  // but for rounding
   position_.stiffest = bound;
   if (settings_.step.time_step > 0.0) return;  // the user's own step is the user's
   const CriticalStep critical = critical_step(model_, state_);
