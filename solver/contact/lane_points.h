@@ -66,8 +66,8 @@ struct LaneStrength {
 
 /// What the point path found of its lanes.
 struct LanePoints {
-  Resultant<Lanes> resultant;
-  Lanes friction, fracture, work, opening, slip2, elastic, stored;
+  Resultant<Lanes> resultant{};
+  Lanes friction{}, fracture{}, work{}, opening{}, slip2{}, elastic{}, stored{};
   LaneMask all_open, all_broken;
 };
 
@@ -142,17 +142,8 @@ struct PointsPass {
         broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {}
 
   LanePoints run(PointRows at) {
-    const Lanes zero = splat(0.0);
-    LanePoints sum{{zero, zero, zero, zero, zero, zero, zero, zero, zero},
-                   zero,
-                   zero,
-                   zero,
-                   zero,
-                   zero,
-                   zero,
-                   zero,
-                   active,
-                   active};
+    LanePoints sum;
+    sum.all_open = sum.all_broken = active;
     for (int i = 0; at.next(); ++i) {
       const LaneTrial trial = try_point(i, at.s, at.t);
       if (any(active & trial.slides))
