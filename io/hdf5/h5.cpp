@@ -113,6 +113,20 @@ File::File(std::string path, Handle handle, std::unique_ptr<Memory> memory)
 File::File(File&&) noexcept = default;
 File::~File() = default;
 
+namespace {
+
+/// Links and attributes in the object's header, however many: with too many for it HDF5 puts them into a fractal heap,
+/// and 1.10.8 frees what is not its own when it meets damage in the header of one. No times: equal contents give equal
+/// files.
+void set_object_properties(const Handle& creation) {
+  constexpr unsigned many = 10000;
+  H5Pset_link_phase_change(creation.id(), many, many);
+  H5Pset_attr_phase_change(creation.id(), many, many);
+  H5Pset_obj_track_times(creation.id(), false);
+}
+
+}  // namespace
+
 File File::create(const std::string& path) {
   be_silent();
   auto memory = std::make_unique<Memory>();
@@ -127,7 +141,7 @@ File File::create(const std::string& path) {
   // HDF5 tells files in memory apart by name, and two files may be built for one path.
   const std::string name = fmt::format("memory {}", fmt::ptr(memory.get()));
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.id(), false);  // of the root group
+  set_object_properties(creation);  // of the root group
   Handle file(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
   if (!file.valid()) throw RunError("cannot write {}: {}", path, last_reason());
   return File(path, std::move(file), std::move(memory));
@@ -282,7 +296,7 @@ void File::make_group(const std::string& name) {
   // One by one: groups that HDF5 makes on the way to another carry the time of day.
   if (const std::size_t slash = name.rfind('/'); slash != std::string::npos) make_group(name.substr(0, slash));
   const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.id(), false);
+  set_object_properties(creation);
   const Handle group(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose);
   if (!group.valid()) throw RunError("cannot write {}: {}: {}", path_, name, last_reason());
 }
