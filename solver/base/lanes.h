@@ -14,11 +14,31 @@ namespace voussoir {
 constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
 using Singles = float __attribute__((vector_size(4 * lane_count)));  // half the bytes, where seven digits do
+using Pairs = float __attribute__((vector_size(8 * lane_count)));    // two of them
 using LaneInts = std::int64_t __attribute__((vector_size(8 * lane_count)));
+using SingleInts = std::int32_t __attribute__((vector_size(4 * lane_count)));
 using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
 
 [[gnu::always_inline]] inline Lanes splat(double x) {
   return Lanes{x, x, x, x, x, x, x, x};
+}
+[[gnu::always_inline]] inline Singles singles(double x) {
+  const auto f = float(x);
+  return Singles{f, f, f, f, f, f, f, f};
+}
+[[gnu::always_inline]] inline Pairs pair(Singles low, Singles high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+[[gnu::always_inline]] inline Singles low(Pairs x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+[[gnu::always_inline]] inline Singles high(Pairs x) {
+  return __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+[[gnu::always_inline]] inline Pairs load_pair(const Singles* rows) {
+  Pairs x;
+  std::memcpy(&x, rows, sizeof(x));
+  return x;
 }
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
@@ -50,9 +70,23 @@ struct LaneMask {
 [[gnu::always_inline]] inline Lanes square_root(Lanes x) {
   return _mm512_sqrt_pd(x);
 }
+[[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
+  return _mm512_max_pd(a, b);
+}
+/// Both halves in the lanes of the mask, zero elsewhere.
+[[gnu::always_inline]] inline Pairs where(LaneMask m, Pairs x) {
+  return _mm512_maskz_mov_ps(__mmask16(m.bits | m.bits << 8), x);
+}
 /// Lanes of the mask alone are written.
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
   _mm512_mask_store_pd(&to, m.bits, x);
+}
+[[gnu::always_inline]] inline void store_lanes(LaneMask m, Singles x, Singles& to) {
+  const __m512 wide = _mm512_castps256_ps512(x);
+  _mm512_mask_storeu_ps(&to, m.bits, wide);
+}
+[[gnu::always_inline]] inline void store_pair(LaneMask m, Pairs x, Singles* rows) {
+  _mm512_mask_storeu_ps(rows, __mmask16(m.bits | m.bits << 8), x);
 }
 [[gnu::always_inline]] inline bool any(LaneMask m) {
   return m.bits != 0;
@@ -103,8 +137,24 @@ struct LaneMask {
   for (int i = 0; i < lane_count; ++i) r[i] = std::sqrt(x[i]);
   return r;
 }
+[[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
+  return a > b ? a : b;
+}
+[[gnu::always_inline]] inline Singles select(LaneMask m, Singles a, Singles b) {
+  return __builtin_convertvector(m.bits, SingleInts) ? a : b;
+}
+[[gnu::always_inline]] inline Pairs where(LaneMask m, Pairs x) {
+  return pair(select(m, low(x), Singles{}), select(m, high(x), Singles{}));
+}
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
   to = select(m, x, to);
+}
+[[gnu::always_inline]] inline void store_lanes(LaneMask m, Singles x, Singles& to) {
+  to = select(m, x, to);
+}
+[[gnu::always_inline]] inline void store_pair(LaneMask m, Pairs x, Singles* rows) {
+  store_lanes(m, low(x), rows[0]);
+  store_lanes(m, high(x), rows[1]);
 }
 [[gnu::always_inline]] inline int count_of(LaneMask m) {
   std::int64_t n = 0;
@@ -131,22 +181,16 @@ struct LaneMask {
 [[gnu::always_inline]] inline LaneMask without(LaneMask a, LaneMask b) {
   return a & ~b;
 }
-[[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
-  return select(less(b, a), a, b);
-}
-
-[[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Singles& to) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-  _mm256_mask_store_ps(reinterpret_cast<float*>(&to), m.bits, narrow(x));
-#else
-  to = narrow(select(m, x, widen(to)));
-#endif
-}
 
 /// A byte a lane: 1 where `first`, 2 where `second`, or their sum.
 [[gnu::always_inline]] inline void store_flags(LaneMask first, LaneMask second, std::uint8_t* bytes) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__BMI2__)
+  const std::uint64_t packed = _pdep_u64(first.bits, 0x0101010101010101) | _pdep_u64(second.bits, 0x0202020202020202);
+  std::memcpy(bytes, &packed, lane_count);
+#else
   for (int lane = 0; lane < lane_count; ++lane)
     bytes[lane] = std::uint8_t((first[lane] ? 1 : 0) + (second[lane] ? 2 : 0));
+#endif
 }
 
 /// The first `count` bytes, zeros in the other lanes.

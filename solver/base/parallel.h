@@ -1,6 +1,7 @@
 // The only place that knows about threads. Loops have fixed order and one writer per output, so results have the same
 // bits for any number of threads.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -57,5 +58,19 @@ void run_rounds(int threads, const Dependencies& items, RoundKind begin, const R
 /// Runs `work(thread, team, barrier)` once in each of `team` threads: `threads`, or fewer where the system grants
 /// fewer.
 void run_team(int threads, const std::function<void(int, int, Barrier&)>& work);
+
+/// Runs `work(thread, range)` over contiguous shares of [0, n), in as many threads as get `least` each.
+template <class Work>
+void share_out(std::size_t n, int threads, std::size_t least, const Work& work) {
+  const int team = int(std::clamp<std::size_t>(n / least, 1, std::size_t(std::max(1, threads))));
+  run_team(team, [&](int thread, int size, Barrier&) { work(thread, share(n, thread, size)); });
+}
+/// The same item by item: `work(i)`.
+template <class Work>
+void for_each(std::size_t n, int threads, std::size_t least, const Work& work) {
+  share_out(n, threads, least, [&](int, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) work(i);
+  });
+}
 
 }  // namespace voussoir

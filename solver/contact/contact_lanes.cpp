@@ -69,10 +69,12 @@ struct ContactPass {
                                             TileEnergy* energy) {
     const LaneStrength strength = unbonded();
     const PointRows rows(pass.model->rule, pass.state->contact_points, batch.patch);
-    PointsPass<count> all(batch.patch, strength, gaps, pass.branches, active, leaving, change, energy != nullptr,
-                          memory);
-    const LanePoints found = all.run(rows);
-    note(found, active);
+    PointsPass<count, true> all(batch.patch, strength, gaps, pass.branches, active, leaving, change, energy != nullptr,
+                                memory);
+    LanePoints found = all.run(rows);
+    found.opening = splat(0.0);  // the gap of a contact that was found apart is no opening: it keeps what it was handed
+    note_points(found, active, lane_count, lane_count * k, memory);
+    note_open(active & found.all_open & found.all_broken);
     if (energy) {
       energy->elastic += sum_of(select(active, found.elastic, splat(0.0)));
       energy->branches += sum_of(select(active, found.stored, splat(0.0)));
@@ -84,8 +86,7 @@ struct ContactPass {
   [[gnu::always_inline]] LaneStrength unbonded() const {
     LaneStrength s{};
     for (int lane = 0; lane < lane_count; ++lane) {
-      const Patch& patch = pass.state->contacts[lane_count * k + std::size_t(lane)];
-      const LawConstants& law = pass.model->laws[std::size_t(patch.law)];
+      const LawConstants& law = pass.model->laws[std::size_t(batch.patch.law_of[lane])];
       s.residual_cohesion[lane] = law.residual_cohesion;
       s.residual_tangent[lane] = law.residual_tan_friction;
       s.dilation[lane] = law.tan_dilation;
@@ -93,12 +94,7 @@ struct ContactPass {
     return s;
   }
 
-  /// The gap of a contact that was found apart is no opening of a joint: it only keeps what it was handed.
-  void note(const LanePoints& found, LaneMask active) const {
-    LanePoints noted = found;
-    noted.opening = splat(0.0);
-    note_points(noted, active, lane_count, lane_count * k, memory);
-    const LaneMask open = active & found.all_open & found.all_broken;
+  void note_open(LaneMask open) const {
     for (int lane = 0; any(open) && lane < lane_count; ++lane)
       if (open[lane]) mode[lane] |= mode_broken | mode_open;
   }

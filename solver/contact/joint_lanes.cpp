@@ -28,6 +28,38 @@ namespace {
   return local_jump(move_a, move_b, load(batch.place), Triple<Lanes>{zero, zero, zero}, relative, norm, frame);
 }
 
+[[gnu::always_inline]] inline LaneStrength strength_of(const LawConstants& law) {
+  const bool elastic = law.kind == JointLaw::Kind::elastic;
+  LaneStrength s;
+  s.tension = splat(elastic ? 1e300 : law.tension);
+  s.cohesion = splat(elastic ? 1e300 : law.cohesion);
+  s.tangent = splat(elastic ? 0.0 : law.tan_friction);
+  s.residual_cohesion = splat(law.residual_cohesion);
+  s.residual_tangent = splat(law.residual_tan_friction);
+  s.dilation = splat(law.tan_dilation);
+  s.brittle = LaneMask::first(law.kind == JointLaw::Kind::brittle ? lane_count : 0);
+  return s;
+}
+
+[[gnu::noinline]] LaneStrength mixed_strengths(const Model& model, const JointBatch& batch) {
+  LaneStrength s = strength_of(model.laws[std::size_t(batch.law_of[0])]);
+  for (int lane = 1; lane < lane_count; ++lane) {
+    if (batch.law_of[lane] == batch.law_of[lane - 1]) continue;  // laws come in runs: take this one to the end
+    const LaneMask only = ~LaneMask::first(lane);
+    const LaneStrength one = strength_of(model.laws[std::size_t(batch.law_of[lane])]);
+    const auto take = [&](Lanes& to, Lanes from) { to = select(only, from, to); };
+    take(s.tension, one.tension), take(s.cohesion, one.cohesion), take(s.tangent, one.tangent);
+    take(s.residual_cohesion, one.residual_cohesion), take(s.residual_tangent, one.residual_tangent);
+    take(s.dilation, one.dilation);
+    s.brittle = without(s.brittle, only) | (one.brittle & only);
+  }
+  return s;
+}
+
+[[gnu::always_inline]] inline LaneStrength strengths(const Model& model, const JointBatch& batch) {
+  return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)]) : mixed_strengths(model, batch);
+}
+
 /// The elastic generalised jump of the intact path.
 struct LaneElastic {
   Lanes u[6];  // n, s, t, θn, θs, θt
@@ -192,7 +224,7 @@ struct BatchPass {
         mode(&p.state->joint.mode[first]),
         modes(load_bytes(mode, batch.count)),
         jump(lanes_jump(batch, p.state->pose.data())),
-        strength(strengths(*p.model, batch, &p.model->joints[first])),
+        strength(strengths(*p.model, batch)),
         slip(reinterpret_cast<Lanes*>(p.state->slip.data()) + 3 * index),
         kept(reinterpret_cast<Singles*>(p.state->branch.data()) + 6 * count * index) {}
 
@@ -225,8 +257,8 @@ struct BatchPass {
   /// Lanes point by point; the few whose law has no lane form are left to point_patch().
   Resultant<Lanes> point_lanes(LaneMask active, TileFindings& findings) {
     const PointRows rows_of_points(pass.model->rule, pass.model->points, batch);
-    PointsPass<count> points(batch, strength, jump, pass.branches, active, LaneMask{}, change, pass.energies != nullptr,
-                             pass.state->joint);
+    PointsPass<count, false> points(batch, strength, jump, pass.branches, active, LaneMask{}, change,
+                                    pass.energies != nullptr, pass.state->joint);
     const LanePoints found = points.run(rows_of_points);
     note_points(found, active, batch.count, first, pass.state->joint);
     findings.elastic += select(active, found.elastic, splat(0.0));
@@ -292,13 +324,23 @@ struct BatchPass {
   }
 };
 
+/// Whether nothing is left of a batch; its wrenches are then none.
+bool all_gone(const PatchPass& pass, const JointBatch& batch) {
+  const auto first = std::size_t(batch.first_joint);
+  const LaneBytes modes = load_bytes(&pass.state->joint.mode[first], batch.count);
+  if (any(without(LaneMask::first(batch.count), bytes_with(modes, mode_gone)))) return false;
+  if (pass.wrenches) std::fill_n(pass.wrenches + wrench_width * first, wrench_width * std::size_t(batch.count), 0.0);
+  return true;
+}
+
 template <int count>
 PassReport joints_of(const PatchPass& pass, std::size_t index) {
   const Tile& tile = pass.model->tiles[index];
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
   TileFindings found;
-  for (std::int32_t k = tile.first_batch; k < tile.end_batch; ++k) BatchPass<count>(pass, std::size_t(k)).run(found);
+  for (std::int32_t k = tile.first_batch; k < tile.end_batch; ++k)
+    if (!all_gone(pass, pass.model->batches[std::size_t(k)])) BatchPass<count>(pass, std::size_t(k)).run(found);
   if constexpr (count > 0) *reinterpret_cast<Lanes*>(&pass.state->branch_work[lane_count * index]) += found.work;
   if (pass.energies) pass.energies[index] = {sum_of(found.elastic), sum_of(found.stored)};
   PassReport report;

@@ -30,40 +30,6 @@ struct LaneStrength {
   LaneMask brittle;
 };
 
-[[gnu::always_inline]] inline LaneStrength strength_of(const LawConstants& law) {
-  const bool elastic = law.kind == JointLaw::Kind::elastic;
-  LaneStrength s;
-  s.tension = splat(elastic ? 1e300 : law.tension);
-  s.cohesion = splat(elastic ? 1e300 : law.cohesion);
-  s.tangent = splat(elastic ? 0.0 : law.tan_friction);
-  s.residual_cohesion = splat(law.residual_cohesion);
-  s.residual_tangent = splat(law.residual_tan_friction);
-  s.dilation = splat(law.tan_dilation);
-  s.brittle = LaneMask::first(law.kind == JointLaw::Kind::brittle ? lane_count : 0);
-  return s;
-}
-
-[[gnu::noinline]] inline LaneStrength mixed_strengths(const Model& model, const Patch* patches, int count) {
-  LaneStrength s = strength_of(model.laws[std::size_t(patches[0].law)]);
-  for (int lane = 1; lane < count; ++lane) {
-    const LaneMask only = without(LaneMask::first(lane + 1), LaneMask::first(lane));
-    const LaneStrength one = strength_of(model.laws[std::size_t(patches[lane].law)]);
-    const auto take = [&](Lanes& to, Lanes from) { to = select(only, from, to); };
-    take(s.tension, one.tension), take(s.cohesion, one.cohesion), take(s.tangent, one.tangent);
-    take(s.residual_cohesion, one.residual_cohesion), take(s.residual_tangent, one.residual_tangent);
-    take(s.dilation, one.dilation);
-    s.brittle = without(s.brittle, only) | (one.brittle & only);
-  }
-  return s;
-}
-
-/// Of a batch whose patches, eight or fewer, are these.
-[[gnu::always_inline]] inline LaneStrength strengths(const Model& model, const JointBatch& batch,
-                                                     const Patch* patches) {
-  return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)])
-                        : mixed_strengths(model, patches, batch.count);
-}
-
 /// What the point path found of its lanes.
 struct LanePoints {
   Resultant<Lanes> resultant{};
@@ -100,56 +66,65 @@ struct PointRows {
 /// What brittle Mohr–Coulomb (BrittleLaw, solver/model/laws.h) asks of one point of eight patches before anything is
 /// changed.
 struct LaneTrial {
-  Triple<Lanes> now, du;  // elastic jump of trial; change of the jump since the pass before
+  Triple<Lanes> u, du;  // jump, and its change since the pass before
+  Triple<Lanes> now;    // elastic jump of trial
   Lanes plastic_n, plastic_s, plastic_t, shear2, limit;
-  LaneMask was_broken, was_idle, breaks, open, slides;
+  LaneMask was_broken, was_open, breaks, open, slides;
+  LaneMask yields;  // in these the state of the point changes: it slides, breaks, opens or closes
 };
 
 /// The points of eight patches whose jump, gaps included, is `jump`, and has changed by `change` since the pass before.
-/// Lanes that are `following` were wholly open in it: their plastic slip was the jump. Every point computes all it
-/// might need but a root and a quotient: a step that asked at every point what it is about to do would mostly guess
-/// wrong.
-template <int count>
+/// Most points stay as they were, closed and elastic or open: only a row in which some lane does not asks for more.
+/// `contacts`: lanes may be `following`, which were wholly open in the pass before: their plastic slip was the jump.
+template <int count, bool contacts>
 struct PointsPass {
-  const LaneStrength& law;
-  const Jump<Lanes>& jump;
   const Branches& branches;
+  LaneStrength law;
+  Jump<Lanes> jump;
+  Lanes change[6];
   LaneMask active, following;
-  const Lanes* change;
-  bool energies;
+  bool energies, dilates;
   Lanes kn, ks, ease;  // 1/(what shear and compression give way to slip)
-  bool dilates;
   Lanes *plastic, *rest;
   Singles* kept;
   std::uint8_t* broken;
+  Pairs fade[(3 * count + 2) / 2], gain[(3 * count + 2) / 2];  // of each two rows of the branches
 
-  PointsPass(const JointBatch& b, const LaneStrength& strength, const Jump<Lanes>& j, const Branches& of,
-             LaneMask which, LaneMask follow, const Lanes* since, bool with_energies, PatchMemory& memory)
-      : law(strength),
+  [[gnu::always_inline]] PointsPass(const JointBatch& b, const LaneStrength& strength, const Jump<Lanes>& j,
+                                    const Branches& of, LaneMask which, LaneMask follow, const Lanes* since,
+                                    bool with_energies, PatchMemory& memory)
+      : branches(of),
+        law(strength),
         jump(j),
-        branches(of),
         active(which),
         following(follow),
-        change(since),
         energies(with_energies),
+        dilates(any(less(splat(0.0), strength.dilation))),
         kn(b.kn),
         ks(b.ks),
         ease(1.0 / (b.ks + b.kn * strength.dilation * strength.residual_tangent)),
-        dilates(any(less(splat(0.0), strength.dilation))),
         plastic(reinterpret_cast<Lanes*>(memory.point.data()) + 2 * std::size_t(b.first_point)),
         rest(reinterpret_cast<Lanes*>(memory.point_rest.data()) + 2 * std::size_t(b.first_point)),
         kept(reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * std::size_t(b.first_point)),
-        broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {}
+        broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {
+    for (int c = 0; c < 6; ++c) change[c] = since[c];
+    for (int row = 0; row < 3 * count; row += 2) {
+      const bool last = row + 1 == 3 * count;
+      const int next = (row + 1) / 3;
+      fade[row / 2] = pair(singles(1.0 - of.e[row / 3]), last ? Singles{} : singles(1.0 - of.e[next]));
+      gain[row / 2] = pair(singles(of.g[row / 3]), last ? Singles{} : singles(of.g[next]));
+    }
+  }
 
-  LanePoints run(PointRows at) {
+  [[gnu::always_inline]] LanePoints run(PointRows at) const {
     LanePoints sum;
     sum.all_open = sum.all_broken = active;
     for (int i = 0; at.next(); ++i) {
       const LaneTrial trial = try_point(i, at.s, at.t);
-      if (any(active & trial.slides))
-        enter<true>(i, at, trial, sum);
+      if (any(trial.yields))
+        yield(i, at, trial, sum);
       else
-        enter<false>(i, at, trial, sum);
+        stay(i, at, trial, sum);
     }
     return sum;
   }
@@ -158,14 +133,17 @@ struct PointsPass {
   [[gnu::always_inline]] LaneTrial try_point(int i, Lanes s, Lanes t) const {
     const Lanes zero = splat(0.0);
     LaneTrial e;
-    const Triple<Lanes> u = {jump.n + jump.rs * t - jump.rt * s, jump.s - jump.rn * t, jump.t + jump.rn * s};
+    e.u = {jump.n + jump.rs * t - jump.rt * s, jump.s - jump.rn * t, jump.t + jump.rn * s};
     e.du = {change[0] + change[4] * t - change[5] * s, change[1] - change[3] * t, change[2] + change[3] * s};
     e.plastic_n = dilates ? rest[2 * i] : zero;
-    e.plastic_s = select(following, u.y - e.du.y, plastic[2 * i]);
-    e.plastic_t = select(following, u.z - e.du.z, plastic[2 * i + 1]);
-    e.now = {u.x - e.plastic_n, u.y - e.plastic_s, u.z - e.plastic_t};
+    e.plastic_s = plastic[2 * i], e.plastic_t = plastic[2 * i + 1];
+    if constexpr (contacts) {
+      e.plastic_s = select(following, e.u.y - e.du.y, e.plastic_s);
+      e.plastic_t = select(following, e.u.z - e.du.z, e.plastic_t);
+    }
+    e.now = {e.u.x - e.plastic_n, e.u.y - e.plastic_s, e.u.z - e.plastic_t};
     const LaneBytes flags = load_bytes(broken + lane_count * i);
-    e.was_broken = bytes_with(flags, 1), e.was_idle = bytes_with(flags, 2);
+    e.was_broken = bytes_with(flags, 1), e.was_open = bytes_with(flags, 2);
     const Lanes sigma = kn * e.now.x;
     e.shear2 = ks * ks * (e.now.y * e.now.y + e.now.z * e.now.z);
     const Lanes bond = law.cohesion - sigma * law.tangent;
@@ -174,32 +152,40 @@ struct PointsPass {
     e.open = (e.was_broken | e.breaks) & at_most(zero, e.now.x);
     e.limit = law.residual_cohesion - sigma * law.residual_tangent;
     e.slides = without(e.was_broken | e.breaks, e.open) & less(e.limit * e.limit, e.shear2);
+    e.yields = active & (e.slides | e.breaks | (e.open ^ e.was_open));
+    if constexpr (contacts) e.yields |= active & following;
     return e;
   }
 
-  template <bool slides>
-  [[gnu::always_inline]] void enter(int i, const PointRows& at, const LaneTrial& e, LanePoints& sum) const {
-    const Lanes zero = splat(0.0), s = at.s, t = at.t, w = at.weight;
-    const auto [n0, s0, t0] = e.now;
-    const LaneMask is_broken = e.was_broken | e.breaks;
-    const LaneMask elastic = ~(e.open | e.slides | e.breaks);
-    Lanes slip = zero, keep = splat(1.0);
-    if constexpr (slides) {
-      const Lanes shear = square_root(e.shear2);
-      slip = select(e.slides, (shear - e.limit) * ease, zero);
-      keep = select(e.slides, 1.0 - ks * slip / shear, keep);
+  /// Every lane goes on as it was.
+  [[gnu::always_inline]] void stay(int i, const PointRows& at, const LaneTrial& e, LanePoints& sum) const {
+    if (any(active & e.open)) {
+      store_lanes(active & e.open, e.u.y, plastic[2 * i]);
+      store_lanes(active & e.open, e.u.z, plastic[2 * i + 1]);
     }
+    const Lanes zero = splat(0.0);
+    const Triple<Lanes> now = {select(e.open, zero, e.now.x), select(e.open, zero, e.now.y),
+                               select(e.open, zero, e.now.z)};
+    act(i, at, e, now, ~e.open, sum);
+  }
+
+  /// Some slide, break, open or close; every lane computes all it might need.
+  [[gnu::always_inline]] void yield(int i, const PointRows& at, const LaneTrial& e, LanePoints& sum) const {
+    const Lanes zero = splat(0.0), w = at.weight;
+    const auto [n0, s0, t0] = e.now;
+    const LaneMask elastic = ~(e.open | e.slides | e.breaks);
+    const Lanes shear = square_root(e.shear2);
+    const Lanes slip = select(e.slides, (shear - e.limit) * ease, zero);
+    const Lanes keep = select(e.slides, 1.0 - ks * slip / shear, splat(1.0));
     const Triple<Lanes> now = {select(e.open, zero, n0 - slip * law.dilation), select(e.open, zero, keep * s0),
                                select(e.open, zero, keep * t0)};
     const Triple<Lanes> before = e.now - e.du;
-    const LaneMask changes = active & (e.open | e.slides | e.breaks | following);
     const Lanes moved_s = e.plastic_s + select(e.open, s0, (1.0 - keep) * s0);
     const Lanes moved_t = e.plastic_t + select(e.open, t0, (1.0 - keep) * t0);
-    if (any(changes)) {  // most points rest, and what is not written need not be written back
-      if (dilates) store_lanes(changes, select(e.open, zero, e.plastic_n + slip * law.dilation), rest[2 * i]);
-      store_lanes(changes, moved_s, plastic[2 * i]);
-      store_lanes(changes, moved_t, plastic[2 * i + 1]);
-    }
+    if (dilates) store_lanes(active, select(e.open, zero, e.plastic_n + slip * law.dilation), rest[2 * i]);
+    store_lanes(active, moved_s, plastic[2 * i]);
+    store_lanes(active, moved_t, plastic[2 * i + 1]);
+    sum.slip2 = larger(sum.slip2, select(e.open, zero, moved_s * moved_s + moved_t * moved_t));
     // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by
     // the traction at the end alone the ledger would leak in proportion to the step.
     const Lanes lost_shear = 0.5 * ks *
@@ -208,41 +194,80 @@ struct PointsPass {
     const Lanes lost_normal = 0.5 * kn * ((now.x + before.x) * e.du.x - now.x * now.x + before.x * before.x);
     sum.friction += select(without(e.was_broken, elastic), w * (lost_shear + kn * now.x * law.dilation * slip), zero);
     sum.fracture += select(e.breaks, w * (lost_shear + lost_normal), zero);
-    // Broken, and broken with empty branches.
-    const LaneMask broken_now = (active & is_broken) | without(e.was_broken, active);
-    const LaneMask idle_now = without(active, elastic) | without(e.was_idle, active);
-    if (any((broken_now ^ e.was_broken) | (idle_now ^ e.was_idle)))
-      store_flags(broken_now, idle_now, broken + lane_count * i);
-    Triple<Lanes> v = now;
-    if constexpr (count > 0) {
-      const LaneMask opened = e.was_broken & less(zero, before.x), live = active & elastic;
-      const Triple<Lanes> since = {now.x - select(opened, zero, before.x), now.y - before.y, now.z - before.z};
-      Singles* row = kept + 3 * count * i;
-      const Lanes normal = advance(row, live, since.x, e.du.x, v.x);
-      const Lanes shear = advance(row + 1, live, since.y, e.du.y, v.y) + advance(row + 2, live, since.z, e.du.z, v.z);
-      sum.work += 0.5 * w * (kn * normal + ks * shear);
-      if (energies) sum.stored += 0.5 * w * stored(row);
-    }
-    if (energies) sum.elastic += 0.5 * w * (kn * now.x * now.x + ks * (now.y * now.y + now.z * now.z));
-    add_tractions(s, t, w * kn * v.x, w * ks * v.y, w * ks * v.z, sum.resultant);
-    sum.opening = larger(sum.opening, select(is_broken, n0 + e.plastic_n, zero));
-    sum.slip2 = larger(sum.slip2, select(e.open, zero, moved_s * moved_s + moved_t * moved_t));
-    sum.all_open &= e.open;
-    sum.all_broken &= is_broken;
+    store_flags((active & (e.was_broken | e.breaks)) | without(e.was_broken, active),
+                (active & e.open) | without(e.was_open, active), broken + lane_count * i);
+    act(i, at, e, now, elastic, sum);
   }
 
-  /// One component of a point's branches by an elastic move of `step`; returns Σ (then + now) du, of which half is the
-  /// work done on them per stiffness.
-  [[gnu::always_inline]] Lanes advance(Singles* row, LaneMask live, Lanes step, Lanes du, Lanes& viscous) const {
-    Lanes all = splat(0.0);
-    for (int k = 0; k < count; ++k) {
-      const Lanes then = widen(row[3 * k]);
-      const Lanes now = select(live, branches.e[k] * then + branches.g[k] * step, splat(0.0));
-      viscous += now;
-      all += then + now;
-      store_lanes(active, now, row[3 * k]);
+  /// What points at an elastic jump of `now` do. The branches of lanes that are not `live` are emptied.
+  [[gnu::always_inline]] void act(int i, const PointRows& at, const LaneTrial& e, const Triple<Lanes>& now,
+                                  LaneMask live, LanePoints& sum) const {
+    const Lanes s = at.s, t = at.t, wn = at.weight * kn, ws = at.weight * ks;
+    Triple<Lanes> v = now;
+    if constexpr (count > 0) {
+      // What was open is pressed from where it closed.
+      const LaneMask was_apart = e.was_broken & less(e.du.x, e.now.x);
+      sum.work += advance(i, live, e.du, select(was_apart, now.x, e.du.x), wn, ws, v);
+      if (energies) sum.stored += 0.5 * at.weight * stored(kept + 3 * count * i);
     }
-    return all * du;
+    if (energies) sum.elastic += 0.5 * (wn * now.x * now.x + ws * (now.y * now.y + now.z * now.z));
+    add_tractions(s, t, wn * v.x, ws * v.y, ws * v.z, sum.resultant);
+    sum.opening = larger(sum.opening, select(e.was_broken | e.breaks, e.u.x, splat(0.0)));
+    sum.all_open &= e.open;
+    sum.all_broken &= e.was_broken | e.breaks;
+  }
+
+  /// A point's branches follow the jump, `step_n` along the normal; adds their q to `v` and returns the work done on
+  /// them (J), by the mean of their tractions at both ends of the step.
+  [[gnu::always_inline]] Lanes advance(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n, Lanes wn, Lanes ws,
+                                       Triple<Lanes>& v) const {
+    if constexpr (count == 1)
+      return advance_one(i, live, du, step_n, wn, ws, v);
+    else
+      return advance_packed(i, live, du, step_n, wn, ws, v);
+  }
+
+  /// A single branch may be that of Rayleigh damping, which is stiff and forgets at once: in double precision.
+  [[gnu::always_inline]] Lanes advance_one(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n, Lanes wn,
+                                           Lanes ws, Triple<Lanes>& v) const {
+    Singles* row = kept + 3 * i;
+    const auto one = [&](int c, Lanes step, Lanes& viscous) {
+      const Lanes then = widen(row[c]);
+      const Lanes now = select(live, branches.e[0] * then + branches.g[0] * step, splat(0.0));
+      viscous += now;
+      store_lanes(active, narrow(now), row[c]);
+      return then + now;
+    };
+    const Lanes n = one(0, step_n, v.x), s = one(1, du.y, v.y), t = one(2, du.z, v.z);
+    return 0.5 * (wn * n * du.x + ws * (s * du.y + t * du.z));
+  }
+
+  /// Several branches are a correction of some per cent: in single precision, as they are kept, two components side by
+  /// side. They lose 1 − e of themselves, because e itself, near one, would be rounded to another relaxation time.
+  [[gnu::always_inline]] Lanes advance_packed(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n, Lanes wn,
+                                              Lanes ws, Triple<Lanes>& v) const {
+    const Singles n = narrow(step_n), y = narrow(du.y), z = narrow(du.z);
+    const Pairs moves[3] = {pair(n, y), pair(z, n), pair(y, z)};
+    Pairs now[3] = {}, both[3] = {};  // sums over the branches; x y, z x and y z
+    Singles* row = kept + 3 * count * i;
+    for (int k = 0; k < 3 * count; k += 2) {
+      const bool last = k + 1 == 3 * count;
+      const int at = k / 2 % 3;
+      const Pairs then = last ? pair(row[k], Singles{}) : load_pair(row + k);
+      const Pairs q = where(live, then + (gain[k / 2] * moves[at] - fade[k / 2] * then));
+      now[at] += q;
+      both[at] += then + q;
+      if (last)
+        store_lanes(active, low(q), row[k]);
+      else
+        store_pair(active, q, row + k);
+    }
+    const auto gather = [](const Pairs* sums) {
+      return Triple<Singles>{low(sums[0]) + high(sums[1]), high(sums[0]) + low(sums[2]), low(sums[1]) + high(sums[2])};
+    };
+    const Triple<Singles> q = gather(now), twice = gather(both);
+    v.x += widen(q.x), v.y += widen(q.y), v.z += widen(q.z);
+    return 0.5 * (wn * widen(twice.x) * du.x + ws * (widen(twice.y) * du.y + widen(twice.z) * du.z));
   }
 
   [[gnu::always_inline]] Lanes stored(const Singles* row) const {

@@ -69,11 +69,16 @@ bool boxes_meet(const Box& a, const Box& b, double distance) {
   return (a.low.array() - distance <= b.high.array()).all() && (b.low.array() - distance <= a.high.array()).all();
 }
 
+/// Whether joint `index` of the assembly is still one.
+bool lives(const Model& model, const State& state, std::int32_t index) {
+  return !(state.joint.mode[std::size_t(model.joint_places[std::size_t(index)].now)] & mode_gone);
+}
+
 bool has_live_joint(const Model& model, const State& state, const CellPair& cells) {
   auto at =
       std::lower_bound(model.joint_by_cells.begin(), model.joint_by_cells.end(), std::pair(cells, std::int32_t(0)));
   for (; at != model.joint_by_cells.end() && at->first == cells; ++at)
-    if (!(state.joint.mode[std::size_t(at->second)] & mode_gone)) return true;
+    if (lives(model, state, at->second)) return true;
   return false;
 }
 
@@ -242,12 +247,9 @@ void list_pairs(const Model& model, State& state, const std::vector<char>& stale
 
 std::vector<std::size_t> due_pairs(const Model& model, const State& state, const std::vector<char>& moved,
                                    int threads) {
-  const std::size_t n = pair_count(state);
   constexpr std::size_t least_pairs_per_thread = 10000;
-  const int most = std::max<int>(1, int(n / least_pairs_per_thread));
-  std::vector<std::vector<std::size_t>> found(std::size_t(std::min(threads, most)));
-  run_team(std::min(threads, most), [&](int thread, int team, Barrier&) {
-    const Range range = share(n, thread, team);
+  std::vector<std::vector<std::size_t>> found(std::size_t(std::max(1, threads)));
+  share_out(pair_count(state), threads, least_pairs_per_thread, [&](int thread, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const std::int32_t a = state.pair_cells[4 * i], b = state.pair_cells[4 * i + 1];
       if (!(moved[std::size_t(a)] || moved[std::size_t(b)])) continue;
@@ -285,7 +287,7 @@ bool joined(const Model& model, const State& state, std::int32_t a, std::int32_t
   auto at = std::lower_bound(model.joint_by_cells.begin(), model.joint_by_cells.end(),
                              std::pair(CellPair{a, b, -1, -1}, std::int32_t(0)));
   for (; at != model.joint_by_cells.end() && at->first[0] == a && at->first[1] == b; ++at)
-    if (!(state.joint.mode[std::size_t(at->second)] & mode_gone)) return true;
+    if (lives(model, state, at->second)) return true;
   const auto [begin, end] = pairs_of(state, a, b);
   for (std::size_t i = begin; i < end; ++i)
     if (state.pair_seen[searched_width * i + 7] >= pair_has_contact) return true;

@@ -18,16 +18,6 @@ void note_place(const State& state, std::size_t body, Array<float>& places) {
 
 namespace {
 
-/// Runs `work(i)` for all i < n, shared among threads where it is worth it.
-template <class Work>
-void for_each(std::size_t n, int threads, std::size_t least_per_thread, const Work& work) {
-  const int team = int(std::clamp<std::size_t>(n / least_per_thread, 1, std::size_t(threads)));
-  run_team(team, [&](int thread, int size, Barrier&) {
-    const Range range = share(n, thread, size);
-    for (std::size_t i = range.begin; i < range.end; ++i) work(i);
-  });
-}
-
 /// The cells of some bodies where they are now: a cell has several neighbours.
 class PlacedCells {
  public:
@@ -81,19 +71,17 @@ class Search {
   }
 
  private:
-  /// Bodies past the share of the skin that counts as having moved. When only a patch asks to be clipped there is no
-  /// need to look around everybody.
+  /// Bodies past the share of the skin that counts as having moved, in every search: that all others stand near their
+  /// noted places is what the pairs rest on.
   void find_moved() {
-    const double near = moved_share * skin(model_), far = search_distance(model_);
+    if (!model_.contact.search) return;
+    const double near = moved_share * skin(model_);
     const Vec3 base = state_.base_displacement();
-    std::vector<std::size_t> found;
-    bool due = false;
-    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
-      const double distance = moved_since(model_, state_, state_.searched, i, base);
-      if (distance > near) found.push_back(i);
-      due |= distance > far;
-    }
-    for (std::size_t i = 0; due && i < found.size(); ++i) mark(std::int32_t(found[i]));
+    std::vector<char> moves(model_.bodies.size());
+    for_each(moves.size(), threads_, 5000,
+             [&](std::size_t i) { moves[i] = moved_since(model_, state_, state_.searched, i, base) > near; });
+    for (std::size_t i = 0; i < moves.size(); ++i)
+      if (moves[i]) mark(std::int32_t(i));
   }
 
   void mark(std::int32_t body) {
@@ -220,7 +208,6 @@ class Search {
   void examine(const std::vector<std::size_t>& due) {
     PlacedCells placed(model_, state_);
     std::vector<CellPair> cells;
-
     for (const std::size_t pair : due) {
       const std::int32_t* c = &state_.pair_cells[4 * pair];
       cells.push_back({c[0], c[1], c[2], c[3]});

@@ -102,34 +102,41 @@ PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t
   return shape;
 }
 
+/// The assembly's joints in the order of their batches, and their shapes.
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
-  std::vector<PatchShape> shapes;
-  using Key = std::tuple<std::int32_t, int, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t, std::int32_t,
-                         std::int64_t>;
-  // Tile, shape class, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints
-  // open: in batches of their own those that go point by point hold up fewer of the others.
+  // Tile, shape, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
+  // in batches of their own those that go point by point hold up fewer of the others.
+  using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t,
+                         std::int32_t, std::int64_t>;
   std::vector<Key> order;
+  std::vector<Patch> patches(assembly.joints.size());
+  std::vector<PatchShape> shapes;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
-    const int corners = int(joint.polygon.size());
-    const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
+    shapes.push_back(joint_patch(assembly, joint, i, model, patches[i]));
+    const std::int32_t a = patches[i].a, b = patches[i].b;
+    const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
-    order.emplace_back(tile_of(std::min(a, b)), std::max(4, corners), joint.law, facing, std::min(a, b), std::max(a, b),
-                       joint.cell_a, joint.cell_b, std::int64_t(i));
+    order.emplace_back(tile_of(std::min(a, b)), shape, joint.law, facing, std::min(a, b), std::max(a, b), joint.cell_a,
+                       joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
+  std::vector<PatchShape> ordered;
+  model.joint_places.resize(order.size());
   for (const Key& key : order) {
-    const std::int64_t index = std::get<8>(key);
-    Patch patch;
-    shapes.push_back(joint_patch(assembly, assembly.joints[index], index, model, patch));
+    const auto index = std::size_t(std::get<8>(key));
+    const auto place = std::int32_t(model.joints.size());
+    model.joint_places[index] = {place, place, std::get<1>(key)};
+    Patch& patch = patches[index];
     patch.first_corner = std::int32_t(model.corners.size() / 2);
-    patch.corner_count = std::int32_t(shapes.back().corners.size());
-    for (const PatchPoint& c : shapes.back().corners) model.corners.insert(model.corners.end(), {c.s, c.t});
+    patch.corner_count = std::int32_t(shapes[index].corners.size());
+    for (const PatchPoint& c : shapes[index].corners) model.corners.insert(model.corners.end(), {c.s, c.t});
     model.joints.push_back(patch);
-    model.joint_of_patch.push_back(index);
+    model.joint_of_patch.push_back(std::int64_t(index));
+    ordered.push_back(std::move(shapes[index]));
   }
-  return shapes;
+  return ordered;
 }
 
 }  // namespace
@@ -141,6 +148,7 @@ CellPair cells_of(const Patch& p) {
 void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
   batch.a[lane] = patch.a;
   batch.b[lane] = patch.b;
+  batch.law_of[lane] = patch.law;
   for (int i = 0; i < 3; ++i) {
     batch.arm_a[i][lane] = patch.arm_a[i];
     batch.arm_b[i][lane] = patch.arm_b[i];
@@ -152,6 +160,12 @@ void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
   batch.area[lane] = patch.area;
   batch.ss[lane] = patch.ss;
   batch.tt[lane] = patch.tt;
+}
+
+std::int32_t common_law(const JointBatch& batch) {
+  const bool same =
+      std::all_of(batch.law_of, batch.law_of + lane_count, [&](auto law) { return law == *batch.law_of; });
+  return same ? *batch.law_of : -1;
 }
 
 namespace {
@@ -202,7 +216,6 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
   JointBatch batch{};
   batch.first_joint = first;
   batch.count = std::min<std::int32_t>(lane_count, end - first);
-  batch.law = model.joints[std::size_t(first)].law;
   batch.rectangles = true;
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto joint = std::size_t(first + std::min(lane, batch.count - 1));
@@ -210,10 +223,10 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
     fill_lane(patch, lane, batch);
     batch.half_s[lane] = shapes[joint].half_s;
     batch.half_t[lane] = shapes[joint].half_t;
-    if (patch.law != batch.law) batch.law = -1;
     batch.corners = std::max(batch.corners, patch.corner_count);
     batch.rectangles &= shapes[joint].rectangle;
   }
+  batch.law = common_law(batch);
   add_corners(model, batch);
   add_points(model, batch, shapes);
   model.batches.push_back(batch);
@@ -308,7 +321,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   model.rule = lobatto_rule(model.contact.points_per_side);
   make_tiles(model, add_joints(assembly, model));
   for (std::size_t i = 0; i < model.joints.size(); ++i)
-    model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(i));
+    model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(model.joint_of_patch[i]));
   std::sort(model.joint_by_cells.begin(), model.joint_by_cells.end());
   return model;
 }

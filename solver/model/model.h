@@ -1,7 +1,7 @@
 // The model: everything about bodies and patches that does not change during a run, laid out for the step.
 // Bodies are ordered along a space-filling curve and cut into tiles. The joints of a tile are those whose first body
 // in that order lies in it; eight of them side by side make a batch whose every quantity is one SIMD register. A tile
-// sums the wrenches of its joints body by body, so that the order of summation depends on nothing but the model.
+// sums the wrenches of its joints body by body in their order, which changes during a run (solver/contact/grouping).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -73,7 +73,7 @@ struct alignas(64) JointBatch {
   Lanes arm_a[3], arm_b[3], place[3], frame[4];
   Lanes kn, ks, area, ss, tt;
   Lanes half_s, half_t;  // m: the polygon lies within ±half_s, ±half_t of its centroid; a rectangle fills that
-  std::int32_t a[lane_count], b[lane_count];
+  std::int32_t a[lane_count], b[lane_count], law_of[lane_count];
   std::int32_t sum_a[lane_count], sum_b[lane_count];  // where the tile sums the wrenches of each
   std::int32_t first_joint = 0;
   std::int32_t count = 0;         // joints in use; further lanes repeat the last one and are never written
@@ -120,6 +120,13 @@ inline std::int32_t tile_of(std::int32_t body) {
 using CellPair = std::array<std::int32_t, 4>;
 CellPair cells_of(const Patch& patch);
 
+/// Where a joint of the assembly is among Model::joints, now and as the model was built. Joints change places only
+/// with others of their tile and shape, so that batches keep their rows of points and corners.
+struct JointPlace {
+  std::int32_t now = 0, first = 0;
+  std::int32_t shape = 0;  // 0: a rectangle; else its corners
+};
+
 struct Model {
   std::vector<Body> bodies;
   std::vector<std::int64_t> block_of_body;
@@ -129,7 +136,8 @@ struct Model {
   std::vector<LawConstants> laws;            // the assembly's, then the contact laws of pairs of materials
   std::vector<Patch> joints;                 // the assembly's joints in batch order
   std::vector<std::int64_t> joint_of_patch;  // index in Assembly::joints
-  std::vector<std::pair<CellPair, std::int32_t>> joint_by_cells;  // sorted
+  std::vector<JointPlace> joint_places;      // of Assembly::joints
+  std::vector<std::pair<CellPair, std::int32_t>> joint_by_cells;  // sorted; index in Assembly::joints
   Array<double> points;   // s, t, weight of the joints' points, eight joints side by side
   Array<double> corners;  // s, t of the joints' corners
   std::size_t point_rows = 0;
@@ -164,6 +172,8 @@ struct Model {
 
 /// Constants of one patch into its lane.
 void fill_lane(const Patch& patch, int lane, JointBatch& batch);
+/// The law that the lanes of a batch share, or −1.
+std::int32_t common_law(const JointBatch& batch);
 
 /// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError when nothing can move or
 /// a joint has no stiffness.

@@ -99,6 +99,7 @@ std::vector<NamedArray> State::arrays() {
                                   {"bodies/listed", searched_width, "m, -", &listed},
                                   {"pairs/cells", 4, "-", &pair_cells},
                                   {"pairs/seen", searched_width, "m, -", &pair_seen},
+                                  {"joints/order", 1, "-", &joint_order},
                                   {"joints/slip", lane_count, "m, m, rad", &slip},
                                   {"joints/branch", lane_count, "m, rad", &branch},
                                   {"joints/branch_work", lane_count, "J", &branch_work}};
@@ -157,14 +158,6 @@ void fill_contact_lane(State& state, std::size_t slot) {
     reach = std::max(reach, std::hypot(q.s, q.t));
   }
   batch.reach[lane] = reach;
-  // One law for all lanes in use, or −1.
-  batch.patch.law = -2;
-  for (std::size_t i = lane_count * (slot / lane_count); i < lane_count * (slot / lane_count + 1); ++i) {
-    const Patch& other = state.contacts[i];
-    if (other.point_count == 0) continue;
-    batch.patch.law = batch.patch.law == -2 || batch.patch.law == other.law ? other.law : -1;
-    if (batch.patch.law == -1) break;
-  }
 }
 
 void stop_motion(State& state) {
@@ -184,6 +177,7 @@ State initial_state(const Model& model) {
   for (std::size_t i = 0; i < n; ++i)
     state.searched[searched_width * i] = 1e18f;  // never looked for: as if they had come from far
   state.listed = state.searched;
+  state.joint_order.assign(model.joint_of_patch.begin(), model.joint_of_patch.end());
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.joint.resize(model.joints.size(), lane_count * model.point_rows);
   state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);

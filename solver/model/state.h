@@ -38,7 +38,7 @@ enum PatchMode : std::uint8_t {
 struct PatchMemory {
   Array<double> point;         // 2 columns: plastic jump s, t (m)
   Array<double> point_rest;    // 2 columns: plastic jump n (m), softening; the step reads them where a law needs them
-  Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and with empty branches
+  Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and open
   Array<float> point_branch;   // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
   Array<double> largest;       // 2 a patch: opening, slip (m)
@@ -56,7 +56,8 @@ struct State {
   // damping), elastic energy that new clippings of patches took out, energy at the start of the motion, largest energy
   // term so far
   Array<double> scalars = Array<double>(13, 0.0);
-  Array<std::int64_t> counters = Array<std::int64_t>(3, 0);  // steps, contact searches, contacts made
+  Array<std::int64_t> counters = Array<std::int64_t>(4, 0);  // steps, contact searches, contacts made, last step at
+                                                             // which patches were grouped
 
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
@@ -70,10 +71,11 @@ struct State {
   Array<float> pair_seen;          // 8 a pair: placement of one body in the frame of the other when they were last
                                    // examined (m, quaternion); how far it may move before they must be again (m)
 
-  PatchMemory joint;          // of Model::joints
-  Array<double> slip;         // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
-  Array<float> branch;        // per batch 6 × branches × 8: q of the six generalised jumps
-  Array<double> branch_work;  // 8 a tile: work done on the branches of the intact path (J)
+  Array<std::int32_t> joint_order;  // index in Assembly::joints of each of Model::joints, see solver/contact/grouping
+  PatchMemory joint;                // of Model::joints
+  Array<double> slip;               // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
+  Array<float> branch;              // per batch 6 × branches × 8: q of the six generalised jumps
+  Array<double> branch_work;        // 8 a tile: work done on the branches of the intact path (J)
 
   // Contacts found during the run live in slots, eight to a batch; a slot that is free has mode_gone and a patch
   // without points. Which slot a contact takes depends on those before it, so batches and free slots are part of the
@@ -97,6 +99,7 @@ struct State {
   Eigen::Map<const Vec3> base_velocity() const { return Eigen::Map<const Vec3>(&scalars[1]); }
   double* retired_energy() { return &scalars[7]; }
   const double* retired_energy() const { return &scalars[7]; }
+  std::int64_t& grouped_at() { return counters[3]; }
   double& clipped_energy() { return scalars[10]; }
   double clipped_energy() const { return scalars[10]; }
   double& starting_energy() { return scalars[11]; }

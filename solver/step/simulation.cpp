@@ -4,6 +4,7 @@
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
 #include "solver/step/confirm.h"
 #include "solver/step/critical_step.h"
@@ -128,6 +129,7 @@ void Simulation::scale() {
 void Simulation::restore(const RunPosition& position) {
   position_ = position;
   if (scales_mass() && position.dt > 0.0) scale();  // else it is still to come, with the choice of the step
+  take_joint_order(model_, state_);
   stepper_.prepare();
   if (position.dt > 0.0) {
     stepper_.dt = position.dt;
@@ -151,16 +153,18 @@ void add_bound(const Model& model, const Patch& p, double sign, std::vector<doub
 
 }  // namespace
 
-/// Σ over a body's patches of stiffness over mass: bodies whose bound stays below the assembly's largest cannot have
-/// lowered the critical step, so that most new contacts need no new power iteration.
+/// Σ over a body's patches, in the assembly's order, of stiffness over mass: bodies whose bound stays below the
+/// assembly's largest cannot have lowered the critical step, so that most new contacts need no new power iteration.
 double Simulation::contact_bound() {
   if (joint_bound_.empty()) {  // those of the joints stay until joints go
     joint_bound_.assign(model_.bodies.size(), 0.0);
-    for (const Patch& p : model_.joints) add_bound(model_, p, 1.0, joint_bound_);
+    for (const JointPlace& p : model_.joint_places)
+      add_bound(model_, model_.joints[std::size_t(p.now)], 1.0, joint_bound_);
   }
   std::vector<double> bound = joint_bound_;
-  for (std::size_t i = 0; i < model_.joints.size(); ++i)
-    if (state_.joint.mode[i] & mode_gone) add_bound(model_, model_.joints[i], -1.0, bound);
+  for (const JointPlace& p : model_.joint_places)
+    if (state_.joint.mode[std::size_t(p.now)] & mode_gone)
+      add_bound(model_, model_.joints[std::size_t(p.now)], -1.0, bound);
   for (std::size_t i = 0; i < state_.contacts.size(); ++i)
     if (state_.has_contact(i)) add_bound(model_, state_.contacts[i], 1.0, bound);
   return *std::max_element(bound.begin(), bound.end());
@@ -328,7 +332,9 @@ void Simulation::change_contacts() {
   const Timed timed(costs_.searches);
   const ContactUpdate update =
       update_contacts(model_, state_, stepper_.damping.branches, last_.reclip, stepper_.threads);
-  if (!update.changed()) return;
+  const bool groups = state_.step() - state_.grouped_at() >= grouping_interval;
+  if (groups) group_patches(model_, state_, stepper_.threads);
+  if (!update.changed() && !groups) return;
   stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
   const double bound = contact_bound();

@@ -80,6 +80,21 @@ TEST(Search, FindsWhatComesFromAfarBeforeItTouches) {
   }
 }
 
+/// What the proof rests on: after any search, and be it for a patch to be clipped, all stand near their noted places.
+TEST(Search, NotesWhoHasMovedWhateverItWasCalledFor) {
+  const auto made = row_of_cubes(3, 0.2);
+  Bench& bench = *made;
+  update_contacts(bench.model, bench.state, {}, false);
+  const double moved = 0.5 * (moved_share + search_share) * skin(bench.model);  // not far enough to call a search
+  bench.place(2, {0, moved, 0.5}, Eigen::Quaterniond::Identity());
+  update_contacts(bench.model, bench.state, {}, false);
+  bench.place(2, {0, 2.0 * moved, 0.5}, Eigen::Quaterniond::Identity());
+  update_contacts(bench.model, bench.state, {}, true);
+  const auto body = std::size_t(bench.body(2));
+  EXPECT_LT(moved_since(bench.model, bench.state, bench.state.searched, body, bench.state.base_displacement()),
+            moved_share * skin(bench.model));
+}
+
 NewContact between(std::int32_t a, std::int32_t b, std::size_t points) {
   NewContact c;
   c.patch.a = a, c.patch.b = b, c.patch.kn = c.patch.ks = 1e9, c.patch.area = 0.1;

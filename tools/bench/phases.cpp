@@ -129,7 +129,8 @@ double bytes_held(const Running& r) {
     for (const Convex& c : cells) sum += of(c.vertices);
   }
   for (const Array<double>* a : {&s.pose, &s.motion, &s.baseline, &s.slip, &s.branch_work}) sum += of(*a);
-  sum += of(s.searched) + of(s.branch);
+  sum += of(s.searched) + of(s.listed) + of(s.branch) + of(s.pair_cells) + of(s.pair_seen) + of(m.joint_by_cells);
+  sum += of(s.contacts) + of(s.contact_batches) + of(s.contact_points) + of(s.contact_corners) + of(s.contact_slid);
   for (const PatchMemory* memory : {&s.joint, &s.contact})
     sum += of(memory->point) + of(memory->point_rest) + of(memory->broken) + of(memory->point_branch) +
            of(memory->mode) + of(memory->largest) + of(memory->last) + of(memory->energy);

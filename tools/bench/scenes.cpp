@@ -10,6 +10,7 @@
 #include "geometry/generator.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/base/error.h"
+#include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
 #include "solver/modal/equilibrium.h"
 #include "solver/step/critical_step.h"
@@ -138,6 +139,7 @@ void recall(const std::string& path, Running& r) {
   if (r.state.pose.size() != bodies || r.state.joint.mode.size() != joints)
     throw InputError("{} is of another assembly than the scene: remove it", path);
   r.state.unpack_contacts();
+  take_joint_order(r.model, r.state);
   r.stepper.prepare();
   r.account = "begun from " + path;
 }
@@ -195,7 +197,9 @@ Progressed advance_scene(Running& r, std::int64_t steps) {
     const auto searching = Clock::now();
     const ContactUpdate update =
         update_contacts(r.model, r.state, r.stepper.damping.branches, a.reclip, r.stepper.threads);
-    if (update.changed()) r.stepper.prepare_contacts();
+    const bool groups = r.state.step() - r.state.grouped_at() >= grouping_interval;
+    if (groups) group_patches(r.model, r.state, r.stepper.threads);
+    if (update.changed() || groups) r.stepper.prepare_contacts();
     p.examined += update.examined, p.changed += update.changed(), p.listed += update.listed;
     p.search_seconds += seconds_since(searching);
     ++p.searches;

@@ -8,6 +8,7 @@
 #include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/h5.h"
 #include "solver/base/error.h"
+#include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
 #include "solver/modal/settle.h"
 #include "solver/step/loads.h"
@@ -89,6 +90,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   if (header.assembly_hash != assembly_hash(source.assembly))
     throw InputError("{} belongs to another assembly than {}/assembly.h5", file, run);
   source.state.unpack_contacts();
+  take_joint_order(source.model, source.state);
   source.tangent = PatchTangent::present;
   source.damaged = true;
   source.name = fs::path(run).filename().string();

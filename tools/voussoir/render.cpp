@@ -13,6 +13,7 @@
 #include "io/vtk/grid.h"
 #include "io/vtk/series.h"
 #include "solver/base/error.h"
+#include "solver/contact/grouping.h"
 #include "solver/step/make_snapshot.h"
 #include "tools/voussoir/verb.h"
 
@@ -67,7 +68,7 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
   }
   const Case c = read_case((beside / "case.toml").string());
   const Assembly assembly = read_assembly((beside / "assembly.h5").string());
-  const Model model = build_model(assembly, c.settings);
+  Model model = build_model(assembly, c.settings);
   State state = initial_state(model);
   CheckpointHeader header;
   try {
@@ -78,6 +79,7 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
   if (header.assembly_hash != assembly_hash(assembly))
     throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
   state.unpack_contacts();
+  take_joint_order(model, state);
   render_picture(assembly, make_snapshot(model, state), o, png);
 }
 
