@@ -78,12 +78,15 @@ TEST(Sliding, UnderARectangularPulse) {
     EXPECT_NEAR(slip, 0.33097, 0.005 * 0.33097);
     double stop = 0.0;
     for (const auto& [time, u] : history)
-      if (std::abs(u) < slip - 2e-5) stop = time;  // μ g t²/2 before the stop: 4.5 ms for 2e-5 m
-    EXPECT_NEAR(stop + 0.0045, 0.750, 0.005 * 0.750);
+      if (std::abs(u) < slip - 2e-4) stop = time;
+    // μ g t²/2 before the stop. Not less than 2e-4 m: stopped, the block still trembles, and where it comes to rest
+    // varies by 4e-5 m if the pulse varies by 1e-7.
+    stop += std::sqrt(2.0 * 2e-4 / (0.2 * g));
+    EXPECT_NEAR(stop, 0.750, 0.005 * 0.750);
     const std::string what = std::string("Sliding block, rectangular pulse, ") +
                              (kind == DampingSettings::Kind::none ? "undamped" : "Maxwell");
     measured(what + ": slip", 0.33097, slip, "m");
-    measured(what + ": stops at", 0.750, stop + 0.0045, "s");
+    measured(what + ": stops at", 0.750, stop, "s");
   }
 }
 
