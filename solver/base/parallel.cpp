@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <optional>
 
 #if defined(__x86_64__)
@@ -16,7 +17,11 @@ namespace voussoir {
 void ensure_passive_waiting(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY")) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv);  // returns only on failure: then the default policy stays, which is slower, not wrong
+  // By its own path, so that the process keeps the name that users look for. execv() returns only on failure: then the
+  // default policy stays, which is slower, not wrong.
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) execv(program.c_str(), argv);
 }
 
 int available_threads() {

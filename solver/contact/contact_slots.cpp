@@ -15,11 +15,16 @@ Patch no_contact(std::int32_t tile) {
 
 }  // namespace
 
-ContactSlots::ContactSlots(State& state, const Branches& branches) : state_(state), branches_(branches.count) {
-  for (std::size_t slot = state.contacts.size(); slot-- > 0;) {
-    const ContactBatch& batch = state.contact_batches[slot / lane_count];
-    if (!state.has_contact(slot)) free_[{batch.tile, batch.patch.points}].push_back(slot);
+/// Free slots of a kind, the lowest last; gathered when they are first asked for.
+std::vector<std::size_t>& ContactSlots::free_of(Kind kind) {
+  const auto [found, is_new] = free_.try_emplace(kind);
+  std::vector<std::size_t>& slots = found->second;
+  for (std::size_t k = state_.contact_batches.size(); is_new && k-- > 0;) {
+    if (state_.contact_tiles[2 * k] != kind.first || state_.contact_tiles[2 * k + 1] != kind.second) continue;
+    for (std::size_t slot = lane_count * (k + 1); slot-- > lane_count * k;)
+      if (!state_.has_contact(slot)) slots.push_back(slot);
   }
+  return slots;
 }
 
 std::size_t ContactSlots::first_of_new_batch(Kind kind) {
@@ -45,7 +50,7 @@ std::size_t ContactSlots::first_of_new_batch(Kind kind) {
 }
 
 std::size_t ContactSlots::free_slot(Kind kind) {
-  std::vector<std::size_t>& free = free_[kind];
+  std::vector<std::size_t>& free = free_of(kind);
   if (free.empty()) {
     const std::size_t first = first_of_new_batch(kind);
     for (std::size_t lane = lane_count; lane-- > 0;) free.push_back(first + lane);
@@ -110,7 +115,9 @@ void ContactSlots::remove(std::size_t slot) {
   state_.contacts[slot] = no_contact(batch.tile);
   std::fill_n(&state_.contact.energy[3 * slot], 3, 0.0);
   fill_contact_lane(state_, slot);
-  std::vector<std::size_t>& free = free_[{batch.tile, batch.patch.points}];
+  const auto known = free_.find({batch.tile, batch.patch.points});
+  if (known == free_.end()) return;
+  std::vector<std::size_t>& free = known->second;
   free.insert(std::lower_bound(free.begin(), free.end(), slot, std::greater<>()), slot);
 }
 

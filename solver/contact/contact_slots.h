@@ -10,7 +10,7 @@ namespace voussoir {
 /// Gives contacts their slots; made anew for every search, so that the slots depend on the state alone.
 class ContactSlots {
  public:
-  ContactSlots(State& state, const Branches& branches);
+  ContactSlots(State& state, const Branches& branches) : state_(state), branches_(branches.count) {}
   /// Returns the slot: the lowest that is free and fits, or the first of a new batch.
   std::size_t add(const NewContact& contact);
   /// What it has lost goes to the common account of contacts that are gone.
@@ -18,6 +18,7 @@ class ContactSlots {
 
  private:
   using Kind = std::pair<std::int32_t, std::int32_t>;  // tile, rows of points
+  std::vector<std::size_t>& free_of(Kind kind);
   std::size_t free_slot(Kind kind);
   std::size_t first_of_new_batch(Kind kind);
 

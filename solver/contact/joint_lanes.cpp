@@ -230,8 +230,8 @@ struct BatchPass {
 
   /// Intact lanes: checked at the corners, advanced if they stay; returns which did, and which of those carry load.
   struct Intact {
-    LaneMask stays, closed;
-    Resultant<Lanes> resultant;
+    LaneMask stays{}, closed{};
+    Resultant<Lanes> resultant;  // of closed lanes alone
   };
   [[gnu::always_inline]] Intact intact_lanes(LaneMask keep, TileFindings& findings) {
     LaneElastic e = {{jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt}};
@@ -291,7 +291,7 @@ struct BatchPass {
     // point_patch() keeps the last jump of its lanes itself.
     note_change(jump, without(live, keep | strength.brittle),
                 reinterpret_cast<Singles*>(&pass.state->joint.last[last_index(k, 0)]), change);
-    Intact intact{};
+    Intact intact;
     if (any(keep)) intact = intact_lanes(keep, findings);
     const LaneMask points = without(live, intact.stays);
     Triple<Lanes> force, moment;

@@ -1,7 +1,6 @@
 #include "solver/contact/pairs.h"
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 
 #include "geometry/neighbours.h"
@@ -105,13 +104,14 @@ class BoxesAlong {
 };
 
 /// Pairs of cells of different bodies, one of them stale and one of them free, whose boxes come near; sorted.
-std::vector<CellPair> near_pairs(const Model& model, const State& state, const std::vector<char>& stale) {
+std::vector<CellPair> near_pairs(const Model& model, const State& state, const std::vector<char>& stale, int threads) {
   const double distance = list_margin * skin(model);
-  std::vector<CellPair> pairs;
-  const auto consider = [&](const CellBox& p, const CellBox& q) {
+  std::vector<std::vector<CellPair>> found(std::size_t(std::max(1, threads)));
+  const auto consider = [&](const CellBox& p, const CellBox& q, std::vector<CellPair>& pairs) {
     const std::int32_t a = p.body, b = q.body;
     if (a == b || !(stale[std::size_t(a)] || stale[std::size_t(b)])) return;
     if (model.bodies[std::size_t(a)].still() && model.bodies[std::size_t(b)].still()) return;
+    if (state.lost(std::size_t(a)) || state.lost(std::size_t(b))) return;
     const CellPair cells = a < b ? CellPair{a, b, p.cell, q.cell} : CellPair{b, a, q.cell, p.cell};
     if (!has_live_joint(model, state, cells)) pairs.push_back(cells);
   };
@@ -119,26 +119,32 @@ std::vector<CellPair> near_pairs(const Model& model, const State& state, const s
   std::vector<CellBox> cells;
   if (std::count(stale.begin(), stale.end(), 1) < bodies / 4) {
     for (std::int32_t i = 0; i < bodies; ++i)
-      if (stale[std::size_t(i)]) place_cells(model, state, i, cells);
+      if (stale[std::size_t(i)] && !state.lost(std::size_t(i))) place_cells(model, state, i, cells);
     const BoxesAlong from(std::move(cells));
-    for (std::int32_t i = 0; i < bodies; ++i) {
-      const float* p = &state.listed[searched_width * std::size_t(i)];
-      const Vec3 centre = model.bodies[std::size_t(i)].centroid + Vec3(p[0], p[1], p[2]);
-      const double reach = 1.000001 * model.bodies[std::size_t(i)].radius + distance;
-      cells.clear();
-      from.each(centre.x() - reach, centre.x() + reach, [&](const CellBox& c) {
-        if ((centre.cwiseMax(c.box.low).cwiseMin(c.box.high) - centre).squaredNorm() > reach * reach) return;
-        if (cells.empty()) place_cells(model, state, i, cells);
-        for (const CellBox& q : cells)
-          if (boxes_meet(c.box, q.box, distance)) consider(c, q);
-      });
-    }
+    share_out(std::size_t(bodies), threads, 2000, [&](int thread, Range range) {
+      std::vector<CellBox> own;
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const float* p = &state.listed[searched_width * i];
+        const Vec3 centre = model.bodies[i].centroid + Vec3(p[0], p[1], p[2]);
+        const double reach = 1.000001 * model.bodies[i].radius + distance;
+        own.clear();
+        from.each(centre.x() - reach, centre.x() + reach, [&](const CellBox& c) {
+          if ((centre.cwiseMax(c.box.low).cwiseMin(c.box.high) - centre).squaredNorm() > reach * reach) return;
+          if (own.empty()) place_cells(model, state, std::int32_t(i), own);
+          for (const CellBox& q : own)
+            if (boxes_meet(c.box, q.box, distance)) consider(c, q, found[std::size_t(thread)]);
+        });
+      }
+    });
   } else {
     for (std::int32_t i = 0; i < bodies; ++i) place_cells(model, state, i, cells);
     std::vector<Box> boxes;
     for (const CellBox& c : cells) boxes.push_back(c.box);
-    for (const auto& [i, j] : neighbours(boxes, distance)) consider(cells[std::size_t(i)], cells[std::size_t(j)]);
+    for (const auto& [i, j] : neighbours(boxes, distance))
+      consider(cells[std::size_t(i)], cells[std::size_t(j)], found.front());
   }
+  std::vector<CellPair> pairs;
+  for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
@@ -189,59 +195,51 @@ bool past_list(const Model& model, const State& state, std::size_t body) {
 
 namespace {
 
-/// Moves rows of pairs [begin, end) to where `to` begins.
-void move_pairs(State& state, std::size_t begin, std::size_t end, std::size_t to) {
-  if (begin == to || begin == end) return;
-  std::memmove(&state.pair_cells[4 * to], &state.pair_cells[4 * begin], 4 * sizeof(std::int32_t) * (end - begin));
-  std::memmove(&state.pair_seen[searched_width * to], &state.pair_seen[searched_width * begin],
-               searched_width * sizeof(float) * (end - begin));
-}
-
-/// Takes the pairs of stale bodies out; returns how many are left.
-std::size_t take_out(State& state, const std::vector<char>& stale) {
-  std::size_t kept = 0, begin = 0;
+/// The list without the pairs of stale bodies, and with fresh ones, sorted like it, in their places; what is known of a
+/// fresh pair is kept.
+void merge_pairs(State& state, const std::vector<char>& stale, const std::vector<CellPair>& fresh) {
+  Array<std::int32_t> cells;
+  Array<float> seen;
   const std::size_t n = pair_count(state);
-  for (std::size_t i = 0; i <= n; ++i) {
-    if (i < n && !stale[std::size_t(state.pair_cells[4 * i])] && !stale[std::size_t(state.pair_cells[4 * i + 1])])
-      continue;
-    move_pairs(state, begin, i, kept);
-    kept += i - begin;
-    begin = i + 1;
+  cells.reserve(4 * (n + fresh.size())), seen.reserve(searched_width * (n + fresh.size()));
+  const auto keep = [&](std::size_t begin, std::size_t end) {
+    cells.insert(cells.end(), &state.pair_cells[0] + 4 * begin, &state.pair_cells[0] + 4 * end);
+    seen.insert(seen.end(), &state.pair_seen[0] + searched_width * begin, &state.pair_seen[0] + searched_width * end);
+  };
+  const auto add = [&](const CellPair& pair) {
+    cells.insert(cells.end(), pair.begin(), pair.end());
+    seen.insert(seen.end(), {0, 0, 0, 1, 0, 0, 0, pair_is_new});
+  };
+  auto next = fresh.begin();
+  std::size_t kept = 0;  // where the run of pairs that stay begins
+  for (std::size_t i = 0; i < n; ++i) {
+    const CellPair here = cells_at(state, i);
+    const bool goes = stale[std::size_t(here[0])] || stale[std::size_t(here[1])];
+    if (!goes && (next == fresh.end() || here < *next)) continue;
+    keep(kept, i);
+    for (; next != fresh.end() && *next < here; ++next) add(*next);
+    const bool known = next != fresh.end() && *next == here;
+    if (known) ++next;
+    kept = goes && !known ? i + 1 : i;
   }
-  return kept;
-}
-
-/// Puts pairs, sorted like those there, among the first `kept`, from the last to the first.
-void put_in(State& state, std::size_t kept, const std::vector<CellPair>& fresh,
-            const std::vector<std::array<float, searched_width>>& seen) {
-  state.pair_cells.resize(4 * kept);
-  state.pair_cells.resize(4 * (kept + fresh.size()));
-  state.pair_seen.resize(searched_width * (kept + fresh.size()));
-  std::size_t end = kept;
-  for (std::size_t i = fresh.size(); i-- > 0;) {
-    const std::size_t at = lower_bound_pair(state, fresh[i], end);
-    move_pairs(state, at, end, at + i + 1);
-    std::copy(fresh[i].begin(), fresh[i].end(), &state.pair_cells[4 * (at + i)]);
-    std::copy(seen[i].begin(), seen[i].end(), &state.pair_seen[searched_width * (at + i)]);
-    end = at;
-  }
+  keep(kept, n);
+  for (; next != fresh.end(); ++next) add(*next);
+  state.pair_cells = std::move(cells), state.pair_seen = std::move(seen);
 }
 
 }  // namespace
 
-void list_pairs(const Model& model, State& state, const std::vector<char>& stale) {
+void list_pairs(const Model& model, State& state, const std::vector<char>& stale, int threads) {
   for (std::size_t i = 0; i < stale.size(); ++i)
     if (stale[i]) note_place(state, i, state.listed);
-  const std::vector<CellPair> fresh = near_pairs(model, state, stale);
-  std::vector<std::array<float, searched_width>> seen(fresh.size(), {0, 0, 0, 1, 0, 0, 0, pair_is_new});
-  for (std::size_t i = 0; i < fresh.size(); ++i)
-    if (const auto known = find_pair(state, fresh[i]))
-      std::copy_n(&state.pair_seen[searched_width * *known], searched_width, seen[i].begin());
-  put_in(state, take_out(state, stale), fresh, seen);
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    const Patch& p = state.contacts[i];
-    if (!state.has_contact(i) || !(stale[std::size_t(p.a)] || stale[std::size_t(p.b)])) continue;
-    if (const auto pair = find_pair(state, cells_of(p))) state.pair_seen[searched_width * *pair + 7] = pair_has_contact;
+  merge_pairs(state, stale, near_pairs(model, state, stale, threads));
+  for (std::size_t slot = 0; slot < state.contacts.size(); ++slot) {
+    if (!state.has_contact(slot)) continue;
+    const JointBatch& batch = state.contact_batches[slot / lane_count].patch;
+    const std::size_t lane = slot % lane_count;
+    if (!stale[std::size_t(batch.a[lane])] && !stale[std::size_t(batch.b[lane])]) continue;
+    if (const auto pair = find_pair(state, cells_of(state.contacts[slot])))
+      state.pair_seen[searched_width * *pair + 7] = pair_has_contact;
   }
 }
 

@@ -11,8 +11,8 @@ namespace voussoir {
 /// Marks in State::pair_seen beside distances (m): never to be examined because a contact holds the pair, or at once.
 constexpr float pair_has_contact = 1e6f, pair_is_new = -1.0f;
 
-/// Lists the pairs of all stale bodies anew, from where they are now. What the others know of each other is kept.
-void list_pairs(const Model& model, State& state, const std::vector<char>& stale);
+/// Lists the pairs of all stale bodies anew, from where they are now. What pairs know of each other is kept.
+void list_pairs(const Model& model, State& state, const std::vector<char>& stale, int threads);
 
 /// Whether a body has moved so far from where its pairs were listed that it may come near bodies it has no pair with.
 bool past_list(const Model& model, const State& state, std::size_t body);

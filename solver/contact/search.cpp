@@ -60,7 +60,7 @@ class Search {
     find_moved();
     if (clip) clip_joints();
     look_at_contacts(clip);
-    if (any_stale_) list_pairs(model_, state_, stale_);
+    if (any_stale_) list_pairs(model_, state_, stale_, threads_);
     for (const NewContact& contact : clipped_) add(contact);
     examine(due_pairs(model_, state_, moved_, threads_));
     state_.clipped_energy() += energy_before_ - energy_after_;
@@ -80,9 +80,21 @@ class Search {
     std::vector<char> moves(model_.bodies.size());
     for_each(moves.size(), threads_, 5000,
              [&](std::size_t i) { moves[i] = moved_since(model_, state_, state_.searched, i, base) > near; });
-    for (std::size_t i = 0; i < moves.size(); ++i)
-      if (moves[i]) mark(std::int32_t(i));
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (!moves[i]) continue;
+      mark(std::int32_t(i));
+      if (fallen_out(i)) state_.searched[searched_width * i + 7] = 1.0f, list_anew(std::int32_t(i));
+    }
   }
+
+  /// Whether a body has fallen below all that the assembly was: it meets nobody any more but what falls with it.
+  bool fallen_out(std::size_t i) const {
+    const double* pose = &state_.pose[pose_width * i];
+    const Vec3 moved = Vec3(pose[0], pose[1], pose[2]) - state_.base_displacement();
+    const Body& body = model_.bodies[i];
+    return (body.centroid + moved).dot(model_.up) + body.radius < model_.bottom;
+  }
+  bool lost(const Patch& p) const { return state_.lost(std::size_t(p.a)) || state_.lost(std::size_t(p.b)); }
 
   void mark(std::int32_t body) {
     moved_[std::size_t(body)] = 1;
@@ -131,7 +143,7 @@ class Search {
       if (!state_.has_contact(slot)) return;
       const Patch& p = state_.contacts[slot];
       const bool moves = moved_[std::size_t(p.a)] || moved_[std::size_t(p.b)];
-      what[slot] = clips && past(p) ? is_past : moves && has_parted(slot) ? has_gone : stays;
+      what[slot] = lost(p) ? has_gone : clips && past(p) ? is_past : moves && has_parted(slot) ? has_gone : stays;
     });
     for (std::size_t slot = 0; slot < what.size(); ++slot) {
       if (what[slot] == stays) continue;
@@ -182,7 +194,7 @@ class Search {
         make_contact(model_, state_, cells, placed_cell(model_, state_, old.a, old.cell_a),
                      placed_cell(model_, state_, old.b, old.cell_b), skin(model_))
             .contact;
-    if (!fresh) {
+    if (!fresh || lost(old)) {
       ++update_.dropped;
       return;
     }
@@ -199,6 +211,7 @@ class Search {
 
   void add(const NewContact& contact) {
     const std::size_t slot = slots_.add(contact);
+    update_.bodies.insert(update_.bodies.end(), {contact.patch.a, contact.patch.b});
     energy_after_ += patch_energy(model_, state_, branches_, model_.joints.size() + slot).elastic;
     if (const auto pair = find_pair(state_, cells_of(contact.patch)))
       state_.pair_seen[searched_width * *pair + 7] = pair_has_contact;

@@ -9,6 +9,7 @@ struct ContactUpdate {
   std::int64_t examined = 0;  // pairs of cells given to the narrow phase
   bool listed = false;        // pairs were listed anew
   std::int64_t made = 0, clipped = 0, dropped = 0;
+  std::vector<std::int32_t> bodies;  // that have got a contact, some more than once
   bool changed() const { return made + clipped + dropped > 0; }
 };
 
@@ -27,9 +28,10 @@ constexpr double list_margin = 6.0, list_distance = 2.7;
 constexpr double quaternion_reach = 2.1;
 
 /// How far any point of the body has moved, relative to the base, since its place was noted in State::searched or
-/// State::listed: an upper bound, m.
+/// State::listed: an upper bound, m. Of lost bodies 0: nobody looks for them.
 inline double moved_since(const Model& model, const State& state, const Array<float>& places, std::size_t body,
                           const Vec3& base) {
+  if (state.lost(body)) return 0.0;
   const double* pose = &state.pose[pose_width * body];
   const float* from = &places[searched_width * body];
   double d2 = 0.0, r2 = 0.0;

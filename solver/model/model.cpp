@@ -40,7 +40,7 @@ void add_bodies(const Assembly& assembly, Model& model) {
   model.block_of_body = space_filling_order(assembly);
   model.body_of_block.resize(assembly.blocks.size());
   std::vector<double> sizes;
-  double weight = 0.0;
+  double weight = 0.0, bottom = 1e300;
   int movable = 0;
   for (std::size_t i = 0; i < model.block_of_body.size(); ++i) {
     const Block& block = assembly.blocks[model.block_of_body[i]];
@@ -55,7 +55,10 @@ void add_bodies(const Assembly& assembly, Model& model) {
       for (const Vec3& v : cell.vertices) body.radius = std::max(body.radius, (v - block.centroid).norm());
     model.bodies.push_back(body);
     model.cells.emplace_back();
-    for (const Polyhedron& cell : block.cells) model.cells.back().push_back(make_convex(cell));
+    for (const Polyhedron& cell : block.cells) {
+      model.cells.back().push_back(make_convex(cell));
+      for (const Vec3& v : cell.vertices) bottom = std::min(bottom, v.dot(model.up));
+    }
     const Material& material = assembly.materials.at(block.material);
     model.matter.push_back({material.youngs_modulus, material.shear_modulus, std::tan(material.friction_angle)});
     if (block.fixed) continue;
@@ -69,6 +72,7 @@ void add_bodies(const Assembly& assembly, Model& model) {
   std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
   model.typical_size = sizes[sizes.size() / 2];
   model.average_weight = weight / movable;
+  if (!model.up.isZero(0.0)) model.bottom = bottom;
 }
 
 void store(double* to, const Vec3& from) {
@@ -315,6 +319,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   Model model;
   model.contact = settings.contact;
   model.gravity = settings.gravity;
+  if (!model.gravity.isZero(0.0)) model.up = -model.gravity.normalized();
   add_bodies(assembly, model);
   for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
   add_contact_laws(model);

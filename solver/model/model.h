@@ -168,6 +168,8 @@ struct Model {
   double average_weight = 0.0;  // N, of a free block under the case's gravity, or 9.81 m/s2 without any
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();
+  Vec3 up = Vec3::Zero();  // against gravity; zero without
+  double bottom = -1e300;  // m, of the assembly as built, along up
 };
 
 /// Constants of one patch into its lane.

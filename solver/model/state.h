@@ -63,7 +63,7 @@ struct State {
   Array<double> motion;    // motion_width a body; velocities at the last half step
   Array<double> baseline;  // 3 a body: displacement at the end of the last gravity stage, from which demands count
   Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion when its
-                           // contacts were last looked for
+                           // contacts were last looked for; 1 once it is lost
   Array<float> listed;     // the same when its pairs were last listed
 
   // Pairs of cells that are near each other without a joint between them, sorted.
@@ -105,6 +105,8 @@ struct State {
   double& starting_energy() { return scalars[11]; }
   double& largest_energy() { return scalars[12]; }
 
+  /// Whether a body has fallen below all that the assembly was: contacts are not looked for any more.
+  bool lost(std::size_t body) const { return searched[searched_width * body + 7] > 0.0f; }
   bool has_contact(std::size_t slot) const { return !(contact.mode[slot] & mode_gone); }
   std::int64_t contact_count() const;
 

@@ -9,16 +9,23 @@ namespace voussoir {
 
 Incidence find_incidence(const Model& model, const State& state) {
   Incidence incidence;
+  struct Bodies {
+    std::size_t a, b;
+  };
+  const auto bodies_of = [&](std::size_t slot) {  // from the batches, which hold them closer together
+    const JointBatch& batch = state.contact_batches[slot / lane_count].patch;
+    return Bodies{std::size_t(batch.a[slot % lane_count]), std::size_t(batch.b[slot % lane_count])};
+  };
   incidence.first.assign(model.bodies.size() + 1, 0);
   for (std::size_t i = 0; i < state.contacts.size(); ++i)
-    if (state.has_contact(i)) ++incidence.first[state.contacts[i].a + 1], ++incidence.first[state.contacts[i].b + 1];
+    if (state.has_contact(i)) ++incidence.first[bodies_of(i).a + 1], ++incidence.first[bodies_of(i).b + 1];
   for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
   incidence.contacts.resize(incidence.first.back());
   std::vector<std::int32_t> next(incidence.first.begin(), incidence.first.end() - 1);
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     if (!state.has_contact(i)) continue;
-    incidence.contacts[next[state.contacts[i].a]++] = std::int32_t(2 * i);
-    incidence.contacts[next[state.contacts[i].b]++] = std::int32_t(2 * i + 1);
+    incidence.contacts[next[bodies_of(i).a]++] = std::int32_t(2 * i);
+    incidence.contacts[next[bodies_of(i).b]++] = std::int32_t(2 * i + 1);
   }
   return incidence;
 }
@@ -330,7 +337,8 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   pose.r[4] = norm * turned.v.x, pose.r[5] = norm * turned.v.y, pose.r[6] = norm * turned.v.z;
   const LaneRows from = load_searched(&state->searched[searched_width * first], count);
   const Lanes distance = lanes_moved(pose, from, base_displacement_next, batch.radius);
-  report.search |= any(batch.free & less(splat(search_distance), distance));
+  const LaneMask lost = less(splat(0.0), from.r[7]);
+  report.search |= any(without(batch.free & less(splat(search_distance), distance), lost));
   const LaneMask runs = without(batch.free, less(dot(velocity, velocity), splat(1e6)));
   if (any(runs) && report.runaway < 0)
     for (int lane = count; lane-- > 0;)

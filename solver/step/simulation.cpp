@@ -1,6 +1,7 @@
 #include "solver/step/simulation.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
@@ -123,7 +124,6 @@ bool Simulation::scales_mass() const {
 void Simulation::scale() {
   scaling_ =
       scale_mass(model_, initial_state(model_), settings_.step.mass_scaling_step, settings_.step.mass_scaling_limit);
-  joint_bound_.clear();
 }
 
 void Simulation::restore(const RunPosition& position) {
@@ -139,35 +139,49 @@ void Simulation::restore(const RunPosition& position) {
 
 namespace {
 
-/// Adds to both bodies a patch's stiffness over their mass, times `sign`.
-void add_bound(const Model& model, const Patch& p, double sign, std::vector<double>& bound) {
-  for (const auto& [body, arm] : {std::pair{p.a, p.arm_a}, std::pair{p.b, p.arm_b}}) {
-    const Body& b = model.bodies[std::size_t(body)];
-    if (b.still()) continue;
-    const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
-    const double inertia = b.inertia.diagonal().minCoeff();
-    bound[std::size_t(body)] +=
-        sign * std::max(p.kn, p.ks) * (p.area / b.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
+/// A patch's stiffness over the mass of one of its bodies, 1/s2.
+double rate_bound(const Patch& p, const Body& body, const double* arm) {
+  const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
+  const double inertia = body.inertia.diagonal().minCoeff();
+  return std::max(p.kn, p.ks) * (p.area / body.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
+}
+
+/// The joints of each body, by their index in the assembly.
+std::vector<std::vector<std::int32_t>> joints_of_bodies(const Model& model) {
+  std::vector<std::vector<std::int32_t>> joints(model.bodies.size());
+  for (std::size_t i = 0; i < model.joint_places.size(); ++i) {
+    const Patch& p = model.joints[std::size_t(model.joint_places[i].now)];
+    for (const std::int32_t body : {p.a, p.b}) joints[std::size_t(body)].push_back(std::int32_t(i));
   }
+  return joints;
 }
 
 }  // namespace
 
-/// Σ over a body's patches, in the assembly's order, of stiffness over mass: bodies whose bound stays below the
+/// The largest among these bodies of Σ over a body's patches of stiffness over mass. Bodies whose bound stays below the
 /// assembly's largest cannot have lowered the critical step, so that most new contacts need no new power iteration.
-double Simulation::contact_bound() {
-  if (joint_bound_.empty()) {  // those of the joints stay until joints go
-    joint_bound_.assign(model_.bodies.size(), 0.0);
-    for (const JointPlace& p : model_.joint_places)
-      add_bound(model_, model_.joints[std::size_t(p.now)], 1.0, joint_bound_);
+double Simulation::contact_bound(const std::vector<std::int32_t>& bodies) {
+  if (joints_of_body_.empty()) joints_of_body_ = joints_of_bodies(model_);
+  double largest = 0.0;
+  for (const std::int32_t index : bodies) {
+    const auto i = std::size_t(index);
+    const Body& body = model_.bodies[i];
+    if (body.still()) continue;
+    double sum = 0.0;
+    for (const std::int32_t joint : joints_of_body_[i]) {
+      const auto place = std::size_t(model_.joint_places[std::size_t(joint)].now);
+      const Patch& p = model_.joints[place];
+      if (!(state_.joint.mode[place] & mode_gone)) sum += rate_bound(p, body, p.a == index ? p.arm_a : p.arm_b);
+    }
+    const Incidence& contacts = stepper_.incidence;
+    for (std::int32_t k = contacts.first[i]; k < contacts.first[i + 1]; ++k) {
+      const std::int32_t entry = contacts.contacts[std::size_t(k)];
+      const Patch& p = state_.contacts[std::size_t(entry >> 1)];
+      sum += rate_bound(p, body, entry & 1 ? p.arm_b : p.arm_a);
+    }
+    largest = std::max(largest, sum);
   }
-  std::vector<double> bound = joint_bound_;
-  for (const JointPlace& p : model_.joint_places)
-    if (state_.joint.mode[std::size_t(p.now)] & mode_gone)
-      add_bound(model_, model_.joints[std::size_t(p.now)], -1.0, bound);
-  for (std::size_t i = 0; i < state_.contacts.size(); ++i)
-    if (state_.has_contact(i)) add_bound(model_, state_.contacts[i], 1.0, bound);
-  return *std::max_element(bound.begin(), bound.end());
+  return largest;
 }
 
 void Simulation::check() {
@@ -207,7 +221,9 @@ void Simulation::choose_step() {
         settings_.step.safety);
   position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
   position_.highest = critical.highest;
-  position_.stiffest = contact_bound();
+  std::vector<std::int32_t> all(model_.bodies.size());
+  std::iota(all.begin(), all.end(), 0);
+  position_.stiffest = contact_bound(all);
   stepper_.dt = position_.dt;
   if (critical.body < 0) return;
   log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s",
@@ -337,7 +353,7 @@ void Simulation::change_contacts() {
   if (!update.changed() && !groups) return;
   stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
-  const double bound = contact_bound();
+  const double bound = contact_bound(update.bodies);
   if (bound <= position_.stiffest * (1.0 + 1e-9)) return;  // but for rounding
   position_.stiffest = bound;
   if (settings_.step.time_step > 0.0) return;  // the user's own step is the user's

@@ -111,7 +111,7 @@ class Simulation {
   void scale();
   void scale_and_say();
   void choose_step();
-  double contact_bound();
+  double contact_bound(const std::vector<std::int32_t>& bodies);
   void write_fields();
   void write_checkpoint(bool stage_end);
   void report_progress(bool force, const std::string& note);
@@ -131,7 +131,7 @@ class Simulation {
   std::string failure_;
   Advance last_;
   RunCosts costs_;
-  std::vector<double> joint_bound_;  // of each body, see contact_bound()
+  std::vector<std::vector<std::int32_t>> joints_of_body_;  // in the assembly's order, see contact_bound()
   double worst_balance_ = 0.0;
   bool exploded_ = false;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;

@@ -37,7 +37,8 @@ Dependencies order_of_tiles(const Model& model, const State& state) {
   for (const ContactBatch& batch : state.contact_batches) order.cost[std::size_t(batch.tile)] += contact_cost;
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     if (!state.has_contact(i)) continue;
-    const std::int32_t a = tile_of(state.contacts[i].a), b = tile_of(state.contacts[i].b);
+    const JointBatch& batch = state.contact_batches[i / lane_count].patch;
+    const std::int32_t a = tile_of(batch.a[i % lane_count]), b = tile_of(batch.b[i % lane_count]);
     if (a == b) continue;
     std::vector<std::int32_t>& followers = order.followers[std::size_t(std::min(a, b))];
     if (std::find(followers.begin(), followers.end(), std::max(a, b)) == followers.end())

@@ -95,6 +95,27 @@ TEST(Search, NotesWhoHasMovedWhateverItWasCalledFor) {
             moved_share * skin(bench.model));
 }
 
+/// What has fallen below everything is left alone: it calls no searches, keeps no contact, and holds up nobody.
+TEST(Search, LooksForNothingAroundWhatHasFallenOut) {
+  const auto made = row_of_cubes(2, 0.005);  // so near that they have a contact
+  Bench& bench = *made;
+  bench.model.up = Vec3::UnitZ(), bench.model.bottom = -0.5;
+  bench.place(1, {0, 0, -1.05}, Eigen::Quaterniond::Identity());
+  bench.place(2, {0, 0, -1.05}, Eigen::Quaterniond::Identity());
+  update_contacts(bench.model, bench.state, {}, false);
+  EXPECT_EQ(bench.state.contact_count(), 1);  // they have not wholly passed it
+  const auto body = std::size_t(bench.body(1));
+  EXPECT_FALSE(bench.state.lost(body));
+  bench.place(1, {0, 0, -1.5}, Eigen::Quaterniond::Identity());
+  update_contacts(bench.model, bench.state, {}, false);
+  EXPECT_TRUE(bench.state.lost(body));
+  EXPECT_EQ(bench.state.contact_count(), 0);
+  bench.place(1, {0, 0, -50.0}, Eigen::Quaterniond::Identity());
+  EXPECT_EQ(moved_since(bench.model, bench.state, bench.state.searched, body, Vec3::Zero()), 0.0);
+  bench.place(2, {0, 0, -50.0}, Eigen::Quaterniond::Identity());
+  EXPECT_EQ(update_contacts(bench.model, bench.state, {}, false).made, 0);
+}
+
 NewContact between(std::int32_t a, std::int32_t b, std::size_t points) {
   NewContact c;
   c.patch.a = a, c.patch.b = b, c.patch.kn = c.patch.ks = 1e9, c.patch.area = 0.1;
