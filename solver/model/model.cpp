@@ -79,13 +79,16 @@ void store(double* to, const Vec3& from) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-/// Fills everything of a joint's patch but its points; returns its shape.
-PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t index, const Model& model,
-                       Patch& patch) {
+PatchShape joint_shape(const Joint& joint, std::size_t index, const Model& model) {
   if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
     throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index,
                      joint.a, joint.b, joint.kn, joint.ks);
-  const PatchShape shape = patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
+  return patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
+}
+
+/// Everything of a joint's patch but its points and corners.
+Patch joint_patch(const Assembly& assembly, const Joint& joint, const PatchShape& shape, const Model& model) {
+  Patch patch;
   patch.a = model.body_of_block[joint.a];
   patch.b = model.body_of_block[joint.b];
   patch.cell_a = joint.cell_a;
@@ -103,22 +106,21 @@ PatchShape joint_patch(const Assembly& assembly, const Joint& joint, std::size_t
   patch.area = shape.area;
   patch.ss = shape.ss;
   patch.tt = shape.tt;
-  return shape;
+  return patch;
 }
 
-/// The assembly's joints in the order of their batches, and their shapes.
+/// The assembly's joints in the order of their batches; returns their shapes in that of the assembly.
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   // Tile, shape, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
   // in batches of their own those that go point by point hold up fewer of the others.
   using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t, int, std::int32_t, std::int32_t, std::int32_t,
                          std::int32_t, std::int64_t>;
   std::vector<Key> order;
-  std::vector<Patch> patches(assembly.joints.size());
   std::vector<PatchShape> shapes;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
-    shapes.push_back(joint_patch(assembly, joint, i, model, patches[i]));
-    const std::int32_t a = patches[i].a, b = patches[i].b;
+    shapes.push_back(joint_shape(joint, i, model));
+    const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
     const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
@@ -126,21 +128,19 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
                        joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
-  std::vector<PatchShape> ordered;
   model.joint_places.resize(order.size());
   for (const Key& key : order) {
     const auto index = std::size_t(std::get<8>(key));
     const auto place = std::int32_t(model.joints.size());
     model.joint_places[index] = {place, place, std::get<1>(key)};
-    Patch& patch = patches[index];
+    Patch patch = joint_patch(assembly, assembly.joints[index], shapes[index], model);
     patch.first_corner = std::int32_t(model.corners.size() / 2);
     patch.corner_count = std::int32_t(shapes[index].corners.size());
     for (const PatchPoint& c : shapes[index].corners) model.corners.insert(model.corners.end(), {c.s, c.t});
     model.joints.push_back(patch);
     model.joint_of_patch.push_back(std::int64_t(index));
-    ordered.push_back(std::move(shapes[index]));
   }
-  return ordered;
+  return shapes;
 }
 
 }  // namespace
@@ -177,14 +177,17 @@ namespace {
 /// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
 void add_points(Model& model, JointBatch& batch, const std::vector<PatchShape>& shapes) {
   const std::int32_t first = batch.first_joint;
+  const auto shape_of = [&](std::int32_t joint) -> const PatchShape& {
+    return shapes[std::size_t(model.joint_of_patch[std::size_t(joint)])];
+  };
   std::size_t most = 0;
-  for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, shapes[first + lane].points.size());
+  for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, shape_of(first + lane).points.size());
   batch.first_point = std::int32_t(model.point_rows);
   batch.points = std::int32_t(most);
   model.point_rows += most;
   model.points.resize(3 * lane_count * model.point_rows);
   for (int lane = 0; lane < lane_count; ++lane) {
-    const std::vector<PatchPoint>& points = shapes[first + std::min(lane, batch.count - 1)].points;
+    const std::vector<PatchPoint>& points = shape_of(first + std::min(lane, batch.count - 1)).points;
     Patch place;
     place.first_point = batch.first_point, place.stride = lane_count, place.lane = lane;
     for (int i = 0; i < batch.points; ++i) {
@@ -225,10 +228,11 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
     const auto joint = std::size_t(first + std::min(lane, batch.count - 1));
     const Patch& patch = model.joints[joint];
     fill_lane(patch, lane, batch);
-    batch.half_s[lane] = shapes[joint].half_s;
-    batch.half_t[lane] = shapes[joint].half_t;
+    const PatchShape& shape = shapes[std::size_t(model.joint_of_patch[joint])];
+    batch.half_s[lane] = shape.half_s;
+    batch.half_t[lane] = shape.half_t;
     batch.corners = std::max(batch.corners, patch.corner_count);
-    batch.rectangles &= shapes[joint].rectangle;
+    batch.rectangles &= shape.rectangle;
   }
   batch.law = common_law(batch);
   add_corners(model, batch);
