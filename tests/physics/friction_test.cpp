@@ -80,7 +80,7 @@ TEST(Sliding, UnderARectangularPulse) {
     for (const auto& [time, u] : history)
       if (std::abs(u) < slip - 2e-4) stop = time;
     // μ g t²/2 before the stop. Not less than 2e-4 m: stopped, the block still trembles, and where it comes to rest
-    // varies by 4e-5 m if the pulse varies by 1e-7.
+    // varies by 6e-5 m if the pulse varies by 1e-6.
     stop += std::sqrt(2.0 * 2e-4 / (0.2 * g));
     EXPECT_NEAR(stop, 0.750, 0.005 * 0.750);
     const std::string what = std::string("Sliding block, rectangular pulse, ") +

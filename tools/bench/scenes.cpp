@@ -147,6 +147,7 @@ void recall(const std::string& path, Running& r) {
 }  // namespace
 
 std::unique_ptr<Running> begin_scene(const Scene& scene, int threads, const std::string& keep) {
+  if (!keep.empty()) std::filesystem::create_directories(keep);  // before what may take minutes
   auto running = std::make_unique<Running>();
   Running& r = *running;
   auto begin = Clock::now();
