@@ -50,6 +50,7 @@ struct Material {
   double tensile_strength = 0.0;  // Pa
   double cohesion = 0.0;          // Pa
   double friction_angle = 0.0;    // rad
+  double dilation_angle = 0.0;    // rad, of a deformable fill
 };
 
 /// Strength of a joint (SI; angles in radians). Stiffness is per joint, see Joint.
@@ -87,6 +88,27 @@ struct Sensor {
   std::int64_t block = 0;
 };
 
+/// The deformable fill: one continuum of linear tetrahedra that share whole faces.
+struct FillMesh {
+  std::vector<Vec3> nodes;                             // m
+  std::vector<std::array<std::int32_t, 4>> tets;       // nodes; positive volume: (x1−x0)·((x2−x0)×(x3−x0)) > 0
+  std::vector<std::int32_t> material;                  // of each tetrahedron: index into Assembly::materials
+  std::vector<std::array<std::int32_t, 3>> triangles;  // its surface, counter-clockwise seen from outside
+  bool empty() const { return tets.empty(); }
+};
+
+/// A patch between a stone and the fill: the overlap of one of its faces with a triangle of the fill's surface.
+struct FillJoint {
+  std::int64_t block = 0;
+  std::int32_t cell = 0, face = 0;
+  std::int32_t triangle = 0;   // of FillMesh::triangles
+  Polygon polygon;             // in the triangle's plane, counter-clockwise about `normal`, m
+  Vec3 normal = Vec3::Zero();  // unit, out of the stone into the fill
+  double area = 0.0;           // m2
+  double kn = 0.0, ks = 0.0;   // Pa/m
+  std::int32_t law = 0;        // index into Assembly::laws
+};
+
 struct Assembly {
   std::string generator;  // "cs1", "import", …
   std::string case_text;  // the case file it was made from, may be empty
@@ -96,7 +118,9 @@ struct Assembly {
   std::vector<JointLaw> laws;
   std::map<std::string, std::vector<std::int64_t>> groups;  // block indices: "keystone 0", "wall y- pier 1", …
   std::vector<Sensor> sensors;
-  std::vector<std::string> effects;  // that have changed it, in words: see solver/effects
+  FillMesh fill;
+  std::vector<FillJoint> fill_joints;  // sorted by (block, cell, face, triangle)
+  std::vector<std::string> effects;    // that have changed it, in words: see solver/effects
 };
 
 /// Fills mass, centroid and inertia of each block from its cells and material. Throws InputError that names the block

@@ -4,36 +4,18 @@
 #include <numeric>
 #include <tuple>
 
+#include "geometry/curve.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 
 namespace {
 
-/// Morton code of a point in a box, 21 bits an axis: neighbours in space are neighbours in memory.
-std::uint64_t morton(const Vec3& p, const Box& box) {
-  const double extent = std::max(1e-12, (box.high - box.low).maxCoeff());
-  std::uint64_t code = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto bits = std::uint64_t(std::clamp((p[axis] - box.low[axis]) / extent, 0.0, 1.0) * 2097151.0);
-    for (int i = 0; i < 21; ++i) code |= ((bits >> i) & 1u) << (3 * i + axis);
-  }
-  return code;
-}
-
 std::vector<std::int64_t> space_filling_order(const Assembly& assembly) {
-  Box box;
-  for (const Block& block : assembly.blocks) {
-    box.low = box.low.cwiseMin(block.centroid);
-    box.high = box.high.cwiseMax(block.centroid);
-  }
-  std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
-    keys.emplace_back(morton(assembly.blocks[i].centroid, box), std::int64_t(i));
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::int64_t> order;
-  for (const auto& key : keys) order.push_back(key.second);
-  return order;
+  std::vector<Vec3> centroids;
+  for (const Block& block : assembly.blocks) centroids.push_back(block.centroid);
+  const std::vector<std::int32_t> order = along_curve(centroids);
+  return {order.begin(), order.end()};
 }
 
 void add_bodies(const Assembly& assembly, Model& model) {

@@ -5,25 +5,10 @@
 #include <vector>
 
 #include "solver/base/arrays.h"
+#include "solver/model/branches.h"
 #include "solver/model/model.h"
 
 namespace voussoir {
-
-/// Maxwell branches (or the one Rayleigh stiffness branch) as the kernels use them: viscous jump q ← e q + g Δu with Δu
-/// the change of the elastic jump over the step; traction stiffness × q (docs/theory/damping.md). q is kept in single
-/// precision: it is a correction of some per cent, it decays, and it is most of what a damped step reads and writes.
-constexpr int most_branches = 4;
-struct Branches {
-  int count = 0;
-  double e[most_branches] = {}, g[most_branches] = {};
-
-  double stored[most_branches] = {};  // held by the branch's spring per stiffness: ½ stored q²
-  double total_g() const {
-    double sum = 0.0;
-    for (int i = 0; i < count; ++i) sum += g[i];
-    return sum;
-  }
-};
 
 /// How a patch is being computed.
 enum PatchMode : std::uint8_t {

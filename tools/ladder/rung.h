@@ -56,5 +56,9 @@ Rung maxwell_ring();
 Rung softening_joint();
 Rung falling_blocks();
 Rung colliding_blocks();
+Rung fill_waves();
+Rung fill_triaxial();
+Rung fill_oedometer();
+Rung fill_footing();
 
 }  // namespace voussoir::ladder

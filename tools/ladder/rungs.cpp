@@ -17,7 +17,11 @@ const std::vector<Rung>& rungs() {
       maxwell_ring(),        //
       softening_joint(),     //
       falling_blocks(),      //
-      colliding_blocks(),
+      colliding_blocks(),    //
+      fill_waves(),          //
+      fill_triaxial(),       //
+      fill_oedometer(),      //
+      fill_footing(),
   };
   return list;
 }

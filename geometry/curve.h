@@ -1,0 +1,13 @@
+// An order of points in which neighbours in space are near each other.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "geometry/polyhedron.h"
+
+namespace voussoir {
+
+/// Indices of the points along a Morton curve through their box; equal codes in the points' own order.
+std::vector<std::int32_t> along_curve(const std::vector<Vec3>& points);
+
+}  // namespace voussoir

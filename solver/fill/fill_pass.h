@@ -1,0 +1,57 @@
+// A step of the fill, in two rounds over its tiles (docs/theory/fill.md).
+//
+// Round 1: elastic volumetric strain of the tetrahedra, then its mean about each node.
+// Round 2: stresses and nodal forces, then the nodes move.
+//
+// Strain is total: of each tetrahedron F = 1 + Σ u ∇N from the reference placement. With the plastic memory Cp⁻¹ the
+// elastic left Cauchy–Green tensor is b = F Cp⁻¹ Fᵀ, the elastic strain e = dev ½ ln b, so that rotations of any size
+// are exact and no stress is accumulated (Simo 1992; de Souza Neto, Perić & Owen 2008, ch. 14). The elastic volumetric
+// strain θ = ½ (J − 1/J) − θp of a tetrahedron is replaced by the mean of its nodes' means, or plastic flow at constant
+// volume would lock (average nodal pressure: Bonet & Burton 1998; nodal mixed discretisation: Detournay & Dzik 2006).
+// It is the strain less what dilation has added that is averaged, or neighbours that dilate would drift apart; what a
+// tetrahedron in tension has opened by is taken from its own mean, at once.
+#pragma once
+#include "solver/fill/fill_memory.h"
+#include "solver/model/branches.h"
+
+namespace voussoir {
+
+struct FillReport {
+  std::int32_t inverted = -1;  // lowest tetrahedron (of FillMesh::tets) that has lost its volume
+  std::int32_t runaway = -1;   // lowest node (of FillMesh::nodes) whose velocity is not finite or past any sense
+  std::int64_t yielding = 0;   // tetrahedra that flow
+  void merge(const FillReport& other);
+};
+
+struct FillEnergy {
+  double elastic = 0.0, branches = 0.0;  // J
+};
+
+/// Out-of-balance force on a node (N) and the velocity that follows (m/s); the fourth number means nothing.
+struct NodeUpdate {
+  Quad force, velocity;
+};
+
+struct FillPass {
+  const FillModel* fill = nullptr;
+  FillMemory* memory = nullptr;
+  Branches branches;
+  double* sums = nullptr;                  // node_width × FillModel::sum_count(): forces
+  double* volume_sums = nullptr;           // FillModel::sum_count(): κ V θ, J
+  const Array<double>* outside = nullptr;  // node_width a node: forces of the interface, N; none
+  FillEnergy* energies = nullptr;          // of each tile, or not wanted
+  Vec3 gravity = Vec3::Zero();             // m/s2
+  double dt = 0.0;                         // s
+  double mass_rate = 0.0;                  // 1/s, Rayleigh
+  double local = 0.0;                      // Cundall
+  bool averaged = true;                    // false: plain tetrahedra, which lock; for comparison
+
+  void volumes(std::size_t tile) const;
+  void means(std::size_t tile) const;
+  FillReport stresses(std::size_t tile) const;
+  FillReport nodes(std::size_t tile) const;
+
+  NodeUpdate update(std::size_t node) const;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,83 @@
+#include "solver/fill/mohr_coulomb.h"
+
+#include <cmath>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+FillLaw fill_law(const Material& m) {
+  const double bulk = m.youngs_modulus * m.shear_modulus / (3.0 * (3.0 * m.shear_modulus - m.youngs_modulus));
+  if (!(m.density > 0.0) || !(m.youngs_modulus > 0.0) || !(m.shear_modulus > 0.0))
+    throw InputError(
+        "the fill's material '{}' has density {} kg/m3, youngs_modulus {} Pa and shear_modulus {} Pa: all must be "
+        "above zero",
+        m.name, m.density, m.youngs_modulus, m.shear_modulus);
+  if (!(m.youngs_modulus < 3.0 * m.shear_modulus) || m.youngs_modulus < 2.0 * m.shear_modulus * (1.0 - 1e-9))
+    throw InputError(
+        "the fill's material '{}' has youngs_modulus {:g} Pa and shear_modulus {:g} Pa, a Poisson's ratio of {:.3f}: "
+        "choose a shear_modulus between a third and a half of youngs_modulus (ratio 0 to 0.5)",
+        m.name, m.youngs_modulus, m.shear_modulus, 0.5 * m.youngs_modulus / m.shear_modulus - 1.0);
+  if (m.dilation_angle > m.friction_angle + 1e-12)
+    throw InputError(
+        "the fill's material '{}' has a dilation_angle of {:.2f} degrees, above its friction_angle of "
+        "{:.2f}: lower the first",
+        m.name, m.dilation_angle * 180.0 / M_PI, m.friction_angle * 180.0 / M_PI);
+  FillLaw law;
+  law.density = m.density;
+  law.bulk = bulk;
+  law.shear = m.shear_modulus;
+  const double sine = std::sin(m.friction_angle), cosine = std::cos(m.friction_angle),
+               flow = std::sin(m.dilation_angle);
+  law.major = 1.0 + sine, law.minor = 1.0 - sine;
+  law.flow_major = 1.0 + flow, law.flow_minor = 1.0 - flow;
+  law.strength = 2.0 * m.cohesion * cosine;
+  law.cone = 1.0 + sine * sine / 3.0;
+  // Without friction there is no apex: the cut-off is where the case puts it.
+  law.tension = sine > 1e-9 ? std::min(m.tensile_strength, m.cohesion * cosine / sine) : m.tensile_strength;
+  return law;
+}
+
+namespace {
+
+/// D − D R (Nᵀ D R)⁻¹ Nᵀ D for planes with these normals and flows, columns of n and r.
+template <int planes>
+Mat3 along(const Mat3& d, const Eigen::Matrix<double, 3, planes>& n, const Eigen::Matrix<double, 3, planes>& r) {
+  const Eigen::Matrix<double, planes, planes> across = n.transpose() * d * r;
+  return d - d * r * across.inverse() * n.transpose() * d;
+}
+Mat3 along_both(const Mat3& d, const Vec3& n, const Vec3& r, const Vec3& m, const Vec3& s) {
+  Eigen::Matrix<double, 3, 2> normals, flows;
+  normals << n, m;
+  flows << r, s;
+  return along<2>(d, normals, flows);
+}
+
+}  // namespace
+
+Mat3 return_tangent(const FillLaw& law, ReturnRegion region) {
+  const double a = law.major, b = law.minor, ag = law.flow_major, bg = law.flow_minor;
+  const Mat3 d = law.lame() * Mat3::Ones() + 2.0 * law.shear * Mat3::Identity();
+  const Vec3 n13(a, 0, -b), n23(0, a, -b), n12(a, -b, 0), r13(ag, 0, -bg), r23(0, ag, -bg), r12(ag, -bg, 0);
+  const Vec3 e1(1, 0, 0), e2(0, 1, 0);
+  switch (region) {
+    case ReturnRegion::elastic:
+      return d;
+    case ReturnRegion::plane:
+      return along<1>(d, n13, r13);
+    case ReturnRegion::cut:
+      return along<1>(d, e1, e1);
+    case ReturnRegion::edge_12:
+      return along_both(d, n13, r13, n23, r23);
+    case ReturnRegion::edge_23:
+      return along_both(d, n13, r13, n12, r12);
+    case ReturnRegion::cut_12:
+      return along_both(d, e1, e1, e2, e2);
+    case ReturnRegion::plane_cut:
+      return along_both(d, n13, r13, e1, e1);
+    default:
+      return Mat3::Zero();  // corners: three planes
+  }
+}
+
+}  // namespace voussoir

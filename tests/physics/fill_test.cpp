@@ -1,0 +1,257 @@
+// Tetrahedra of the fill against closed forms: uniform strain, rotations, energy and momentum.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "solver/step/damping.h"
+#include "tools/ladder/fill_rig.h"
+
+using namespace voussoir;
+using namespace voussoir::ladder;
+
+namespace {
+
+double radians(double degrees) {
+  return degrees * M_PI / 180.0;
+}
+
+/// 2 × 3 × 2 m, its inner nodes moved about so that no two tetrahedra are alike.
+FillMesh uneven_mesh() {
+  FillMesh mesh = box_mesh({0, 0, 0}, {2, 3, 2}, 3, 4, 3);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> by(-0.12, 0.12);
+  for (Vec3& x : mesh.nodes) {
+    const Vec3 far(2, 3, 2);
+    for (int c = 0; c < 3; ++c)
+      if (x[c] > 1e-9 && x[c] < far[c] - 1e-9) x[c] += by(random);
+  }
+  return mesh;
+}
+
+Material soil() {
+  Material m = elastic_fill(1500.0, 266.6667e6, 160e6);
+  m.cohesion = 20e3, m.tensile_strength = 0.0, m.friction_angle = radians(40.0), m.dilation_angle = radians(10.0);
+  return m;
+}
+
+void shake_up(FillRig& rig, double size, int seed) {
+  std::mt19937 random{unsigned(seed)};
+  std::normal_distribution<double> normal(0.0, size);
+  for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i)
+    rig.set_displacement(i, {normal(random), normal(random), normal(random)});
+}
+
+Vec3 place(const FillRig& rig, std::size_t i) {
+  return rig.fill.nodes[i] + rig.displacement(i);
+}
+
+/// Largest sum of all forces and moments, over the largest force.
+double unbalanced(const FillRig& rig) {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  double most = 0.0;
+  for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+    const Vec3 f = rig.force(i);
+    force += f, moment += place(rig, i).cross(f);
+    most = std::max(most, f.norm());
+  }
+  return std::max(force.norm(), moment.norm()) / most;
+}
+
+}  // namespace
+
+TEST(FillElement, UniformStrainIsExact) {
+  for (const bool averaged : {true, false}) {
+    FillRig rig(uneven_mesh(), elastic_fill(1500.0, 266e6, 160e6));
+    rig.pass.averaged = averaged;
+    Mat3 g;
+    g << 1, 2, -3, 0.5, -2, 1, 4, -1, 1.5;
+    g *= 1e-9;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) rig.set_displacement(i, g * rig.fill.nodes[i]);
+    rig.stresses();
+    const Mat3 strain = 0.5 * (g + g.transpose());
+    const Mat3 stress = 2 * 160e6 * strain + (266e6 - 2.0 / 3.0 * 160e6) * strain.trace() * Mat3::Identity();
+    const double scale = stress.norm();
+    // Under a velocity field A x the forces do the work −V σ : A; inside there is no force.
+    Mat3 field;
+    field << 3, -1, 2, 5, 1, -4, 2, 6, -2;
+    double work = 0.0;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) work += rig.force(i).dot(field * rig.fill.nodes[i]);
+    EXPECT_NEAR(work, -12.0 * stress.cwiseProduct(field).sum(), 1e-6 * 12.0 * scale);
+    double inside = 0.0;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+      const Vec3 x = rig.fill.nodes[i], to = Vec3(2, 3, 2) - x;
+      if (x.minCoeff() > 1e-9 && to.minCoeff() > 1e-9) inside = std::max(inside, rig.force(i).norm());
+    }
+    EXPECT_LT(inside, 1e-6 * scale);
+    const double energy = 0.5 * strain.cwiseProduct(stress).sum() * 12.0;
+    EXPECT_NEAR(rig.elastic_energy(), energy, 1e-6 * energy);
+  }
+}
+
+TEST(FillElement, ForceIsTheDerivativeOfEnergy) {
+  for (const bool averaged : {true, false}) {
+    FillRig rig(uneven_mesh(), elastic_fill(1500.0, 266e6, 160e6));
+    rig.pass.averaged = averaged;
+    shake_up(rig, 0.003, 1);
+    rig.stresses();
+    std::vector<Vec3> forces;
+    double most = 0.0;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+      forces.push_back(rig.force(i));
+      most = std::max(most, forces.back().norm());
+    }
+    const double h = 1e-6;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); i += 7)
+      for (int c = 0; c < 3; ++c) {
+        const Vec3 u = rig.displacement(i);
+        double energy[2];
+        for (const int up : {0, 1}) {
+          rig.set_displacement(i, u + (up ? h : -h) * Vec3::Unit(c));
+          rig.stresses();
+          energy[up] = rig.elastic_energy();
+        }
+        rig.set_displacement(i, u);
+        // The stress is the energy's derivative but for a share of the elastic strain (here a per cent) to the third.
+        EXPECT_NEAR(forces[i][c], -(energy[1] - energy[0]) / (2 * h), 3e-5 * most);
+      }
+  }
+}
+
+TEST(FillElement, NothingInARigidTurn) {
+  FillRig rig(uneven_mesh(), elastic_fill(1500.0, 266e6, 160e6));
+  for (const double degrees : {0.01, 90.0, 170.0}) {
+    const Mat3 turn = Eigen::AngleAxisd(radians(degrees), Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i)
+      rig.set_displacement(i, turn * rig.fill.nodes[i] - rig.fill.nodes[i] + Vec3(1, -2, 3));
+    rig.stresses();
+    double most = 0.0;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) most = std::max(most, rig.force(i).norm());
+    EXPECT_LT(most, 1e-9 * 400e6) << degrees;
+  }
+}
+
+TEST(FillElement, FlowsTheSameWhenTurned) {
+  const Mat3 turn = Eigen::AngleAxisd(radians(70.0), Vec3(3, -2, 1).normalized()).toRotationMatrix();
+  FillRig rig(uneven_mesh(), soil()), turned(uneven_mesh(), soil());
+  for (const int seed : {1, 2, 3}) {
+    shake_up(rig, 0.02, seed);
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i)
+      turned.set_displacement(i, turn * place(rig, i) - rig.fill.nodes[i]);
+    EXPECT_GT(rig.stresses().yielding, 0);
+    turned.stresses();
+    double most = 0.0, apart = 0.0;
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+      most = std::max(most, rig.force(i).norm());
+      apart = std::max(apart, (turn * rig.force(i) - turned.force(i)).norm());
+    }
+    EXPECT_LT(apart, 1e-8 * most);
+  }
+}
+
+TEST(FillElement, KeepsMomentum) {
+  FillRig rig(uneven_mesh(), soil());
+  DampingSettings maxwell;
+  maxwell.kind = DampingSettings::Kind::maxwell;
+  rig.set_branches(damping_at_work(maxwell, 1e-4, 1e4).branches);
+  ASSERT_EQ(rig.pass.branches.count, 3);
+  for (const int seed : {1, 2, 3}) {
+    shake_up(rig, 0.02, seed);
+    EXPECT_GT(rig.stresses().yielding, 0);
+    EXPECT_LT(unbalanced(rig), 1e-11);
+  }
+}
+
+// Where plastic flow changes volume the nodes' means follow it in the next pass.
+TEST(FillElement, StressesTwiceAreTheSameAtConstantVolume) {
+  Material clay = soil();
+  clay.friction_angle = clay.dilation_angle = 0.0, clay.tensile_strength = 1e30;
+  FillRig rig(uneven_mesh(), clay);
+  shake_up(rig, 0.002, 1);
+  rig.stresses();
+  std::vector<Vec3> first;
+  double most = 0.0;
+  for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+    first.push_back(rig.force(i));
+    most = std::max(most, first.back().norm());
+  }
+  const double dissipated = rig.memory.lost[0];
+  rig.stresses();
+  for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) EXPECT_LT((rig.force(i) - first[i]).norm(), 1e-6 * most);
+  EXPECT_NEAR(rig.memory.lost[0], dissipated, 1e-6 * dissipated);
+}
+
+namespace {
+
+struct Ledger {
+  double kinetic = 0.0, elastic = 0.0, lost = 0.0, largest = 0.0;
+  double total() const { return kinetic + elastic + lost; }
+};
+
+/// A box that starts with these speeds is stepped; the largest change of its energy over the largest term.
+double worst_balance(FillRig& rig, double speed, int steps, Ledger& end) {
+  for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+    const Vec3 x = rig.fill.nodes[i] - Vec3(1, 1.5, 1);
+    rig.set_velocity(i, speed * Vec3(-x.x(), 0.5 * x.z(), 0.3 * x.y() * x.x()));
+  }
+  rig.pass.dt = rig.safe_step(0.3);
+  double first = 0.0, worst = 0.0, largest = 0.0;
+  for (int s = 0; s < steps; ++s) {
+    Ledger now;
+    rig.stresses();
+    for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i) {
+      const NodeUpdate next = rig.pass.update(i);
+      for (int c = 0; c < 3; ++c)
+        now.kinetic +=
+            0.5 * rig.fill.inertial[i] * rig.memory.motion[node_width * i + std::size_t(c)] * next.velocity[c];
+    }
+    now.elastic = rig.elastic_energy();
+    double springs = 0.0;
+    for (const FillEnergy& e : rig.energies) springs += e.branches;
+    now.elastic += springs;
+    for (std::size_t t = 0; t < rig.fill.tiles.size(); ++t)
+      now.lost += rig.memory.lost[4 * t] + rig.memory.lost[4 * t + 1];
+    now.lost -= springs;  // of the work done on branches, what their springs hold is not lost
+    if (s == 0) first = now.total();
+    largest = std::max({largest, now.kinetic, now.elastic, now.lost});
+    worst = std::max(worst, std::abs(now.total() - first));
+    end = now;
+    for (std::size_t t = 0; t < rig.fill.tiles.size(); ++t) rig.pass.nodes(t);
+  }
+  return worst / largest;
+}
+
+}  // namespace
+
+TEST(FillElement, KeepsItsEnergy) {
+  FillRig rig(uneven_mesh(), elastic_fill(1500.0, 266e6, 160e6));
+  Ledger end;
+  EXPECT_LT(worst_balance(rig, 2.0, 2000, end), 1e-3);
+  EXPECT_EQ(end.lost, 0.0);
+}
+
+TEST(FillElement, LosesWhatPlasticFlowTakes) {
+  FillRig rig(uneven_mesh(), soil());
+  Ledger end;
+  EXPECT_LT(worst_balance(rig, 2.0, 2000, end), 1e-2);
+  EXPECT_GT(end.lost, 0.3 * end.total());
+}
+
+TEST(FillElement, LosesWhatBranchesTake) {
+  FillRig rig(uneven_mesh(), elastic_fill(1500.0, 266e6, 160e6));
+  DampingSettings maxwell;
+  maxwell.kind = DampingSettings::Kind::maxwell;
+  maxwell.band[0] = 10.0, maxwell.band[1] = 200.0;
+  rig.set_branches(damping_at_work(maxwell, rig.safe_step(0.3), 1e4).branches);
+  Ledger end;
+  EXPECT_LT(worst_balance(rig, 0.02, 2000, end), 5e-3);
+  EXPECT_GT(end.lost, 0.05 * end.total());
+}
+
+TEST(FillElement, ATetrahedronThatLosesItsVolumeIsNamed) {
+  FillMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1}, 1, 1, 1);
+  FillRig rig(mesh, soil());
+  EXPECT_EQ(rig.stresses().inverted, -1);
+  for (std::size_t i = 0; i < rig.fill.nodes.size(); ++i)
+    if (rig.fill.nodes[i].z() > 0.5) rig.set_displacement(i, {0, 0, -1.2});
+  EXPECT_GE(rig.stresses().inverted, 0);
+}
