@@ -142,18 +142,9 @@ bool clear_of(const Polygon& polygon, const Ring& ring) {
 /// Lays one box of a course, cut by the rings.
 void lay_box(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, const Vec3& nominal) {
   const Polygon whole = rectangle(low.x(), high.x(), low.z(), high.z());
-  std::vector<Polygon> cells = {whole};
-  bool was_cut = false;
-  for (const Ring& ring : layout.rings) {
-    if (clear_of(whole, ring)) continue;
-    std::vector<Polygon> next;
-    for (const Polygon& cell : cells) {
-      for (Polygon& piece : outside(cell, ring)) next.push_back(std::move(piece));
-    }
-    cells = std::move(next);
-    was_cut = true;
-  }
-  for (const auto& group : connected_groups(std::move(cells))) {
+  const auto reaches = [&](const Ring& ring) { return !clear_of(whole, ring); };
+  const bool was_cut = std::any_of(layout.rings.begin(), layout.rings.end(), reaches);
+  for (const auto& group : connected_groups(outside(low, high, layout.rings))) {
     std::vector<Polyhedron> solids;
     for (const Polygon& cell : group) solids.push_back(sweep_across(cell, low.y(), high.y()));
     lay_stone(layout, std::move(solids), unit, nominal, was_cut);
@@ -219,6 +210,20 @@ std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring) {
   std::vector<Polygon> result;
   for (Piece& piece : pieces) result.push_back(std::move(piece.polygon));
   return result;
+}
+
+std::vector<Polygon> outside(const Vec3& low, const Vec3& high, const std::vector<Ring>& rings) {
+  const Polygon whole = rectangle(low.x(), high.x(), low.z(), high.z());
+  std::vector<Polygon> pieces = {whole};
+  for (const Ring& ring : rings) {
+    if (clear_of(whole, ring)) continue;
+    std::vector<Polygon> next;
+    for (const Polygon& piece : pieces) {
+      for (Polygon& part : outside(piece, ring)) next.push_back(std::move(part));
+    }
+    pieces = std::move(next);
+  }
+  return pieces;
 }
 
 void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, int first) {

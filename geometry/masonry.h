@@ -58,6 +58,10 @@ std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, 
 /// along the planes of the ring's joints.
 std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring);
 
+/// The part of the rectangle between two corners in the plane x-z that lies outside the extrados of all rings, as
+/// convex polygons.
+std::vector<Polygon> outside(const Vec3& low, const Vec3& high, const std::vector<Ring>& rings);
+
 /// Fills a box with horizontal courses in running bond: along x (a course is offset half a length against the ones
 /// above and below) and across y (a row is so against its neighbours in the course), unless the unit is stacked. Stones
 /// that meet a ring of the layout are cut by its extrados; what falls apart becomes separate stones. `first` is the

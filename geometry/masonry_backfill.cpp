@@ -1,25 +1,54 @@
-// Rigid backfill above the springing: between the spandrel walls, over backing and vaults, up to the deck.
+// The backfill: between the spandrel walls, over backing and vaults, up to the deck, and between wing walls.
 #include "geometry/masonry_parts.h"
 
 namespace voussoir {
 
-void lay_backfill(Layout& layout, const Bridge& bridge) {
-  if (!bridge.rigid_backfill) return;
-  const Unit unit = bridge.fill_unit();
+std::pair<double, double> wing_extent(const Bridge& bridge, int support) {
+  const double x0 = bridge.support_start(support), x1 = bridge.support_end(support);
+  const double leaf = bridge.leaf ? bridge.leaf_length_beside_span : x1 - x0;
+  return support == 0 ? std::pair(x0, x1 - leaf) : std::pair(x0 + leaf, x1);
+}
+
+std::vector<FillRegion> fill_regions(const Bridge& bridge) {
+  std::vector<FillRegion> regions;
+  const auto add = [&](double x0, double x1, double inner, double z0, double z1, int support, int course) {
+    if (x1 - x0 > 1e-9) regions.push_back({{x0, -inner, z0}, {x1, inner, z1}, support, course});
+  };
+  for (const int support : {0, bridge.spans}) {
+    const auto [x0, x1] = wing_extent(bridge, support);
+    add(x0, x1, bridge.half_width() - bridge.wing_wall_thickness, bridge.support_base(support), bridge.springing(),
+        support, 0);
+  }
   const double top_of_backing = bridge.springing() + bridge.backing_height;
   int course = 0;
   for (const Band& band : interior_bands(bridge)) {
     const double inner = bridge.half_width() - band.thickness;
-    const auto lay = [&](double x0, double x1) {
-      if (x1 - x0 > 1e-9) lay_courses(layout, {x0, -inner, band.z0}, {x1, inner, band.z1}, unit, course);
-    };
     if (band.z0 >= top_of_backing) {
-      lay(0.0, bridge.length());
+      add(0.0, bridge.length(), inner, band.z0, band.z1, -1, course);
     } else {  // beside the backing: behind the abutments only
-      lay(0.0, bridge.support_end(0) - bridge.backing_over_abutment);
-      lay(bridge.support_start(bridge.spans) + bridge.backing_over_abutment, bridge.length());
+      add(0.0, bridge.support_end(0) - bridge.backing_over_abutment, inner, band.z0, band.z1, -1, course);
+      add(bridge.support_start(bridge.spans) + bridge.backing_over_abutment, bridge.length(), inner, band.z0, band.z1,
+          -1, course);
     }
     course += int(split(band.z0, band.z1, bridge.fill.z()).size()) - 1;
+  }
+  return regions;
+}
+
+double fill_space(const Bridge& bridge) {
+  const std::vector<Ring> rings = vault_rings(bridge);
+  double volume = 0.0;
+  for (const FillRegion& region : fill_regions(bridge)) {
+    const double width = region.high.y() - region.low.y();
+    for (const Polygon& piece : outside(region.low, region.high, rings)) volume += width * polygon_area(piece);
+  }
+  return volume;
+}
+
+void lay_backfill(Layout& layout, const Bridge& bridge) {
+  if (!bridge.rigid_backfill) return;
+  for (const FillRegion& region : fill_regions(bridge)) {
+    if (region.support < 0) lay_courses(layout, region.low, region.high, bridge.fill_unit(), region.course);
   }
 }
 

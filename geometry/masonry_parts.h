@@ -2,6 +2,8 @@
 // masonry_PART.cpp). All share one description of the bridge and take their coordinates from it, so that neighbours
 // meet at equal coordinates.
 #pragma once
+#include <utility>
+
 #include "geometry/masonry.h"
 
 namespace voussoir {
@@ -28,6 +30,8 @@ struct Bridge {
   double wing_wall_thickness = 0.0;
   double leaf_thickness[2] = {0.0, 0.0};  // even and odd courses
   bool rigid_backfill = true;
+  bool deformable_backfill = false;
+  double fill_edge = 0.5;   // longest edge of its tetrahedra
   bool fill_bonded = true;  // rigid backfill in running bond, or stacked
   bool restrained = false;
   Vec3 voussoir = Vec3::Ones();    // along the arc, across, ring thickness
@@ -65,9 +69,23 @@ std::vector<Band> spandrel_courses(const Bridge& bridge);
 /// walls is laid in.
 std::vector<Band> interior_bands(const Bridge& bridge);
 
+/// A box of the fill; what lies within a vault's extrados does not belong to it.
+struct FillRegion {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // m
+  int support = -1;  // the abutment between whose wing walls it lies; -1: above the springing
+  int course = 0;    // number of its lowest course in the bond
+};
+/// The boxes of the fill, which do not overlap: between the wing walls, then those above the springing from below. The
+/// rigid fill is laid in them and the deformable one is meshed in them.
+std::vector<FillRegion> fill_regions(const Bridge& bridge);
+double fill_space(const Bridge& bridge);  // m3, of the boxes less what lies within the vaults
+/// From where to where the wing walls of an abutment go, m; of equal ends when it has none.
+std::pair<double, double> wing_extent(const Bridge& bridge, int support);
+
 /// "abutment left", "pier 0", …, "abutment right".
 std::string support_name(const Bridge& bridge, int support);
 
+std::vector<Ring> vault_rings(const Bridge& bridge);
 void lay_vaults(Layout& layout, const Bridge& bridge);  // sets layout.rings; groups "keystone i"
 void lay_piers(Layout& layout, const Bridge& bridge);
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them

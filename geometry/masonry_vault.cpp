@@ -5,11 +5,20 @@
 
 namespace voussoir {
 
-void lay_vaults(Layout& layout, const Bridge& bridge) {
+std::vector<Ring> vault_rings(const Bridge& bridge) {
   const double radius = 0.5 * bridge.clear_span;
+  std::vector<Ring> rings;
   for (int i = 0; i < bridge.spans; ++i) {
     const Vec3 centre(0.5 * (bridge.span_start(i) + bridge.span_end(i)), 0.0, bridge.springing());
-    const Ring ring = make_semicircle(centre, radius, radius + bridge.ring_thickness, bridge.voussoirs);
+    rings.push_back(make_semicircle(centre, radius, radius + bridge.ring_thickness, bridge.voussoirs));
+  }
+  return rings;
+}
+
+void lay_vaults(Layout& layout, const Bridge& bridge) {
+  const std::vector<Ring> rings = vault_rings(bridge);
+  for (int i = 0; i < bridge.spans; ++i) {
+    const Ring& ring = rings[std::size_t(i)];
     const Unit unit = {Component::arch, i, bridge.vault, bridge.voussoir};
     const auto first = lay_ring(layout, ring, -bridge.half_width(), bridge.half_width(), unit);
     // With an even number of wedges the crown is a joint, and the keystone the wedges on both its sides.
