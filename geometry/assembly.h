@@ -1,5 +1,5 @@
-// The block assembly: stones, the joints between them and what each joint is made of. It is what a generator or an
-// importer makes, what an assembly file holds, and what the solver builds its model from.
+// The block assembly: stones, the joints between them, a deformable fill, and what each joint is made of. It is what a
+// generator or an importer makes, what an assembly file holds, and what the solver builds its model from.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -80,14 +80,6 @@ struct Joint {
   std::int32_t law = 0;                 // index into Assembly::laws
 };
 
-/// A named point that moves with a block.
-struct Sensor {
-  std::string id;
-  Vec3 position = Vec3::Zero();   // m
-  Vec3 direction = Vec3::Zero();  // unit
-  std::int64_t block = 0;
-};
-
 /// The deformable fill: one continuum of linear tetrahedra that share whole faces.
 struct FillMesh {
   std::vector<Vec3> nodes;                             // m
@@ -109,6 +101,14 @@ struct FillJoint {
   std::int32_t law = 0;        // index into Assembly::laws
 };
 
+/// A named point that moves with a block.
+struct Sensor {
+  std::string id;
+  Vec3 position = Vec3::Zero();   // m
+  Vec3 direction = Vec3::Zero();  // unit
+  std::int64_t block = 0;
+};
+
 struct Assembly {
   std::string generator;  // "cs1", "import", …
   std::string case_text;  // the case file it was made from, may be empty
@@ -116,10 +116,10 @@ struct Assembly {
   std::vector<Block> blocks;
   std::vector<Joint> joints;  // sorted by (a, b, cell_a, cell_b, face_a, face_b), no pair of faces twice
   std::vector<JointLaw> laws;
+  FillMesh fill;                                            // empty: none, or one of rigid blocks
+  std::vector<FillJoint> fill_joints;                       // sorted by (block, cell, face, triangle)
   std::map<std::string, std::vector<std::int64_t>> groups;  // block indices: "keystone 0", "wall y- pier 1", …
   std::vector<Sensor> sensors;
-  FillMesh fill;
-  std::vector<FillJoint> fill_joints;  // sorted by (block, cell, face, triangle)
   std::vector<std::string> effects;    // that have changed it, in words: see solver/effects
 };
 

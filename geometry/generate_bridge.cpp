@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "geometry/fill_gmsh.h"
+#include "geometry/fill_joints.h"
+#include "geometry/fill_mesh.h"
 #include "geometry/generate.h"
 #include "geometry/masonry_parts.h"
 #include "geometry/stiffness.h"
@@ -71,6 +74,8 @@ Bridge read_bridge(const GeneratorInput& in) {
   bridge.leaf_thickness[1] = in("leaf_thickness_odd");
   bridge.fill_bonded = in.choices.at("fill_bond") == "running";
   bridge.rigid_backfill = in.choices.at("backfill") == "rigid";
+  bridge.deformable_backfill = in.choices.at("backfill") == "deformable";
+  bridge.fill_edge = in("fill_edge");
   bridge.restrained = in.choices.at("abutments") == "restrained";
   read_block_sizes(bridge, in);
   return bridge;
@@ -160,12 +165,26 @@ std::int32_t index_of(const std::vector<Material>& materials, const std::string&
   return 0;  // a bridge without a material of its own for this part uses "masonry"
 }
 
+/// The deformable fill and its patches. Their rules are those of rigid blocks of the unscaled size: tetrahedra do not
+/// follow the blocks.
+void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const GeneratorInput& in) {
+  FillSpace space;
+  for (const FillRegion& region : fill_regions(bridge)) space.boxes.push_back({region.low, region.high});
+  space.rings = vault_rings(bridge);
+  FillMeshing meshing;
+  meshing.edge = bridge.fill_edge;
+  assembly.fill = mesh_fill(space, meshing).mesh;
+  assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
+  check_fill(assembly.fill, "the mesh of the fill");
+  check_volume(assembly.fill, fill_space(bridge));
+  JointSearch search;
+  search.gap = in.gap_tolerance;
+  find_fill_joints(assembly, search);
+  rules.nominal.at(Component::backfill) /= in("block_scale");
+  assign_fill_stiffness(assembly, rules, in);
+}
+
 Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
-  if (in.choices.at("backfill") == "deformable") {
-    throw InputError(
-        "[bridge] backfill = \"deformable\" is not yet available in this version: use backfill = \"rigid\" "
-        "or \"none\"");
-  }
   check_bridge(in);
   Bridge bridge = read_bridge(in);
   bridge.vault = index_of(defaults, "vault");
@@ -186,7 +205,9 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
   const std::vector<Material> materials = in_order(defaults, in);
   const SliverRule slivers = {in("sliver_thickness") * in("block_scale"), in("sliver_share")};
   Assembly assembly = assemble(std::move(layout), materials, slivers, in.gap_tolerance);
-  assign_stiffness(assembly, joint_rules(bridge, defaults, materials, in), in);
+  const JointRules rules = joint_rules(bridge, defaults, materials, in);
+  assign_stiffness(assembly, rules, in);
+  if (bridge.deformable_backfill) add_fill(assembly, bridge, rules, in);
   return assembly;
 }
 
@@ -208,13 +229,17 @@ std::vector<Choice> bridge_choices(bool leaf, bool table) {
   const std::vector<std::string> stiffness =
       table ? std::vector<std::string>{"table", "moduli"} : std::vector<std::string>{"moduli", "table"};
   return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
-          {"backfill", {"rigid", "deformable", "none"}, "blocks, tetrahedra (a later version), or left out"},
+          {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
           {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond *"},
           {"makeup", makeup, "piers and abutments: outer leaf around infill (and wing walls), or solid"},
           {"stiffness", stiffness, "joints from the table kn_, ks_ per component, or from E/dc and G/dc"}};
 }
 
 }  // namespace
+
+double bridge_fill_space(const GeneratorInput& input) {
+  return input.choices.at("backfill") == "none" ? 0.0 : fill_space(read_bridge(input));
+}
 
 Generator cs1_generator() {
   const double friction = radians(30.0), loose = radians(40.0);

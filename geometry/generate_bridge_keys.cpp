@@ -54,6 +54,7 @@ const Row kBlocks[] = {
     {"fill_length", 0.70, 1.56, 0.05, 10.0, "m", "rigid backfill: along the bridge"},
     {"fill_width", 0.45, 1.20, 0.05, 10.0, "m", "rigid backfill: across"},
     {"fill_height", 0.40, 1.00, 0.05, 10.0, "m", "rigid backfill: course height"},
+    {"fill_edge", 0.5, 0.5, 0.05, 5.0, "m", "deformable backfill: longest edge of its tetrahedra, at any block_scale"},
     {"sliver_thickness", 0.15, 0.15, 0.0, 1.0, "m", "a thinner cut block (times block_scale) joins its neighbour"},
     {"sliver_share", 0.25, 0.25, 0.0, 0.9, "-", "and so does one of a smaller share of its nominal volume"},
 };

@@ -87,6 +87,10 @@ void check_materials(const Generator& generator, const GeneratorInput& input) {
     positive("density", m.density);
     positive("youngs_modulus", m.youngs_modulus);
     positive("shear_modulus", m.shear_modulus);
+    if (!(m.dilation_angle >= 0.0 && m.dilation_angle <= m.friction_angle)) {
+      throw InputError("[materials.{}] dilation_angle = {:g} degrees: 0 to the friction angle, {:g}, is needed",
+                       material.name, m.dilation_angle * 180.0 / M_PI, m.friction_angle * 180.0 / M_PI);
+    }
   }
 }
 

@@ -34,7 +34,8 @@ struct Overlap {
 std::vector<Overlap> find_overlaps(const Assembly& assembly, double tolerance);
 
 double covered_area(const Assembly& assembly);  // m2, sum over the joints
-/// Surface of all stones that no joint covers: sum of the stones' outer faces less twice the joints' area, m2.
+/// Surface of all stones that no joint covers: sum of the stones' outer faces less twice the joints' area and less that
+/// of the patches with a deformable fill, m2.
 double uncovered_surface(const Assembly& assembly);
 
 /// Outer faces of one block: the faces of its cells less what they share with sibling cells, as planar convex loops.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/fill_mesh.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -45,13 +46,21 @@ class Assigner {
     return in_series(from_table ? table_half(a) : moduli_half(a), from_table ? table_half(b) : moduli_half(b));
   }
 
+  Stiffness stiffness(const FillJoint& joint, const Material& fill) const {
+    if (rules_.kind == JointRules::Kind::given) return rules_.uniform;
+    const Block& b = block(joint.block);
+    if (!b.fixed) return times(rules_.table.at(b.component), rules_.interface_share);
+    const double dc = joint.normal.cwiseAbs().dot(rules_.nominal.at(Component::backfill));
+    return {fill.youngs_modulus / dc, fill.shear_modulus / dc};
+  }
+
+  JointLaw law(const FillJoint& joint, const Material& fill) const {
+    return block(joint.block).fixed ? strength_of(fill) : interface_law();
+  }
+
   JointLaw law(const Joint& joint) const {
     const auto [a, b] = sides(joint);
-    if ((a.component == Component::backfill) != (b.component == Component::backfill)) {
-      JointLaw law;  // masonry on fill: friction only
-      law.friction_angle = law.residual_friction_angle = rules_.interface_friction;
-      return law;
-    }
+    if ((a.component == Component::backfill) != (b.component == Component::backfill)) return interface_law();
     const JointLaw p = strength_of(material(a)), q = strength_of(material(b));
     JointLaw weaker = p;
     weaker.tension = std::min(p.tension, q.tension);
@@ -69,14 +78,19 @@ class Assigner {
     return {side(a, joint), side(b, joint)};
   }
 
-  bool is_restraint(const Joint& joint) const {
-    return block(joint.a).component == Component::restraint || block(joint.b).component == Component::restraint;
-  }
+  bool is_restraint(const Joint& joint) const { return is_restraint(joint.a) || is_restraint(joint.b); }
+  bool is_restraint(std::int64_t i) const { return block(i).component == Component::restraint; }
   bool both_fixed(const Joint& joint) const { return block(joint.a).fixed && block(joint.b).fixed; }
   const Material& material(const Side& s) const { return assembly_.materials[std::size_t(s.material)]; }
 
  private:
   const Block& block(std::int64_t i) const { return assembly_.blocks[std::size_t(i)]; }
+
+  JointLaw interface_law() const {
+    JointLaw law;  // masonry on fill: friction only
+    law.friction_angle = law.residual_friction_angle = rules_.interface_friction;
+    return law;
+  }
 
   Side side(const Block& b, const Joint& joint) const {
     const double distance = std::abs(joint.normal.dot(b.centroid - polygon_centroid(joint.polygon)));
@@ -127,6 +141,15 @@ Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) 
   return overrides;
 }
 
+/// What the case sets for a pair of materials takes the place of what the rules give.
+void apply(const Overrides& overrides, std::int32_t a, std::int32_t b, Stiffness& k, JointLaw& law) {
+  const auto found = overrides.find(std::minmax(a, b));
+  if (found == overrides.end()) return;
+  if (found->second.kn >= 0.0) k.kn = found->second.kn;
+  if (found->second.ks >= 0.0) k.ks = found->second.ks;
+  if (found->second.has_law) law = found->second.law;
+}
+
 }  // namespace
 
 std::int32_t law_index(std::vector<JointLaw>& laws, const JointLaw& law) {
@@ -152,12 +175,26 @@ void assign_stiffness(Assembly& assembly, const JointRules& rules, const Generat
     Stiffness k = assigner.stiffness(joint);
     JointLaw law = assigner.law(joint);
     const auto [a, b] = assigner.sides(joint);
-    if (const auto found = overrides.find(std::minmax(a.material, b.material)); found != overrides.end()) {
-      if (found->second.kn >= 0.0) k.kn = found->second.kn;
-      if (found->second.ks >= 0.0) k.ks = found->second.ks;
-      if (found->second.has_law) law = found->second.law;
-    }
+    apply(overrides, a.material, b.material, k, law);
     if (assigner.is_restraint(joint)) k = times(k, rules.restraint_share);
+    joint.kn = k.kn;
+    joint.ks = k.ks;
+    joint.law = law_index(assembly.laws, law);
+  }
+}
+
+void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input) {
+  const Assigner assigner(assembly, rules);
+  const Overrides overrides = read_overrides(assembly, input);
+  const std::vector<std::int32_t> tets = triangle_tets(assembly.fill);
+  for (FillJoint& joint : assembly.fill_joints) {
+    const Block& block = assembly.blocks[std::size_t(joint.block)];
+    const std::int32_t fill = assembly.fill.material[std::size_t(tets[std::size_t(joint.triangle)])];
+    const Material& material = assembly.materials[std::size_t(fill)];
+    Stiffness k = assigner.stiffness(joint, material);
+    JointLaw law = assigner.law(joint, material);
+    apply(overrides, block.fixed ? fill : block.material, fill, k, law);
+    if (assigner.is_restraint(joint.block)) k = times(k, rules.restraint_share);
     joint.kn = k.kn;
     joint.ks = k.ks;
     joint.law = law_index(assembly.laws, law);

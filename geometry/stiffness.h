@@ -36,6 +36,12 @@ struct JointRules {
 /// Throws InputError for an override that names an unknown material.
 void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
 
+/// The same for the patches between stones and a deformable fill, with the rules of rigid backfill. A fixed block takes
+/// the fill's material; between the two stands one nominal block of backfill, E/dc with its size along the normal,
+/// times `restraint_share` for a restraint block. Tetrahedra have no size of their own there: the fill's stiffness up
+/// to its surface is in them.
+void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
+
 /// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli where both are 0. Throws
 /// InputError when only one of them is given.
 JointRules uniform_rules(const GeneratorInput& input);

@@ -78,6 +78,7 @@ double uncovered_surface(const Assembly& assembly) {
   double sum = 0.0;
   for (const Block& block : assembly.blocks)
     for (const Polygon& polygon : outer_faces(block)) sum += polygon_area(polygon);
+  for (const FillJoint& joint : assembly.fill_joints) sum -= joint.area;
   return sum - 2.0 * covered_area(assembly);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geometry/fill_mesh.h"
 #include "geometry/generator.h"
 #include "geometry/joints.h"
 #include "solver/base/error.h"
@@ -340,8 +341,35 @@ TEST(Bridge, ContradictionsNameTheirKeys) {
   EXPECT_TRUE(names(error("cs1", {{"leaf_thickness_odd", 0.9}}), "leaf_thickness_odd = 1.8"));
   EXPECT_TRUE(names(error("cs1", {{"batter_x", 0.02}}), "batter_x = 0.02"));
   EXPECT_TRUE(names(error("cs1", {{"parapet_thickness", 0.5}}), "parapet_thickness = 0.5"));
-  EXPECT_TRUE(names(error("cs1", {}, {{"backfill", "deformable"}}), "use backfill = \"rigid\""));
+  EXPECT_TRUE(names(error("cs1", {{"fill_edge", 0.01}}), "fill_edge = 0.01"));
   EXPECT_TRUE(names(error("cs1", {}, {{"abutments", "fixed"}}), "free, restrained"));
+}
+
+/// What its fill's surface leaves free is surface of the bridge.
+double free_fill_surface(const Assembly& bridge) {
+  double free = 0.0;
+  for (std::size_t i = 0; i < bridge.fill.triangles.size(); ++i) {
+    free += polygon_area(triangle_polygon(bridge.fill, std::int32_t(i)));
+  }
+  for (const FillJoint& joint : bridge.fill_joints) free -= joint.area;
+  return free;
+}
+
+TEST(Bridge, ADeformableFillLeavesTheSameSurfaceAndLosesNothing) {
+  const auto expect_closed = [](const std::string& name, bool restrained, double abutment, int voussoirs) {
+    GeneratorInput input = input_of(name, 2.0, restrained);
+    input.values["spans"] = 1.0;
+    input.values["fill_edge"] = 1.5;
+    input.values["backing_over_abutment"] = abutment;
+    input.choices["backfill"] = "deformable";
+    const Assembly bridge = build(name, input);
+    const Analytic analytic{input, voussoirs};
+    EXPECT_NEAR(uncovered_surface(bridge) + free_fill_surface(bridge), analytic.surface(), 1e-3) << name;
+    EXPECT_NEAR(moving_volume(bridge) + fill_volume(bridge.fill), analytic.volume(), 1e-6) << name;
+  };
+  expect_closed("cs1", false, 4.8, 20);
+  expect_closed("cs1", true, 2.4, 20);  // fill behind the abutments from the base to the deck
+  expect_closed("cs2", true, 7.5, 22);
 }
 
 TEST(Bridge, OtherSizesAndMakeUpsCloseToo) {

@@ -1,0 +1,67 @@
+#include "geometry/fill_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/fill_mesh.h"
+
+namespace voussoir {
+
+namespace {
+
+struct Areas {
+  double covered = 0.0, surface = 0.0;  // m2
+};
+
+Areas fill_areas(const Assembly& assembly) {
+  Areas areas;
+  for (const FillJoint& joint : assembly.fill_joints) areas.covered += joint.area;
+  for (std::size_t i = 0; i < assembly.fill.triangles.size(); ++i) {
+    areas.surface += polygon_area(triangle_polygon(assembly.fill, std::int32_t(i)));
+  }
+  return areas;
+}
+
+double fill_mass(const Assembly& assembly) {
+  const FillMesh& fill = assembly.fill;
+  double mass = 0.0;
+  for (std::size_t i = 0; i < fill.tets.size(); ++i) {
+    const double density = assembly.materials[std::size_t(fill.material[i])].density;
+    const auto x = [&](std::size_t k) -> const Vec3& { return fill.nodes[std::size_t(fill.tets[i][k])]; };
+    mass += density * (x(1) - x(0)).dot((x(2) - x(0)).cross(x(3) - x(0))) / 6.0;
+  }
+  return mass;
+}
+
+}  // namespace
+
+std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim) {
+  std::vector<std::string> lines;
+  const FillMesh& fill = assembly.fill;
+  if (fill.empty()) return lines;
+  const auto add = [&](const char* name, const std::string& text) {
+    lines.push_back(fmt::format("{:<20}{}", name, text));
+  };
+  const FillQuality q = fill_quality(fill);
+  const std::vector<std::int32_t> parts = fill_parts(fill);
+  const Areas areas = fill_areas(assembly);
+  add("deformable fill", fmt::format("{} nodes, {} tetrahedra, in {} parts", fill.nodes.size(), fill.tets.size(),
+                                     *std::max_element(parts.begin(), parts.end()) + 1));
+  add("  patches",
+      fmt::format("{}, which cover {:.3f} of {:.3f} m2", assembly.fill_joints.size(), areas.covered, areas.surface));
+  const std::string space = aim.volume > 0.0 ? fmt::format(", its space {:.4f} m3", aim.volume) : "";
+  add("  volume", fmt::format("{:.4f} m3{}, {:.2f} t", q.volume, space, fill_mass(assembly) / 1000.0));
+  std::string bound = aim.edge > 0.0 ? fmt::format(", asked for {:g} m", aim.edge) : "";
+  if (aim.edge > 0.0 && q.longest_edge > aim.edge + 1e-9) bound += ", which was not reached";
+  add("  longest edge", fmt::format("{:.4f} m{}", q.longest_edge, bound));
+  add("  shortest edge", fmt::format("{:.4f} m", q.shortest_edge));
+  add("  edge ratio", fmt::format("{:.2f}, the worst of a tetrahedron", q.edge_ratio));
+  add("  smallest angle", fmt::format("{:.2f} degrees between two faces", q.smallest_angle * 180.0 / M_PI));
+  add("  smallest height", fmt::format("{:.4f} m, at ({:.2f}, {:.2f}, {:.2f}) m", q.smallest_height, q.lowest.x(),
+                                       q.lowest.y(), q.lowest.z()));
+  return lines;
+}
+
+}  // namespace voussoir
