@@ -47,8 +47,9 @@ std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim
   const FillQuality q = fill_quality(fill);
   const std::vector<std::int32_t> parts = fill_parts(fill);
   const Areas areas = fill_areas(assembly);
-  add("deformable fill", fmt::format("{} nodes, {} tetrahedra, in {} parts", fill.nodes.size(), fill.tets.size(),
-                                     *std::max_element(parts.begin(), parts.end()) + 1));
+  const std::int32_t count = *std::max_element(parts.begin(), parts.end()) + 1;
+  add("deformable fill", fmt::format("{} nodes, {} tetrahedra, in {}", fill.nodes.size(), fill.tets.size(),
+                                     count == 1 ? "one part" : fmt::format("{} parts", count)));
   add("  patches",
       fmt::format("{}, which cover {:.3f} of {:.3f} m2", assembly.fill_joints.size(), areas.covered, areas.surface));
   const std::string space = aim.volume > 0.0 ? fmt::format(", its space {:.4f} m3", aim.volume) : "";

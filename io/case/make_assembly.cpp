@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "geometry/fill_mesh.h"
 #include "geometry/joints.h"
 #include "geometry/nearest_block.h"
 #include "geometry/stiffness.h"
@@ -13,18 +14,25 @@ namespace {
 
 constexpr double reach = 0.05;  // m: how far off a block's surface a sensor may be mounted
 
-/// Gives all joints between two materials of an assembly that was read the stiffness and strength the case asks for.
+/// Gives all joints between two materials of an assembly that was read the stiffness and strength the case asks for. A
+/// fixed stone takes the material of the fill that touches it.
 void override_joints(Assembly& assembly, const std::string& pair, const GeneratorInput::JointOverride& joint) {
   std::int64_t changed = 0;
-  for (Joint& j : assembly.joints) {
-    const auto name = [&](std::int64_t block) {
-      return assembly.materials[std::size_t(assembly.blocks[std::size_t(block)].material)].name;
-    };
-    if (pair != name(j.a) + "-" + name(j.b) && pair != name(j.b) + "-" + name(j.a)) continue;
+  const auto change = [&](auto& j, std::int32_t a, std::int32_t b) {
+    const std::string& p = assembly.materials[std::size_t(a)].name;
+    const std::string& q = assembly.materials[std::size_t(b)].name;
+    if (pair != p + "-" + q && pair != q + "-" + p) return;
     ++changed;
     if (joint.kn > 0.0) j.kn = joint.kn;
     if (joint.ks > 0.0) j.ks = joint.ks;
     if (joint.has_law) j.law = law_index(assembly.laws, joint.law);
+  };
+  const auto block = [&](std::int64_t i) -> const Block& { return assembly.blocks[std::size_t(i)]; };
+  for (Joint& j : assembly.joints) change(j, block(j.a).material, block(j.b).material);
+  const std::vector<std::int32_t> tets = triangle_tets(assembly.fill);
+  for (FillJoint& j : assembly.fill_joints) {
+    const std::int32_t fill = assembly.fill.material[std::size_t(tets[std::size_t(j.triangle)])];
+    change(j, block(j.block).fixed ? fill : block(j.block).material, fill);
   }
   if (changed > 0) return;
   std::vector<std::string> names;
@@ -44,6 +52,13 @@ void check_overlaps(const Assembly& assembly, const Case& c) {
       "{}: {} pairs of blocks overlap; the first, {} and {}, by {:.3g} m: move them apart, or raise [contact] "
       "gap_tolerance ({} m)",
       c.assembly_file, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
+}
+
+[[noreturn]] void refuse_fill(const Case& c) {
+  throw InputError(
+      "{}: the bridge has a deformable fill, which can be generated and stored but not yet computed in this version: "
+      "use backfill = \"rigid\" or \"none\"",
+      c.path);
 }
 
 /// The case's own messages get its name in front.
@@ -69,7 +84,7 @@ void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors) 
   }
 }
 
-Assembly make_assembly(const Case& c) {
+Assembly make_assembly(const Case& c, AssemblyUse use) {
   Assembly assembly;
   if (!c.generator.empty()) {
     in_case(c, [&] { assembly = find_generator(c.generator).build(c.generator_input); });
@@ -96,6 +111,7 @@ Assembly make_assembly(const Case& c) {
         done.erase(found);
     }
   });
+  if (use == AssemblyUse::solver && !assembly.fill.empty()) refuse_fill(c);
   assembly.case_text = c.text;
   in_case(c, [&] {
     attach_sensors(assembly, c.sensors);

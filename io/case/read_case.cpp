@@ -37,8 +37,10 @@ void read_generator(TableReader& bridge, Case& c) {
   for (const Choice& choice : generator.choices)
     if (bridge.has(choice.name))
       c.generator_input.choices[choice.name] = choice.words[bridge.word(choice.name, choice.words, 0)];
-  for (auto& [name, material] : c.generator_input.materials)
+  for (auto& [name, material] : c.generator_input.materials) {
     material.friction_angle = writable_angle(material.friction_angle);
+    material.dilation_angle = writable_angle(material.dilation_angle);
+  }
 }
 
 void read_material(TableReader& table, Material& m) {
@@ -49,6 +51,11 @@ void read_material(TableReader& table, Material& m) {
   m.cohesion = table.number("cohesion", m.cohesion, {0.0, 1e10, "Pa"});
   if (table.has("friction_angle"))
     m.friction_angle = to_radians(table.number("friction_angle", 0.0, {0.0, 89.0, "degrees"}));
+  if (table.has("dilation_angle"))
+    m.dilation_angle = to_radians(table.number("dilation_angle", 0.0, {0.0, 89.0, "degrees"}));
+  if (m.dilation_angle > m.friction_angle)
+    table.fail("dilation_angle", fmt::format("is {} degrees: it must not be more than the friction angle, {} degrees",
+                                             degrees_text(m.dilation_angle), degrees_text(m.friction_angle)));
   table.finish();
 }
 

@@ -56,6 +56,7 @@ void write_bridge(TomlText& out, const Case& c) {
     out.set("tensile_strength", m.tensile_strength);
     out.set("cohesion", m.cohesion);
     out.set_angle("friction_angle", m.friction_angle);
+    out.set_angle("dilation_angle", m.dilation_angle);
   }
 }
 

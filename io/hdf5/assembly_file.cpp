@@ -1,5 +1,6 @@
 #include "io/hdf5/assembly_file.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "geometry/joints.h"
@@ -87,14 +88,14 @@ void add_blocks(Tables& tables, const Assembly& assembly) {
   tables.push_back({"blocks/fixed", "", 1, std::move(fixed)});
 }
 
-void add_joints(Tables& tables, const Assembly& assembly) {
+/// Columns that joints between blocks and patches of the fill have in common.
+struct JointColumns {
   std::vector<std::int64_t> blocks, polygon_offset = {0};
   std::vector<std::int32_t> cells, faces, law;
   std::vector<double> polygon, normal, area, kn, ks;
-  for (const Joint& joint : assembly.joints) {
-    blocks.insert(blocks.end(), {joint.a, joint.b});
-    cells.insert(cells.end(), {joint.cell_a, joint.cell_b});
-    faces.insert(faces.end(), {joint.face_a, joint.face_b});
+
+  template <class AnyJoint>
+  void add(const AnyJoint& joint) {
     for (const Vec3& p : joint.polygon) polygon.insert(polygon.end(), p.data(), p.data() + 3);
     polygon_offset.push_back(std::int64_t(polygon.size() / 3));
     normal.insert(normal.end(), joint.normal.data(), joint.normal.data() + 3);
@@ -103,16 +104,51 @@ void add_joints(Tables& tables, const Assembly& assembly) {
     ks.push_back(joint.ks);
     law.push_back(joint.law);
   }
-  tables.push_back({"joints/blocks", "", 2, std::move(blocks)});
-  tables.push_back({"joints/cells", "", 2, std::move(cells)});
-  tables.push_back({"joints/faces", "", 2, std::move(faces)});
-  tables.push_back({"joints/polygon", "m", 3, std::move(polygon)});
-  tables.push_back({"joints/polygon_offset", "", 1, std::move(polygon_offset)});
-  tables.push_back({"joints/normal", "", 3, std::move(normal)});
-  tables.push_back({"joints/area", "m2", 1, std::move(area)});
-  tables.push_back({"joints/kn", "Pa/m", 1, std::move(kn)});
-  tables.push_back({"joints/ks", "Pa/m", 1, std::move(ks)});
-  tables.push_back({"joints/law", "", 1, std::move(law)});
+};
+
+/// Joints between blocks, then the patches of the fill; its triangle t is the block −1 − t there.
+void add_joints(Tables& tables, const Assembly& assembly) {
+  JointColumns c;
+  for (const Joint& joint : assembly.joints) {
+    c.blocks.insert(c.blocks.end(), {joint.a, joint.b});
+    c.cells.insert(c.cells.end(), {joint.cell_a, joint.cell_b});
+    c.faces.insert(c.faces.end(), {joint.face_a, joint.face_b});
+    c.add(joint);
+  }
+  for (const FillJoint& joint : assembly.fill_joints) {
+    c.blocks.insert(c.blocks.end(), {joint.block, -1 - std::int64_t(joint.triangle)});
+    c.cells.insert(c.cells.end(), {joint.cell, -1});
+    c.faces.insert(c.faces.end(), {joint.face, -1});
+    c.add(joint);
+  }
+  tables.push_back({"joints/blocks", "", 2, std::move(c.blocks)});
+  tables.push_back({"joints/cells", "", 2, std::move(c.cells)});
+  tables.push_back({"joints/faces", "", 2, std::move(c.faces)});
+  tables.push_back({"joints/polygon", "m", 3, std::move(c.polygon)});
+  tables.push_back({"joints/polygon_offset", "", 1, std::move(c.polygon_offset)});
+  tables.push_back({"joints/normal", "", 3, std::move(c.normal)});
+  tables.push_back({"joints/area", "m2", 1, std::move(c.area)});
+  tables.push_back({"joints/kn", "Pa/m", 1, std::move(c.kn)});
+  tables.push_back({"joints/ks", "Pa/m", 1, std::move(c.ks)});
+  tables.push_back({"joints/law", "", 1, std::move(c.law)});
+}
+
+template <std::size_t N>
+std::vector<std::int64_t> flat(const std::vector<std::array<std::int32_t, N>>& rows) {
+  std::vector<std::int64_t> values;
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return values;
+}
+
+/// Nothing for an assembly without a fill, whose hash is then what it was before there were any.
+void add_fill(Tables& tables, const FillMesh& fill) {
+  if (fill.empty()) return;
+  std::vector<double> nodes;
+  for (const Vec3& p : fill.nodes) nodes.insert(nodes.end(), p.data(), p.data() + 3);
+  tables.push_back({"fill/nodes", "m", 3, std::move(nodes)});
+  tables.push_back({"fill/tets", "", 4, flat(fill.tets)});
+  tables.push_back({"fill/triangles", "", 3, flat(fill.triangles)});
+  tables.push_back({"fill/material", "", 1, fill.material});
 }
 
 /// One member of every element of a list.
@@ -149,6 +185,9 @@ void add_materials(Tables& tables, const Assembly& assembly) {
   tables.push_back({"materials/tensile_strength", "Pa", 1, gather(materials, &Material::tensile_strength)});
   tables.push_back({"materials/cohesion", "Pa", 1, gather(materials, &Material::cohesion)});
   tables.push_back({"materials/friction_angle", "rad", 1, gather(materials, &Material::friction_angle)});
+  const auto dilates = [](const Material& m) { return m.dilation_angle != 0.0; };
+  if (!assembly.fill.empty() || std::any_of(materials.begin(), materials.end(), dilates))
+    tables.push_back({"materials/dilation_angle", "rad", 1, gather(materials, &Material::dilation_angle)});
 }
 
 Tables mechanics(const Assembly& assembly) {
@@ -156,6 +195,7 @@ Tables mechanics(const Assembly& assembly) {
   add_blocks(tables, assembly);
   add_cells(tables, assembly);
   add_joints(tables, assembly);
+  add_fill(tables, assembly.fill);
   add_laws(tables, assembly);
   add_materials(tables, assembly);
   return tables;

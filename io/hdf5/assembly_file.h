@@ -6,16 +6,17 @@
 
 namespace voussoir {
 
-inline constexpr std::int64_t assembly_format_version = 1;
+inline constexpr std::int64_t assembly_format_version = 2;
 
 /// Writes the assembly (finished: masses, joints) atomically. blocks/* hold the outer boundary of each block; the
 /// convex cells of blocks that have several are in cells/*. Throws RunError when it cannot be written.
 void write_assembly(const std::string& path, const Assembly& assembly);
 
 /// Reads an assembly file and checks everything in it: format and version, shapes, offsets, index ranges, finite
-/// numbers, convex closed blocks of positive volume, stated masses, at least one fixed block, sensible joints. Optional
-/// in a file: cells/*, materials/* (then from blocks/density), mass, centroid and inertia, joints/cells and faces,
-/// joints as a whole, groups, sensors. Throws InputError naming file, dataset and row.
+/// numbers, convex closed blocks of positive volume, stated masses, at least one fixed block, sensible joints, a sound
+/// mesh of the fill. Optional in a file: cells/*, materials/* (then from blocks/density), mass, centroid and inertia,
+/// joints/cells and faces, joints as a whole, fill/*, groups, sensors; a file of a fill needs no blocks. Throws
+/// InputError naming file, dataset and row.
 Assembly read_assembly(const std::string& path);
 
 /// Hash of everything that decides how the assembly moves (shapes, masses, joints, laws; not names, groups, the case).

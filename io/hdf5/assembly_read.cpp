@@ -6,6 +6,7 @@
 
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
+#include "io/hdf5/read_fill.h"
 #include "io/hdf5/shape_arrays.h"
 #include "solver/base/error.h"
 
@@ -28,7 +29,9 @@ class AssemblyReader {
   void read_stated(const std::string& name, std::size_t columns);
   void read_laws();
   void read_joints();
-  void find_face(std::size_t row, Joint& joint) const;
+  std::vector<std::int64_t> read_pairs(std::size_t n) const;
+  void find_face(std::size_t row, const Polygon& patch, std::int64_t block, const Vec3& outward, std::int32_t& cell,
+                 std::int32_t& face) const;
   void check_joint(std::size_t row, const Joint& joint) const;
   void sort_joints();
   void read_groups();
@@ -77,7 +80,7 @@ std::vector<std::int32_t> AssemblyReader::read_words(const std::string& name, st
 
 void AssemblyReader::read_shapes_of_blocks() {
   const ShapeArrays outer = read_shapes(file_, "blocks", "block_face_offset");
-  if (outer.size() == 0) file_.fail("blocks/vertex_offset", "there are no blocks");
+  if (outer.size() == 0 && !file_.has("fill/nodes")) file_.fail("blocks/vertex_offset", "there are no blocks");
   assembly_.blocks.resize(outer.size());
   if (file_.has("cells/block")) {
     const ShapeArrays cells = read_shapes(file_, "cells", "cell_face_offset");
@@ -109,7 +112,7 @@ void AssemblyReader::read_properties() {
     assembly_.blocks[i].part = part[i];
     assembly_.blocks[i].fixed = fixed[i] != 0;
   }
-  if (std::find(fixed.begin(), fixed.end(), 1) == fixed.end())
+  if (!fixed.empty() && std::find(fixed.begin(), fixed.end(), 1) == fixed.end())
     file_.fail("blocks/fixed", "no block is fixed: at least one must be 1, or all would fall");
 }
 
@@ -120,11 +123,17 @@ void AssemblyReader::read_materials() {
   const auto density = read_column("materials/density", n), e = read_column("materials/youngs_modulus", n),
              g = read_column("materials/shear_modulus", n), ft = read_column("materials/tensile_strength", n),
              c = read_column("materials/cohesion", n), phi = read_column("materials/friction_angle", n);
+  const bool dilates = file_.has("materials/dilation_angle");
+  const auto psi = dilates ? read_column("materials/dilation_angle", n) : std::vector<double>(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     if (!(density[i] > 0.0))
       file_.fail("materials/density",
                  fmt::format("row {} ({}): {} kg/m3, expected more than 0", i, names[i], density[i]));
-    assembly_.materials.push_back({names[i], density[i], e[i], g[i], ft[i], c[i], phi[i]});
+    if (psi[i] < 0.0 || psi[i] > std::max(phi[i], 0.0))
+      file_.fail(
+          "materials/dilation_angle",
+          fmt::format("row {} ({}): {} rad, expected 0 to the friction angle, {} rad", i, names[i], psi[i], phi[i]));
+    assembly_.materials.push_back({names[i], density[i], e[i], g[i], ft[i], c[i], phi[i], psi[i]});
   }
   const auto material = read_indices<std::int32_t>("blocks/material", {blocks()}, std::int64_t(n));
   for (std::size_t i = 0; i < blocks(); ++i) assembly_.blocks[i].material = material[i];
@@ -221,32 +230,29 @@ void AssemblyReader::read_laws() {
   }
 }
 
-/// For files that do not say which faces meet: the face of each block that looks along the joint and is nearest to its
-/// middle, in the cell that is nearest to it.
-void AssemblyReader::find_face(std::size_t row, Joint& joint) const {
-  const Vec3 middle = polygon_centroid(joint.polygon);
-  const auto nearest = [&](std::int64_t block, const Vec3& outward, std::int32_t& cell, std::int32_t& face) {
-    double least = 1e300;
-    const auto& cells = assembly_.blocks[std::size_t(block)].cells;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      double beyond = 0.0;
-      for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
-        const Plane plane = face_plane(cells[c], int(f));
-        beyond = std::max(beyond, plane.normal.dot(middle) - plane.offset);
-      }
-      for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
-        const Plane plane = face_plane(cells[c], int(f));
-        const double away = beyond + std::abs(plane.normal.dot(middle) - plane.offset);
-        if (plane.normal.dot(outward) < 0.99 || away >= least) continue;
-        least = away;
-        cell = std::int32_t(c);
-        face = std::int32_t(f);
-      }
+/// For files that do not say which faces meet: the face of a block that looks along the joint, out of it, and is
+/// nearest to its middle, in the cell that is nearest to it.
+void AssemblyReader::find_face(std::size_t row, const Polygon& patch, std::int64_t block, const Vec3& outward,
+                               std::int32_t& cell, std::int32_t& face) const {
+  const Vec3 middle = polygon_centroid(patch);
+  double least = 1e300;
+  const auto& cells = assembly_.blocks[std::size_t(block)].cells;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    double beyond = 0.0;
+    for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
+      const Plane plane = face_plane(cells[c], int(f));
+      beyond = std::max(beyond, plane.normal.dot(middle) - plane.offset);
     }
-    if (least > 0.1) file_.fail("joints/blocks", fmt::format("row {}: block {} has no face at the joint", row, block));
-  };
-  nearest(joint.a, joint.normal, joint.cell_a, joint.face_a);
-  nearest(joint.b, -joint.normal, joint.cell_b, joint.face_b);
+    for (std::size_t f = 0; f < cells[c].faces.size(); ++f) {
+      const Plane plane = face_plane(cells[c], int(f));
+      const double away = beyond + std::abs(plane.normal.dot(middle) - plane.offset);
+      if (plane.normal.dot(outward) < 0.99 || away >= least) continue;
+      least = away;
+      cell = std::int32_t(c);
+      face = std::int32_t(f);
+    }
+  }
+  if (least > 0.1) file_.fail("joints/blocks", fmt::format("row {}: block {} has no face at the joint", row, block));
 }
 
 void AssemblyReader::check_joint(std::size_t row, const Joint& joint) const {
@@ -275,10 +281,23 @@ void AssemblyReader::check_joint(std::size_t row, const Joint& joint) const {
   check_face(joint.b, joint.cell_b, joint.face_b);
 }
 
+/// The second of the two may be a triangle of the fill's surface: −1 − t for triangle t.
+std::vector<std::int64_t> AssemblyReader::read_pairs(std::size_t n) const {
+  const std::string name = "joints/blocks";
+  const auto pairs = file_.read<std::int64_t>(name, {n, 2});
+  const auto last = std::int64_t(blocks()) - 1, lowest = -std::int64_t(assembly_.fill.triangles.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::int64_t least = i % 2 == 1 ? lowest : 0;
+    if (pairs[i] > last || pairs[i] < least)
+      file_.fail(name, fmt::format("row {}: {} is out of range, expected {} to {}", i / 2, pairs[i], least, last));
+  }
+  return pairs;
+}
+
 void AssemblyReader::read_joints() {
   if (!file_.has("joints/blocks")) return;
   const std::size_t n = file_.shape("joints/blocks").at(0);
-  const auto between = read_indices<std::int64_t>("joints/blocks", {n, 2}, std::int64_t(blocks()));
+  const auto between = read_pairs(n);
   const auto corners = read_finite(file_, "joints/polygon", {h5::any, 3});
   const auto offset = file_.read<std::int64_t>("joints/polygon_offset", {n + 1});
   check_offsets(file_, "joints/polygon_offset", offset, corners.size() / 3);
@@ -292,25 +311,32 @@ void AssemblyReader::read_joints() {
     faces = file_.read<std::int32_t>("joints/faces", {n, 2});
   }
   for (std::size_t i = 0; i < n; ++i) {
-    Joint joint = {.a = between[2 * i],
-                   .b = between[2 * i + 1],
-                   .cell_a = cells[2 * i],
-                   .cell_b = cells[2 * i + 1],
-                   .face_a = faces[2 * i],
-                   .face_b = faces[2 * i + 1],
-                   .polygon = {},
-                   .normal = Eigen::Map<const Vec3>(normal.data() + 3 * i),
-                   .area = area[i],
-                   .kn = kn[i],
-                   .ks = ks[i],
-                   .law = law[i]};
-    for (std::int64_t k = offset[i]; k < offset[i + 1]; ++k)
-      joint.polygon.emplace_back(Eigen::Map<const Vec3>(corners.data() + 3 * k));
-    if (!located && joint.polygon.size() > 2) find_face(i, joint);
+    const std::int64_t a = between[2 * i], b = between[2 * i + 1];
+    const auto common = [&](auto& joint) {
+      joint.normal = Eigen::Map<const Vec3>(normal.data() + 3 * i);
+      joint.area = area[i], joint.kn = kn[i], joint.ks = ks[i], joint.law = law[i];
+      for (std::int64_t k = offset[i]; k < offset[i + 1]; ++k)
+        joint.polygon.emplace_back(Eigen::Map<const Vec3>(corners.data() + 3 * k));
+      return !located && joint.polygon.size() > 2;
+    };
+    if (b < 0) {
+      FillJoint& joint = assembly_.fill_joints.emplace_back();
+      joint.block = a, joint.cell = cells[2 * i], joint.face = faces[2 * i], joint.triangle = std::int32_t(-1 - b);
+      if (common(joint)) find_face(i, joint.polygon, joint.block, joint.normal, joint.cell, joint.face);
+      check_fill_joint(file_, i, assembly_, joint);
+      continue;
+    }
+    Joint& joint = assembly_.joints.emplace_back();
+    joint.a = a, joint.cell_a = cells[2 * i], joint.face_a = faces[2 * i];
+    joint.b = b, joint.cell_b = cells[2 * i + 1], joint.face_b = faces[2 * i + 1];
+    if (common(joint)) {
+      find_face(i, joint.polygon, joint.a, joint.normal, joint.cell_a, joint.face_a);
+      find_face(i, joint.polygon, joint.b, -joint.normal, joint.cell_b, joint.face_b);
+    }
     check_joint(i, joint);
-    assembly_.joints.push_back(std::move(joint));
   }
   sort_joints();
+  sort_fill_joints(file_, assembly_.fill_joints);
 }
 
 void AssemblyReader::sort_joints() {
@@ -351,12 +377,12 @@ Assembly AssemblyReader::read() {
   if (file_.has_attribute("/", "generator")) assembly_.generator = file_.text("/", "generator");
   if (file_.has_attribute("/", "case")) assembly_.case_text = file_.text("/", "case");
   if (file_.has_attribute("/", "effects")) assembly_.effects = file_.texts("/", "effects");
-  if (file_.has("fill/nodes")) file_.fail("fill/nodes", "this version does not read a deformable fill: leave it out");
   read_shapes_of_blocks();
   read_properties();
   read_materials();
   finish();
   if (file_.has("laws/tension")) read_laws();
+  assembly_.fill = read_fill(file_, assembly_.materials.size());
   read_joints();
   read_groups();
   read_sensors();

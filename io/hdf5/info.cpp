@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "geometry/fill_report.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/checkpoint_file.h"
@@ -93,18 +94,24 @@ std::string describe_assembly(const std::string& path) {
     volumes.push_back(block.mass / block_density(assembly, block));
   }
   for (const Joint& joint : assembly.joints) area += joint.area;
+  for (const Vec3& p : assembly.fill.nodes) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
   const Vec3 size = box.high - box.low;
   const auto [small, large] = std::minmax_element(volumes.begin(), volumes.end());
   Lines out;
   out.add("{}: block assembly, generator \"{}\"", path, assembly.generator);
   out.add("  {} blocks ({} fixed), {:.1f} kg, of which {:.1f} kg free", assembly.blocks.size(), fixed, mass, free_mass);
   describe_components(out, assembly);
-  out.add("  smallest block {} ({:.4g} m3), largest block {} ({:.4g} m3)", small - volumes.begin(), *small,
-          large - volumes.begin(), *large);
+  if (!volumes.empty())
+    out.add("  smallest block {} ({:.4g} m3), largest block {} ({:.4g} m3)", small - volumes.begin(), *small,
+            large - volumes.begin(), *large);
   out.add("  {:.3f} x {:.3f} x {:.3f} m, from ({:.3f}, {:.3f}, {:.3f})", size.x(), size.y(), size.z(), box.low.x(),
           box.low.y(), box.low.z());
   out.add("  {} joints, {:.2f} m2, {} laws, {} materials", assembly.joints.size(), area, assembly.laws.size(),
           assembly.materials.size());
+  for (const std::string& line : fill_lines(assembly)) out.add("  {}", line);
   for (const auto& [name, members] : assembly.groups) out.add("  group \"{}\": {} blocks", name, members.size());
   for (const Sensor& sensor : assembly.sensors) out.add("  sensor \"{}\" on block {}", sensor.id, sensor.block);
   return out.text;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "geometry/generate_bridge.h"
 #include "geometry/joints.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
@@ -14,7 +15,7 @@
 
 namespace voussoir {
 
-void print_assembly_table(const Assembly& assembly) {
+void print_assembly_table(const Assembly& assembly, const FillAim& aim) {
   struct Row {
     std::int64_t blocks = 0, fixed = 0;
     double mass = 0.0;
@@ -47,9 +48,17 @@ void print_assembly_table(const Assembly& assembly) {
                  component_names()[std::size_t(b.component)], b.mass, b.centroid.x(), b.centroid.y(), b.centroid.z());
     }
   fmt::print("surface not covered by joints: {:.3f} m2\n", uncovered_surface(assembly));
+  for (const std::string& line : fill_lines(assembly, aim)) fmt::print("{}\n", line);
 }
 
 namespace {
+
+/// What the case asks of a deformable fill.
+FillAim fill_aim(const Case& c) {
+  const auto edge = c.generator_input.values.find("fill_edge");
+  if (c.generator.empty() || edge == c.generator_input.values.end()) return {};
+  return {bridge_fill_space(c.generator_input), edge->second};
+}
 
 int generate(const std::vector<std::string>& arguments) {
   CommandLine line("generate", "generate CASE [-o FILE]", "voussoir generate cases/cs1-f.toml -o cs1.h5");
@@ -67,13 +76,13 @@ int generate(const std::vector<std::string>& arguments) {
   const std::string file = values["CASE"].as<std::string>();
   const auto start = std::chrono::steady_clock::now();
   const Case c = read_case(file, CaseUse::geometry);
-  const Assembly assembly = make_assembly(c);
+  const Assembly assembly = make_assembly(c, AssemblyUse::file);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string to =
       values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";
   write_assembly(to, assembly);
   if (values.count("quiet")) return 0;
-  print_assembly_table(assembly);
+  print_assembly_table(assembly, fill_aim(c));
   fmt::print("generated in {:.2f} s, written to {}\n", seconds, to);
   return 0;
 }
