@@ -120,7 +120,7 @@ struct Assembly {
   std::vector<FillJoint> fill_joints;                       // sorted by (block, cell, face, triangle)
   std::map<std::string, std::vector<std::int64_t>> groups;  // block indices: "keystone 0", "wall y- pier 1", …
   std::vector<Sensor> sensors;
-  std::vector<std::string> effects;    // that have changed it, in words: see solver/effects
+  std::vector<std::string> effects;  // that have changed it, in words: see solver/effects
 };
 
 /// Fills mass, centroid and inertia of each block from its cells and material. Throws InputError that names the block
