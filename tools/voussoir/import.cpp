@@ -3,29 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
+#include "tools/voussoir/import_fill.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {
 
 namespace {
-
-double positive(const options::variables_map& values, const char* name) {
-  const double x = values[name].as<double>();
-  if (!(x > 0.0 && std::isfinite(x))) throw InputError("--{} is {}; it must be positive and finite", name, x);
-  return x;
-}
-
-double zero_or_more(const options::variables_map& values, const char* name) {
-  const double x = values[name].as<double>();
-  if (!(x >= 0.0 && std::isfinite(x))) throw InputError("--{} is {}; it must be 0 or more, and finite", name, x);
-  return x;
-}
 
 ImportOptions import_options(const options::variables_map& values) {
   ImportOptions o;
@@ -36,14 +22,21 @@ ImportOptions import_options(const options::variables_map& values) {
   o.material.shear_modulus = positive(values, "shear-modulus");
   o.material.tensile_strength = zero_or_more(values, "tension");
   o.material.cohesion = zero_or_more(values, "cohesion");
-  const double friction = values["friction"].as<double>();
-  if (!(friction >= 0.0 && friction < 90.0))
-    throw InputError("--friction is {} degrees; it must be from 0 to below 90", friction);
-  o.material.friction_angle = friction * std::numbers::pi / 180.0;
+  o.material.friction_angle = angle(values, "friction");
   o.kn = zero_or_more(values, "kn");
   o.ks = zero_or_more(values, "ks");
   o.search.gap = positive(values, "gap");
   return o;
+}
+
+/// Where only one of the two kinds of file has an option.
+void check_kind(const options::variables_map& values, bool fill) {
+  const auto given = [&](const char* name) { return values.count(name) && !values[name].defaulted(); };
+  for (const char* name : {"into", "material", "interface-share", "interface-friction", "dilation"})
+    if (!fill && given(name))
+      throw InputError("--{} is for a fill (.msh), and this file holds stones: leave it out", name);
+  if (fill && given("fixed"))
+    throw InputError("--fixed is for stones, and a .msh file holds a fill, which stands on them: leave it out");
 }
 
 int import(const std::vector<std::string>& arguments) {
@@ -61,11 +54,22 @@ int import(const std::vector<std::string>& arguments) {
       "friction", options::value<double>()->default_value(30.0), "degrees")(
       "kn", options::value<double>()->default_value(0.0), "Pa/m of every joint; 0: from the moduli")(
       "ks", options::value<double>()->default_value(0.0), "Pa/m of every joint; 0: from the moduli")(
-      "gap", options::value<double>()->default_value(1e-4), "m: faces closer than this are in contact");
+      "gap", options::value<double>()->default_value(1e-4), "m: faces closer than this are in contact")(
+      "into", options::value<std::string>()->value_name("ASSEMBLY"), ".msh: the assembly that the fill is put into")(
+      "material", options::value<std::string>()->value_name("NAME")->default_value("backfill"),
+      ".msh: the fill's material, one of the assembly or a new one, of which what is not given is 1500 kg/m3, 4e8 and "
+      "1.6e8 Pa, tension 0, cohesion 2e4 Pa, friction 40 degrees")(
+      "dilation", options::value<double>()->default_value(0.0), ".msh: of a new material, degrees")(
+      "interface-share", options::value<double>()->default_value(0.2),
+      ".msh: stiffness of the patches, share of E/dc and G/dc of the stones")(
+      "interface-friction", options::value<double>()->default_value(35.0), ".msh: friction of the patches, degrees");
   line.positional = line.required = {"FILE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   if (!values.count("output")) throw InputError("-o ASSEMBLY is missing; usage: voussoir {}", line.usage);
+  const bool fill = is_fill_file(values["FILE"].as<std::string>());
+  check_kind(values, fill);
+  if (fill) return import_fill(values);
   const Import imported = import_blocks(values["FILE"].as<std::string>(), import_options(values));
   write_assembly(values["output"].as<std::string>(), imported.assembly);
   if (values.count("quiet")) return 0;
@@ -80,7 +84,7 @@ int import(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb import_verb() {
-  return {"import", "blocks made elsewhere (OBJ, PLY, STL) to an assembly", import};
+  return {"import", "blocks (OBJ, PLY, STL) or a fill (Gmsh) made elsewhere to an assembly", import};
 }
 
 }  // namespace voussoir

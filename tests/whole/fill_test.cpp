@@ -1,0 +1,101 @@
+// A deformable fill as a user meets it: generated, looked at, imported, and what does not take it yet.
+#include <gtest/gtest.h>
+
+#include "tests/whole/cases.h"
+
+namespace voussoir::test {
+namespace {
+
+const std::string bridge =
+    "[bridge]\ngenerator = \"cs1\"\nspans = 1\nblock_scale = 3.0\nfill_edge = 1.5\nbackfill = \"deformable\"\n";
+
+void expect_holds(const std::string& text, const std::vector<std::string>& pieces) {
+  for (const std::string& piece : pieces) EXPECT_NE(text.find(piece), std::string::npos) << piece << "\nin\n" << text;
+}
+
+TEST(Fill, GenerateAndInfoSayWhatItIs) {
+  Folder folder;
+  folder.write("c.toml", bridge);
+  const Outcome made = voussoir({"generate", "c.toml", "-o", "c.h5"}, {.folder = folder.path()});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::vector<std::string> words = {"deformable fill", "nodes",          "tetrahedra, in 3 parts", "patches",
+                                          "volume",          "longest edge",   "shortest edge",          "edge ratio",
+                                          "smallest angle",  "smallest height"};
+  expect_holds(made.out, words);
+  expect_holds(made.out, {"its space", "asked for 1.5 m"});
+  EXPECT_EQ(made.out.find("not reached"), std::string::npos) << made.out;
+  const Outcome seen = voussoir({"info", "c.h5"}, {.folder = folder.path()});
+  ASSERT_EQ(seen.status, 0) << seen.err;
+  expect_holds(seen.out, words);
+}
+
+TEST(Fill, TwoProgramsMakeTheSameFile) {
+  Folder folder;
+  folder.write("c.toml", bridge);
+  for (const char* file : {"one.h5", "two.h5"})
+    ASSERT_EQ(voussoir({"generate", "c.toml", "-o", file}, {.folder = folder.path()}).status, 0);
+  EXPECT_EQ(bytes_of(folder / "one.h5"), bytes_of(folder / "two.h5"));
+}
+
+TEST(Fill, WhatComputesRefusesIt) {
+  Folder folder;
+  folder.write("c.toml", bridge + "[[stage]]\nkind = \"gravity\"\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "c.toml", "-o", "run"}, {"modal", "c.toml"}, {"step", "c.toml"}})
+    expect_error(voussoir(words, {.folder = folder.path()}), 2, {"c.toml", "deformable fill", "backfill = \"rigid\""});
+}
+
+/// A tetrahedron on the upper face of the unit cube.
+const std::string heap =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0.2 0.2 1\n2 0.8 0.2 1\n3 0.2 0.8 1\n4 0.2 0.2 1.5\n$EndNodes\n"
+    "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n";
+
+TEST(Fill, ImportPutsItIntoAnAssembly) {
+  Folder folder;
+  folder.write("stone.obj", cube("stone", 0, 0, 0, 1));
+  folder.write("heap.msh", heap);
+  const Surroundings there = {.folder = folder.path()};
+  ASSERT_EQ(voussoir({"import", "stone.obj", "-o", "stone.h5"}, there).status, 0);
+  const Outcome outcome = voussoir({"import", "heap.msh", "--into", "stone.h5", "-o", "both.h5"}, there);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_holds(outcome.out,
+               {"the fill's material \"backfill\" is new", "4 nodes, 1 tetrahedra", "1, which cover 0.180 of"});
+  expect_holds(voussoir({"info", "both.h5"}, there).out, {"1 blocks", "deformable fill"});
+  // A material of the assembly, and only what fits together.
+  EXPECT_EQ(voussoir({"import", "heap.msh", "--into", "stone.h5", "-o", "b.h5", "--material", "stone"}, there).status,
+            0);
+  expect_error(
+      voussoir({"import", "heap.msh", "--into", "stone.h5", "-o", "b.h5", "--material", "stone", "--density", "1800"},
+               there),
+      2, {"--density", "\"stone\"", "--material"});
+  expect_error(voussoir({"import", "heap.msh", "--into", "both.h5", "-o", "b.h5"}, there), 2,
+               {"heap.msh", "already has"});
+  expect_error(voussoir({"import", "stone.obj", "--into", "both.h5", "-o", "b.h5"}, there), 2, {"--into", ".msh"});
+  expect_error(voussoir({"import", "heap.msh", "--fixed", "none", "-o", "b.h5"}, there), 2, {"--fixed"});
+}
+
+TEST(Fill, ImportAlone) {
+  Folder folder;
+  folder.write("heap.msh", heap);
+  const Surroundings there = {.folder = folder.path()};
+  const Outcome outcome = voussoir({"import", "heap.msh", "-o", "heap.h5"}, there);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_holds(outcome.out, {"a fill alone", "4 nodes, 1 tetrahedra"});
+  const Outcome seen = voussoir({"info", "heap.h5"}, there);
+  EXPECT_EQ(seen.status, 0) << seen.err;
+  expect_holds(seen.out, {"0 blocks", "deformable fill"});
+}
+
+TEST(Fill, ImportInWrongUnitsDoesNotTouch) {
+  Folder folder;
+  folder.write("stone.obj", cube("stone", 0, 0, 0, 1));
+  folder.write("heap.msh", heap);
+  const Surroundings there = {.folder = folder.path()};
+  ASSERT_EQ(voussoir({"import", "stone.obj", "-o", "stone.h5"}, there).status, 0);
+  expect_error(voussoir({"import", "heap.msh", "--scale", "0.001", "--into", "stone.h5", "-o", "b.h5"}, there), 2,
+               {"heap.msh", "does not touch the masonry", "units"});
+  EXPECT_FALSE(exists(folder / "b.h5"));
+}
+
+}  // namespace
+}  // namespace voussoir::test

@@ -1,0 +1,127 @@
+#include "tools/voussoir/import_fill.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "geometry/fill_gmsh.h"
+#include "geometry/fill_import.h"
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+#include "tools/voussoir/assembly_table.h"
+
+namespace voussoir {
+
+namespace {
+
+bool given(const options::variables_map& values, const char* name) {
+  return !values[name].defaulted();
+}
+
+/// A new material for the fill: what is not given is that of a loose gravel fill, not of a stone.
+Material new_material(const options::variables_map& values, const std::string& name) {
+  Material m = {name, 1500.0, 4e8, 1.6e8, 0.0, 2e4, 40.0 * std::numbers::pi / 180.0};
+  if (given(values, "density")) m.density = positive(values, "density");
+  if (given(values, "youngs-modulus")) m.youngs_modulus = positive(values, "youngs-modulus");
+  if (given(values, "shear-modulus")) m.shear_modulus = positive(values, "shear-modulus");
+  if (given(values, "tension")) m.tensile_strength = zero_or_more(values, "tension");
+  if (given(values, "cohesion")) m.cohesion = zero_or_more(values, "cohesion");
+  if (given(values, "friction")) m.friction_angle = angle(values, "friction");
+  m.dilation_angle = angle(values, "dilation");
+  if (m.dilation_angle > m.friction_angle)
+    throw InputError("--dilation is {} degrees; it must not be more than the friction angle, {:g} degrees",
+                     values["dilation"].as<double>(), m.friction_angle * 180.0 / std::numbers::pi);
+  return m;
+}
+
+/// The material of that name; a new one at the end of the list when there is none.
+std::int32_t find_material(const options::variables_map& values, Assembly& assembly) {
+  const std::string name = values["material"].as<std::string>();
+  for (std::size_t i = 0; i < assembly.materials.size(); ++i) {
+    if (assembly.materials[i].name != name) continue;
+    for (const char* number :
+         {"density", "youngs-modulus", "shear-modulus", "tension", "cohesion", "friction", "dilation"})
+      if (given(values, number))
+        throw InputError(
+            "--{} is given, but the assembly has a material \"{}\" with values of its own: leave it out, or "
+            "name a new one with --material",
+            number, name);
+    return std::int32_t(i);
+  }
+  assembly.materials.push_back(new_material(values, name));
+  return std::int32_t(assembly.materials.size()) - 1;
+}
+
+FillInterface interface_of(const options::variables_map& values) {
+  FillInterface interface;
+  interface.kn = zero_or_more(values, "kn");
+  interface.ks = zero_or_more(values, "ks");
+  interface.share = positive(values, "interface-share");
+  interface.friction = angle(values, "interface-friction");
+  interface.search.gap = positive(values, "gap");
+  return interface;
+}
+
+}  // namespace
+
+double positive(const options::variables_map& values, const char* name) {
+  const double x = values[name].as<double>();
+  if (!(x > 0.0 && std::isfinite(x))) throw InputError("--{} is {}; it must be positive and finite", name, x);
+  return x;
+}
+
+double zero_or_more(const options::variables_map& values, const char* name) {
+  const double x = values[name].as<double>();
+  if (!(x >= 0.0 && std::isfinite(x))) throw InputError("--{} is {}; it must be 0 or more, and finite", name, x);
+  return x;
+}
+
+double angle(const options::variables_map& values, const char* name) {
+  const double degrees = values[name].as<double>();
+  if (!(degrees >= 0.0 && degrees < 90.0))
+    throw InputError("--{} is {} degrees; it must be from 0 to below 90", name, degrees);
+  return degrees * std::numbers::pi / 180.0;
+}
+
+bool is_fill_file(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".msh";
+}
+
+int import_fill(const options::variables_map& values) {
+  const std::string file = values["FILE"].as<std::string>(), to = values["output"].as<std::string>();
+  Assembly assembly;
+  assembly.generator = "import";
+  const bool into = values.count("into") > 0;
+  if (into) assembly = read_assembly(values["into"].as<std::string>());
+  const std::size_t known = assembly.materials.size();
+  const std::int32_t material = find_material(values, assembly);
+  const FillInterface interface = interface_of(values);
+  FillMesh mesh = read_gmsh(file, positive(values, "scale"));
+  FillJointReport report;
+  try {
+    report = put_fill(assembly, std::move(mesh), material, interface);
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", file, error.what());
+  }
+  write_assembly(to, assembly);
+  if (values.count("quiet")) return 0;
+  if (assembly.materials.size() > known)
+    fmt::print("the fill's material \"{}\" is new: {:g} kg/m3, E {:g} Pa, G {:g} Pa\n", assembly.materials.back().name,
+               assembly.materials.back().density, assembly.materials.back().youngs_modulus,
+               assembly.materials.back().shear_modulus);
+  if (into)
+    fmt::print("gaps closed: {} patches, largest {:.3g} m\n", report.closed_gaps, report.largest_closed_gap);
+  else
+    fmt::print("a fill alone, without stones; --into ASSEMBLY puts it into an assembly\n");
+  print_assembly_table(assembly);
+  fmt::print("written to {}\n", to);
+  return 0;
+}
+
+}  // namespace voussoir
