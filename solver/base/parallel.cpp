@@ -125,17 +125,17 @@ class Rounds {
   void work_on(std::size_t item, RoundKind kind) {
     if (kind == RoundKind::between) return work_.between(item), finished(kind);
     if (kind == RoundKind::second_only) return work_.second(item), finished(kind);
-    work_.first(item);
+    (kind == RoundKind::before ? work_.before_first : work_.first)(item);
     if (kind == RoundKind::first_only) return finished(kind);
-    arrive(item);
-    for (const std::int32_t follower : items_.followers[item]) arrive(std::size_t(follower));
+    arrive(item, kind);
+    for (const std::int32_t follower : items_.followers[item]) arrive(std::size_t(follower), kind);
   }
 
-  void arrive(std::size_t item) {
+  void arrive(std::size_t item, RoundKind kind) {
     if (arrived_[item].fetch_add(1, std::memory_order_acq_rel) + 1 != items_.waits[item]) return;
     arrived_[item].store(0, std::memory_order_relaxed);
-    work_.second(item);
-    finished(RoundKind::both);
+    (kind == RoundKind::before ? work_.before_second : work_.second)(item);
+    finished(kind);
   }
 
   /// The thread that finishes the last item of a round says what comes next.

@@ -43,10 +43,11 @@ struct Dependencies {
   std::vector<double> cost;         // of each item, in any unit: the threads begin with equal shares
 };
 
-enum class RoundKind { both, first_only, between, second_only, end };
+enum class RoundKind { before, both, first_only, between, second_only, end };
 
 struct RoundWork {
   std::function<void(std::size_t)> first, between, second;
+  std::function<void(std::size_t)> before_first, before_second;  // of a round `before`, which waits as `both` does
   std::function<RoundKind(RoundKind)> next;  // called by one thread when a round is over: what comes next
 };
 

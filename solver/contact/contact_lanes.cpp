@@ -69,8 +69,8 @@ struct ContactPass {
                                             TileEnergy* energy) {
     const LaneStrength strength = unbonded();
     const PointRows rows(pass.model->rule, pass.state->contact_points, batch.patch);
-    PointsPass<count, true> all(batch.patch, strength, gaps, pass.branches, active, leaving, change, energy != nullptr,
-                                memory);
+    PointsPass<count, true> all(batch.patch, strength, RigidField(gaps), pass.branches, active, leaving,
+                                RigidField(change), energy != nullptr, memory);
     LanePoints found = all.run(rows);
     found.opening = splat(0.0);  // the gap of a contact that was found apart is no opening: it keeps what it was handed
     note_points(found, active, lane_count, lane_count * k, memory);

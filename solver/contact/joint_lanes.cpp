@@ -257,8 +257,8 @@ struct BatchPass {
   /// Lanes point by point; the few whose law has no lane form are left to point_patch().
   Resultant<Lanes> point_lanes(LaneMask active, TileFindings& findings) {
     const PointRows rows_of_points(pass.model->rule, pass.model->points, batch);
-    PointsPass<count, false> points(batch, strength, jump, pass.branches, active, LaneMask{}, change,
-                                    pass.energies != nullptr, pass.state->joint);
+    PointsPass<count, false> points(batch, strength, RigidField(jump), pass.branches, active, LaneMask{},
+                                    RigidField(change), pass.energies != nullptr, pass.state->joint);
     const LanePoints found = points.run(rows_of_points);
     note_points(found, active, batch.count, first, pass.state->joint);
     findings.elastic += select(active, found.elastic, splat(0.0));

@@ -73,15 +73,26 @@ struct LaneTrial {
   LaneMask yields;  // in these the state of the point changes: it slides, breaks, opens or closes
 };
 
-/// The points of eight patches whose jump, gaps included, is `jump`, and has changed by `change` since the pass before.
-/// Most points stay as they were, closed and elastic or open: only a row in which some lane does not asks for more.
-/// `contacts`: lanes may be `following`, which were wholly open in the pass before: their plastic slip was the jump.
-template <int count, bool contacts>
+/// How eight rigid patches move over their planes: what they displace at a point of them, gaps included.
+struct RigidField {
+  Lanes n, s, t, rn, rs, rt;
+  explicit RigidField(const Jump<Lanes>& j) : n(j.n), s(j.s), t(j.t), rn(j.rn), rs(j.rs), rt(j.rt) {}
+  explicit RigidField(const Lanes* change)
+      : n(change[0]), s(change[1]), t(change[2]), rn(change[3]), rs(change[4]), rt(change[5]) {}
+  [[gnu::always_inline]] Triple<Lanes> at(Lanes x, Lanes y) const {
+    return {n + rs * y - rt * x, s - rn * y, t + rn * x};
+  }
+};
+
+/// The points of eight patches whose jump is `jump`, and has changed by `change` since the pass before: any field that
+/// is affine over the patch. Most points stay as they were, closed and elastic or open: only a row in which some lane
+/// does not asks for more. `contacts`: lanes may be `following`, which were wholly open in the pass before: their
+/// plastic slip was the jump.
+template <int count, bool contacts, class Field = RigidField>
 struct PointsPass {
   const Branches& branches;
   LaneStrength law;
-  Jump<Lanes> jump;
-  Lanes change[6];
+  Field jump, change;
   LaneMask active, following;
   bool energies, dilates;
   Lanes kn, ks, ease;  // 1/(what shear and compression give way to slip)
@@ -90,12 +101,13 @@ struct PointsPass {
   std::uint8_t* broken;
   Pairs fade[(3 * count + 2) / 2], gain[(3 * count + 2) / 2];  // of each two rows of the branches
 
-  [[gnu::always_inline]] PointsPass(const JointBatch& b, const LaneStrength& strength, const Jump<Lanes>& j,
-                                    const Branches& of, LaneMask which, LaneMask follow, const Lanes* since,
+  [[gnu::always_inline]] PointsPass(const JointBatch& b, const LaneStrength& strength, const Field& now,
+                                    const Branches& of, LaneMask which, LaneMask follow, const Field& since,
                                     bool with_energies, PatchMemory& memory)
       : branches(of),
         law(strength),
-        jump(j),
+        jump(now),
+        change(since),
         active(which),
         following(follow),
         energies(with_energies),
@@ -107,7 +119,6 @@ struct PointsPass {
         rest(reinterpret_cast<Lanes*>(memory.point_rest.data()) + 2 * std::size_t(b.first_point)),
         kept(reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * std::size_t(b.first_point)),
         broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {
-    for (int c = 0; c < 6; ++c) change[c] = since[c];
     for (int row = 0; row < 3 * count; row += 2) {
       const bool last = row + 1 == 3 * count;
       const int next = (row + 1) / 3;
@@ -133,8 +144,8 @@ struct PointsPass {
   [[gnu::always_inline]] LaneTrial try_point(int i, Lanes s, Lanes t) const {
     const Lanes zero = splat(0.0);
     LaneTrial e;
-    e.u = {jump.n + jump.rs * t - jump.rt * s, jump.s - jump.rn * t, jump.t + jump.rn * s};
-    e.du = {change[0] + change[4] * t - change[5] * s, change[1] - change[3] * t, change[2] + change[3] * s};
+    e.u = jump.at(s, t);
+    e.du = change.at(s, t);
     e.plastic_n = dilates ? rest[2 * i] : zero;
     e.plastic_s = plastic[2 * i], e.plastic_t = plastic[2 * i + 1];
     if constexpr (contacts) {

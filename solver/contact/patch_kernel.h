@@ -33,16 +33,20 @@ struct PatchPass {
   const Model* model = nullptr;
   State* state = nullptr;
   Branches branches;
-  double* sums = nullptr;              // wrench_width × the sums of Model::tiles
-  double* contact_wrenches = nullptr;  // wrench_width × slots of contacts
-  double* wrenches = nullptr;          // wrench_width × joints, or not wanted
-  bool shortcut = true;                // false: every patch point by point, for verification
-  TileEnergy* energies = nullptr;      // of each tile, or not wanted
+  double* sums = nullptr;                // wrench_width × the sums of Model::tiles
+  double* contact_wrenches = nullptr;    // wrench_width × slots of contacts
+  double* interface_wrenches = nullptr;  // wrench_width × slots of the interface
+  double* interface_forces = nullptr;    // 3 × node_width × slots of the interface: on the corners of its triangles
+  double* wrenches = nullptr;            // wrench_width × joints, or not wanted
+  bool shortcut = true;                  // false: every patch point by point, for verification
+  TileEnergy* energies = nullptr;        // of each tile, or not wanted
 
   /// The joints of a tile, eight side by side: intact lanes as generalised springs, the others point by point.
   PassReport joints(std::size_t tile) const;
   /// The contacts of a tile, in these batches of eight; after its joints.
   PassReport contacts(std::size_t tile, const std::int32_t* begin, const std::int32_t* end) const;
+  /// The patches between the tile's bodies and the fill; after its joints.
+  void interface(std::size_t tile) const;
 };
 
 /// A joint leaves the intact path: its rigid slip field and affine branch field are handed to its points.

@@ -36,15 +36,17 @@ struct FillPass {
   const FillModel* fill = nullptr;
   FillMemory* memory = nullptr;
   Branches branches;
-  double* sums = nullptr;                  // node_width × FillModel::sum_count(): forces
-  double* volume_sums = nullptr;           // FillModel::sum_count(): κ V θ, J
-  const Array<double>* outside = nullptr;  // node_width a node: forces of the interface, N; none
-  FillEnergy* energies = nullptr;          // of each tile, or not wanted
-  Vec3 gravity = Vec3::Zero();             // m/s2
-  double dt = 0.0;                         // s
-  double mass_rate = 0.0;                  // 1/s, Rayleigh
-  double local = 0.0;                      // Cundall
-  bool averaged = true;                    // false: plain tetrahedra, which lock; for comparison
+  double* sums = nullptr;         // node_width × FillModel::sum_count(): forces
+  double* volume_sums = nullptr;  // FillModel::sum_count(): κ V θ, J
+  // Forces from outside, N: node_width a slot, and the slots of each node; none.
+  const double* outside = nullptr;
+  const std::vector<std::int32_t>*first_of_node = nullptr, *of_node = nullptr;
+  FillEnergy* energies = nullptr;  // of each tile, or not wanted
+  Vec3 gravity = Vec3::Zero();     // m/s2
+  double dt = 0.0;                 // s
+  double mass_rate = 0.0;          // 1/s, Rayleigh
+  double local = 0.0;              // Cundall
+  bool averaged = true;            // false: plain tetrahedra, which lock; for comparison
 
   void volumes(std::size_t tile) const;
   void means(std::size_t tile) const;

@@ -35,7 +35,9 @@ NodeUpdate FillPass::update(std::size_t node) const {
   Quad force = {};
   for (std::int32_t i = fill->first_sum[node]; i < fill->first_sum[node + 1]; ++i)
     force += quad(sums + node_width * std::size_t(fill->sums[std::size_t(i)]));
-  if (outside) force += quad(&(*outside)[node_width * node]);
+  if (outside)
+    for (std::int32_t i = (*first_of_node)[node]; i < (*first_of_node)[node + 1]; ++i)
+      force += quad(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
   const double weighs = fill->mass[node];
   force += Quad{weighs * gravity.x(), weighs * gravity.y(), weighs * gravity.z(), 0.0};
   next.force = force;

@@ -177,17 +177,31 @@ struct Strain {
   return change;
 }
 
+/// Elastic strain with its mean volumetric part, and the tetrahedron's own volumetric part.
+struct ElasticStrain {
+  Symmetric<Lanes> e;
+  Lanes mean, own;
+};
+
+/// Fᵀ (e + ⅓ θ 1) F.
+[[gnu::always_inline]] inline Symmetric<Lanes> material(const Tensor<Lanes>& f, const ElasticStrain& s) {
+  const Lanes third = (1.0 / 3.0) * s.mean;
+  const Symmetric<Lanes> whole = {s.e.xx + third, s.e.yy + third, s.e.zz + third, s.e.xy, s.e.xz, s.e.yz};
+  return push(transposed(f), whole);
+}
+
 /// The branches' stress on material axes, and the work done on them (J/m3): q ← e q + g Δε of the elastic strain
-/// Fᵀ (e + θ/3) F (docs/theory/damping.md), of which `swell` is the mean θ and `own` that of the tetrahedra alone, on
-/// which their nodes work.
+/// Fᵀ (e + ⅓ θ 1) F, θ the mean one (docs/theory/damping.md). Nodes work on it with all strain, what has flowed
+/// included
+/// (`trial`: before the flow), and with the tetrahedron's own volumetric part.
 template <int count>
 [[gnu::always_inline]] inline Symmetric<Lanes> viscous(const Branches& branches, const FillLaw& law,
-                                                       const Tensor<Lanes>& f, Symmetric<Lanes> e, Lanes swell,
-                                                       Lanes own, Singles* last, Singles* kept, Lanes& work) {
-  const Lanes third = (1.0 / 3.0) * swell;
-  e.xx += third, e.yy += third, e.zz += third;
-  const Symmetric<Lanes> now = push(transposed(f), e);
-  const Lanes* strain = &now.xx;
+                                                       const Tensor<Lanes>& f, const ElasticStrain& kept_strain,
+                                                       const ElasticStrain& trial, bool flows, Singles* last,
+                                                       Singles* kept, Lanes& work) {
+  const Symmetric<Lanes> now = material(f, kept_strain);
+  const Symmetric<Lanes> plastic = flows ? material(f, trial) - now : Symmetric<Lanes>{};
+  const Lanes *strain = &now.xx, *flowed = &plastic.xx;
   Lanes q[6], before[6], change[6];
   Lanes pressures = splat(0.0);
   for (int c = 0; c < 6; ++c) {
@@ -206,10 +220,11 @@ template <int count>
   for (int c = 0; c < 6; ++c) {
     to[c] = shear * q[c] + (c < 3 ? volume : splat(0.0));
     const Lanes was = shear * before[c] + (c < 3 ? volume_before : splat(0.0));
+    change[c] += flowed[c];
     work += (c < 3 ? 0.5 : 1.0) * (to[c] + was) * change[c];
     if (c < 3) pressures += (1.0 / 6.0) * (to[c] + was);
   }
-  const Lanes swollen = narrow_change(own, last[6]);
+  const Lanes swollen = narrow_change(kept_strain.own, last[6]) + (trial.own - kept_strain.own);
   work += pressures * (swollen - change[0] - change[1] - change[2]);
   return stress;
 }
@@ -256,10 +271,11 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
   Strain s = strain_of(batch, n, plastic);
   const LaneMask flat = ~less(splat(least_volume - 1.0), s.change) & used;
   if (any(flat)) note_inverted(fill, index, flat, tile.report);
-  const Lanes own = volumetric(s.change) - plastic[row_dilation];
+  const Lanes dilated = plastic[row_dilation], own = volumetric(s.change) - dilated;
   const Lanes mean = pass.averaged ? 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]) : own;
   const Lanes opened = plastic[row_tension];
   Lanes p = law.bulk * (mean - opened);
+  const ElasticStrain trial = {s.e, mean - opened, own - opened};
 
   // 2. plastic flow
   const double shear2 = 4.0 * law.shear * law.shear;
@@ -286,8 +302,8 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
     auto* last = reinterpret_cast<Singles*>(&memory.last[strain_rows * lane_count * index]);
     auto* kept = reinterpret_cast<Singles*>(&memory.branch[6 * lane_count * std::size_t(count) * index]);
     Lanes work = splat(0.0);
-    const Symmetric<Lanes> v =
-        viscous<count>(pass.branches, law, s.f, s.e, p / law.bulk, own - plastic[row_tension], last, kept, work);
+    const ElasticStrain strain = {s.e, p / law.bulk, own - (plastic[row_dilation] - dilated) - plastic[row_tension]};
+    const Symmetric<Lanes> v = viscous<count>(pass.branches, law, s.f, strain, trial, any(yields), last, kept, work);
     tile.work += select(used, batch.volume * work, splat(0.0));
     const Lanes w[3][3] = {{v.xx, v.xy, v.xz}, {v.xy, v.yy, v.yz}, {v.xz, v.yz, v.zz}};
     for (int i = 0; i < 3; ++i)

@@ -6,6 +6,7 @@
 
 #include "geometry/curve.h"
 #include "solver/base/error.h"
+#include "solver/fill/interface.h"
 
 namespace voussoir {
 
@@ -49,8 +50,17 @@ void add_bodies(const Assembly& assembly, Model& model) {
     weight += block.mass * (model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm());
     ++movable;
   }
-  if (movable == 0)
+  const std::size_t tets = assembly.fill.tets.size();
+  if (movable == 0 && tets == 0)
     throw InputError("the assembly has no block that can move: every one of its {} is fixed", assembly.blocks.size());
+  if (movable == 0) {  // nothing but fill: what a tetrahedron weighs is the measure
+    double mass = 0.0;
+    for (const double m : model.fill.mass) mass += m;
+    const double each = mass / double(tets);
+    sizes.push_back(std::cbrt(each / model.fill.laws.front().density));
+    weight = each * (model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm());
+    movable = 1;
+  }
   std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
   model.typical_size = sizes[sizes.size() / 2];
   model.average_weight = weight / movable;
@@ -306,6 +316,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   model.contact = settings.contact;
   model.gravity = settings.gravity;
   if (!model.gravity.isZero(0.0)) model.up = -model.gravity.normalized();
+  model.fill = build_fill(assembly);
   add_bodies(assembly, model);
   for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
   add_contact_laws(model);
@@ -314,6 +325,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(model.joint_of_patch[i]));
   std::sort(model.joint_by_cells.begin(), model.joint_by_cells.end());
+  model.interface = interface_patches(assembly, model);
   return model;
 }
 

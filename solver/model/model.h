@@ -12,6 +12,7 @@
 #include "geometry/convex.h"
 #include "solver/base/arrays.h"
 #include "solver/base/lanes.h"
+#include "solver/fill/fill_model.h"
 #include "solver/model/laws.h"
 #include "solver/model/quadrature.h"
 #include "solver/step/settings.h"
@@ -103,6 +104,20 @@ inline std::int32_t most_corners(std::int32_t rows) {
   return std::max(4, (rows - 1) / 2);
 }
 
+/// A patch between a body and a triangle of the fill's surface, see solver/fill/interface.
+struct InterfacePatch {
+  std::int32_t body = 0, cell = 0, face = 0;
+  std::int32_t triangle = 0;       // of FillMesh::triangles
+  std::int32_t node[3] = {};       // of FillModel
+  std::int32_t law = 0;            // index into Model::laws
+  double arm[3] = {};              // m, centroid of the body to that of the patch, reference axes
+  double frame[4] = {1, 0, 0, 0};  // local axes into the body's reference axes
+  double rest[3][3] = {};          // m, n, s, t of each corner of the triangle when it was made
+  double kn = 0.0, ks = 0.0;       // Pa/m
+  double area = 0.0;               // m2
+  std::vector<PatchPoint> points, corners;
+};
+
 /// Bodies next to each other in the order, and the joints whose first body is one of them.
 struct Tile {
   std::int32_t first_body = 0, end_body = 0;
@@ -147,6 +162,9 @@ struct Model {
   std::vector<Tile> tiles;
   // Sums of each body in the order they are added up: first of each body (and one past the end), places of the sums.
   std::vector<std::int32_t> first_sum, sums;
+
+  FillModel fill;
+  std::vector<InterfacePatch> interface;  // of the assembly, in the order of its fill_joints
 
   // For contacts that appear: what a patch between two bodies is made of.
   struct Matter {

@@ -110,6 +110,15 @@ std::vector<NamedArray> State::arrays() {
   list.push_back({"contacts/corners", 2, "m", &contact_corners});
   add(list, "contacts", contact);
   list.push_back({"contacts/slid", 4, "m", &contact_slid});
+  if (fill.pose.empty()) return list;
+  list.push_back({"fill/pose", node_width, "m, -", &fill.pose});
+  list.push_back({"fill/motion", node_width, "m/s", &fill.motion});
+  list.push_back({"fill/plastic", lane_count, "-", &fill.plastic});
+  list.push_back({"fill/last_strain", lane_count, "-", &fill.last});
+  list.push_back({"fill/branch", lane_count, "-", &fill.branch});
+  list.push_back({"fill/yield", 1, "-", &fill.yield});
+  list.push_back({"fill/lost", 4, "J", &fill.lost});
+  add(list, "interface", interface_memory);
   return list;
 }
 
@@ -163,8 +172,24 @@ void fill_contact_lane(State& state, std::size_t slot) {
 void stop_motion(State& state) {
   for (std::size_t i = 0; i < state.motion.size(); i += motion_width)
     for (std::size_t c = 0; c < 6; ++c) state.motion[i + c] = 0.0;
+  std::fill(state.fill.motion.begin(), state.fill.motion.end(), 0.0);
   state.base_velocity().setZero();
 }
+
+namespace {
+
+/// Points of the interface's patches that never had a bond.
+void note_bonds(const Model& model, State& state) {
+  for (std::size_t i = 0; i < state.interface.patches.size(); ++i) {
+    const LawConstants& law = model.laws[std::size_t(state.interface.patches[i].law)];
+    const bool bond = law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+    const JointBatch& batch = state.interface.batches[i / lane_count].patch;
+    for (std::int32_t row = 0; row < batch.points; ++row)
+      state.interface_memory.broken[lane_count * std::size_t(batch.first_point + row) + i % lane_count] = bond ? 0 : 1;
+  }
+}
+
+}  // namespace
 
 State initial_state(const Model& model) {
   State state;
@@ -188,6 +213,11 @@ State initial_state(const Model& model) {
         law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
     if (bondless) state.joint.mode[i] |= mode_broken;
   }
+  state.fill = initial_fill(model.fill);
+  state.interface = make_interface(model.interface, model);
+  state.interface_memory.resize(state.interface.patches.size(), state.interface.points.size() / 3);
+  state.interface_memory.last.assign(9 * lane_count * state.interface.batches.size(), 0.0f);
+  note_bonds(model, state);
   return state;
 }
 
@@ -199,6 +229,8 @@ void set_branches(const Model& model, State& state, int count) {
   fit(state.branch, 6 * lane_count * n * model.batches.size());
   fit(state.joint.point_branch, n * model.points.size());
   fit(state.contact.point_branch, n * state.contact_points.size());
+  fit(state.interface_memory.point_branch, n * state.interface.points.size());
+  set_fill_branches(model.fill, state.fill, count);
 }
 
 }  // namespace voussoir

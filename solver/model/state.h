@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "solver/base/arrays.h"
+#include "solver/fill/fill_memory.h"
+#include "solver/fill/interface.h"
 #include "solver/model/branches.h"
 #include "solver/model/model.h"
 
@@ -74,6 +76,10 @@ struct State {
   Array<double>
       contact_slid;  // 4 a contact: slip of the patches it replaced (m, world axes), largest slip while they lived
   Array<double> contact_rows;  // the contacts as numbers, for files
+
+  FillMemory fill;
+  Interface interface;           // not written: made from the model
+  PatchMemory interface_memory;  // of its patches; `last` has 9 rows of lanes a batch
 
   double& time() { return scalars[0]; }
   double time() const { return scalars[0]; }

@@ -17,6 +17,9 @@ Incidence find_incidence(const Model& model, const State& state) {
     return Bodies{std::size_t(batch.a[slot % lane_count]), std::size_t(batch.b[slot % lane_count])};
   };
   incidence.first.assign(model.bodies.size() + 1, 0);
+  const Interface& interface = state.interface;
+  for (std::size_t i = 0; i < interface.patches.size(); ++i)
+    if (interface.used(i)) ++incidence.first[std::size_t(interface.patches[i].body) + 1];
   for (std::size_t i = 0; i < state.contacts.size(); ++i)
     if (state.has_contact(i)) ++incidence.first[bodies_of(i).a + 1], ++incidence.first[bodies_of(i).b + 1];
   for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
@@ -27,6 +30,10 @@ Incidence find_incidence(const Model& model, const State& state) {
     incidence.contacts[next[bodies_of(i).a]++] = std::int32_t(2 * i);
     incidence.contacts[next[bodies_of(i).b]++] = std::int32_t(2 * i + 1);
   }
+  for (std::size_t i = 0; i < interface.patches.size(); ++i)
+    if (interface.used(i))
+      incidence.contacts[next[std::size_t(interface.patches[i].body)]++] =
+          std::int32_t(2 * (state.contacts.size() + i));
   return incidence;
 }
 

@@ -9,7 +9,8 @@
 
 namespace voussoir {
 
-/// Contacts of each body in ascending order: 2 × index, plus 1 where the body is the contact's second one.
+/// Contacts of each body in ascending order: 2 × index, plus 1 where the body is the contact's second one. Patches of
+/// the interface with the fill follow, numbered after the contacts' slots.
 struct Incidence {
   std::vector<std::int32_t> first;  // per body, and one past the end
   std::vector<std::int32_t> contacts;

@@ -125,6 +125,9 @@ Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::siz
     if (!in_tile_energy(model, state, std::size_t(i))) add_patch(std::size_t(i));
 
   for (std::int32_t i = tile.first_body; i < tile.end_body; ++i) add_body(stepper, pass, std::size_t(i), e);
+  const std::vector<std::int32_t>& of_interface = state.interface.first_batch;
+  add_losses(state.interface_memory, lane_count * std::size_t(of_interface[index]),
+             lane_count * std::size_t(of_interface[index + 1]), e);
   add_losses(state.joint, std::size_t(tile.first_joint), std::size_t(tile.end_joint), e);
   for (std::int32_t i = stepper.first_contact_batch[index]; i < stepper.first_contact_batch[index + 1]; ++i) {
     const auto first = lane_count * std::size_t(stepper.contact_batches[std::size_t(i)]);
@@ -135,11 +138,40 @@ Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::siz
   return e;
 }
 
+Energies energies_of_fill(const FillPass& pass, std::size_t tile) {
+  const FillTile& t = pass.fill->tiles[tile];
+  const double* lost = &pass.memory->lost[4 * tile];
+  Energies e;
+  e.elastic = pass.energies[tile].elastic;
+  e.damping_springs = pass.energies[tile].branches;
+  e.plastic = lost[0], e.joint_damping = lost[1], e.external_work = lost[2], e.body_damping = lost[3];
+  for (auto node = std::size_t(t.first_node); node < std::size_t(t.end_node); ++node) {
+    const NodeUpdate next = pass.update(node);
+    const double *v = &pass.memory->motion[node_width * node], *u = &pass.memory->pose[node_width * node];
+    for (int c = 0; c < 3; ++c) {
+      // As for bodies: ½ v⁻ M v⁺, and of what is held the half step that leads up to now.
+      if (pass.fill->held[node] >> c & 1)
+        e.external_work -= 0.5 * pass.dt * next.force[c] * v[c];
+      else
+        e.kinetic += 0.5 * pass.fill->inertial[node] * v[c] * next.velocity[c];
+      e.gravitational -= pass.fill->mass[node] * pass.gravity[c] * u[c];
+    }
+  }
+  return e;
+}
+
 Energies compute_energies(const Stepper& stepper, const BodyPass& pass) {
   const State& state = *stepper.state;
+  const std::size_t tiles = stepper.model->tiles.size(), all = tiles + stepper.model->fill.tiles.size();
   Energies e;
-  for (std::size_t tile = 0; tile < stepper.model->tiles.size(); ++tile)
-    e.add(pass.energies ? (*pass.energies)[tile] : energies_of_tile(stepper, pass, tile));
+  if (pass.energies) {
+    for (std::size_t tile = 0; tile < all; ++tile) e.add((*pass.energies)[tile]);
+  } else {
+    FillPass fill = stepper.fill_pass();
+    fill.energies = stepper.fill_energies.data();
+    for (std::size_t tile = 0; tile < tiles; ++tile) e.add(energies_of_tile(stepper, pass, tile));
+    for (std::size_t tile = tiles; tile < all; ++tile) e.add(energies_of_fill(fill, tile - tiles));
+  }
   e.friction += state.retired_energy()[0];
   e.fracture += state.retired_energy()[1];
   e.joint_damping += state.retired_energy()[2];

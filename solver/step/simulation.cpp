@@ -42,13 +42,35 @@ constexpr int frequencies_compared = 6;   // of mass scaling, with and without
 constexpr double runaway_balance = 10.0;  // the energy balance is off by ten times its largest term: give up
 
 int useful_threads(int wanted, const Model& model) {
-  const int most = std::max<int>(1, int(model.joints.size() / least_joints_per_thread));
+  constexpr std::size_t tets_of_a_joint = 2;  // that cost about as much
+  const std::size_t joints = model.joints.size() + model.fill.tet_of_lane.size() / tets_of_a_joint;
+  const int most = std::max<int>(1, int(joints / least_joints_per_thread));
   return std::clamp(wanted, 1, most);
 }
 
 std::string body_name(const Assembly& assembly, const Model& model, std::int32_t body) {
   const std::int64_t block = model.block_of_body[body];
   return fmt::format("block {} ({})", block, component_names()[std::size_t(assembly.blocks[block].component)]);
+}
+
+std::string runaway_text(const Assembly& assembly, const Model& model, const State& state, const Advance& last) {
+  const FillMesh& mesh = assembly.fill;
+  const auto place = [&](std::int32_t node) {
+    const double* u = &state.fill.pose[node_width * std::size_t(model.fill.node_of[std::size_t(node)])];
+    const Vec3 at = mesh.nodes[std::size_t(node)] + Vec3(u);
+    return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", at.x(), at.y(), at.z());
+  };
+  if (last.inverted_tet >= 0)
+    return fmt::format(
+        "tetrahedron {} of the fill at {} has lost its volume; the fill has flowed farther than this mesh follows: "
+        "stop the run before, give the fill more cohesion, or mesh it coarser there",
+        last.inverted_tet, place(mesh.tets[std::size_t(last.inverted_tet)][0]));
+  const std::string what = last.runaway_body >= 0
+                               ? body_name(assembly, model, last.runaway_body)
+                               : fmt::format("node {} of the fill at {}", last.runaway_node, place(last.runaway_node));
+  return what +
+         " moves faster than 1000 m/s or not at a finite speed; lower [analysis] safety or time_step, and look at its "
+         "joints";
 }
 
 }  // namespace
@@ -176,6 +198,7 @@ double Simulation::contact_bound(const std::vector<std::int32_t>& bodies) {
     const Incidence& contacts = stepper_.incidence;
     for (std::int32_t k = contacts.first[i]; k < contacts.first[i + 1]; ++k) {
       const std::int32_t entry = contacts.contacts[std::size_t(k)];
+      if (std::size_t(entry >> 1) >= state_.contacts.size()) continue;  // with the fill: there from the beginning
       const Patch& p = state_.contacts[std::size_t(entry >> 1)];
       sum += rate_bound(p, body, entry & 1 ? p.arm_b : p.arm_a);
     }
@@ -320,6 +343,13 @@ void Simulation::start_from_rest() {
       if (!body.held(3 + c)) motion[3 + c] = -0.5 * (&next.momentum.x)[c];
     }
   }
+  const FillPass fill = stepper_.fill_pass();
+  for (std::size_t i = 0; i < model_.fill.nodes.size(); ++i) {
+    const NodeUpdate next = fill.update(i);
+    for (int c = 0; c < 3; ++c)
+      if (!(model_.fill.held[i] >> c & 1))
+        state_.fill.motion[node_width * i + std::size_t(c)] = -0.5 * next.velocity[c];
+  }
 }
 
 /// Step, damping branches and the energy at the start; once a stage, before its first step.
@@ -451,11 +481,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     costs_.steps += seconds_since(begun) - (costs_.history - sampled);
     if (last_.outcome == StepOutcome::runaway || exploded_) {
       failure_ = last_.outcome == StepOutcome::runaway
-                     ? fmt::format(
-                           "at t = {:.4f} s {} moves faster than 1000 m/s or not at a finite speed; lower [analysis] "
-                           "safety or "
-                           "time_step, and look at its joints",
-                           state_.time(), body_name(*assembly_, model_, last_.runaway_body))
+                     ? fmt::format("at t = {:.4f} s {}", state_.time(), runaway_text(*assembly_, model_, state_, last_))
                      : fmt::format(
                            "at t = {:.4f} s the energy balance is off by {:.0f} times its largest term; lower "
                            "[analysis] safety "

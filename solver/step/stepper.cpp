@@ -26,6 +26,27 @@ Vec3 base_acceleration(const GroundMotion* motion, double time) {
 
 namespace {
 
+/// The fill's tiles come after those of the bodies, whose patches with the fill are read by neither.
+void add_fill(const Model& model, const State& state, Dependencies& order) {
+  constexpr double interface_cost = 2.0, tet_cost = 1.5;  // of eight, against a batch of joints
+  const auto tiles = std::int32_t(model.tiles.size());
+  for (const InterfaceBatch& batch : state.interface.batches) {
+    order.cost[std::size_t(batch.tile)] += interface_cost;
+    std::vector<std::int32_t>& followers = order.followers[std::size_t(batch.tile)];
+    for (const auto& corner : batch.node)
+      for (const std::int32_t node : corner) followers.push_back(tiles + node / tile_nodes);
+  }
+  for (auto& followers : order.followers) {
+    std::sort(followers.begin(), followers.end());
+    followers.erase(std::unique(followers.begin(), followers.end()), followers.end());
+  }
+  for (const FillTile& tile : model.fill.tiles) {
+    auto& followers = order.followers.emplace_back(tile.followers);
+    for (std::int32_t& follower : followers) follower += tiles;
+    order.cost.push_back(1.0 + tet_cost * (tile.end_batch - tile.first_batch));
+  }
+}
+
 /// A tile's bodies may move once no tile before it still has to read them.
 Dependencies order_of_tiles(const Model& model, const State& state) {
   constexpr double contact_cost = 2.0;  // of eight, against a batch of joints
@@ -44,7 +65,8 @@ Dependencies order_of_tiles(const Model& model, const State& state) {
     if (std::find(followers.begin(), followers.end(), std::max(a, b)) == followers.end())
       followers.push_back(std::max(a, b));
   }
-  order.waits.assign(model.tiles.size(), 1);
+  add_fill(model, state, order);
+  order.waits.assign(order.followers.size(), 1);
   for (const auto& followers : order.followers)
     for (const std::int32_t follower : followers) ++order.waits[std::size_t(follower)];
   return order;
@@ -56,13 +78,17 @@ void Stepper::prepare() {
   body_batches = make_body_batches(*model);
   sums.resize(wrench_width * model->sums.size());
   tile_energies.resize(model->tiles.size());
+  fill_sums.assign(node_width * model->fill.sum_count(), 0.0);
+  fill_volumes.assign(model->fill.sum_count(), 0.0);
+  fill_energies.resize(model->fill.tiles.size());
   prepare_contacts();
 }
 
 void Stepper::prepare_contacts() {
   incidence = find_incidence(*model, *state);
   order = order_of_tiles(*model, *state);
-  contact_wrenches.assign(wrench_width * state->contacts.size(), 0.0);
+  contact_wrenches.assign(wrench_width * (state->contacts.size() + state->interface.patches.size()), 0.0);
+  interface_forces.assign(3 * node_width * state->interface.patches.size(), 0.0);
   first_contact_batch.assign(model->tiles.size() + 1, 0);
   for (const ContactBatch& batch : state->contact_batches) ++first_contact_batch[std::size_t(batch.tile) + 1];
   std::partial_sum(first_contact_batch.begin(), first_contact_batch.end(), first_contact_batch.begin());
@@ -101,7 +127,28 @@ PatchPass Stepper::patch_pass() {
   pass.branches = damping.branches;
   pass.sums = sums.data();
   pass.contact_wrenches = contact_wrenches.data();
+  pass.interface_wrenches = contact_wrenches.data() + wrench_width * state->contacts.size();
+  pass.interface_forces = interface_forces.data();
   pass.shortcut = shortcut;
+  return pass;
+}
+
+FillPass Stepper::fill_pass() const {
+  FillPass pass;
+  pass.fill = &model->fill;
+  pass.memory = &state->fill;
+  pass.branches = damping.branches;
+  pass.sums = fill_sums.data();
+  pass.volume_sums = fill_volumes.data();
+  if (!state->interface.empty()) {
+    pass.first_of_node = &state->interface.first_of_node;
+    pass.of_node = &state->interface.of_node;
+    pass.outside = interface_forces.data();
+  }
+  pass.gravity = model->gravity;
+  pass.dt = dt;
+  pass.mass_rate = damping.mass_rate;
+  pass.local = damping.local;
   return pass;
 }
 
@@ -109,6 +156,7 @@ PassReport Stepper::tile_patches(const PatchPass& pass, std::size_t tile) const 
   PassReport report = pass.joints(tile);
   const std::int32_t* batches = contact_batches.data();
   report.merge(pass.contacts(tile, batches + first_contact_batch[tile], batches + first_contact_batch[tile + 1]));
+  if (!state->interface.empty()) pass.interface(tile);
   return report;
 }
 
@@ -142,7 +190,29 @@ auto timed(double& sum, const Work& work) {
 struct Found {
   PassReport patches;
   BodyReport bodies;
+  FillReport fill;
 };
+
+/// The fill's tiles are numbered after those of the bodies, which have nothing to do in the round before.
+void add_fill_work(RoundWork& work, FillPass& fill, std::size_t body_tiles, std::vector<Found>& found,
+                   std::vector<Energies>& energies) {
+  const auto shared = [body_tiles](std::function<void(std::size_t)> of_bodies, auto of_fill) {
+    return [body_tiles, of_bodies = std::move(of_bodies), of_fill](std::size_t tile) {
+      if (tile >= body_tiles)
+        of_fill(tile - body_tiles);
+      else if (of_bodies)
+        of_bodies(tile);
+    };
+  };
+  work.before_first = shared(nullptr, [&](std::size_t tile) { fill.volumes(tile); });
+  work.before_second = shared(nullptr, [&](std::size_t tile) { fill.means(tile); });
+  work.first =
+      shared(work.first, [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill = fill.stresses(tile); });
+  work.second =
+      shared(work.second, [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill.merge(fill.nodes(tile)); });
+  work.between = shared(
+      work.between, [&, body_tiles](std::size_t tile) { energies[body_tiles + tile] = energies_of_fill(fill, tile); });
+}
 
 /// The bodies have moved: so do the scalars.
 void finish_step(State& state, double dt, BodyPass& bodies) {
@@ -161,8 +231,14 @@ PassReport Stepper::patches_only() {
   pass.wrenches = wrenches.data();
   pass.energies = tile_energies.data();
   PassReport report;
+  FillPass tets = fill_pass();
+  tets.energies = fill_energies.data();
+  const std::size_t fill_tiles = model->fill.tiles.size();
+  for (std::size_t tile = 0; tile < fill_tiles; ++tile) tets.volumes(tile);
+  for (std::size_t tile = 0; tile < fill_tiles; ++tile) tets.means(tile);
   for (std::size_t tile = 0; tile < model->tiles.size(); ++tile) report.merge(tile_patches(pass, tile));
-  std::copy(contact_wrenches.begin(), contact_wrenches.end(),
+  for (std::size_t tile = 0; tile < fill_tiles; ++tile) tets.stresses(tile);
+  std::copy(contact_wrenches.begin(), contact_wrenches.begin() + std::ptrdiff_t(wrench_width * state->contacts.size()),
             wrenches.begin() + std::ptrdiff_t(wrench_width * model->joints.size()));
   return report;
 }
@@ -171,29 +247,37 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
                          const std::function<void(const BodyPass&)>& sample, const std::atomic<bool>* stop) {
   Advance result;
   if (state->step() >= target) return result;
-  std::vector<Found> found(model->tiles.size());
-  std::vector<Energies> energies(sample ? model->tiles.size() : 0);
+  const std::size_t body_tiles = model->tiles.size(), all_tiles = body_tiles + model->fill.tiles.size();
+  std::vector<Found> found(all_tiles);
+  std::vector<Energies> energies(sample ? all_tiles : 0);
   PatchPass patches = patch_pass();
   BodyPass bodies = body_pass();
+  FillPass fill = fill_pass();
   bodies.energies = &energies;
+  RoundKind step_kind = RoundKind::both;
   const auto next_step = [&] {
     move_base(*this, state->time(), bodies);
     const bool samples = sample && state->step() % sample_every == 0;
     patches.energies = samples ? tile_energies.data() : nullptr;
-    return samples ? RoundKind::first_only : RoundKind::both;
+    fill.energies = samples ? fill_energies.data() : nullptr;
+    step_kind = samples ? RoundKind::first_only : RoundKind::both;
+    return model->fill.empty() ? step_kind : RoundKind::before;
   };
   /// True when the team has to part.
   const auto decide = [&] {
     PassReport all_patches;
     BodyReport all_bodies;
-    for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies);
+    FillReport all_fill;
+    for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies), all_fill.merge(f.fill);
+    result.runaway_node = all_fill.runaway, result.inverted_tet = all_fill.inverted;
+    const bool runs_away = all_bodies.runaway >= 0 || all_fill.runaway >= 0 || all_fill.inverted >= 0;
     const bool stopped = stop && stop->load(std::memory_order_relaxed);
     const bool clip = all_patches.reclip && may_clip_at(state->step());
     result.intact = all_patches.intact;
     result.points = all_patches.points;
     result.reclip = clip;
     result.runaway_body = all_bodies.runaway;
-    result.outcome = all_bodies.runaway >= 0              ? StepOutcome::runaway
+    result.outcome = runs_away                            ? StepOutcome::runaway
                      : clip || all_bodies.search          ? StepOutcome::contacts
                      : stopped && state->step() != target ? StepOutcome::interrupted
                                                           : StepOutcome::reached;
@@ -219,7 +303,9 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
       found[tile].bodies = timed((*costs)[tile].bodies, [&] { return move_tile(tile); });
     };
   }
+  if (!model->fill.empty()) add_fill_work(work, fill, body_tiles, found, energies);
   work.next = [&](RoundKind done) {
+    if (done == RoundKind::before) return step_kind;
     if (done == RoundKind::first_only) return RoundKind::between;
     if (done == RoundKind::between) {
       sample(bodies);
@@ -257,6 +343,10 @@ void serial_step(Stepper& s) {
     add(&sums[wrench_width * std::size_t(state.contacts[i].a)], wrench, 1.0);
     add(&sums[wrench_width * std::size_t(state.contacts[i].b)], wrench, -1.0);
   }
+  for (std::size_t i = 0; i < state.interface.patches.size(); ++i)
+    if (state.interface.used(i))
+      add(&sums[wrench_width * std::size_t(state.interface.patches[i].body)],
+          &s.contact_wrenches[wrench_width * (state.contacts.size() + i)], 1.0);
   // One "sum" a body, and no contacts.
   std::vector<std::int32_t> first(model.bodies.size() + 1), places(model.bodies.size());
   std::iota(first.begin(), first.end(), 0);
@@ -268,6 +358,8 @@ void serial_step(Stepper& s) {
   bodies.sums = sums.data();
   bodies.incidence = &none;
   bodies.bodies(0, model.bodies.size());
+  const FillPass fill = s.fill_pass();
+  for (std::size_t tile = 0; tile < model.fill.tiles.size(); ++tile) fill.nodes(tile);
   finish_step(state, s.dt, bodies);
 }
 

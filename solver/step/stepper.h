@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "solver/base/parallel.h"
+#include "solver/fill/fill_pass.h"
 #include "solver/motion/ground_path.h"
 #include "solver/step/body_pass.h"
 #include "solver/step/damping.h"
@@ -15,15 +16,16 @@ namespace voussoir {
 enum class StepOutcome {
   reached,      // the step asked for
   contacts,     // contacts must be looked for before going on
-  runaway,      // a velocity is not finite or past 1000 m/s
+  runaway,      // a velocity is not finite or past 1000 m/s, or a tetrahedron has lost its volume
   interrupted,  // the stop flag was set
 };
 
 struct Advance {
   StepOutcome outcome = StepOutcome::reached;
   std::int32_t runaway_body = -1;
-  bool reclip = false;                  // contacts: because a patch has slid or turned past its limit
-  std::int64_t intact = 0, points = 0;  // patches of the last step on either path
+  std::int32_t runaway_node = -1, inverted_tet = -1;  // of the fill's mesh
+  bool reclip = false;                                // contacts: because a patch has slid or turned past its limit
+  std::int64_t intact = 0, points = 0;                // patches of the last step on either path
 };
 
 /// What the steps have cost a tile, wall time in s, and how many patches went which way.
@@ -65,15 +67,19 @@ struct Stepper {
   /// The patches alone, serially: wrenches at the present placement (used by the static solver and for reports).
   PassReport patches_only();
   BodyPass body_pass() const;
+  FillPass fill_pass() const;
 
   // Scratch memory that prepare() lays out.
   Incidence incidence;
   Array<BodyBatch> body_batches;
-  Array<double> sums, contact_wrenches;
-  std::vector<TileEnergy> tile_energies;  // of the last pass that was asked for them
+  Array<double> sums, contact_wrenches;           // the latter of contacts, then of the interface
+  mutable Array<double> fill_sums, fill_volumes;  // see FillPass
+  mutable std::vector<FillEnergy> fill_energies;  // of each of the fill's tiles
+  Array<double> interface_forces;                 // see PatchPass
+  std::vector<TileEnergy> tile_energies;          // of the last pass that was asked for them
   // Batches of contacts of each tile: first of each in contact_batches (and one past the end).
   std::vector<std::int32_t> first_contact_batch, contact_batches;
-  Dependencies order;  // of the tiles
+  Dependencies order;  // of the tiles of bodies, then of the fill's
 
  private:
   PatchPass patch_pass();

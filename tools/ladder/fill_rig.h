@@ -71,6 +71,7 @@ struct FillRig {
   FillModel fill;
   FillMemory memory;
   Array<double> sums, volume_sums, outside;
+  std::vector<std::int32_t> first_of_node, of_node;
   std::vector<FillEnergy> energies;
   FillPass pass;
   double time = 0.0;  // s
@@ -95,6 +96,9 @@ struct FillRig {
     sums.resize(node_width * fill.sum_count());
     volume_sums.resize(fill.sum_count());
     outside.assign(node_width * fill.nodes.size(), 0.0);
+    for (std::size_t i = 0; i < fill.nodes.size(); ++i) of_node.push_back(std::int32_t(i));  // one slot a node
+    first_of_node = of_node;
+    first_of_node.push_back(std::int32_t(fill.nodes.size()));
     energies.resize(fill.tiles.size());
     connect();
   }
@@ -104,7 +108,8 @@ struct FillRig {
   void connect() {
     pass.fill = &fill, pass.memory = &memory;
     pass.sums = sums.data(), pass.volume_sums = volume_sums.data();
-    pass.outside = &outside, pass.energies = energies.data();
+    pass.outside = outside.data(), pass.first_of_node = &first_of_node, pass.of_node = &of_node;
+    pass.energies = energies.data();
   }
   void set_branches(const Branches& branches) {
     pass.branches = branches;

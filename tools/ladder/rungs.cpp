@@ -21,7 +21,9 @@ const std::vector<Rung>& rungs() {
       fill_waves(),          //
       fill_triaxial(),       //
       fill_oedometer(),      //
-      fill_footing(),
+      fill_footing(),        //
+      fill_patch(),          //
+      fill_slide(),
   };
   return list;
 }

@@ -1,0 +1,143 @@
+#include "solver/fill/interface.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+void store(double* to, const Vec3& from) {
+  for (int c = 0; c < 3; ++c) to[c] = from[c];
+}
+
+InterfacePatch make_patch(const Assembly& assembly, const FillJoint& joint, const Model& model) {
+  const PatchShape shape = patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
+  InterfacePatch patch;
+  patch.body = model.body_of_block[std::size_t(joint.block)];
+  patch.cell = joint.cell, patch.face = joint.face, patch.triangle = joint.triangle;
+  patch.law = joint.law;
+  patch.kn = joint.kn, patch.ks = joint.ks, patch.area = shape.area;
+  store(patch.arm, shape.centroid - assembly.blocks[std::size_t(joint.block)].centroid);
+  const Eigen::Quaterniond q(shape.frame);
+  const double frame[4] = {q.w(), q.x(), q.y(), q.z()};
+  std::copy(frame, frame + 4, patch.frame);
+  for (std::size_t k = 0; k < 3; ++k) {
+    patch.node[k] = model.fill.node_of[std::size_t(assembly.fill.triangles[std::size_t(joint.triangle)][k])];
+    store(patch.rest[k], shape.frame.transpose() * (model.fill.nodes[std::size_t(patch.node[k])] - shape.centroid));
+  }
+  patch.points = shape.points, patch.corners = shape.corners;
+  return patch;
+}
+
+/// N_k = c0 + c1 s + c2 t, one at corner k of the triangle and zero at the others.
+Mat3 shape_functions(const InterfacePatch& patch) {
+  Mat3 corners;
+  for (int k = 0; k < 3; ++k) corners.row(k) << 1.0, patch.rest[k][1], patch.rest[k][2];
+  return corners.inverse().transpose();
+}
+
+void fill_lane(const InterfacePatch& patch, const Model& model, int lane, InterfaceBatch& batch) {
+  JointBatch& b = batch.patch;
+  b.a[lane] = b.b[lane] = patch.body;
+  b.law_of[lane] = patch.law;
+  b.kn[lane] = patch.kn, b.ks[lane] = patch.ks, b.area[lane] = patch.area;
+  const Vec3 at = model.bodies[std::size_t(patch.body)].centroid + Vec3(patch.arm);
+  for (int c = 0; c < 3; ++c) b.arm_a[c][lane] = patch.arm[c], b.place[c][lane] = at[c];
+  for (int c = 0; c < 4; ++c) b.frame[c][lane] = patch.frame[c];
+  const Mat3 shape = shape_functions(patch);
+  for (int k = 0; k < 3; ++k) {
+    batch.node[k][lane] = patch.node[k];
+    for (int c = 0; c < 3; ++c) {
+      batch.lever[k][c][lane] = model.fill.nodes[std::size_t(patch.node[k])][c] - at[c];
+      batch.rest[k][c][lane] = patch.rest[k][c];
+      batch.shape[k][c][lane] = shape(k, c);
+    }
+  }
+}
+
+void add_points(const std::vector<InterfacePatch>& patches, std::size_t first, int count, InterfaceBatch& batch,
+                Interface& interface) {
+  JointBatch& b = batch.patch;
+  b.first_point = std::int32_t(interface.points.size() / (3 * lane_count));
+  b.points = std::int32_t(patches[first].points.size());
+  for (std::int32_t row = 0; row < b.points; ++row)
+    for (int column = 0; column < 3; ++column)
+      for (int lane = 0; lane < lane_count; ++lane) {
+        const PatchPoint& p = patches[first + std::size_t(std::min(lane, count - 1))].points[std::size_t(row)];
+        interface.points.push_back(column == 0 ? p.s : column == 1 ? p.t : lane < count ? p.weight : 0.0);
+      }
+}
+
+/// The patches of each node, in ascending order.
+void index_nodes(std::size_t nodes, Interface& interface) {
+  const auto each = [&](const auto& use) {
+    for (std::size_t slot = 0; slot < interface.patches.size(); ++slot)
+      for (std::size_t k = 0; interface.used(slot) && k < 3; ++k)
+        use(std::size_t(interface.patches[slot].node[k]), std::int32_t(3 * slot + k));
+  };
+  interface.first_of_node.assign(nodes + 1, 0);
+  each([&](std::size_t node, std::int32_t) { ++interface.first_of_node[node + 1]; });
+  std::partial_sum(interface.first_of_node.begin(), interface.first_of_node.end(), interface.first_of_node.begin());
+  interface.of_node.resize(std::size_t(interface.first_of_node.back()));
+  std::vector<std::int32_t> next(interface.first_of_node.begin(), interface.first_of_node.end() - 1);
+  each([&](std::size_t node, std::int32_t entry) { interface.of_node[std::size_t(next[node]++)] = entry; });
+}
+
+}  // namespace
+
+std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Model& model) {
+  std::vector<InterfacePatch> patches;
+  for (const FillJoint& joint : assembly.fill_joints) {
+    if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
+      throw InputError(
+          "the patch between block {} and triangle {} of the fill has kn = {}, ks = {} Pa/m; both must be "
+          "positive",
+          joint.block, joint.triangle, joint.kn, joint.ks);
+    patches.push_back(make_patch(assembly, joint, model));
+  }
+  return patches;
+}
+
+Interface make_interface(std::vector<InterfacePatch> patches, const Model& model) {
+  Interface interface;
+  const auto key = [](const InterfacePatch& p) {
+    int facing = 0;
+    const Eigen::Quaterniond q(p.frame[0], p.frame[1], p.frame[2], p.frame[3]);
+    (q * Vec3::UnitX()).cwiseAbs().maxCoeff(&facing);
+    return std::tuple(tile_of(p.body), p.points.size(), p.law, facing, p.body, p.cell, p.face, p.triangle);
+  };
+  std::sort(patches.begin(), patches.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
+  interface.first_batch.assign(model.tiles.size() + 1, 0);
+  for (std::size_t i = 0; i < patches.size();) {
+    const InterfacePatch& head = patches[i];
+    const auto like = [&](const InterfacePatch& p) {
+      return tile_of(p.body) == tile_of(head.body) && p.points.size() == head.points.size();
+    };
+    int count = 1;
+    while (count < lane_count && i + std::size_t(count) < patches.size() && like(patches[i + std::size_t(count)]))
+      ++count;
+    InterfaceBatch batch{};
+    batch.tile = tile_of(head.body);
+    batch.patch.count = count;
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const InterfacePatch& patch = patches[i + std::size_t(std::min(lane, count - 1))];
+      fill_lane(patch, model, lane, batch);
+      interface.patches.push_back(patch);
+      if (lane >= count) interface.patches.back().area = 0.0;
+    }
+    batch.patch.law = common_law(batch.patch);
+    add_points(patches, i, count, batch, interface);
+    interface.batches.push_back(batch);
+    ++interface.first_batch[std::size_t(batch.tile) + 1];
+    i += std::size_t(count);
+  }
+  std::partial_sum(interface.first_batch.begin(), interface.first_batch.end(), interface.first_batch.begin());
+  index_nodes(model.fill.nodes.size(), interface);
+  return interface;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,42 @@
+// Where the fill lies against the stones: each overlap of a stone's face with a triangle of the fill's surface is a
+// patch whose one side is the rigid stone and whose other side bends with the triangle (docs/theory/fill.md).
+//
+// Local axes (n, s, t) and origin are held by the stone. The jump at a point p is Σ N_k(p) d_k, with d_k what the
+// triangle's corner k has moved in those axes since the patch was made: affine over the patch. The traction acts on the
+// point of the triangle, on the stone as on the nodes, so that force and moment balance at any placement and the work
+// is that on the jump.
+#pragma once
+#include <vector>
+
+#include "solver/model/model.h"
+
+namespace voussoir {
+
+/// Eight patches of one tile of bodies, a lane each; further lanes repeat the last one.
+struct alignas(64) InterfaceBatch {
+  JointBatch patch;   // bodies, arm_a, place, frame, stiffness, laws; points from a table
+  Lanes lever[3][3];  // m, of each corner from the patch's centroid, both in the reference placement
+  Lanes rest[3][3];   // as InterfacePatch
+  Lanes shape[3][3];  // N_k = shape[k][0] + shape[k][1] s + shape[k][2] t
+  std::int32_t node[3][lane_count];
+  std::int32_t tile = 0;
+};
+
+/// All patches in the order of their batches: lane i % lane_count of batch i / lane_count, spare lanes included (area
+/// zero).
+struct Interface {
+  std::vector<InterfacePatch> patches;
+  Array<InterfaceBatch> batches;
+  Array<double> points;                              // s, t, weight, eight patches side by side
+  std::vector<std::int32_t> first_batch;             // of each tile of bodies, and one past the end
+  std::vector<std::int32_t> first_of_node, of_node;  // patches of each node: 3 × slot + corner
+  bool empty() const { return batches.empty(); }
+  bool used(std::size_t slot) const { return patches[slot].area > 0.0; }
+};
+
+/// The assembly's patches. Throws InputError for one without stiffness.
+std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Model& model);
+/// Puts patches into batches.
+Interface make_interface(std::vector<InterfacePatch> patches, const Model& model);
+
+}  // namespace voussoir

@@ -1,0 +1,117 @@
+// Fill between stones: the same bits for any number of threads, as the plain serial loop, and when its arrays are
+// carried over to another run.
+#include "tests/solver/models.h"
+#include "tools/ladder/fill_models.h"
+
+namespace voussoir::test {
+namespace {
+
+/// A trough of fixed stones filled with weak soil, four loose stones on top.
+Assembly trough() {
+  Assembly assembly = stone();
+  ladder::add_box(assembly, {-1, -1, -1}, {5, 3, 0}, true);
+  ladder::add_box(assembly, {-1, -1, 0}, {0, 3, 2}, true);
+  ladder::add_box(assembly, {4, -1, 0}, {5, 3, 2}, true);
+  for (int i = 0; i < 4; ++i) ladder::add_box(assembly, {1.0 * i, 0, 1.5}, {1.0 * i + 1, 2, 2}, false);
+  Material soil = ladder::elastic_fill(1500.0, 80e6, 50e6);
+  soil.cohesion = 3e3, soil.friction_angle = ladder::radians(35.0), soil.dilation_angle = ladder::radians(5.0);
+  return ladder::filled(std::move(assembly), ladder::box_mesh({0, 0, 0}, {4, 2, 1.5}, 9, 5, 4), soil, 5e8, 2e8,
+                        ladder::dry_law(0.7));
+}
+
+GroundMotion strong_motion() {
+  GroundMotion motion;
+  motion.dt = 0.01;
+  for (double t = 0.0; t < 1.0; t += motion.dt)
+    motion.acceleration.emplace_back(9 * std::sin(2 * pi * 6 * t), 8 * std::sin(2 * pi * 7 * t),
+                                     6 * std::sin(2 * pi * 5 * t));
+  return motion;
+}
+
+struct Shaken : ladder::Bench {
+  GroundMotion motion = strong_motion();
+  explicit Shaken(int threads, DampingSettings::Kind kind = DampingSettings::Kind::maxwell, double dt = 5e-5)
+      : Bench(trough(), ladder::undamped({0, 0, -9.81})) {
+    settings.damping.kind = kind;
+    begin(dt);
+    stepper.search_distance = 1e300;
+    stepper.motion = &motion;
+    stepper.threads = threads;
+  }
+  std::uint64_t hash() { return hash_arrays(state.arrays()); }
+  int flowed() const {
+    int count = 0;
+    for (const std::uint8_t bits : state.fill.yield) count += bits != 0;
+    return count;
+  }
+};
+
+TEST(FillThreads, GiveTheSameBits) {
+  Shaken one(1);
+  ASSERT_GT(one.model.fill.tiles.size(), 3u);
+  ASSERT_TRUE(one.run(3000));
+  EXPECT_GT(one.flowed(), 100);
+  for (const int threads : {2, 3}) {
+    Shaken many(threads);
+    ASSERT_TRUE(many.run(3000));
+    EXPECT_EQ(many.hash(), one.hash()) << threads;
+  }
+}
+
+TEST(FillThreads, EqualTheSerialLoop) {
+  for (const auto kind : {DampingSettings::Kind::none, DampingSettings::Kind::maxwell, DampingSettings::Kind::local}) {
+    Shaken team(3, kind), oracle(1, kind);
+    ASSERT_TRUE(team.run(400));
+    for (int step = 0; step < 400; ++step) serial_step(oracle.stepper);
+    EXPECT_EQ(team.hash(), oracle.hash());
+  }
+}
+
+TEST(FillThreads, SamplesChangeNothing) {
+  Shaken plain(2), sampled(2);
+  ASSERT_TRUE(plain.run(500));
+  double kinetic = 0.0;
+  ASSERT_TRUE(
+      sampled.run(500, 3, [&](const BodyPass& pass) { kinetic += compute_energies(sampled.stepper, pass).kinetic; }));
+  EXPECT_GT(kinetic, 0.0);
+  EXPECT_EQ(plain.hash(), sampled.hash());
+}
+
+TEST(FillThreads, GoOnFromTheirArrays) {
+  Shaken whole(2), first(2), second(1);
+  ASSERT_TRUE(whole.run(1500));
+  ASSERT_TRUE(first.run(700));
+  std::vector<NamedArray> from = first.state.arrays(), to = second.state.arrays();
+  ASSERT_EQ(from.size(), to.size());
+  for (std::size_t i = 0; i < from.size(); ++i)
+    std::visit([&](auto* array) { *array = *std::get<decltype(array)>(from[i].data); }, to[i].data);
+  second.state.unpack_contacts();
+  second.stepper.prepare();
+  ASSERT_TRUE(second.run(800));
+  EXPECT_EQ(second.hash(), whole.hash());
+}
+
+/// What was put in is stored or lost: with friction, plastic flow and damping branches.
+TEST(FillThreads, KeepTheLedger) {
+  double error[2];
+  for (const int half : {0, 1}) {
+    Shaken bench(2, DampingSettings::Kind::maxwell, half ? 2.5e-5 : 5e-5);
+    double first = 0.0, worst = 0.0, largest = 0.0, lost = 0.0;
+    bool begun = false;
+    ASSERT_TRUE(bench.run(half ? 8000 : 4000, 10, [&](const BodyPass& pass) {
+      const Energies e = compute_energies(bench.stepper, pass);
+      if (!begun) first = e.total(), begun = true;
+      largest =
+          std::max({largest, e.kinetic, e.elastic, std::abs(e.gravitational), std::abs(e.external_work), e.plastic});
+      worst = std::max(worst, std::abs(e.total() - first));
+      lost = e.plastic + e.friction;
+    }));
+    EXPECT_GT(lost, 0.05 * largest);
+    error[half] = worst / largest;
+  }
+  EXPECT_LT(error[0], 0.01);
+  EXPECT_LT(error[1], 0.6 * error[0]);
+}
+
+}  // namespace
+}  // namespace voussoir::test
