@@ -56,8 +56,9 @@ void check_overlaps(const Assembly& assembly, const Case& c) {
 
 [[noreturn]] void refuse_fill(const Case& c) {
   throw InputError(
-      "{}: the bridge has a deformable fill, which can be generated and stored but not yet computed in this version: "
-      "use backfill = \"rigid\" or \"none\"",
+      "{}: the bridge has a deformable fill, which can be generated, stored and asked for its modes, but not yet run "
+      "in "
+      "this version: use backfill = \"rigid\" or \"none\"",
       c.path);
 }
 
@@ -111,7 +112,7 @@ Assembly make_assembly(const Case& c, AssemblyUse use) {
         done.erase(found);
     }
   });
-  if (use == AssemblyUse::solver && !assembly.fill.empty()) refuse_fill(c);
+  if (use == AssemblyUse::run && !assembly.fill.empty()) refuse_fill(c);
   assembly.case_text = c.text;
   in_case(c, [&] {
     attach_sensors(assembly, c.sensors);

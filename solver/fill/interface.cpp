@@ -33,13 +33,6 @@ InterfacePatch make_patch(const Assembly& assembly, const FillJoint& joint, cons
   return patch;
 }
 
-/// N_k = c0 + c1 s + c2 t, one at corner k of the triangle and zero at the others.
-Mat3 shape_functions(const InterfacePatch& patch) {
-  Mat3 corners;
-  for (int k = 0; k < 3; ++k) corners.row(k) << 1.0, patch.rest[k][1], patch.rest[k][2];
-  return corners.inverse().transpose();
-}
-
 void fill_lane(const InterfacePatch& patch, const Model& model, int lane, InterfaceBatch& batch) {
   JointBatch& b = batch.patch;
   b.a[lane] = b.b[lane] = patch.body;
@@ -88,6 +81,12 @@ void index_nodes(std::size_t nodes, Interface& interface) {
 }
 
 }  // namespace
+
+Mat3 shape_functions(const InterfacePatch& patch) {
+  Mat3 corners;
+  for (int k = 0; k < 3; ++k) corners.row(k) << 1.0, patch.rest[k][1], patch.rest[k][2];
+  return corners.inverse().transpose();
+}
 
 std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Model& model) {
   std::vector<InterfacePatch> patches;

@@ -32,10 +32,17 @@ struct Interface {
   std::vector<std::int32_t> first_of_node, of_node;  // patches of each node: 3 × slot + corner
   bool empty() const { return batches.empty(); }
   bool used(std::size_t slot) const { return patches[slot].area > 0.0; }
+  /// Where point `i` of a patch keeps number `c` of `columns`.
+  std::size_t point_index(std::size_t slot, std::size_t i, std::size_t columns, std::size_t c) const {
+    const auto row = std::size_t(batches[slot / lane_count].patch.first_point) + i;
+    return (row * columns + c) * lane_count + slot % lane_count;
+  }
 };
 
 /// The assembly's patches. Throws InputError for one without stiffness.
 std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Model& model);
+/// N_k = m(k, 0) + m(k, 1) s + m(k, 2) t: one at corner k of the triangle, zero at the others.
+Mat3 shape_functions(const InterfacePatch& patch);
 /// Puts patches into batches.
 Interface make_interface(std::vector<InterfacePatch> patches, const Model& model);
 

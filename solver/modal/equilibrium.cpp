@@ -12,11 +12,22 @@ namespace {
 
 /// Everything a patch pass changes.
 struct PatchBackup {
-  PatchMemory joint, contact;
+  PatchMemory joint, contact, interface;
   Array<double> slip;
   Array<float> branch;
-  explicit PatchBackup(const State& s) : joint(s.joint), contact(s.contact), slip(s.slip), branch(s.branch) {}
-  void restore(State& s) const { s.joint = joint, s.contact = contact, s.slip = slip, s.branch = branch; }
+  FillMemory fill;  // without displacements
+  explicit PatchBackup(const State& s)
+      : joint(s.joint),
+        contact(s.contact),
+        interface(s.interface_memory),
+        slip(s.slip),
+        branch(s.branch),
+        fill(s.fill) {}
+  void restore(State& s) const {
+    s.joint = joint, s.contact = contact, s.interface_memory = interface, s.slip = slip, s.branch = branch;
+    s.fill.plastic = fill.plastic, s.fill.last = fill.last, s.fill.branch = fill.branch;
+    s.fill.yield = fill.yield, s.fill.lost = fill.lost;
+  }
 };
 
 void move_bodies(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step,
@@ -32,6 +43,16 @@ void move_bodies(const Model& model, const Unknowns& unknowns, const Array<doubl
         angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Eigen::Quaterniond::Identity();
     const Eigen::Quaterniond q = (dq * Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6])).normalized();
     pose[3] = q.w(), pose[4] = q.x(), pose[5] = q.y(), pose[6] = q.z();
+  }
+}
+
+/// The same for the nodes of the fill.
+void move_nodes(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step,
+                double share, State& state) {
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
+    const Vector6 part = share * part_of(step, unknowns, model.bodies.size() + i);
+    for (std::size_t c = 0; c < 3; ++c)
+      state.fill.pose[node_width * i + c] = from[node_width * i + c] + part[Eigen::Index(c)];
   }
 }
 
@@ -68,6 +89,14 @@ OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns) {
     force = part_of(r.force, unknowns, i);  // less what the supports take
     r.largest = std::max({r.largest, force.head<3>().norm(), force.tail<3>().norm() / size});
   }
+  const FillPass fill = stepper.fill_pass();
+  for (std::size_t i = 0; i < stepper.model->fill.nodes.size(); ++i) {
+    const NodeUpdate u = fill.update(i);
+    Vector6 force = Vector6::Zero();
+    force.head<3>() << u.force[0], u.force[1], u.force[2];
+    set_part(r.force, unknowns, stepper.model->bodies.size() + i, force);
+    r.largest = std::max(r.largest, part_of(r.force, unknowns, stepper.model->bodies.size() + i).norm());
+  }
   r.largest /= std::max(stepper.model->average_weight, 1e-300);
   return r;
 }
@@ -90,7 +119,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   bool analysed = false;
   OutOfBalance r = out_of_balance(stepper, unknowns);
   result.first_residual = result.residual = r.largest;
-  Array<double> elastic_pose = state.pose;
+  Array<double> elastic_pose = state.pose, elastic_nodes = state.fill.pose;
   const int most_iterations = 40, patience = 6;
   for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
@@ -101,24 +130,28 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     cholesky.factorize(k);
     if (cholesky.info() != Eigen::Success) break;
     const Eigen::VectorXd step = cholesky.solve(r.force);
-    const Array<double> before = state.pose;
+    const Array<double> before = state.pose, nodes_before = state.fill.pose;
+    const auto move = [&](double share) {
+      move_bodies(model, unknowns, before, step, share, state);
+      move_nodes(model, unknowns, nodes_before, step, share, state);
+    };
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
     double best_norm = 1e300, best_share = 0.0;
     const double norm = r.force.norm();
     for (double share = 1.0; share > 0.05; share *= 0.5) {
-      move_bodies(model, unknowns, before, step, share, state);
+      move(share);
       start.restore(state);
       const double now = out_of_balance(stepper, unknowns).force.norm();
       if (now < best_norm) best_norm = now, best_share = share;
       if (now < (1.0 - 0.1 * share) * norm) break;
     }
     if (!(best_norm < 1e300)) break;
-    move_bodies(model, unknowns, before, step, best_share, state);
+    move(best_share);
     start.restore(state);
     r = out_of_balance(stepper, unknowns);
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
-    if (i == 0) elastic_pose = state.pose;
+    if (i == 0) elastic_pose = state.pose, elastic_nodes = state.fill.pose;
     result.residual = std::min(result.residual, r.largest);
     if (i >= patience && result.residual > 1e-2)
       break;  // joints keep changing state: it would only go round in circles
@@ -129,6 +162,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     // there overshoots far less than one from the unloaded placement, and overshooting breaks joints that rest would
     // not.
     state.pose = elastic_pose;
+    state.fill.pose = elastic_nodes;
     start.restore(state);
   }
   stop_motion(state);

@@ -26,7 +26,7 @@ std::vector<std::int32_t> connected_parts(const BlockMatrix& k, const Unknowns& 
   };
   const auto ground = std::int32_t(k.sites());
   for (std::size_t site = 0; site < k.sites(); ++site)
-    if (ways(unknowns, site).size() < 6) parent[std::size_t(root(std::int32_t(site)))] = ground;
+    if (ways(unknowns, site).size() < unknowns.ways(site)) parent[std::size_t(root(std::int32_t(site)))] = ground;
   k.for_each([&](std::int32_t row, std::int32_t column, const Matrix6& block) {
     if (row == column || block.isZero(0.0)) return;
     const std::int32_t i = root(row), j = root(column);

@@ -16,44 +16,67 @@ struct Slice {
   double turn = 0.0;  // rad, about the longest axis
 };
 
-int longest_axis(const Assembly& assembly) {
-  Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (const Block& block : assembly.blocks)
-    if (!block.fixed) low = low.cwiseMin(block.centroid), high = high.cwiseMax(block.centroid);
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  return axis;
-}
+/// A block, or a node of the fill, with its share of the mode.
+struct Part {
+  double mass = 0.0;            // kg
+  Vec3 place = Vec3::Zero();    // m
+  Mat3 inertia = Mat3::Zero();  // kg m2
+  Vec3 move = Vec3::Zero(), turn = Vec3::Zero();
+  Component component = Component::block;
+};
 
-std::vector<Slice> cut(const Assembly& assembly, const Mode& mode, int axis) {
-  double low = 1e300, high = -1e300;
-  for (const Block& block : assembly.blocks)
-    if (!block.fixed) low = std::min(low, block.centroid[axis]), high = std::max(high, block.centroid[axis]);
-  const double width = std::max((high - low) / slice_count, 1e-9);
-  std::vector<Slice> slices(slice_count);
-  const auto of = [&](const Block& block) -> Slice& {
-    return slices[std::size_t(std::clamp(int((block.centroid[axis] - low) / width), 0, slice_count - 1))];
-  };
+/// Those that can move.
+std::vector<Part> parts_of(const Assembly& assembly, const Mode& mode) {
+  std::vector<Part> parts;
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
     const Block& block = assembly.blocks[i];
     if (block.fixed) continue;
-    Slice& s = of(block);
-    s.mass += block.mass;
-    s.centre += block.mass * block.centroid;
-    s.move += block.mass * mode.shape.row(Eigen::Index(i)).head<3>().transpose();
+    const auto row = mode.shape.row(Eigen::Index(i));
+    parts.push_back({block.mass, block.centroid, block.inertia, row.head<3>(), row.tail<3>(), block.component});
+  }
+  const FillMesh& fill = assembly.fill;
+  if (mode.nodes.rows() != Eigen::Index(fill.nodes.size())) return parts;
+  const std::size_t first = parts.size();
+  for (std::size_t i = 0; i < fill.nodes.size(); ++i)
+    parts.push_back(
+        {0.0, fill.nodes[i], Mat3::Zero(), mode.nodes.row(Eigen::Index(i)), Vec3::Zero(), Component::backfill});
+  for (std::size_t t = 0; t < fill.tets.size(); ++t) {
+    const auto at = [&](std::size_t k) { return fill.nodes[std::size_t(fill.tets[t][k])]; };
+    const double volume = (at(1) - at(0)).dot((at(2) - at(0)).cross(at(3) - at(0))) / 6.0;
+    for (const std::int32_t node : fill.tets[t])
+      parts[first + std::size_t(node)].mass +=
+          0.25 * volume * assembly.materials[std::size_t(fill.material[t])].density;
+  }
+  return parts;
+}
+
+struct Extent {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  explicit Extent(const std::vector<Part>& parts) {
+    for (const Part& p : parts) low = low.cwiseMin(p.place), high = high.cwiseMax(p.place);
+  }
+};
+
+std::vector<Slice> cut(const std::vector<Part>& parts, const Extent& extent, int axis) {
+  const double low = extent.low[axis], width = std::max((extent.high[axis] - low) / slice_count, 1e-9);
+  std::vector<Slice> slices(slice_count);
+  const auto of = [&](const Part& part) -> Slice& {
+    return slices[std::size_t(std::clamp(int((part.place[axis] - low) / width), 0, slice_count - 1))];
+  };
+  for (const Part& part : parts) {
+    Slice& s = of(part);
+    s.mass += part.mass;
+    s.centre += part.mass * part.place;
+    s.move += part.mass * part.move;
   }
   for (Slice& s : slices)
     if (s.mass > 0.0) s.centre /= s.mass, s.move /= s.mass;
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
-    const Block& block = assembly.blocks[i];
-    if (block.fixed) continue;
-    Slice& s = of(block);
-    Vec3 arm = block.centroid - s.centre;
+  for (const Part& part : parts) {
+    Slice& s = of(part);
+    Vec3 arm = part.place - s.centre;
     arm[axis] = 0.0;
-    const Vec3 u = mode.shape.row(Eigen::Index(i)).head<3>();
-    const Vec3 turn = mode.shape.row(Eigen::Index(i)).tail<3>();
-    s.polar += block.mass * arm.squaredNorm() + block.inertia(axis, axis);
-    s.turn += block.mass * arm.cross(u)[axis] + (block.inertia * turn)[axis];
+    s.polar += part.mass * arm.squaredNorm() + part.inertia(axis, axis);
+    s.turn += part.mass * arm.cross(part.move)[axis] + (part.inertia * part.turn)[axis];
   }
   for (Slice& s : slices)
     if (s.polar > 0.0) s.turn /= s.polar;
@@ -77,11 +100,9 @@ int order_of(const std::vector<Slice>& slices, F motion) {
 }
 
 /// The component that most of the moving mass belongs to.
-std::string where(const Assembly& assembly, const Mode& mode) {
+std::string where(const std::vector<Part>& parts) {
   std::vector<double> share(component_names().size(), 0.0);
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
-    share[std::size_t(assembly.blocks[i].component)] +=
-        assembly.blocks[i].mass * mode.shape.row(Eigen::Index(i)).head<3>().squaredNorm();
+  for (const Part& part : parts) share[std::size_t(part.component)] += part.mass * part.move.squaredNorm();
   return component_names()[std::size_t(std::max_element(share.begin(), share.end()) - share.begin())];
 }
 
@@ -97,25 +118,26 @@ std::string ModeWords::text() const {
 }
 
 ModeWords mode_words(const Assembly& assembly, const Mode& mode) {
+  const std::vector<Part> parts = parts_of(assembly, mode);
   Vec3 along = Vec3::Zero();  // twice the kinetic energy at ω = 1, less that of turning blocks
   double mass = 0.0, fourth = 0.0;
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
-    const Block& block = assembly.blocks[i];
-    if (block.fixed) continue;
-    const Vec3 u = mode.shape.row(Eigen::Index(i)).head<3>();
-    along += block.mass * u.cwiseAbs2();
-    mass += block.mass;
-    fourth += block.mass * u.squaredNorm() * u.squaredNorm();
+  for (const Part& part : parts) {
+    along += part.mass * part.move.cwiseAbs2();
+    mass += part.mass;
+    fourth += part.mass * part.move.squaredNorm() * part.move.squaredNorm();
   }
   if (mode.frequency == 0.0) {
-    if (mode.residual > 0.0) return {"unstable", 0, where(assembly, mode)};
+    if (mode.residual > 0.0) return {"unstable", 0, where(parts)};
     const bool supported = std::any_of(assembly.blocks.begin(), assembly.blocks.end(), [](auto& b) { return b.fixed; });
-    if (supported) return {"mechanism", 0, where(assembly, mode)};
+    if (supported) return {"mechanism", 0, where(parts)};
     return {"rigid motion", 0, ""};
   }
   // The mass that takes part, as if all of it moved alike (inverse participation ratio).
-  if (along.sum() * along.sum() < 0.02 * mass * fourth) return {"local", 0, where(assembly, mode)};
-  const std::vector<Slice> slices = cut(assembly, mode, longest_axis(assembly));
+  if (along.sum() * along.sum() < 0.02 * mass * fourth) return {"local", 0, where(parts)};
+  const Extent extent(parts);
+  int axis = 0;
+  (extent.high - extent.low).maxCoeff(&axis);
+  const std::vector<Slice> slices = cut(parts, extent, axis);
   double turning = 0.0;
   for (const Slice& s : slices) turning += s.polar * s.turn * s.turn;
   if (turning > 0.5 * mode.modal_mass)

@@ -21,19 +21,24 @@ void check_mass(const Assembly& assembly, const Model& model, const BlockMatrix&
   }
 }
 
-/// The eigenvector as motions of blocks, scaled to a largest displacement of 1.
-BlockMotions block_motions(const Model& model, const Unknowns& unknowns, const Eigen::VectorXd& vector) {
-  BlockMotions shape = BlockMotions::Zero(Eigen::Index(model.bodies.size()), 6);
+/// The eigenvector as motions of blocks and nodes, scaled to a largest displacement of 1.
+void set_motions(const Model& model, const Unknowns& unknowns, const Eigen::VectorXd& vector, Mode& mode) {
+  mode.shape = BlockMotions::Zero(Eigen::Index(model.bodies.size()), 6);
+  mode.nodes = NodeMotions::Zero(Eigen::Index(model.fill.nodes.size()), 3);
   double largest = 0.0, most = 0.0, sign = 1.0;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < model.sites(); ++i) {
     const Vector6 part = part_of(vector, unknowns, i);
-    shape.row(model.block_of_body[i]) = part;
+    if (i < model.bodies.size())
+      mode.shape.row(model.block_of_body[i]) = part;
+    else
+      mode.nodes.row(model.fill.mesh_node[i - model.bodies.size()]) = part.head<3>();
     largest = std::max(largest, part.head<3>().norm());
     for (int c = 0; c < 3; ++c)
       if (std::abs(part[c]) > (1.0 + 1e-6) * most) most = std::abs(part[c]), sign = part[c] < 0.0 ? -1.0 : 1.0;
   }
   if (largest == 0.0) largest = vector.cwiseAbs().maxCoeff();  // nothing but turns
-  return shape * (sign / largest);
+  mode.shape *= sign / largest;
+  mode.nodes *= sign / largest;
 }
 
 /// kg: φᵀ M φ of the shape, and the effective masses.
@@ -45,6 +50,11 @@ void weigh(const BlockMatrix& m, const Model& model, Mode& mode) {
     const Vector6 momentum = m.diagonal(std::int32_t(i)) * part;
     mode.modal_mass += part.dot(momentum);
     excitation += momentum.head<3>();
+  }
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
+    const Vec3 u = mode.nodes.row(model.fill.mesh_node[i]);
+    mode.modal_mass += model.fill.inertial[i] * u.squaredNorm();
+    excitation += model.fill.inertial[i] * u;
   }
   mode.participation = excitation / mode.modal_mass;
   mode.effective = excitation.cwiseAbs2() / mode.modal_mass;
@@ -59,7 +69,8 @@ double residual(const SparseMatrix& k, const SparseMatrix& m, double value, cons
 
 std::vector<std::int64_t> blocks_of(const Model& model, const std::vector<std::int32_t>& bodies) {
   std::vector<std::int64_t> blocks;
-  for (std::int32_t body : bodies) blocks.push_back(model.block_of_body[std::size_t(body)]);
+  for (std::int32_t body : bodies)  // the sites after them are nodes of the fill
+    if (std::size_t(body) < model.bodies.size()) blocks.push_back(model.block_of_body[std::size_t(body)]);
   std::sort(blocks.begin(), blocks.end());
   return blocks;
 }
@@ -101,6 +112,7 @@ Modes find_modes(const Assembly& assembly, const Model& model, const State& stat
   result.partly = blocks_of(model, loose.partly);
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (all.any(i)) result.mass += model.bodies[i].inertial_mass;
+  for (const double each : model.fill.inertial) result.mass += each;
   result.report.unknowns = unknowns.count;
   result.report.assembly_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.report.solution = lowest_eigenpairs(held, mass, count);
@@ -111,7 +123,7 @@ Modes find_modes(const Assembly& assembly, const Model& model, const State& stat
     const bool zero = std::abs(mode.eigenvalue) <= found.zero;
     if (!zero && mode.eigenvalue > 0.0) mode.frequency = std::sqrt(mode.eigenvalue) / (2.0 * EIGEN_PI);
     if (!zero) mode.residual = residual(plain, mass, mode.eigenvalue, found.vectors.col(i));
-    mode.shape = block_motions(model, unknowns, found.vectors.col(i));
+    set_motions(model, unknowns, found.vectors.col(i), mode);
     weigh(m, model, mode);
     mode.words = mode_words(assembly, mode);
     result.modes.push_back(std::move(mode));

@@ -10,6 +10,9 @@ namespace voussoir {
 /// Per block, in the assembly's order: displacement of the centroid and rotation vector, world axes.
 using BlockMotions = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
+/// Per node of the fill's mesh: displacement, world axes.
+using NodeMotions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// A mode in words.
 struct ModeWords {
   std::string direction;  // longitudinal (x), transverse (y), vertical (z), torsional; local, rigid motion, mechanism,
@@ -24,6 +27,7 @@ struct Mode {
   double frequency = 0.0;   // Hz; 0 for a rigid motion or a mechanism, or where the eigenvalue is negative
   double period() const { return frequency > 0.0 ? 1.0 / frequency : 0.0; }  // s; 0: none
   BlockMotions shape;  // largest displacement 1 (1/m: rotations per metre of it), positive in its largest component
+  NodeMotions nodes;   // of the fill's mesh, to the same scale
   double modal_mass = 0.0;            // kg, φᵀ M φ of that shape
   Vec3 participation = Vec3::Zero();  // φᵀ M r / φᵀ M φ of that shape, r a ground motion along x, y, z
   Vec3 effective = Vec3::Zero();      // kg, (φᵀ M r)² / φᵀ M φ
@@ -39,7 +43,7 @@ struct ModesReport {
 
 struct Modes {
   std::vector<Mode> modes;
-  double mass = 0.0;                 // kg, of all blocks that can move
+  double mass = 0.0;                 // kg, of all blocks that can move, and of the fill
   std::vector<std::int64_t> adrift;  // blocks that nothing holds: left out
   std::vector<std::int64_t> partly;  // blocks that can move some way on their own: held in that way
   ModesReport report;

@@ -1,5 +1,6 @@
 #include "solver/modal/stiffness.h"
 
+#include "solver/modal/fill_stiffness.h"
 #include "solver/step/body_pass.h"
 
 namespace voussoir {
@@ -25,24 +26,6 @@ Matrix3x6 point_rows(const PatchPoint& p) {
   return n;
 }
 
-/// Tangent at a point that has just been updated: nothing where open, normal and transverse stiffness where sliding.
-Mat3 point_tangent(const LawConstants& law, const Patch& patch, const Triple<double>& elastic, bool broken) {
-  Mat3 d = Mat3::Zero();
-  const double n = elastic.x, s = elastic.y, t = elastic.z;
-  if (!broken || law.kind == JointLaw::Kind::elastic) {
-    d.diagonal() << patch.kn, patch.ks, patch.ks;
-    return d;
-  }
-  if (n >= 0.0) return d;
-  d.diagonal() << patch.kn, patch.ks, patch.ks;
-  const double shear = std::sqrt(s * s + t * t);
-  const double limit = (law.residual_cohesion - patch.kn * n * law.residual_tan_friction) / patch.ks;
-  if (shear < limit * (1.0 - 1e-9) || shear == 0.0) return d;
-  const Eigen::Vector2d along(s / shear, t / shear);
-  d.bottomRightCorner<2, 2>() -= 0.999 * patch.ks * along * along.transpose();
-  return d;
-}
-
 const Patch& patch_at(const Model& model, const State& state, std::size_t index) {
   return index < model.joints.size() ? model.joints[index] : state.contacts[index - model.joints.size()];
 }
@@ -63,7 +46,8 @@ Matrix6 points_stiffness(const Model& model, const State& state, const Patch& pa
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = elastic_jump(patch, j, point, memory, i);
-    const Mat3 d = point_tangent(model.laws[patch.law], patch, u, memory.broken[point_index(patch, i, 1, 0)]);
+    const Mat3 d =
+        point_tangent(model.laws[patch.law], patch.kn, patch.ks, u, memory.broken[point_index(patch, i, 1, 0)]);
     const Matrix3x6 rows = point_rows(point);
     k += point.weight * rows.transpose() * d * rows;
   }
@@ -151,6 +135,23 @@ void add_pair(BlockMatrix& k, const Patch& patch, const Matrix12& pair) {
 
 }  // namespace
 
+Mat3 point_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken) {
+  Mat3 d = Mat3::Zero();
+  const double n = elastic.x, s = elastic.y, t = elastic.z;
+  if (!broken || law.kind == JointLaw::Kind::elastic) {
+    d.diagonal() << kn, ks, ks;
+    return d;
+  }
+  if (n >= 0.0) return d;
+  d.diagonal() << kn, ks, ks;
+  const double shear = std::sqrt(s * s + t * t);
+  const double limit = (law.residual_cohesion - kn * n * law.residual_tan_friction) / ks;
+  if (shear < limit * (1.0 - 1e-9) || shear == 0.0) return d;
+  const Eigen::Vector2d along(s / shear, t / shear);
+  d.bottomRightCorner<2, 2>() -= 0.999 * ks * along * along.transpose();
+  return d;
+}
+
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
   const std::size_t joints = model.joints.size();
   const Patch& patch = patch_at(model, state, index);
@@ -177,9 +178,12 @@ BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangen
     const Patch& patch = patch_at(model, state, i);
     if (is_there(model, state, i)) coupled.emplace_back(patch.a, patch.b);
   }
-  BlockMatrix k(model.bodies.size(), coupled);
+  couple_fill(model, state, coupled);
+  BlockMatrix k(model.sites(), coupled);
   for (std::size_t i = 0; i < all; ++i)
     if (is_there(model, state, i)) add_pair(k, patch_at(model, state, i), pair_stiffness(model, state, i, kind));
+  add_interface(model, state, kind, k);
+  add_fill(model, state, k);
   return k;
 }
 
@@ -204,9 +208,11 @@ Matrix6 body_mass(const Model& model, const State& state, std::size_t body) {
 }
 
 BlockMatrix mass_blocks(const Model& model, const State& state, const Unknowns& unknowns) {
-  BlockMatrix m(model.bodies.size(), {});
+  BlockMatrix m(model.sites(), {});
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (unknowns.any(i)) m.diagonal(std::int32_t(i)) = body_mass(model, state, i);
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i)
+    m.diagonal(std::int32_t(model.bodies.size() + i)).topLeftCorner<3, 3>() = model.fill.inertial[i] * Mat3::Identity();
   return m;
 }
 
@@ -220,6 +226,10 @@ Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unk
     part.head<3>() /= body.inertial_mass;
     part.tail<3>() = (r * (body.inverse_inertia * (r.transpose() * part.tail<3>()))).eval();
     set_part(y, unknowns, i, part);
+  }
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
+    const std::size_t site = model.bodies.size() + i;
+    set_part(y, unknowns, site, part_of(x, unknowns, site) / model.fill.inertial[i]);
   }
   return y;
 }

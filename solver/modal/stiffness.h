@@ -17,6 +17,10 @@ enum class PatchTangent {
   present,  // open points nothing, sliding points only across their slip direction
 };
 
+/// Tangent (n, s, t; Pa/m) at a point that has just been updated: nothing where open, normal and transverse stiffness
+/// where sliding.
+Mat3 point_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken);
+
 /// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
 /// What that patch adds to the two diagonal blocks of K: of its bodies a and b.

@@ -1,7 +1,8 @@
 // Unknowns of the linear problems (equilibrium, critical step, modes) and vectors over them.
 //
 // A site is what carries up to six unknowns: a body has a displacement (m, world axes, of its centroid) and a rotation
-// vector (rad, world axes). What is prescribed (fixed bodies, ways that a guide holds) is no unknown.
+// vector (rad, world axes); a node of the fill has a displacement. What is prescribed (fixed bodies, ways that a guide
+// holds) is no unknown.
 #pragma once
 #include <Eigen/Dense>
 #include <array>
@@ -18,6 +19,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 struct Unknowns {
   std::vector<std::array<std::int32_t, 6>> of;  // of each site, in body order; −1 where prescribed
   std::int32_t count = 0;
+  std::size_t bodies = 0;  // sites that are bodies; the others are nodes of the fill
+  /// How many a site has that nothing holds.
+  std::size_t ways(std::size_t site) const { return site < bodies ? 6 : 3; }
   bool any(std::size_t site) const {
     for (std::int32_t unknown : of[site])
       if (unknown >= 0) return true;

@@ -166,6 +166,9 @@ struct Model {
   FillModel fill;
   std::vector<InterfacePatch> interface;  // of the assembly, in the order of its fill_joints
 
+  /// Of the linear problems: bodies, then nodes of the fill.
+  std::size_t sites() const { return bodies.size() + fill.nodes.size(); }
+
   // For contacts that appear: what a patch between two bodies is made of.
   struct Matter {
     double youngs = 0.0, shear = 0.0, tan_friction = 0.0;

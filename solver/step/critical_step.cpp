@@ -25,6 +25,10 @@ void name_the_fastest(const Model& model, const State& state, const Unknowns& un
     const double energy = part.dot(body_mass(model, state, i) * part);
     if (energy > most) most = energy, result.body = std::int32_t(i);
   }
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
+    const double energy = model.fill.inertial[i] * part_of(x, unknowns, model.bodies.size() + i).squaredNorm();
+    if (energy > most) most = energy, result.node = model.fill.mesh_node[i];
+  }
   double stiffest = -1.0;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Patch& patch = model.joints[i];

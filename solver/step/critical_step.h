@@ -9,6 +9,7 @@ struct CriticalStep {
   double step = 0.0;        // s, undamped
   double highest = 0.0;     // rad/s
   std::int32_t body = -1;   // the body that moves most in the highest mode
+  std::int32_t node = -1;   // of the fill's mesh, where one moves more than any body
   std::int64_t patch = -1;  // its patch that is strained most there
 };
 

@@ -27,6 +27,9 @@ inline DenseSystem dense_system(const Bench& bench, PatchTangent kind = PatchTan
       for (int c = 0; c < 6; ++c)
         if (unknowns.of[i][r] >= 0 && unknowns.of[i][c] >= 0) system.m(unknowns.of[i][r], unknowns.of[i][c]) = m(r, c);
   }
+  for (std::size_t i = 0; i < bench.model.fill.nodes.size(); ++i)
+    for (const std::int32_t unknown : unknowns.of[bench.model.bodies.size() + i])
+      if (unknown >= 0) system.m(unknown, unknown) = bench.model.fill.inertial[i];
   return system;
 }
 

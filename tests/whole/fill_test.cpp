@@ -37,12 +37,21 @@ TEST(Fill, TwoProgramsMakeTheSameFile) {
   EXPECT_EQ(bytes_of(folder / "one.h5"), bytes_of(folder / "two.h5"));
 }
 
-TEST(Fill, WhatComputesRefusesIt) {
+TEST(Fill, WhatRunsRefusesIt) {
   Folder folder;
   folder.write("c.toml", bridge + "[[stage]]\nkind = \"gravity\"\n");
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"run", "c.toml", "-o", "run"}, {"modal", "c.toml"}, {"step", "c.toml"}})
+       {std::vector<std::string>{"run", "c.toml", "-o", "run"}, {"step", "c.toml"}})
     expect_error(voussoir(words, {.folder = folder.path()}), 2, {"c.toml", "deformable fill", "backfill = \"rigid\""});
+}
+
+TEST(Fill, ModesKnowIt) {
+  Folder folder;
+  folder.write("c.toml", bridge);
+  const auto end =
+      voussoir({"modal", "c.toml", "--modes", "3", "--no-pictures", "-o", "modes"}, {.folder = folder.path()});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NE(end.out.find("transverse"), std::string::npos) << end.out;
 }
 
 /// A tetrahedron on the upper face of the unit cube.

@@ -102,7 +102,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
 
 void load_case(ModalSource& source, const std::string& file) {
   source.c = read_case(file, CaseUse::geometry);
-  source.assembly = make_assembly(source.c);
+  source.assembly = make_assembly(source.c, AssemblyUse::modes);
   source.model = build_model(source.assembly, source.c.settings);
   source.state = initial_state(source.model);
   source.name = fs::path(file).stem().string();
