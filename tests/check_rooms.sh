@@ -20,8 +20,8 @@ forbid "tools/ladder" "viz/|io/vtk/|tools/(voussoir|bench)/" "tools/ladder is up
 forbid "geometry solver io viz tools" "tests/" "nothing but tests includes tests"
 forbid "geometry solver io/case io/hdf5 io/records io/measured tools" "vtk" "VTK belongs in io/vtk and viz"
 forbid "geometry solver/model solver/contact solver/fill solver/effects solver/motion solver/step solver/modal solver/identify solver/diagnosis io viz tools" "omp\.h" "OpenMP belongs in solver/base"
-if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^geometry/fill_gmsh\.cpp:'; then
-  echo "Gmsh belongs in geometry/fill_gmsh.cpp"; bad=1
+if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^geometry/gmsh/mesher\.cpp:'; then
+  echo "Gmsh belongs in geometry/gmsh/mesher.cpp"; bad=1
 fi
 if grep -rnE '#pragma omp' geometry solver/[!b]* io viz tools --include='*.h' --include='*.cpp'; then
   echo "OpenMP pragmas belong in solver/base"; bad=1

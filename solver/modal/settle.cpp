@@ -14,6 +14,7 @@ std::vector<std::int32_t> falling(const Model& model, const State& state, const 
       find_loose(stiffness_blocks(model, state, PatchTangent::present), mass_blocks(model, state, unknowns), unknowns);
   std::vector<std::int32_t> found;
   for (std::int32_t body : loose.bodies) {
+    if (std::size_t(body) >= model.bodies.size()) continue;  // a node of the fill
     const double *from = &before[pose_width * std::size_t(body)], *to = &state.pose[pose_width * std::size_t(body)];
     if (Vec3(to[0] - from[0], to[1] - from[1], to[2] - from[2]).norm() > distance) found.push_back(body);
   }

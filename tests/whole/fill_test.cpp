@@ -52,6 +52,8 @@ TEST(Fill, ModesKnowIt) {
       voussoir({"modal", "c.toml", "--modes", "3", "--no-pictures", "-o", "modes"}, {.folder = folder.path()});
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_NE(end.out.find("transverse"), std::string::npos) << end.out;
+  expect_error(voussoir({"modal", "c.toml", "--state", "gravity"}, {.folder = folder.path()}), 2,
+               {"deformable fill", "leave out --state gravity"});
 }
 
 /// A tetrahedron on the upper face of the unit cube.

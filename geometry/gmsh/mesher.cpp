@@ -1,0 +1,313 @@
+// The part of geometry/fill_gmsh that Gmsh is linked with: a library of its own, which is loaded when there is
+// something to mesh.
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "geometry/fill_gmsh.h"
+#include "geometry/fill_mesh.h"
+#include "geometry/fill_sweep.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+using DimTags = gmsh::vectorpair;  // Gmsh's entities: dimension and number
+
+/// Gmsh while it is needed: quiet, on one thread, without the user's settings.
+class GmshLibrary {
+ public:
+  GmshLibrary() {
+    gmsh::initialize(0, nullptr, false);
+    set("General.Terminal", 0);
+    set("General.AbortOnError", 3);  // every error is thrown
+    set("General.NumThreads", 1);
+    gmsh::model::add("fill");
+  }
+  ~GmshLibrary() {
+    try {
+      gmsh::finalize();
+    } catch (...) {  // nothing is left to be saved
+    }
+  }
+  GmshLibrary(const GmshLibrary&) = delete;
+  static void set(const char* option, double value) { gmsh::option::setNumber(option, value); }
+};
+
+/// Does some work with Gmsh; what it throws becomes an `Error` with its own words between `before` and `after`.
+template <class Error, class Work>
+auto with_gmsh(const std::string& before, const std::string& after, Work&& work) {
+  std::string reason;
+  try {
+    const GmshLibrary gmsh_is_ready;
+    return work();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    reason = error.what();
+  } catch (const std::string& error) {
+    reason = error;
+  } catch (...) {
+    reason = "it does not say why";
+  }
+  throw Error("{}: {}; {}", before, reason.empty() ? "it does not say why" : reason, after);
+}
+
+bool reaches(const Ring& ring, const Box& box) {
+  double top = ring.centre.z();
+  for (const Vec3& p : ring.extrados) top = std::max(top, p.z());
+  return box.low.z() > ring.centre.z() - 1e-9 && box.low.z() < top && box.high.x() > ring.extrados.front().x() &&
+         box.low.x() < ring.extrados.back().x();
+}
+
+/// A face in Gmsh's plane x-y, which stands for x-z.
+std::pair<int, int> add_face(const Polygon& outline) {
+  std::vector<int> points, lines;
+  for (const Vec3& p : outline) points.push_back(gmsh::model::occ::addPoint(p.x(), p.z(), 0.0));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    lines.push_back(gmsh::model::occ::addLine(points[i], points[(i + 1) % points.size()]));
+  }
+  return {2, gmsh::model::occ::addPlaneSurface({gmsh::model::occ::addCurveLoop(lines)})};
+}
+
+/// What lies below the extrados. Its foot is below the springing, so that no edge but those of the extrados lies in a
+/// box.
+std::pair<int, int> add_vault(const Ring& ring) {
+  const double foot = ring.centre.z() - 1.0;
+  Polygon outline = ring.extrados;
+  outline.emplace_back(outline.back().x(), 0.0, foot);
+  outline.emplace_back(outline.front().x(), 0.0, foot);
+  return add_face(outline);
+}
+
+DimTags add_box(const Box& box, const std::vector<Ring>& rings) {
+  const double x0 = box.low.x(), x1 = box.high.x(), z0 = box.low.z(), z1 = box.high.z();
+  DimTags face = {add_face({{x0, 0.0, z0}, {x1, 0.0, z0}, {x1, 0.0, z1}, {x0, 0.0, z1}})}, vaults;
+  for (const Ring& ring : rings) {
+    if (reaches(ring, box)) vaults.push_back(add_vault(ring));
+  }
+  if (vaults.empty()) return face;
+  DimTags rest;
+  std::vector<DimTags> origins;
+  gmsh::model::occ::cut(face, vaults, rest, origins);
+  return rest;
+}
+
+/// Faces of the section that reach equally far across.
+struct Part {
+  double y0 = 0.0, y1 = 0.0;  // m
+  DimTags faces;
+};
+
+/// Faces that touch, as one.
+DimTags fused(const DimTags& faces) {
+  if (faces.size() < 2) return faces;
+  DimTags out;
+  std::vector<DimTags> origins;
+  GmshLibrary::set("Geometry.OCCUnionUnify", 1);
+  GmshLibrary::set("Geometry.OCCBooleanPreserveNumbering", 0);  // with it Gmsh keeps the faces beside their union
+  gmsh::model::occ::fuse({faces.front()}, DimTags(faces.begin() + 1, faces.end()), out, origins);
+  GmshLibrary::set("Geometry.OCCBooleanPreserveNumbering", 1);
+  return out;
+}
+
+/// The section: within a part no edges are left between boxes that touch; parts that touch share their edges.
+std::vector<Part> add_section(const FillSpace& space) {
+  std::vector<Part> parts;
+  for (const Box& box : space.boxes) {
+    const auto alike = [&](const Part& p) {
+      return std::abs(p.y0 - box.low.y()) < 1e-6 && std::abs(p.y1 - box.high.y()) < 1e-6;
+    };
+    auto part = std::find_if(parts.begin(), parts.end(), alike);
+    if (part == parts.end()) part = parts.insert(parts.end(), {box.low.y(), box.high.y(), {}});
+    for (const auto& face : add_box(box, space.rings)) part->faces.push_back(face);
+  }
+  for (Part& part : parts) part.faces = fused(part.faces);
+  DimTags all;
+  std::vector<DimTags> origins;
+  for (const Part& part : parts) all.insert(all.end(), part.faces.begin(), part.faces.end());
+  if (parts.size() > 1) {
+    DimTags pieces;
+    gmsh::model::occ::fragment({all.front()}, DimTags(all.begin() + 1, all.end()), pieces, origins);
+    auto origin = origins.begin();
+    for (Part& part : parts) {
+      DimTags own;
+      for (std::size_t i = 0; i < part.faces.size(); ++i, ++origin)
+        own.insert(own.end(), origin->begin(), origin->end());
+      part.faces = own;
+    }
+  }
+  gmsh::model::occ::synchronize();
+  return parts;
+}
+
+/// Coordinates of all nodes that Gmsh holds, by its numbers.
+std::map<std::size_t, Vec3> take_nodes() {
+  std::vector<std::size_t> numbers;
+  std::vector<double> x, ignored;
+  gmsh::model::mesh::getNodes(numbers, x, ignored, -1, -1, false, false);
+  std::map<std::size_t, Vec3> nodes;
+  for (std::size_t i = 0; i < numbers.size(); ++i) nodes[numbers[i]] = Vec3(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+  return nodes;
+}
+
+/// Numbers of Gmsh's nodes as they are used, in its order, turned into our own, which count from 0.
+std::map<std::size_t, std::int32_t> own_numbers(const std::vector<std::size_t>& used) {
+  std::map<std::size_t, std::int32_t> own;
+  for (const std::size_t number : used) own[number] = 0;
+  std::int32_t next = 0;
+  for (auto& [number, index] : own) index = next++;
+  return own;
+}
+
+FillSection take_section(const std::vector<Part>& parts) {
+  std::vector<std::size_t> all;
+  std::vector<std::pair<const Part*, std::vector<std::size_t>>> corners;
+  for (const Part& part : parts) {
+    for (const auto& face : part.faces) {
+      auto& [of, nodes] = corners.emplace_back(&part, std::vector<std::size_t>{});
+      std::vector<std::size_t> elements;  // Gmsh fills only vectors that are empty
+      gmsh::model::mesh::getElementsByType(2, elements, nodes, face.second);
+      all.insert(all.end(), nodes.begin(), nodes.end());
+    }
+  }
+  const std::map<std::size_t, Vec3> places = take_nodes();
+  const std::map<std::size_t, std::int32_t> own = own_numbers(all);
+  FillSection section;
+  for (const auto& [number, index] : own) {
+    const Vec3& p = places.at(number);
+    section.nodes.emplace_back(p.x(), 0.0, p.y());
+  }
+  for (const auto& [part, nodes] : corners) {
+    for (std::size_t i = 0; i + 2 < nodes.size(); i += 3) {
+      section.triangles.push_back({{own.at(nodes[i]), own.at(nodes[i + 1]), own.at(nodes[i + 2])}, part->y0, part->y1});
+    }
+  }
+  return section;
+}
+
+/// The tetrahedra that Gmsh holds, with the nodes that they use.
+FillMesh take_mesh(double scale) {
+  std::vector<std::size_t> elements, corners;
+  gmsh::model::mesh::getElementsByType(4, elements, corners);
+  const std::map<std::size_t, Vec3> places = take_nodes();
+  const std::map<std::size_t, std::int32_t> own = own_numbers(corners);
+  FillMesh mesh;
+  for (const auto& [number, index] : own) mesh.nodes.push_back(scale * places.at(number));
+  for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
+    mesh.tets.push_back({own.at(corners[i]), own.at(corners[i + 1]), own.at(corners[i + 2]), own.at(corners[i + 3])});
+  }
+  mesh.material.assign(mesh.tets.size(), 0);
+  orient_tets(mesh);
+  return mesh;
+}
+
+void ask_for(const FillMeshing& meshing, double size) {
+  GmshLibrary::set("Mesh.MeshSizeMin", size);
+  GmshLibrary::set("Mesh.MeshSizeMax", size);
+  GmshLibrary::set("Mesh.MeshSizeFromPoints", 0);
+  GmshLibrary::set("Mesh.MeshSizeFromCurvature", 0);
+  GmshLibrary::set("Mesh.MeshSizeExtendFromBoundary", 0);
+  GmshLibrary::set("Mesh.Algorithm", meshing.algorithm);
+  GmshLibrary::set("Mesh.Smoothing", meshing.smoothing);
+}
+
+/// Whether the text at the beginning of the file is that of a Gmsh mesh. Anything else Gmsh might take for a script.
+void check_beginning(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError("cannot read {}: there is no such file, or it may not be read", path);
+  std::string word, version;
+  file >> word >> version;
+  if (word != "$MeshFormat") {
+    throw InputError(
+        "{} is not a Gmsh mesh: it begins with \"{}\", expected \"$MeshFormat\"; save it from Gmsh as "
+        "version 4.1 or 2.2",
+        path, word.substr(0, 40));
+  }
+  if (!version.starts_with("2") && !version.starts_with("4")) {
+    throw InputError("{} is a Gmsh mesh of version {}; save it as version 4.1 or 2.2 (gmsh FILE -save -format msh41)",
+                     path, version.substr(0, 10));
+  }
+}
+
+/// Solid elements must be 4-node tetrahedra (Gmsh's type 4).
+void check_elements(const std::string& path) {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 3);
+  for (const int type : types) {
+    if (type == 4) continue;
+    std::string name;
+    int dimension = 0, order = 0, nodes = 0, primary = 0;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, primary);
+    throw InputError(
+        "{}: it holds elements \"{}\" of {} nodes; the fill takes 4-node tetrahedra only: mesh it with "
+        "Mesh.ElementOrder = 1 and without recombination",
+        path, name, nodes);
+  }
+  if (types.empty()) {
+    throw InputError(
+        "{}: it holds no tetrahedra (elements on points, lines and surfaces do not count): mesh its "
+        "volumes (gmsh FILE -3)",
+        path);
+  }
+}
+
+MeshedFill mesh(const FillSpace& space, const FillMeshing& meshing) {
+  const double layer = meshing.layer_share * meshing.edge;
+  const double bound = std::sqrt(meshing.edge * meshing.edge - layer * layer);
+  MeshedFill out;
+  FillSection section;
+  with_gmsh<RunError>("the fill could not be meshed by Gmsh",
+                      "try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
+                        const std::vector<Part> parts = add_section(space);
+                        for (out.size = meshing.first_share * bound;;) {
+                          ++out.rounds;
+                          gmsh::model::mesh::clear();
+                          ask_for(meshing, out.size);
+                          gmsh::model::mesh::generate(2);
+                          section = take_section(parts);
+                          const double longest = longest_edge(section);
+                          if (longest <= bound || out.rounds == meshing.rounds) break;
+                          out.size *= 0.97;
+                        }
+                      });
+  // What the section leaves of the bound, the layers take.
+  const double longest = longest_edge(section);
+  const double rest = std::sqrt(std::max(meshing.edge * meshing.edge - longest * longest, 0.0));
+  out.mesh = sweep(section, std::max(rest, layer));
+  out.longest = fill_quality(out.mesh).longest_edge;
+  return out;
+}
+
+FillMesh read(const std::string& path, double scale) {
+  check_beginning(path);
+  FillMesh mesh = with_gmsh<InputError>(path, "the file is damaged, or not a mesh: save it anew from Gmsh", [&] {
+    gmsh::merge(path);
+    check_elements(path);
+    return take_mesh(scale);
+  });
+  check_fill(mesh, path);
+  find_surface(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+}  // namespace voussoir
+
+// What the program looks up: all else is hidden, Eigen above all, which Gmsh has too, compiled otherwise.
+extern "C" {
+[[gnu::visibility("default")]] void voussoir_mesh_fill(const voussoir::FillSpace& space,
+                                                       const voussoir::FillMeshing& meshing,
+                                                       voussoir::MeshedFill& out) {
+  out = voussoir::mesh(space, meshing);
+}
+[[gnu::visibility("default")]] void voussoir_read_gmsh(const std::string& path, double scale, voussoir::FillMesh& out) {
+  out = voussoir::read(path, scale);
+}
+}
