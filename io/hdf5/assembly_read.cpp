@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/hdf5/assembly_file.h"
+#include "io/hdf5/check_patch.h"
 #include "io/hdf5/h5.h"
 #include "io/hdf5/read_fill.h"
 #include "io/hdf5/shape_arrays.h"
@@ -261,15 +262,7 @@ void AssemblyReader::check_joint(std::size_t row, const Joint& joint) const {
   };
   if (joint.a == joint.b) fail("joints/blocks", "a joint needs two different blocks");
   if (joint.a > joint.b) fail("joints/blocks", "the lower block must come first (and the normal point to the higher)");
-  if (joint.polygon.size() < 3) fail("joints/polygon_offset", "a patch needs at least 3 corners");
-  if (std::abs(joint.normal.norm() - 1.0) > 1e-6) fail("joints/normal", "its length must be 1");
-  if (!(joint.area > 0.0)) fail("joints/area", fmt::format("{} m2, expected more than 0", joint.area));
-  if (!(joint.kn > 0.0)) fail("joints/kn", fmt::format("{} Pa/m, expected more than 0", joint.kn));
-  if (!(joint.ks > 0.0)) fail("joints/ks", fmt::format("{} Pa/m, expected more than 0", joint.ks));
-  if (std::abs(polygon_area(joint.polygon) - joint.area) > 1e-3 * joint.area)
-    fail("joints/area", fmt::format("{} m2, but its polygon has {} m2", joint.area, polygon_area(joint.polygon)));
-  if (polygon_normal(joint.polygon).dot(joint.normal) < 0.99)
-    fail("joints/polygon", "its corners must run counter-clockwise about the normal");
+  check_patch(joint, fail);
   const auto check_face = [&](std::int64_t block, std::int32_t cell, std::int32_t face) {
     const auto& cells = assembly_.blocks[std::size_t(block)].cells;
     if (cell < 0 || cell >= std::int32_t(cells.size()))

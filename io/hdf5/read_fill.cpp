@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/fill_mesh.h"
+#include "io/hdf5/check_patch.h"
 #include "io/hdf5/shape_arrays.h"
 
 namespace voussoir {
@@ -79,15 +80,7 @@ void check_fill_joint(const h5::File& file, std::size_t row, const Assembly& ass
     file.fail(name, fmt::format("row {} (block {} and triangle {} of the fill): {}", row, joint.block, joint.triangle,
                                 reason));
   };
-  if (joint.polygon.size() < 3) fail("joints/polygon_offset", "a patch needs at least 3 corners");
-  if (std::abs(joint.normal.norm() - 1.0) > 1e-6) fail("joints/normal", "its length must be 1");
-  if (!(joint.area > 0.0)) fail("joints/area", fmt::format("{} m2, expected more than 0", joint.area));
-  if (!(joint.kn > 0.0)) fail("joints/kn", fmt::format("{} Pa/m, expected more than 0", joint.kn));
-  if (!(joint.ks > 0.0)) fail("joints/ks", fmt::format("{} Pa/m, expected more than 0", joint.ks));
-  if (std::abs(polygon_area(joint.polygon) - joint.area) > 1e-3 * joint.area)
-    fail("joints/area", fmt::format("{} m2, but its polygon has {} m2", joint.area, polygon_area(joint.polygon)));
-  if (polygon_normal(joint.polygon).dot(joint.normal) < 0.99)
-    fail("joints/polygon", "its corners must run counter-clockwise about the normal");
+  check_patch(joint, fail);
   const Polygon triangle = triangle_polygon(assembly.fill, joint.triangle);
   const Vec3 outward = polygon_normal(triangle);
   if (outward.dot(joint.normal) > -0.99) fail("joints/normal", "it must point out of the stone into the fill");

@@ -243,7 +243,7 @@ TEST(FillElement, LosesWhatBranchesTake) {
   maxwell.band[0] = 10.0, maxwell.band[1] = 200.0;
   rig.set_branches(damping_at_work(maxwell, rig.safe_step(0.3), 1e4).branches);
   Ledger end;
-  EXPECT_LT(worst_balance(rig, 0.02, 2000, end), 5e-3);
+  EXPECT_LT(worst_balance(rig, 2.0, 2000, end), 5e-3);
   EXPECT_GT(end.lost, 0.05 * end.total());
 }
 
