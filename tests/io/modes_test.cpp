@@ -92,10 +92,11 @@ TEST(ModesFiles, ThatAreNoneOrDamagedAreRefusedByName) {
 const std::string plain = "[bridge]\ngenerator = \"column\"\n";
 
 TEST(ModalCase, SurvivesResolvingAndChangesNoRun) {
-  const std::string text = plain +
-                           "[modal]\nmodes = 4\nstate = \"gravity\"\ngeometric = true\n"
-                           "[[modal.expected]]\ndirection = \"transverse\"\norder = 2\nperiod = 0.25\nsource = \"site\"\n"
-                           "[[modal.expected]]\ndirection = \"vertical\"\nperiod = 0.1\n";
+  const std::string text =
+      plain +
+      "[modal]\nmodes = 4\nstate = \"gravity\"\ngeometric = true\n"
+      "[[modal.expected]]\ndirection = \"transverse\"\norder = 2\nperiod = 0.25\nsource = \"site\"\n"
+      "[[modal.expected]]\ndirection = \"vertical\"\nperiod = 0.1\n";
   const Case c = parse_case(text, "case.toml", CaseUse::geometry);
   EXPECT_EQ(c.hash, parse_case(plain, "case.toml", CaseUse::geometry).hash);
   const Case copy = parse_case(resolved_text(c), "case.toml", CaseUse::geometry);
