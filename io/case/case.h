@@ -90,12 +90,9 @@ std::string effects_text(const std::vector<EffectSetting>& effects);
 /// Writes DIRECTORY/case.toml = resolved_text() and the records beside it. Throws RunError.
 void write_resolved_case(const Case& c, const std::string& directory);
 
-/// What an assembly is made for: a run; modes, which know a deformable fill; or to be looked at and stored.
-enum class AssemblyUse { run, modes, file };
-
 /// The case's assembly: generated, or read from its file with the case's joint overrides; with its effects and sensors.
-/// Throws InputError, also for what the solver does not take when it is made for that.
-Assembly make_assembly(const Case& c, AssemblyUse use = AssemblyUse::run);
+/// Throws InputError.
+Assembly make_assembly(const Case& c);
 /// Puts each sensor on the block that holds it. Throws InputError naming a sensor more than 0.05 m off every block.
 void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors);
 

@@ -54,14 +54,6 @@ void check_overlaps(const Assembly& assembly, const Case& c) {
       c.assembly_file, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
 }
 
-[[noreturn]] void refuse_fill(const Case& c) {
-  throw InputError(
-      "{}: the bridge has a deformable fill, which can be generated, stored and asked for its modes, but not yet run "
-      "in "
-      "this version: use backfill = \"rigid\" or \"none\"",
-      c.path);
-}
-
 /// The case's own messages get its name in front.
 template <class Work>
 void in_case(const Case& c, Work&& work) {
@@ -85,7 +77,7 @@ void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors) 
   }
 }
 
-Assembly make_assembly(const Case& c, AssemblyUse use) {
+Assembly make_assembly(const Case& c) {
   Assembly assembly;
   if (!c.generator.empty()) {
     in_case(c, [&] { assembly = find_generator(c.generator).build(c.generator_input); });
@@ -112,7 +104,6 @@ Assembly make_assembly(const Case& c, AssemblyUse use) {
         done.erase(found);
     }
   });
-  if (use == AssemblyUse::run && !assembly.fill.empty()) refuse_fill(c);
   assembly.case_text = c.text;
   in_case(c, [&] {
     attach_sensors(assembly, c.sensors);

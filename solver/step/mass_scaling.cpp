@@ -14,18 +14,20 @@ double factor_on_mass(const LocalRate& rate, double ceiling) {
   return std::max(1.0, rate.displacement / ceiling);
 }
 
-double mass_that_moves(const Model& model) {
-  double mass = 0.0;
-  for (const Body& body : model.bodies)
-    if (!body.still()) mass += body.mass;
-  return mass;
+/// Of a site, kg; zero of what cannot move.
+double moving_mass(const Model& model, std::size_t site) {
+  const std::size_t bodies = model.bodies.size();
+  if (site < bodies) return model.bodies[site].still() ? 0.0 : model.bodies[site].mass;
+  return model.fill.held[site - bodies] == 7 ? 0.0 : model.fill.mass[site - bodies];
 }
 
 double share_at(const Model& model, const std::vector<LocalRate>& rates, double ceiling) {
-  double added = 0.0;
-  for (std::size_t i = 0; i < rates.size(); ++i)
-    if (!model.bodies[i].still()) added += (factor_on_mass(rates[i], ceiling) - 1.0) * model.bodies[i].mass;
-  return added / mass_that_moves(model);
+  double added = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const double mass = moving_mass(model, i);
+    added += (factor_on_mass(rates[i], ceiling) - 1.0) * mass, all += mass;
+  }
+  return added / all;
 }
 
 double largest_own(const std::vector<LocalRate>& rates) {
@@ -48,12 +50,14 @@ double ceiling_of_share(const Model& model, const std::vector<LocalRate>& rates,
 /// proportional to the ceiling, and a quarter of the wanted one is always low enough.
 double ceiling_of_step(Model& model, const State& state, const std::vector<LocalRate>& rates, double step) {
   const std::vector<Body> bodies = model.bodies;
+  const std::vector<double> inertial = model.fill.inertial;
   const double wanted = 4.0 / (step * step);
   double low = 0.25 * wanted, high = std::max(largest_own(rates), low), ceiling = std::min(high, 0.7 * wanted);
   while (high > 1.001 * low) {
     raise_to(model, rates, ceiling);
     const double rate = std::pow(critical_step(model, state).highest, 2);
     model.bodies = bodies;
+    model.fill.inertial = inertial;
     (rate > wanted ? high : low) = ceiling;
     if (rate <= wanted && rate > 0.99 * wanted) break;
     ceiling *= 0.998 * wanted / rate;
@@ -64,7 +68,7 @@ double ceiling_of_step(Model& model, const State& state, const std::vector<Local
 
 /// True mass less scaled mass, with the sign turned: what was added, over the unknowns.
 SparseMatrix added_mass(const Model& model, const State& state, const Unknowns& unknowns, const MassScaling& scaling) {
-  BlockMatrix added(model.bodies.size(), {});
+  BlockMatrix added(model.sites(), {});
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (!unknowns.any(i)) continue;
     const Body& body = model.bodies[i];
@@ -73,6 +77,9 @@ SparseMatrix added_mass(const Model& model, const State& state, const Unknowns& 
     m.topLeftCorner<3, 3>() = (body.inertial_mass - body.mass) * Mat3::Identity();
     m.bottomRightCorner<3, 3>() = r * (body.inertia - scaling.true_tensor[i]) * r.transpose();
   }
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i)
+    added.diagonal(std::int32_t(model.bodies.size() + i)).topLeftCorner<3, 3>() =
+        (model.fill.inertial[i] - model.fill.mass[i]) * Mat3::Identity();
   return added.over(unknowns);
 }
 
@@ -81,7 +88,7 @@ SparseMatrix added_mass(const Model& model, const State& state, const Unknowns& 
 MassScaling raise_to(Model& model, const std::vector<LocalRate>& rates, double ceiling) {
   MassScaling scaling;
   scaling.share = share_at(model, rates, ceiling);
-  for (std::size_t i = 0; i < rates.size(); ++i) {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     Body& body = model.bodies[i];
     scaling.true_tensor.push_back(body.inertia);
     if (body.still() || rates[i].own <= ceiling) continue;
@@ -93,6 +100,12 @@ MassScaling raise_to(Model& model, const std::vector<LocalRate>& rates, double c
     scaling.heavier += mass > 1.0;
     scaling.largest = std::max(scaling.largest, mass);
     scaling.largest_rotary = std::max(scaling.largest_rotary, tensor);
+  }
+  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
+    const double mass = factor_on_mass(rates[model.bodies.size() + i], ceiling);
+    model.fill.inertial[i] *= mass;
+    scaling.nodes += mass > 1.0;
+    scaling.largest = std::max(scaling.largest, mass);
   }
   return scaling;
 }

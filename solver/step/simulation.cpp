@@ -1,7 +1,6 @@
 #include "solver/step/simulation.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
@@ -11,6 +10,7 @@
 #include "solver/step/critical_step.h"
 #include "solver/step/drive.h"
 #include "solver/step/loads.h"
+#include "solver/step/runaway.h"
 #include "solver/step/step_report.h"
 
 namespace voussoir {
@@ -46,31 +46,6 @@ int useful_threads(int wanted, const Model& model) {
   const std::size_t joints = model.joints.size() + model.fill.tet_of_lane.size() / tets_of_a_joint;
   const int most = std::max<int>(1, int(joints / least_joints_per_thread));
   return std::clamp(wanted, 1, most);
-}
-
-std::string body_name(const Assembly& assembly, const Model& model, std::int32_t body) {
-  const std::int64_t block = model.block_of_body[body];
-  return fmt::format("block {} ({})", block, component_names()[std::size_t(assembly.blocks[block].component)]);
-}
-
-std::string runaway_text(const Assembly& assembly, const Model& model, const State& state, const Advance& last) {
-  const FillMesh& mesh = assembly.fill;
-  const auto place = [&](std::int32_t node) {
-    const double* u = &state.fill.pose[node_width * std::size_t(model.fill.node_of[std::size_t(node)])];
-    const Vec3 at = mesh.nodes[std::size_t(node)] + Vec3(u);
-    return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", at.x(), at.y(), at.z());
-  };
-  if (last.inverted_tet >= 0)
-    return fmt::format(
-        "tetrahedron {} of the fill at {} has lost its volume; the fill has flowed farther than this mesh follows: "
-        "stop the run before, give the fill more cohesion, or mesh it coarser there",
-        last.inverted_tet, place(mesh.tets[std::size_t(last.inverted_tet)][0]));
-  const std::string what = last.runaway_body >= 0
-                               ? body_name(assembly, model, last.runaway_body)
-                               : fmt::format("node {} of the fill at {}", last.runaway_node, place(last.runaway_node));
-  return what +
-         " moves faster than 1000 m/s or not at a finite speed; lower [analysis] safety or time_step, and look at its "
-         "joints";
 }
 
 }  // namespace
@@ -159,54 +134,6 @@ void Simulation::restore(const RunPosition& position) {
   }
 }
 
-namespace {
-
-/// A patch's stiffness over the mass of one of its bodies, 1/s2.
-double rate_bound(const Patch& p, const Body& body, const double* arm) {
-  const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
-  const double inertia = body.inertia.diagonal().minCoeff();
-  return std::max(p.kn, p.ks) * (p.area / body.inertial_mass + (p.area * arm2 + p.ss + p.tt) / inertia);
-}
-
-/// The joints of each body, by their index in the assembly.
-std::vector<std::vector<std::int32_t>> joints_of_bodies(const Model& model) {
-  std::vector<std::vector<std::int32_t>> joints(model.bodies.size());
-  for (std::size_t i = 0; i < model.joint_places.size(); ++i) {
-    const Patch& p = model.joints[std::size_t(model.joint_places[i].now)];
-    for (const std::int32_t body : {p.a, p.b}) joints[std::size_t(body)].push_back(std::int32_t(i));
-  }
-  return joints;
-}
-
-}  // namespace
-
-/// The largest among these bodies of Σ over a body's patches of stiffness over mass. Bodies whose bound stays below the
-/// assembly's largest cannot have lowered the critical step, so that most new contacts need no new power iteration.
-double Simulation::contact_bound(const std::vector<std::int32_t>& bodies) {
-  if (joints_of_body_.empty()) joints_of_body_ = joints_of_bodies(model_);
-  double largest = 0.0;
-  for (const std::int32_t index : bodies) {
-    const auto i = std::size_t(index);
-    const Body& body = model_.bodies[i];
-    if (body.still()) continue;
-    double sum = 0.0;
-    for (const std::int32_t joint : joints_of_body_[i]) {
-      const auto place = std::size_t(model_.joint_places[std::size_t(joint)].now);
-      const Patch& p = model_.joints[place];
-      if (!(state_.joint.mode[place] & mode_gone)) sum += rate_bound(p, body, p.a == index ? p.arm_a : p.arm_b);
-    }
-    const Incidence& contacts = stepper_.incidence;
-    for (std::int32_t k = contacts.first[i]; k < contacts.first[i + 1]; ++k) {
-      const std::int32_t entry = contacts.contacts[std::size_t(k)];
-      if (std::size_t(entry >> 1) >= state_.contacts.size()) continue;  // with the fill: there from the beginning
-      const Patch& p = state_.contacts[std::size_t(entry >> 1)];
-      sum += rate_bound(p, body, entry & 1 ? p.arm_b : p.arm_a);
-    }
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
-
 void Simulation::check() {
   if (settings_.step.time_step > 0.0 || scales_mass()) choose_step();
 }
@@ -218,11 +145,12 @@ void Simulation::scale_and_say() {
   stepper_.prepare();
   if (!observers_.log) return;
   if (!scaling_.at_work()) return log("mass scaling: none is needed");
-  log(
-      fmt::format("mass scaling: critical step {:.4g} s instead of {:.4g} s; inertia of {} blocks raised (at most × "
-                  "{:.3g}), mass of {} of them (at most × {:.3g}): {:.4f} % of the mass added, weights unchanged",
-                  critical_step(model_, reference).step, before, scaling_.bodies, scaling_.largest_rotary,
-                  scaling_.heavier, scaling_.largest, 100 * scaling_.share));
+  log(fmt::format(
+      "mass scaling: critical step {:.4g} s instead of {:.4g} s; inertia of {} blocks raised (at most × "
+      "{:.3g}), mass of {} of them{} (at most × {:.3g}): {:.4f} % of the mass added, weights unchanged",
+      critical_step(model_, reference).step, before, scaling_.bodies, scaling_.largest_rotary, scaling_.heavier,
+      scaling_.nodes > 0 ? fmt::format(" and of {} nodes of the fill", scaling_.nodes) : "", scaling_.largest,
+      100 * scaling_.share));
   const std::vector<double> shifts = frequency_shifts(model_, reference, scaling_, frequencies_compared);
   if (shifts.empty()) return;
   log(fmt::format("mass scaling: the first {} frequencies fall by at most {:.3g} %, the first by at most {:.3g} %",
@@ -240,17 +168,15 @@ void Simulation::choose_step() {
     throw InputError(
         "[analysis] time_step = {:.4g} s is above the critical step of {:.4g} s ({:.4g} s undamped, × {:.3f} for "
         "damping), set by {}: lower it, or leave it out for {} × critical",
-        settings_.step.time_step, limit, critical.step, factor, body_name(*assembly_, model_, critical.body),
+        settings_.step.time_step, limit, critical.step, factor, short_name(*assembly_, model_, critical),
         settings_.step.safety);
   position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
   position_.highest = critical.highest;
-  std::vector<std::int32_t> all(model_.bodies.size());
-  std::iota(all.begin(), all.end(), 0);
-  position_.stiffest = contact_bound(all);
+  position_.stiffest = bound_.of_all(stepper_);
   stepper_.dt = position_.dt;
   if (critical.body < 0) return;
   log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s",
-                  critical.step, describe_stiff_body(*assembly_, model_, critical.body), factor, position_.dt));
+                  critical.step, describe_fastest(*assembly_, model_, critical), factor, position_.dt));
 }
 
 bool Simulation::gravity(const StageSettings& stage) {
@@ -383,7 +309,7 @@ void Simulation::change_contacts() {
   if (!update.changed() && !groups) return;
   stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
-  const double bound = contact_bound(update.bodies);
+  const double bound = bound_.of(stepper_, update.bodies);
   if (bound <= position_.stiffest * (1.0 + 1e-9)) return;  // but for rounding
   position_.stiffest = bound;
   if (settings_.step.time_step > 0.0) return;  // the user's own step is the user's
@@ -396,7 +322,7 @@ void Simulation::change_contacts() {
   stepper_.damping = damping_at_work(settings_.damping, step, critical.highest);
   if (worth_saying)
     log(fmt::format("t = {:.4f} s: new contacts lower the step to {:.4g} s, set by {}", state_.time(), step,
-                    body_name(*assembly_, model_, critical.body)));
+                    short_name(*assembly_, model_, critical)));
 }
 
 /// What holds or drives a group, along the axes on which it is held, N.
@@ -417,8 +343,8 @@ void Simulation::sample(const BodyPass& pass) {
   s.time = state_.time();
   s.energies = compute_energies(stepper_, pass);
   const Energies& e = s.energies;
-  for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.joint_damping,
-                      e.body_damping, std::abs(e.external_work)})
+  for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.plastic,
+                      e.joint_damping, e.body_damping, std::abs(e.external_work)})
     state_.largest_energy() = std::max(state_.largest_energy(), term);
   if (state_.largest_energy() > 0.0) s.balance_error = (e.total() - state_.starting_energy()) / state_.largest_energy();
   worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));

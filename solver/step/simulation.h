@@ -7,6 +7,7 @@
 #include <string>
 
 #include "solver/modal/collapse.h"
+#include "solver/step/contact_bound.h"
 #include "solver/step/energy.h"
 #include "solver/step/mass_scaling.h"
 #include "solver/step/stepper.h"
@@ -59,7 +60,7 @@ struct RunPosition {
   double stage_start = 0.0;  // s
   double dt = 0.0;           // s
   double highest = 0.0;      // rad/s, of the intact assembly
-  double stiffest = 0.0;     // 1/s2, see Simulation::contact_bound
+  double stiffest = 0.0;     // 1/s2, see ContactBound
   double stage_begun = 0.0;  // 1 once the present stage has its step and damping
 };
 
@@ -111,7 +112,6 @@ class Simulation {
   void scale();
   void scale_and_say();
   void choose_step();
-  double contact_bound(const std::vector<std::int32_t>& bodies);
   void write_fields();
   void write_checkpoint(bool stage_end);
   void report_progress(bool force, const std::string& note);
@@ -131,7 +131,7 @@ class Simulation {
   std::string failure_;
   Advance last_;
   RunCosts costs_;
-  std::vector<std::vector<std::int32_t>> joints_of_body_;  // in the assembly's order, see contact_bound()
+  ContactBound bound_;
   double worst_balance_ = 0.0;
   bool exploded_ = false;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;

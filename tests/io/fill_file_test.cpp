@@ -175,14 +175,6 @@ TEST(FillFile, ACaseSaysHowAMaterialDilates) {
   EXPECT_TRUE(holds(message, "must not be more than the friction angle, 10")) << message;
 }
 
-TEST(FillFile, TheSolverDoesNotTakeItYet) {
-  const Folder folder;
-  write_assembly(folder / "a.h5", filled());
-  const Case c = parse_case("[bridge]\nassembly = \"a.h5\"\n", folder / "c.toml", CaseUse::geometry);
-  EXPECT_NO_THROW(make_assembly(c, AssemblyUse::file));
-  EXPECT_TRUE(holds(test::message_of<InputError>([&] { make_assembly(c); }), "use backfill = \"rigid\""));
-}
-
 TEST(FillFile, OverridesOfACaseReachThePatches) {
   const Folder folder;
   Assembly stored = filled();
@@ -190,7 +182,7 @@ TEST(FillFile, OverridesOfACaseReachThePatches) {
   write_assembly(folder / "a.h5", stored);
   const Case c =
       parse_case("[bridge]\nassembly = \"a.h5\"\n[joints.fill-fill]\nkn = 7e8\n", folder / "c.toml", CaseUse::geometry);
-  const Assembly in = make_assembly(c, AssemblyUse::file);
+  const Assembly in = make_assembly(c);
   EXPECT_EQ(in.fill_joints.at(0).kn, 7e8);
   EXPECT_EQ(in.fill_joints.at(0).ks, stored.fill_joints.at(0).ks);
 }

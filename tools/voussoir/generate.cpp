@@ -76,7 +76,7 @@ int generate(const std::vector<std::string>& arguments) {
   const std::string file = values["CASE"].as<std::string>();
   const auto start = std::chrono::steady_clock::now();
   const Case c = read_case(file, CaseUse::geometry);
-  const Assembly assembly = make_assembly(c, AssemblyUse::file);
+  const Assembly assembly = make_assembly(c);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string to =
       values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";

@@ -16,6 +16,7 @@ const std::vector<std::pair<std::string, double Energies::*>>& energy_columns() 
       {"damping_springs", &Energies::damping_springs},
       {"friction", &Energies::friction},
       {"fracture", &Energies::fracture},
+      {"plastic", &Energies::plastic},
       {"joint_damping", &Energies::joint_damping},
       {"body_damping", &Energies::body_damping},
       {"clipping", &Energies::clipping},

@@ -23,10 +23,6 @@ namespace {
 
 /// The gravity stage alone, as a run would do it.
 void rest_under_gravity(ModalSource& source, int threads, bool quiet) {
-  if (!source.assembly.fill.empty())
-    throw InputError(
-        "the state under gravity is not yet found with a deformable fill in this version: leave out --state gravity (all "
-        "joints intact), or use backfill = \"rigid\"");
   SolverSettings settings = source.c.settings;
   const auto stage = std::find_if(settings.stages.begin(), settings.stages.end(),
                                   [](const StageSettings& s) { return s.kind == StageSettings::Kind::gravity; });
@@ -106,7 +102,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
 
 void load_case(ModalSource& source, const std::string& file) {
   source.c = read_case(file, CaseUse::geometry);
-  source.assembly = make_assembly(source.c, AssemblyUse::modes);
+  source.assembly = make_assembly(source.c);
   source.model = build_model(source.assembly, source.c.settings);
   source.state = initial_state(source.model);
   source.name = fs::path(file).stem().string();

@@ -201,6 +201,7 @@ void RunSession::write_summary(RunEnd end) {
     json["mass_scaling"] = {{"share", scaling.share},
                             {"blocks", scaling.bodies},
                             {"heavier", scaling.heavier},
+                            {"nodes", scaling.nodes},
                             {"largest", scaling.largest},
                             {"largest_rotary", scaling.largest_rotary}};
   json.update(summary_of_state(run, make_snapshot(run.model(), run.state()), history_));

@@ -37,13 +37,15 @@ std::vector<Budget> try_budgets(const Model& model, const State& state) {
 }
 
 void print_report(const Assembly& assembly, const Model& model, const StepReport& report) {
-  fmt::print("\nbodies that ask for the shortest steps (s): by their own patches; the assembly's with this one held\n");
-  for (const StiffBody& row : report.stiffest)
-    fmt::print("{:>10.4g} {:>10.4g}  {}\n", row.step, row.without, describe_stiff_body(assembly, model, row.body));
-  fmt::print("\nshare of the bodies that ask for a shorter step than (s)\n");
+  const char* what = model.fill.empty() ? "bodies" : "bodies and nodes";
+  fmt::print("\n{} that ask for the shortest steps (s): by what is around them; the assembly's with this one held\n",
+             what);
+  for (const StiffSite& row : report.stiffest)
+    fmt::print("{:>10.4g} {:>10.4g}  {}\n", row.step, row.without, describe_stiff_site(assembly, model, row));
+  fmt::print("\nshare of the {} that ask for a shorter step than (s)\n", what);
   for (double share : shares) fmt::print("{:>9.1f} % {:>10.4g}\n", 100 * share, report.at_share(share));
-  fmt::print("\ncritical step (s) with the inertia of the stiffest bodies raised to that of the next\n");
-  fmt::print("{:>10} {:>10} {:>12} {:>8}\n", "bodies", "step", "added mass", "gain");
+  fmt::print("\ncritical step (s) with the inertia of the stiffest {} raised to that of the next\n", what);
+  fmt::print("{:>10} {:>10} {:>12} {:>8}\n", "raised", "step", "added mass", "gain");
   for (const StiffestRaised& row : report.raised)
     fmt::print("{:>10} {:>10.4g} {:>10.4f} % {:>8.3f}\n", row.count, row.step, 100 * row.share,
                row.step / report.critical.step);
@@ -58,18 +60,27 @@ void print_budgets(const std::vector<Budget>& rows, double before) {
                row.scaling.bodies, row.scaling.heavier, row.scaling.largest, row.scaling.largest_rotary);
 }
 
+nlohmann::json site_json(const Model& model, const StiffSite& site) {
+  nlohmann::json json = {{"step", site.step}, {"without", site.without}};
+  if (site.node >= 0) {
+    json["node"] = site.node;
+    json["mass"] = model.fill.mass[std::size_t(model.fill.node_of[std::size_t(site.node)])];
+    return json;
+  }
+  json["block"] = model.block_of_body[std::size_t(site.body)];
+  json["mass"] = model.bodies[std::size_t(site.body)].mass;
+  json["thickness"] = least_thickness(model, site.body);
+  if (site.patch >= 0) json["joint"] = model.joint_of_patch[std::size_t(site.patch)];
+  return json;
+}
+
 nlohmann::json report_json(const Model& model, const StepReport& report, const std::vector<Budget>& rows) {
   nlohmann::json json = {
       {"critical_step", report.critical.step}, {"block", model.block_of_body[std::size_t(report.critical.body)]},
       {"stiffest", nlohmann::json::array()},   {"local_steps", nlohmann::json::array()},
       {"raised", nlohmann::json::array()},     {"mass_scaling", nlohmann::json::array()}};
-  for (const StiffBody& row : report.stiffest)
-    json["stiffest"].push_back({{"block", model.block_of_body[std::size_t(row.body)]},
-                                {"mass", model.bodies[std::size_t(row.body)].mass},
-                                {"thickness", least_thickness(model, row.body)},
-                                {"joint", model.joint_of_patch[std::size_t(row.patch)]},
-                                {"step", row.step},
-                                {"without", row.without}});
+  if (report.critical.node >= 0) json.erase("block"), json["node"] = report.critical.node;
+  for (const StiffSite& row : report.stiffest) json["stiffest"].push_back(site_json(model, row));
   for (double share : shares) json["local_steps"].push_back({{"share", share}, {"step", report.at_share(share)}});
   for (const StiffestRaised& row : report.raised)
     json["raised"].push_back({{"bodies", row.count}, {"share", row.share}, {"step", row.step}});
@@ -77,6 +88,7 @@ nlohmann::json report_json(const Model& model, const StepReport& report, const s
     json["mass_scaling"].push_back({{"limit", row.share},
                                     {"step", row.step},
                                     {"bodies", row.scaling.bodies},
+                                    {"nodes", row.scaling.nodes},
                                     {"heavier", row.scaling.heavier},
                                     {"largest", row.scaling.largest},
                                     {"largest_rotary", row.scaling.largest_rotary}});
@@ -108,7 +120,7 @@ int step(const std::vector<std::string>& arguments) {
     fmt::print("critical step {:.4g} s undamped, × {:.3f} for damping, × {} safety: {:.4g} s\nset by {}\n",
                report.critical.step, factor, c.settings.step.safety,
                report.critical.step * factor * c.settings.step.safety,
-               describe_stiff_body(assembly, model, report.critical.body));
+               describe_fastest(assembly, model, report.critical));
     print_report(assembly, model, report);
     print_budgets(rows, report.critical.step);
   }

@@ -1,0 +1,33 @@
+#include "solver/step/runaway.h"
+
+#include <fmt/format.h>
+
+namespace voussoir {
+
+std::string body_name(const Assembly& assembly, const Model& model, std::int32_t body) {
+  const std::int64_t block = model.block_of_body[std::size_t(body)];
+  return fmt::format("block {} ({})", block,
+                     component_names()[std::size_t(assembly.blocks[std::size_t(block)].component)]);
+}
+
+std::string runaway_text(const Assembly& assembly, const Model& model, const State& state, const Advance& last) {
+  const FillMesh& mesh = assembly.fill;
+  const auto place = [&](std::int32_t node) {
+    const double* u = &state.fill.pose[node_width * std::size_t(model.fill.node_of[std::size_t(node)])];
+    const Vec3 at = mesh.nodes[std::size_t(node)] + Vec3(u);
+    return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", at.x(), at.y(), at.z());
+  };
+  if (last.inverted_tet >= 0)
+    return fmt::format(
+        "tetrahedron {} of the fill at {} has lost its volume; the fill has flowed farther than this mesh follows: "
+        "stop the run before, give the fill more cohesion, or mesh it coarser there",
+        last.inverted_tet, place(mesh.tets[std::size_t(last.inverted_tet)][0]));
+  const std::string what = last.runaway_body >= 0
+                               ? body_name(assembly, model, last.runaway_body)
+                               : fmt::format("node {} of the fill at {}", last.runaway_node, place(last.runaway_node));
+  return what +
+         " moves faster than 1000 m/s or not at a finite speed; lower [analysis] safety or time_step, and look at its "
+         "joints";
+}
+
+}  // namespace voussoir
