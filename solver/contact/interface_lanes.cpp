@@ -54,8 +54,9 @@ struct AffineField {
   return b.shape[0][c] * d[0] + b.shape[1][c] * d[1] + b.shape[2][c] * d[2];
 }
 
+/// True where a patch has slid past the limit at which it is clipped anew.
 template <int count>
-void batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
+bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   State& state = *pass.state;
   const InterfaceBatch& b = state.interface.batches[k];
   PatchMemory& memory = state.interface_memory;
@@ -107,29 +108,34 @@ void batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
     store_forces({-pull.x, -pull.y, -pull.z}, slots, i);
   }
   store_wrenches(force, moment, pass.interface_wrenches + wrench_width * lane_count * k);
+
+  const Lanes slid2 = jump.middle.y * jump.middle.y + jump.middle.z * jump.middle.z;
+  return any(used & less(pass.model->slip_limit2(b.patch.area), slid2));
 }
 
 }  // namespace
 
-void PatchPass::interface(std::size_t tile) const {
+bool PatchPass::interface(std::size_t tile) const {
   const std::vector<std::int32_t>& first = state->interface.first_batch;
   TileEnergy* energy = energies ? &energies[tile] : nullptr;
+  bool reclip = false;
   for (auto k = std::size_t(first[tile]); k < std::size_t(first[tile + 1]); ++k) switch (branches.count) {
       case 0:
-        batch_of<0>(*this, k, energy);
+        reclip |= batch_of<0>(*this, k, energy);
         break;
       case 1:
-        batch_of<1>(*this, k, energy);
+        reclip |= batch_of<1>(*this, k, energy);
         break;
       case 2:
-        batch_of<2>(*this, k, energy);
+        reclip |= batch_of<2>(*this, k, energy);
         break;
       case 3:
-        batch_of<3>(*this, k, energy);
+        reclip |= batch_of<3>(*this, k, energy);
         break;
       default:
-        batch_of<4>(*this, k, energy);
+        reclip |= batch_of<4>(*this, k, energy);
     }
+  return reclip;
 }
 
 }  // namespace voussoir

@@ -46,7 +46,7 @@ struct PatchPass {
   /// The contacts of a tile, in these batches of eight; after its joints.
   PassReport contacts(std::size_t tile, const std::int32_t* begin, const std::int32_t* end) const;
   /// The patches between the tile's bodies and the fill; after its joints.
-  void interface(std::size_t tile) const;
+  bool interface(std::size_t tile) const;
 };
 
 /// A joint leaves the intact path: its rigid slip field and affine branch field are handed to its points.

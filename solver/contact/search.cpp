@@ -4,6 +4,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/contact/contact_slots.h"
+#include "solver/contact/interface_search.h"
 #include "solver/contact/pairs.h"
 #include "solver/step/energy.h"
 
@@ -261,7 +262,12 @@ class Search {
 }  // namespace
 
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip, int threads) {
-  return Search(model, state, branches, threads).run(clip);
+  ContactUpdate update = Search(model, state, branches, threads).run(clip);
+  const InterfaceUpdate fill = update_interface(model, state, branches, clip);
+  update.made += fill.made, update.clipped += fill.clipped, update.dropped += fill.dropped;
+  update.bodies.insert(update.bodies.end(), fill.bodies.begin(), fill.bodies.end());
+  update.nodes = fill.nodes;
+  return update;
 }
 
 }  // namespace voussoir

@@ -10,6 +10,7 @@ struct ContactUpdate {
   bool listed = false;        // pairs were listed anew
   std::int64_t made = 0, clipped = 0, dropped = 0;
   std::vector<std::int32_t> bodies;  // that have got a contact, some more than once
+  std::vector<std::int32_t> nodes;   // of the fill's model that have got a patch, some more than once
   bool changed() const { return made + clipped + dropped > 0; }
 };
 

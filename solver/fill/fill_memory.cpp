@@ -6,6 +6,7 @@ FillMemory initial_fill(const FillModel& fill) {
   FillMemory memory;
   memory.pose.assign(node_width * fill.nodes.size(), 0.0);
   memory.motion.assign(node_width * fill.nodes.size(), 0.0);
+  memory.searched.assign(node_width * fill.nodes.size(), 1e18f);  // never looked for: as if they had come from far
   memory.plastic.assign(plastic_width * lane_count * fill.batches.size(), 0.0);
   memory.yield.assign(lane_count * fill.batches.size(), 0);
   memory.lost.assign(4 * fill.tiles.size(), 0.0);

@@ -175,6 +175,9 @@ FillModel build_fill(const Assembly& assembly) {
   fill.lane_of_tet.assign(assembly.fill.tets.size(), -1);
   make_tiles(elements, fill);
   lump(fill);
+  for (const auto& corners : assembly.fill.triangles)
+    fill.triangles.push_back({fill.node_of[std::size_t(corners[0])], fill.node_of[std::size_t(corners[1])],
+                              fill.node_of[std::size_t(corners[2])]});
   fill.held.assign(fill.nodes.size(), 0);
   for (std::size_t i = 0; i < fill.nodes.size(); ++i)
     if (!(fill.mass[i] > 0.0))

@@ -2,6 +2,7 @@
 // of a tile are those whose first node in that order lies in it, eight of them side by side. A tile adds up what its
 // tetrahedra put on their nodes, as tiles of bodies do with wrenches.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,15 +35,16 @@ struct FillTile {
 constexpr std::int32_t tile_nodes = 64;
 
 struct FillModel {
-  std::vector<FillLaw> laws;          // of the assembly's materials that the fill is made of
-  std::vector<Vec3> nodes;            // m, reference placement
-  std::vector<double> mass;           // kg, lumped
-  std::vector<double> inertial;       // kg, differs from mass only in relaxations
-  Array<double> weight;               // J, Σ κ V of the tetrahedra around a node: weights its mean volumetric strain
-  std::vector<std::uint8_t> held;     // bit c: displacement c keeps the velocity it has
-  std::vector<std::int32_t> node_of;  // of FillMesh::nodes
-  std::vector<std::int32_t> mesh_node;    // and back
-  std::vector<std::int32_t> tet_of_lane;  // of FillMesh::tets; lane_count a batch, −1 in spare lanes
+  std::vector<FillLaw> laws;       // of the assembly's materials that the fill is made of
+  std::vector<Vec3> nodes;         // m, reference placement
+  std::vector<double> mass;        // kg, lumped
+  std::vector<double> inertial;    // kg, differs from mass only in relaxations
+  Array<double> weight;            // J, Σ κ V of the tetrahedra around a node: weights its mean volumetric strain
+  std::vector<std::uint8_t> held;  // bit c: displacement c keeps the velocity it has
+  std::vector<std::array<std::int32_t, 3>> triangles;  // the surface's nodes, in the order of FillMesh::triangles
+  std::vector<std::int32_t> node_of;                   // of FillMesh::nodes
+  std::vector<std::int32_t> mesh_node;                 // and back
+  std::vector<std::int32_t> tet_of_lane;               // of FillMesh::tets; lane_count a batch, −1 in spare lanes
   std::vector<std::int32_t> lane_of_tet;
   Array<TetBatch> batches;
   std::vector<FillTile> tiles;

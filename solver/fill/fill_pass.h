@@ -20,6 +20,7 @@ struct FillReport {
   std::int32_t inverted = -1;  // lowest tetrahedron (of FillMesh::tets) that has lost its volume
   std::int32_t runaway = -1;   // lowest node (of FillMesh::nodes) whose velocity is not finite or past any sense
   std::int64_t yielding = 0;   // tetrahedra that flow
+  bool search = false;         // some node has moved far enough for a new search of contacts
   void merge(const FillReport& other);
 };
 
@@ -46,7 +47,9 @@ struct FillPass {
   double dt = 0.0;                 // s
   double mass_rate = 0.0;          // 1/s, Rayleigh
   double local = 0.0;              // Cundall
-  bool averaged = true;            // false: plain tetrahedra, which lock; for comparison
+  double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched calls for a search
+  Vec3 base_displacement = Vec3::Zero();  // m, at the end of the step
+  bool averaged = true;                   // false: plain tetrahedra, which lock; for comparison
 
   void volumes(std::size_t tile) const;
   void means(std::size_t tile) const;

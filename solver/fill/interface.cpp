@@ -101,6 +101,52 @@ std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Mo
   return patches;
 }
 
+namespace {
+
+/// Calls `use` with every number of a patch that a row holds, in order.
+template <class Patch, class Use>
+void each_number(Patch& p, const Use& use) {
+  for (auto* whole : {&p.body, &p.cell, &p.face, &p.triangle, &p.law}) use(*whole);
+  for (auto* number : {&p.kn, &p.ks, &p.area}) use(*number);
+  for (auto& x : p.arm) use(x);
+  for (auto& x : p.frame) use(x);
+  for (auto& corner : p.rest)
+    for (auto& x : corner) use(x);
+  for (auto& x : p.slid) use(x);
+}
+
+}  // namespace
+
+void flatten(const Interface& interface, Array<double>& rows, Array<double>& points, Array<double>& corners) {
+  rows.clear(), points.clear(), corners.clear();
+  for (std::size_t slot = 0; slot < interface.patches.size(); ++slot) {
+    if (!interface.used(slot)) continue;
+    const InterfacePatch& p = interface.patches[slot];
+    each_number(p, [&](auto x) { rows.push_back(double(x)); });
+    rows.insert(rows.end(), {double(p.points.size()), double(p.corners.size())});
+    for (const PatchPoint& q : p.points) points.insert(points.end(), {q.s, q.t, q.weight});
+    for (const PatchPoint& q : p.corners) corners.insert(corners.end(), {q.s, q.t});
+  }
+}
+
+std::vector<InterfacePatch> unflatten(const Array<double>& rows, const Array<double>& points,
+                                      const Array<double>& corners, const FillModel& fill) {
+  std::vector<InterfacePatch> patches;
+  const double *point = points.data(), *corner = corners.data();
+  for (std::size_t row = 0; row + interface_columns <= rows.size(); row += interface_columns) {
+    const double* at = &rows[row];
+    InterfacePatch p;
+    each_number(p, [&](auto& x) { x = std::remove_reference_t<decltype(x)>(*at++); });
+    for (std::size_t k = 0; k < 3; ++k) p.node[k] = fill.triangles.at(std::size_t(p.triangle))[k];
+    for (auto left = std::int64_t(at[0]); left > 0; --left, point += 3)
+      p.points.push_back({point[0], point[1], point[2]});
+    for (auto left = std::int64_t(at[1]); left > 0; --left, corner += 2)
+      p.corners.push_back({corner[0], corner[1], 0.0});
+    patches.push_back(std::move(p));
+  }
+  return patches;
+}
+
 Interface make_interface(std::vector<InterfacePatch> patches, const Model& model) {
   Interface interface;
   const auto key = [](const InterfacePatch& p) {

@@ -43,6 +43,12 @@ struct Interface {
 std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Model& model);
 /// N_k = m(k, 0) + m(k, 1) s + m(k, 2) t: one at corner k of the triangle, zero at the others.
 Mat3 shape_functions(const InterfacePatch& patch);
+/// Patches as rows of numbers, for files, and back; spare lanes are left out. The order of the rows is that of the
+/// slots, so that make_interface() finds it again.
+constexpr int interface_columns = 29;
+void flatten(const Interface& interface, Array<double>& rows, Array<double>& points, Array<double>& corners);
+std::vector<InterfacePatch> unflatten(const Array<double>& rows, const Array<double>& points,
+                                      const Array<double>& corners, const FillModel& fill);
 /// Puts patches into batches.
 Interface make_interface(std::vector<InterfacePatch> patches, const Model& model);
 

@@ -73,6 +73,13 @@ FillReport FillPass::nodes(std::size_t tile) const {
       u[c] += dt * v[c];
       runs |= !(std::abs(v[c]) < past_sense);
     }
+    const float* from = &memory->searched[node_width * node];
+    double far2 = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double far = u[c] - base_displacement[c] - double(from[c]);
+      far2 += far * far;
+    }
+    report.search |= far2 > search_distance * search_distance;
     if (runs && (report.runaway < 0 || fill->mesh_node[node] < report.runaway)) report.runaway = fill->mesh_node[node];
   }
   return report;

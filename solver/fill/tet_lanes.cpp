@@ -344,6 +344,7 @@ void FillReport::merge(const FillReport& other) {
   if (other.inverted >= 0 && (inverted < 0 || other.inverted < inverted)) inverted = other.inverted;
   if (other.runaway >= 0 && (runaway < 0 || other.runaway < runaway)) runaway = other.runaway;
   yielding += other.yielding;
+  search |= other.search;
 }
 
 void FillPass::volumes(std::size_t tile) const {

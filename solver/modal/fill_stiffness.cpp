@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/contact/interface_jump.h"
+
 namespace voussoir {
 
 namespace {
@@ -129,19 +131,9 @@ void add_interface(const Model& model, const State& state, PatchTangent kind, Bl
   for (std::size_t slot = 0; slot < interface.patches.size(); ++slot) {
     if (!interface.used(slot)) continue;
     const InterfacePatch& patch = interface.patches[slot];
-    const double* pose = &state.pose[pose_width * std::size_t(patch.body)];
-    const Eigen::Quaterniond q = rotation_of(state, std::size_t(patch.body)) *
-                                 Eigen::Quaterniond(patch.frame[0], patch.frame[1], patch.frame[2], patch.frame[3]);
-    const Mat3 axes = q.toRotationMatrix();
-    const Vec3 centre = model.bodies[std::size_t(patch.body)].centroid + Vec3(pose);
-    std::array<Vec3, 3> moved;
+    const InterfaceJump jump = interface_jump(model, state, patch);
     std::array<Vec3, 3> reach;  // m, of the corners from the stone's centroid
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto node = std::size_t(patch.node[c]);
-      reach[c] = model.fill.nodes[node] + Vec3(&state.fill.pose[node_width * node]) - centre;
-      const Vec3 arm = rotation_of(state, std::size_t(patch.body)) * Vec3(patch.arm);
-      moved[c] = axes.transpose() * (reach[c] - arm) - Vec3(patch.rest[c]);
-    }
+    for (std::size_t c = 0; c < 3; ++c) reach[c] = jump.at[c] - jump.centroid;
     const Mat3 shape = shape_functions(patch);
     Mat3 sums[3][3];  // Σ w N_i N_j D, world axes
     for (auto& row : sums)
@@ -151,14 +143,14 @@ void add_interface(const Model& model, const State& state, PatchTangent kind, Bl
       const Vec3 n = shape * Vec3(1.0, point.s, point.t);
       Mat3 d = Vec3(patch.kn, patch.ks, patch.ks).asDiagonal();
       if (kind == PatchTangent::present) {
-        const Vec3 u = n[0] * moved[0] + n[1] * moved[1] + n[2] * moved[2];
+        const Vec3 u = jump.point(shape, point.s, point.t);
         const PatchMemory& memory = state.interface_memory;
         const Triple<double> elastic = {u[0], u[1] - memory.point[interface.point_index(slot, p, 2, 0)],
                                         u[2] - memory.point[interface.point_index(slot, p, 2, 1)]};
         d = point_tangent(model.laws[std::size_t(patch.law)], patch.kn, patch.ks, elastic,
                           memory.broken[interface.point_index(slot, p, 1, 0)]);
       }
-      const Mat3 world = axes * d * axes.transpose();
+      const Mat3 world = jump.axes * d * jump.axes.transpose();
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) sums[i][j] += point.weight * n[i] * n[j] * world;
     }

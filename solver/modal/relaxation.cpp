@@ -18,6 +18,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::int64_t round_steps = 40;  // between looks at residual and frequency
+constexpr int easing_rounds = 10;         // over which weight comes on where there is a fill
 
 /// Smallest inertia (one mass, one tensor) that is at least the block of K: m 1 and J about as stiff as K's own parts.
 void least_inertia(const Matrix6& k, double size, double& mass, Mat3& inertia) {
@@ -141,7 +142,15 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   result.relaxed = true;
   OutOfBalance now = out_of_balance(relaxing, unknowns);
   result.residual = result.first_residual = now.largest;
+  // Soil that is overshot flows and tears its joints open: with a fill the weight comes on little by little.
+  const Vec3 gravity = model.gravity;
+  int round = model.fill.empty() ? easing_rounds : 0;
   while (state.step() - first < limits.steps && !(stop && stop->load()) && result.residual >= tolerance) {
+    const bool eases = round < easing_rounds;
+    if (eases) {
+      model.gravity = double(++round) / easing_rounds * gravity;
+      now = out_of_balance(relaxing, unknowns);
+    }
     const Look before = {state.pose, state.fill.pose, now.force};
     const Advance a = relaxing.advance(state.step() + round_steps, 1, nullptr, stop);
     result.lost =
@@ -155,7 +164,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
       continue;
     }
     now = out_of_balance(relaxing, unknowns);
-    result.residual = now.largest;
+    result.residual = eases ? std::max(now.largest, tolerance) : now.largest;
     const double w2 = frequency2(model, state, unknowns, before, now.force);
     relaxing.damping.mass_rate = 1.2 * std::sqrt(std::clamp(w2, 1e-8, 1.0));
     if (progress) progress(state.step() - first, result.residual);

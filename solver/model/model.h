@@ -115,7 +115,11 @@ struct InterfacePatch {
   double rest[3][3] = {};          // m, n, s, t of each corner of the triangle when it was made
   double kn = 0.0, ks = 0.0;       // Pa/m
   double area = 0.0;               // m2
+  double slid[3] = {};             // m, what the clippings so far have left behind, the body's reference axes
   std::vector<PatchPoint> points, corners;
+  // While an interface is made from another: the slot there, −1: none; clipped anew.
+  std::int32_t from = -1;
+  bool again = false;
 };
 
 /// Bodies next to each other in the order, and the joints whose first body is one of them.

@@ -60,7 +60,7 @@ void pack(const Patch& p, Array<double>& rows) {
   rows.insert(rows.end(), row, row + patch_columns);
 }
 
-Patch unpack(const double* r) {
+Patch patch_of_row(const double* r) {
   Patch p;
   std::int32_t* whole[9] = {&p.a,           &p.b,           &p.cell_a,       &p.cell_b,      &p.law,
                             &p.first_point, &p.point_count, &p.first_corner, &p.corner_count};
@@ -113,19 +113,27 @@ std::vector<NamedArray> State::arrays() {
   if (fill.pose.empty()) return list;
   list.push_back({"fill/pose", node_width, "m, -", &fill.pose});
   list.push_back({"fill/motion", node_width, "m/s", &fill.motion});
+  list.push_back({"fill/searched", node_width, "m", &fill.searched});
   list.push_back({"fill/plastic", lane_count, "-", &fill.plastic});
   list.push_back({"fill/last_strain", lane_count, "-", &fill.last});
   list.push_back({"fill/branch", lane_count, "-", &fill.branch});
   list.push_back({"fill/yield", 1, "-", &fill.yield});
   list.push_back({"fill/lost", 4, "J", &fill.lost});
+  flatten(interface, interface_rows, interface_points, interface_corners);
+  list.push_back({"interface/patches", interface_columns, "SI", &interface_rows});
+  list.push_back({"interface/points", 3, "m, m, m2", &interface_points});
+  list.push_back({"interface/corners", 2, "m", &interface_corners});
+  list.push_back({"interface/searched", searched_width, "m, -", &interface_seen});
   add(list, "interface", interface_memory);
   return list;
 }
 
-void State::unpack_contacts() {
+void State::unpack(const Model& model) {
+  if (!model.fill.empty())
+    interface = make_interface(unflatten(interface_rows, interface_points, interface_corners, model.fill), model);
   contacts.clear();
   for (std::size_t i = 0; i + patch_columns <= contact_rows.size(); i += patch_columns)
-    contacts.push_back(unpack(&contact_rows[i]));
+    contacts.push_back(patch_of_row(&contact_rows[i]));
   contact_batches.clear();
   for (std::size_t k = 0; 2 * k < contact_tiles.size(); ++k) {
     append_contact_batch(*this, contact_tiles[2 * k], contact_tiles[2 * k + 1]);
@@ -215,6 +223,7 @@ State initial_state(const Model& model) {
   }
   state.fill = initial_fill(model.fill);
   state.interface = make_interface(model.interface, model);
+  state.interface_seen = state.searched;
   state.interface_memory.resize(state.interface.patches.size(), state.interface.points.size() / 3);
   state.interface_memory.last.assign(9 * lane_count * state.interface.batches.size(), 0.0f);
   note_bonds(model, state);

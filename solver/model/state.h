@@ -78,8 +78,10 @@ struct State {
   Array<double> contact_rows;  // the contacts as numbers, for files
 
   FillMemory fill;
-  Interface interface;           // not written: made from the model
+  Interface interface;
   PatchMemory interface_memory;  // of its patches; `last` has 9 rows of lanes a batch
+  Array<float> interface_seen;   // as `searched`, when patches with the fill were last looked for
+  Array<double> interface_rows, interface_points, interface_corners;  // the patches as numbers, for files
 
   double& time() { return scalars[0]; }
   double time() const { return scalars[0]; }
@@ -101,9 +103,9 @@ struct State {
   bool has_contact(std::size_t slot) const { return !(contact.mode[slot] & mode_gone); }
   std::int64_t contact_count() const;
 
-  /// All arrays by name, contacts flattened; call unpack_contacts() after reading into them.
+  /// All arrays by name, contacts and interface flattened; call unpack() after reading into them.
   std::vector<NamedArray> arrays();
-  void unpack_contacts();
+  void unpack(const Model& model);
 };
 
 /// Room in State::contact_batches for eight contacts of a tile with up to so many points; not in the other arrays.

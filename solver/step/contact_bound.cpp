@@ -30,6 +30,25 @@ std::vector<std::vector<std::int32_t>> joints_of_bodies(const Model& model) {
   return joints;
 }
 
+/// Of each node, N/m: Σ V (κ + 4/3 μ) |∇N|² over the elements about it, in the reference placement.
+std::vector<double> stiffness_of_elements(const FillModel& fill) {
+  std::vector<double> sums(fill.nodes.size(), 0.0);
+  for (std::size_t b = 0; b < fill.batches.size(); ++b) {
+    const TetBatch& batch = fill.batches[b];
+    for (int lane = 0; lane < batch.count; ++lane) {
+      Vec3 first = Vec3::Zero();
+      for (int k = 3; k >= 0; --k) {
+        Vec3 g = -first;
+        if (k > 0)
+          g = Vec3(batch.gradient[3 * k - 3][lane], batch.gradient[3 * k - 2][lane], batch.gradient[3 * k - 1][lane]);
+        if (k > 0) first += g;
+        sums[std::size_t(batch.node[k][lane])] += batch.volume[lane] * fill.law_of(b).stiff() * g.squaredNorm();
+      }
+    }
+  }
+  return sums;
+}
+
 }  // namespace
 
 double ContactBound::of(const Stepper& stepper, const std::vector<std::int32_t>& bodies) {
@@ -62,10 +81,38 @@ double ContactBound::of(const Stepper& stepper, const std::vector<std::int32_t>&
   return largest;
 }
 
-double ContactBound::of_all(const Stepper& stepper) {
+double ContactBound::of_bodies(const Stepper& stepper) {
   std::vector<std::int32_t> all(stepper.model->bodies.size());
   std::iota(all.begin(), all.end(), 0);
   return of(stepper, all);
+}
+
+double ContactBound::of(const Model& model, const State& state, const std::vector<std::int32_t>& nodes) {
+  if (elements_.empty()) elements_ = stiffness_of_elements(model.fill);
+  double largest = 0.0;
+  for (const std::int32_t index : nodes) {
+    const auto i = std::size_t(index);
+    if (model.fill.held[i] == 7) continue;
+    double sum = elements_[i];
+    for (std::int32_t k = state.interface.first_of_node[i]; k < state.interface.first_of_node[i + 1]; ++k) {
+      const std::int32_t entry = state.interface.of_node[std::size_t(k)];
+      const InterfacePatch& patch = state.interface.patches[std::size_t(entry / 3)];
+      const Mat3 shape = shape_functions(patch);
+      for (const PatchPoint& p : patch.points) {
+        const double n = shape.row(entry % 3).dot(Vec3(1.0, p.s, p.t));
+        sum += std::max(patch.kn, patch.ks) * p.weight * std::abs(n);
+      }
+    }
+    largest = std::max(largest, sum / model.fill.inertial[i]);
+  }
+  return largest;
+}
+
+double ContactBound::of_nodes(const Stepper& stepper) {
+  if (stepper.model->fill.empty()) return 0.0;
+  std::vector<std::int32_t> all(stepper.model->fill.nodes.size());
+  std::iota(all.begin(), all.end(), 0);
+  return of(*stepper.model, *stepper.state, all);
 }
 
 }  // namespace voussoir

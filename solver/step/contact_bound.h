@@ -10,9 +10,13 @@ namespace voussoir {
 class ContactBound {
  public:
   double of(const Stepper& stepper, const std::vector<std::int32_t>& bodies);
-  double of_all(const Stepper& stepper);
+  double of_bodies(const Stepper& stepper);  // all
+  /// The same of nodes of the fill, from the elements around them and their patches with stones.
+  double of(const Model& model, const State& state, const std::vector<std::int32_t>& nodes);
+  double of_nodes(const Stepper& stepper);  // all
 
  private:
+  std::vector<double> elements_;                   // N/m, of each node, once asked for
   std::vector<std::vector<std::int32_t>> joints_;  // of each body, in the assembly's order; once asked for
 };
 

@@ -172,7 +172,8 @@ void Simulation::choose_step() {
         settings_.step.safety);
   position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
   position_.highest = critical.highest;
-  position_.stiffest = bound_.of_all(stepper_);
+  position_.stiffest = bound_.of_bodies(stepper_);
+  position_.stiffest_node = bound_.of_nodes(stepper_);
   stepper_.dt = position_.dt;
   if (critical.body < 0) return;
   log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s",
@@ -184,15 +185,16 @@ bool Simulation::gravity(const StageSettings& stage) {
   stepper_.damping = DampingAtWork{};
   set_branches(model_, state_, 0);
   const double tolerance = settings_.step.equilibrium_tolerance;
-  if (stage.method != StageSettings::Method::relaxation) {
+  // A fill is a large system whose elements tear and flow on the way: relaxation is there first.
+  const bool by_itself = stage.method == StageSettings::Method::automatic;
+  if (stage.method == StageSettings::Method::newton || (by_itself && model_.fill.empty())) {
     equilibrium_ = newton_equilibrium(stepper_, tolerance, observers_.stop, [&](int i, double r) {
       report_progress(true, fmt::format("Newton {}: out-of-balance {:.1e}", i, r));
     });
     log(equilibrium_.account);
   }
   if (!equilibrium_.converged && !stopped() && stage.method != StageSettings::Method::newton) {
-    if (stage.method == StageSettings::Method::automatic)
-      log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
+    if (by_itself && model_.fill.empty()) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
     equilibrium_ = relax(stepper_, tolerance, RelaxationLimits{}, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
@@ -294,6 +296,7 @@ void Simulation::begin_stage(const StageSettings& stage) {
     const DampingAtWork damping = damping_at_work(settings_.damping, position_.dt, position_.highest);
     set_branches(model_, state_, damping.branches.count);
     stepper_.damping = damping;
+    if (!model_.fill.empty()) stepper_.begin_branches();
     log(damping.account);
     if (!stage.placements.empty()) write_fields();  // where they are let go
   }
@@ -309,9 +312,11 @@ void Simulation::change_contacts() {
   if (!update.changed() && !groups) return;
   stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
-  const double bound = bound_.of(stepper_, update.bodies);
-  if (bound <= position_.stiffest * (1.0 + 1e-9)) return;  // but for rounding
-  position_.stiffest = bound;
+  const double bound = bound_.of(stepper_, update.bodies), of_nodes = bound_.of(model_, state_, update.nodes);
+  constexpr double rounding = 1.0 + 1e-9;
+  if (bound <= position_.stiffest * rounding && of_nodes <= position_.stiffest_node * rounding) return;
+  position_.stiffest = std::max(position_.stiffest, bound);
+  position_.stiffest_node = std::max(position_.stiffest_node, of_nodes);
   if (settings_.step.time_step > 0.0) return;  // the user's own step is the user's
   const CriticalStep critical = critical_step(model_, state_);
   const double step = settings_.step.safety * critical.step * damping_step_factor(settings_.damping, critical.highest);

@@ -57,11 +57,11 @@ enum class RunEnd { finished, interrupted, failed };
 /// What must be known beside the state's arrays to go on exactly where a run stopped.
 struct RunPosition {
   std::int64_t stage = 0;
-  double stage_start = 0.0;  // s
-  double dt = 0.0;           // s
-  double highest = 0.0;      // rad/s, of the intact assembly
-  double stiffest = 0.0;     // 1/s2, see ContactBound
-  double stage_begun = 0.0;  // 1 once the present stage has its step and damping
+  double stage_start = 0.0;                    // s
+  double dt = 0.0;                             // s
+  double highest = 0.0;                        // rad/s, of the intact assembly
+  double stiffest = 0.0, stiffest_node = 0.0;  // 1/s2, see ContactBound
+  double stage_begun = 0.0;                    // 1 once the present stage has its step and damping
 };
 
 class Simulation {

@@ -149,6 +149,7 @@ FillPass Stepper::fill_pass() const {
   pass.dt = dt;
   pass.mass_rate = damping.mass_rate;
   pass.local = damping.local;
+  pass.search_distance = search_distance;
   return pass;
 }
 
@@ -156,7 +157,7 @@ PassReport Stepper::tile_patches(const PatchPass& pass, std::size_t tile) const 
   PassReport report = pass.joints(tile);
   const std::int32_t* batches = contact_batches.data();
   report.merge(pass.contacts(tile, batches + first_contact_batch[tile], batches + first_contact_batch[tile + 1]));
-  if (!state->interface.empty()) pass.interface(tile);
+  if (!state->interface.empty()) report.reclip |= pass.interface(tile);
   return report;
 }
 
@@ -243,6 +244,13 @@ PassReport Stepper::patches_only() {
   return report;
 }
 
+void Stepper::begin_branches() {
+  const Branches at_work = damping.branches;
+  for (int k = 0; k < at_work.count; ++k) damping.branches.e[k] = 1.0, damping.branches.g[k] = 0.0;
+  patches_only();
+  damping.branches = at_work;
+}
+
 Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
                          const std::function<void(const BodyPass&)>& sample, const std::atomic<bool>* stop) {
   Advance result;
@@ -257,6 +265,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
   RoundKind step_kind = RoundKind::both;
   const auto next_step = [&] {
     move_base(*this, state->time(), bodies);
+    fill.base_displacement = bodies.base_displacement_next;
     const bool samples = sample && state->step() % sample_every == 0;
     patches.energies = samples ? tile_energies.data() : nullptr;
     fill.energies = samples ? fill_energies.data() : nullptr;
@@ -271,6 +280,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
     for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies), all_fill.merge(f.fill);
     result.runaway_node = all_fill.runaway, result.inverted_tet = all_fill.inverted;
     const bool runs_away = all_bodies.runaway >= 0 || all_fill.runaway >= 0 || all_fill.inverted >= 0;
+    const bool searches = all_bodies.search || all_fill.search;
     const bool stopped = stop && stop->load(std::memory_order_relaxed);
     const bool clip = all_patches.reclip && may_clip_at(state->step());
     result.intact = all_patches.intact;
@@ -278,7 +288,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
     result.reclip = clip;
     result.runaway_body = all_bodies.runaway;
     result.outcome = runs_away                            ? StepOutcome::runaway
-                     : clip || all_bodies.search          ? StepOutcome::contacts
+                     : clip || searches                   ? StepOutcome::contacts
                      : stopped && state->step() != target ? StepOutcome::interrupted
                                                           : StepOutcome::reached;
     return result.outcome != StepOutcome::reached || state->step() == target;

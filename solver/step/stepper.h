@@ -66,6 +66,9 @@ struct Stepper {
                   const std::atomic<bool>* stop);
   /// The patches alone, serially: wrenches at the present placement (used by the static solver and for reports).
   PassReport patches_only();
+  /// Tells branches that have just been made what the strains are, so that the first step does not take all of it for a
+  /// change.
+  void begin_branches();
   BodyPass body_pass() const;
   FillPass fill_pass() const;
 

@@ -1,5 +1,6 @@
 // Fill between stones: the same bits for any number of threads, as the plain serial loop, and when its arrays are
 // carried over to another run.
+#include "solver/contact/search.h"
 #include "tests/solver/models.h"
 #include "tools/ladder/fill_models.h"
 
@@ -67,6 +68,36 @@ TEST(FillThreads, EqualTheSerialLoop) {
   }
 }
 
+/// With stones and soil that come to lie elsewhere: patches made, clipped anew and dropped on the way.
+TEST(FillThreads, GiveTheSameBitsWithNewPatches) {
+  const auto shaken = [](int threads) {
+    auto bench = std::make_unique<Shaken>(threads);
+    bench->stepper.search_distance = search_distance(bench->model);
+    return bench;
+  };
+  const auto one = shaken(1), two = shaken(2), first = shaken(3), second = shaken(2);
+  const auto used = [](const Shaken& bench) {
+    std::size_t count = 0;
+    for (std::size_t slot = 0; slot < bench.state.interface.patches.size(); ++slot)
+      count += bench.state.interface.used(slot);
+    return count;
+  };
+  const std::size_t before = used(*one);
+  ASSERT_TRUE(one->run(6000));
+  EXPECT_GT(one->state.counters[1], 0) << "nothing was looked for";
+  EXPECT_NE(used(*one), before) << "too tame to be a test";
+  ASSERT_TRUE(two->run(6000));
+  EXPECT_EQ(two->hash(), one->hash());
+  ASSERT_TRUE(first->run(3500));
+  std::vector<NamedArray> from = first->state.arrays(), to = second->state.arrays();
+  for (std::size_t i = 0; i < from.size(); ++i)
+    std::visit([&](auto* array) { *array = *std::get<decltype(array)>(from[i].data); }, to[i].data);
+  second->state.unpack(second->model);
+  second->stepper.prepare();
+  ASSERT_TRUE(second->run(2500));
+  EXPECT_EQ(second->hash(), one->hash());
+}
+
 TEST(FillThreads, SamplesChangeNothing) {
   Shaken plain(2), sampled(2);
   ASSERT_TRUE(plain.run(500));
@@ -85,7 +116,7 @@ TEST(FillThreads, GoOnFromTheirArrays) {
   ASSERT_EQ(from.size(), to.size());
   for (std::size_t i = 0; i < from.size(); ++i)
     std::visit([&](auto* array) { *array = *std::get<decltype(array)>(from[i].data); }, to[i].data);
-  second.state.unpack_contacts();
+  second.state.unpack(second.model);
   second.stepper.prepare();
   ASSERT_TRUE(second.run(800));
   EXPECT_EQ(second.hash(), whole.hash());

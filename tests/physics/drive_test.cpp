@@ -113,7 +113,7 @@ std::uint64_t in_two_pieces(const Assembly& assembly, const SolverSettings& sett
   for (std::size_t i = 0; i < from.size(); ++i)
     std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(from[i].data); },
                to[i].data);
-  second.state().unpack_contacts();
+  second.state().unpack(second.model());
   second.restore(first.position());
   EXPECT_EQ(second.run(), RunEnd::finished);
   return hash_arrays(second.state().arrays());

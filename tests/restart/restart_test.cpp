@@ -35,14 +35,14 @@ SolverSettings shaken(DampingSettings::Kind damping) {
 }
 
 /// Copies the state's arrays, as a checkpoint would.
-void copy_state(State& from, State& to) {
+void copy_state(const Model& model, State& from, State& to) {
   const auto source = from.arrays();
   const auto target = to.arrays();
   ASSERT_EQ(source.size(), target.size());
   for (std::size_t i = 0; i < source.size(); ++i)
     std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); },
                target[i].data);
-  to.unpack_contacts();
+  to.unpack(model);
 }
 
 std::uint64_t in_one_go(const Assembly& assembly, const SolverSettings& settings, int threads) {
@@ -60,7 +60,7 @@ std::uint64_t in_pieces(const Assembly& assembly, const SolverSettings& settings
     EXPECT_EQ(simulation->run(stop), RunEnd::interrupted);
     threads = threads % 3 + 1;
     auto next = std::make_unique<Simulation>(assembly, settings, threads, Observers{});
-    copy_state(simulation->state(), next->state());
+    copy_state(next->model(), simulation->state(), next->state());
     next->restore(simulation->position());
     simulation = std::move(next);
   }
@@ -128,7 +128,7 @@ TEST(Restart, FromEveryCheckpointOfARun) {
   Observers observers;
   observers.checkpoint = [&](Simulation& s, bool) {
     auto next = std::make_unique<Simulation>(assembly, settings, 1, Observers{});
-    copy_state(s.state(), next->state());
+    copy_state(next->model(), s.state(), next->state());
     next->restore(s.position());
     kept.push_back({std::move(next), s.state().time()});
   };
@@ -160,7 +160,7 @@ TEST(Restart, AfterAnInterruption) {
   ASSERT_EQ(first.run(), RunEnd::interrupted);
   EXPECT_NEAR(first.state().time(), 0.4, 0.02);
   Simulation second(assembly, settings, 2, {});
-  copy_state(first.state(), second.state());
+  copy_state(second.model(), first.state(), second.state());
   second.restore(first.position());
   ASSERT_EQ(second.run(), RunEnd::finished);
   EXPECT_EQ(hash_arrays(second.state().arrays()), in_one_go(assembly, settings, 1));
@@ -191,7 +191,7 @@ TEST(Restart, FromACheckpointFile) {
   Simulation second(assembly, settings, 2, {});
   CheckpointHeader read;
   read_checkpoint(path, read, second.state().arrays());
-  second.state().unpack_contacts();
+  second.state().unpack(second.model());
   EXPECT_EQ(hash_arrays(second.state().arrays()), written);
   RunPosition q;
   q.stage = read.stage;

@@ -21,7 +21,7 @@ std::unique_ptr<Bench> fallen_block() {
   return bench;
 }
 
-void copy_arrays(State& from, State& to) {
+void copy_arrays(const Model& model, State& from, State& to) {
   const auto source = from.arrays();
   const auto target = to.arrays();
   ASSERT_EQ(source.size(), target.size());
@@ -30,14 +30,14 @@ void copy_arrays(State& from, State& to) {
     std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); },
                target[i].data);
   }
-  to.unpack_contacts();
+  to.unpack(model);
 }
 
 TEST(StateArrays, CarryTheContactsOver) {
   auto bench = fallen_block();
   ASSERT_FALSE(bench->state.contacts.empty());
   State copy = fresh_state(bench->model);
-  copy_arrays(bench->state, copy);
+  copy_arrays(bench->model, bench->state, copy);
   EXPECT_EQ(hash_arrays(copy.arrays()), hash_arrays(bench->state.arrays()));
   ASSERT_EQ(copy.contacts.size(), bench->state.contacts.size());
   for (std::size_t i = 0; i < copy.contacts.size(); ++i) {

@@ -138,7 +138,7 @@ void recall(const std::string& path, Running& r) {
   read_checkpoint(path, header, r.state.arrays());
   if (r.state.pose.size() != bodies || r.state.joint.mode.size() != joints)
     throw InputError("{} is of another assembly than the scene: remove it", path);
-  r.state.unpack_contacts();
+  r.state.unpack(r.model);
   take_joint_order(r.model, r.state);
   r.stepper.prepare();
   r.account = "begun from " + path;

@@ -89,7 +89,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   }
   if (header.assembly_hash != assembly_hash(source.assembly))
     throw InputError("{} belongs to another assembly than {}/assembly.h5", file, run);
-  source.state.unpack_contacts();
+  source.state.unpack(source.model);
   take_joint_order(source.model, source.state);
   source.tangent = PatchTangent::present;
   source.damaged = true;

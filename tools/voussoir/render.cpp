@@ -78,7 +78,7 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
   }
   if (header.assembly_hash != assembly_hash(assembly))
     throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
-  state.unpack_contacts();
+  state.unpack(model);
   take_joint_order(model, state);
   render_picture(assembly, make_snapshot(model, state), o, png);
 }

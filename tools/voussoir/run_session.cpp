@@ -90,6 +90,7 @@ void RunSession::write_checkpoint(bool stage_end) {
       {"dt", p.dt},
       {"highest", p.highest},
       {"stiffest", p.stiffest},
+      {"stiffest_node", p.stiffest_node},
       {"stage_begun", p.stage_begun},
       {"worst_balance", simulation_->worst_balance()},
       {"equilibrium_converged", e.converged ? 1.0 : 0.0},
@@ -120,7 +121,7 @@ void RunSession::resume() {
     try {
       State& state = simulation_->state();
       read_checkpoint(file, header, state.arrays());
-      state.unpack_contacts();
+      state.unpack(simulation_->model());
     } catch (const RunError& e) {
       log(fmt::format("{}; trying the one before", e.what()));
       continue;
@@ -147,6 +148,7 @@ void RunSession::go_on_from(CheckpointHeader& header) {
   p.dt = header.numbers["dt"];
   p.highest = header.numbers["highest"];
   p.stiffest = header.numbers["stiffest"];
+  p.stiffest_node = header.numbers["stiffest_node"];
   p.stage_begun = header.numbers["stage_begun"];
   equilibrium_before_.converged = header.numbers["equilibrium_converged"] > 0.0;
   equilibrium_before_.iterations = int(header.numbers["newton_iterations"]);

@@ -1,0 +1,459 @@
+#include "solver/contact/interface_search.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "geometry/neighbours.h"
+#include "solver/contact/interface_jump.h"
+#include "solver/contact/make_contact.h"
+#include "solver/contact/search.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr double facing = 0.5;        // |n_face + n_triangle|: 29 degrees
+constexpr double least_share = 0.01;  // of a block's face: overlaps that carry nothing
+
+/// A triangle of the fill's surface where it is.
+struct Sheet {
+  Polygon corners;
+  Vec3 normal = Vec3::Zero();  // out of the fill
+  Box box;
+};
+
+struct Overlap {
+  int face = -1;
+  Polygon polygon;       // in the face's plane, counter-clockwise about its normal
+  double area = 0.0;     // m2
+  double nearest = 0.0;  // m, least distance of the triangle from the plane over the overlap; negative: inside
+};
+
+Overlap overlap(const Convex& cell, int face, const Sheet& sheet) {
+  const Plane& plane = cell.planes[std::size_t(face)];
+  Polygon flat, outline;
+  double height[3];
+  for (std::size_t k = 3; k-- > 0;) {
+    height[k] = plane.normal.dot(sheet.corners[k]) - plane.offset;
+    flat.push_back(sheet.corners[k] - height[k] * plane.normal);
+  }
+  for (const int v : cell.faces[std::size_t(face)]) outline.push_back(cell.vertices[std::size_t(v)]);
+  Overlap found;
+  found.face = face;
+  if (polygon_normal(flat).dot(plane.normal) <= 0.0) return found;  // turned over
+  found.polygon = cleaned(intersect(flat, outline, plane.normal));
+  if (found.polygon.size() < 3) return found;
+  found.area = polygon_area(found.polygon);
+  // The height over the plane is affine: with the triangle's own normal N, N · (p + h n) is the same everywhere.
+  const double slope = sheet.normal.dot(plane.normal);
+  found.nearest = 1e300;
+  for (const Vec3& p : found.polygon)
+    found.nearest = std::min(found.nearest, sheet.normal.dot(sheet.corners[0] - p) / slope);
+  return found;
+}
+
+using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // body, cell, triangle
+
+class Search {
+ public:
+  Search(const Model& model, State& state, const Branches& branches)
+      : model_(model), state_(state), branches_(branches), gone_(state.interface.patches.size(), 0) {}
+
+  InterfaceUpdate run(bool clip) {
+    place_surface();
+    if (clip)
+      for (std::size_t slot = 0; slot < gone_.size(); ++slot)
+        if (state_.interface.used(slot)) look_at(slot);
+    if (model_.contact.search) look_around();
+    if (update_.changed()) rebuild();
+    return update_;
+  }
+
+ private:
+  Vec3 node_at(std::int32_t node) const {
+    return model_.fill.nodes[std::size_t(node)] + Vec3(&state_.fill.pose[node_width * std::size_t(node)]);
+  }
+
+  void place_surface() {
+    for (const auto& nodes : model_.fill.triangles) {
+      Sheet sheet;
+      for (const std::int32_t node : nodes) sheet.corners.push_back(node_at(node));
+      sheet.normal = polygon_normal(sheet.corners);
+      sheet.box = bounding_box(sheet.corners);
+      sheets_.push_back(std::move(sheet));
+    }
+  }
+
+  /// Whether the middle of a patch has slid past the limit since it was clipped.
+  bool past(const InterfacePatch& patch, const InterfaceJump& j) const {
+    const Vec3 u = j.point(shape_functions(patch), 0.0, 0.0);
+    return u[1] * u[1] + u[2] * u[2] > model_.slip_limit2(patch.area);
+  }
+
+  /// Clips a patch that has slid past the limit anew, or drops it.
+  void look_at(std::size_t slot) {
+    const InterfacePatch& old = state_.interface.patches[slot];
+    if (model_.laws[std::size_t(old.law)].kind == JointLaw::Kind::elastic) return;
+    const InterfaceJump j = interface_jump(model_, state_, old);
+    if (!past(old, j)) return;
+    energy_before_ += interface_energy(model_, state_, slot);
+    gone_[slot] = 1;
+    const Overlap now =
+        overlap(placed_cell(model_, state_, old.body, old.cell), old.face, sheets_[std::size_t(old.triangle)]);
+    if (now.area >= least_area()) {
+      fresh_.push_back(moved_patch(slot, j, now));
+      note(fresh_.back());
+      ++update_.clipped;
+      return;
+    }
+    const double* energy = &state_.interface_memory.energy[3 * slot];
+    for (int c = 0; c < 3; ++c) state_.retired_energy()[c] += energy[c];
+    ++update_.dropped;
+  }
+
+  /// For whoever asks whether the critical step holds.
+  void note(const InterfacePatch& patch) {
+    update_.bodies.push_back(patch.body);
+    update_.nodes.insert(update_.nodes.end(), patch.node, patch.node + 3);
+  }
+
+  double least_area() const { return least_share * model_.typical_size * model_.typical_size; }
+
+  /// The old patch with another outline. It keeps what its corners have moved across the face, and, along the face, the
+  /// mean elastic part of that: no plastic slip is left, and the tractions are as before.
+  InterfacePatch moved_patch(std::size_t slot, const InterfaceJump& j, const Overlap& now) {
+    const InterfacePatch& old = state_.interface.patches[slot];
+    InterfacePatch patch = old;
+    patch.from = std::int32_t(slot);
+    set_outline(now.polygon, j.axes, j.centroid, patch);
+    const std::array<double, 2> elastic = mean_elastic(slot, j);
+    const Vec3 slid = j.point(shape_functions(old), 0.0, 0.0) - Vec3(0.0, elastic[0], elastic[1]);
+    const Vec3 own =
+        Eigen::Quaterniond(old.frame[0], old.frame[1], old.frame[2], old.frame[3]) * Vec3(0.0, slid[1], slid[2]);
+    for (int c = 0; c < 3; ++c) patch.slid[c] += own[c];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 moved(j.moved[k][0], elastic[0], elastic[1]);
+      set_rest(j.axes, patch, k, moved);
+    }
+    patch.again = true;
+    return patch;
+  }
+
+  /// Mean elastic jump along s and t, m.
+  std::array<double, 2> mean_elastic(std::size_t slot, const InterfaceJump& j) const {
+    const InterfacePatch& old = state_.interface.patches[slot];
+    const Mat3 shape = shape_functions(old);
+    double area = 0.0;
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < old.points.size(); ++i) {
+      area += old.points[i].weight;
+      sum += old.points[i].weight * elastic_point(model_, state_, slot, j, shape, i);
+    }
+    return {sum[1] / area, sum[2] / area};
+  }
+
+  /// Outline, points and place of a patch whose axes are these now.
+  void set_outline(const Polygon& polygon, const Mat3& axes, const Vec3& centroid, InterfacePatch& patch) const {
+    PatchShape shape = patch_shape(polygon, axes.col(0), model_.contact.points_per_side);
+    turn_into(axes, shape);
+    const Vec3 arm = rotation_of(state_, std::size_t(patch.body)).conjugate() * (shape.centroid - centroid);
+    for (int c = 0; c < 3; ++c) patch.arm[c] = arm[c];
+    patch.area = shape.area;
+    patch.points = shape.points, patch.corners = shape.corners;
+  }
+
+  /// A shape's points in other axes of the same plane.
+  static void turn_into(const Mat3& axes, PatchShape& shape) {
+    const Eigen::Matrix2d turn = axes.rightCols<2>().transpose() * shape.frame.rightCols<2>();
+    for (std::vector<PatchPoint>* list : {&shape.points, &shape.corners})
+      for (PatchPoint& p : *list) {
+        const Eigen::Vector2d q = turn * Eigen::Vector2d(p.s, p.t);
+        p.s = q[0], p.t = q[1];
+      }
+  }
+
+  void set_rest(const Mat3& axes, InterfacePatch& patch, std::size_t k, const Vec3& moved) const {
+    const auto body = std::size_t(patch.body);
+    const Vec3 origin = model_.bodies[body].centroid + Vec3(&state_.pose[pose_width * body]) +
+                        rotation_of(state_, body) * Vec3(patch.arm);
+    const Vec3 rest = axes.transpose() * (node_at(patch.node[k]) - origin) - moved;
+    for (int c = 0; c < 3; ++c) patch.rest[k][c] = rest[c];
+  }
+
+  /// Cells of a body that stand near a box.
+  void add_near(std::size_t body, const Box& box, double within) {
+    const Vec3 at = model_.bodies[body].centroid + Vec3(&state_.pose[pose_width * body]);
+    const double reach = model_.bodies[body].radius + within;
+    if (((box.low - at).array() > reach).any() || ((at - box.high).array() > reach).any()) return;
+    for (std::size_t c = 0; c < model_.cells[body].size(); ++c) {
+      cells_.emplace_back(std::int32_t(body), std::int32_t(c));
+      placed_.push_back(placed_cell(model_, state_, std::int32_t(body), std::int32_t(c)));
+    }
+  }
+
+  /// Pairs of cell and triangle that have come near each other without a patch between them.
+  void look_around() {
+    const std::vector<char> bodies = moved_bodies(), triangles = moved_triangles();
+    Box surface, moved;
+    for (std::size_t i = 0; i < sheets_.size(); ++i) {
+      join(surface, sheets_[i].box);
+      if (triangles[i]) join(moved, sheets_[i].box);
+    }
+    const double within = skin(model_);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (!state_.lost(b)) add_near(b, bodies[b] ? surface : moved, within);
+    if (cells_.empty()) return;
+    std::vector<Box> boxes;
+    for (const Convex& cell : placed_) boxes.push_back(bounding_box(cell.vertices));
+    for (const Sheet& sheet : sheets_) boxes.push_back(sheet.box);
+    const auto first = int(cells_.size());
+    index_patches();
+    for (const auto& [i, j] : neighbours(boxes, within)) {
+      if (i >= first || j < first) continue;
+      const auto [body, cell] = cells_[std::size_t(i)];
+      const auto triangle = std::int32_t(j - first);
+      if (!bodies[std::size_t(body)] && !triangles[std::size_t(triangle)]) continue;
+      const Key key(body, cell, triangle);
+      if (!std::binary_search(known_.begin(), known_.end(), key)) examine(key, placed_[std::size_t(i)]);
+    }
+  }
+
+  static void join(Box& box, const Box& other) {
+    box.low = box.low.cwiseMin(other.low), box.high = box.high.cwiseMax(other.high);
+  }
+
+  void index_patches() {
+    const Interface& interface = state_.interface;
+    for (std::size_t slot = 0; slot < interface.patches.size(); ++slot) {
+      const InterfacePatch& patch = interface.patches[slot];
+      if (!interface.used(slot)) continue;
+      of_triangle_.emplace_back(patch.triangle, slot);
+      of_body_.emplace_back(patch.body, slot);
+      if (!gone_[slot]) known_.emplace_back(patch.body, patch.cell, patch.triangle);
+    }
+    for (const InterfacePatch& patch : fresh_) known_.emplace_back(patch.body, patch.cell, patch.triangle);
+    std::sort(known_.begin(), known_.end());
+    std::sort(of_triangle_.begin(), of_triangle_.end());
+    std::sort(of_body_.begin(), of_body_.end());
+  }
+
+  using Slots = std::vector<std::pair<std::int32_t, std::size_t>>;
+  static Slots::const_iterator first_of(const Slots& slots, std::int32_t of) {
+    return std::lower_bound(slots.begin(), slots.end(), std::pair(of, std::size_t(0)));
+  }
+
+  std::vector<char> moved_bodies() {
+    std::vector<char> moved(model_.bodies.size(), 0);
+    const double near = moved_share * skin(model_);
+    const Vec3 base = state_.base_displacement();
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      if (moved_since(model_, state_, state_.interface_seen, i, base) <= near) continue;
+      moved[i] = 1;
+      note_place(state_, i, state_.interface_seen);
+    }
+    return moved;
+  }
+
+  std::vector<char> moved_triangles() {
+    std::vector<char> nodes(model_.fill.nodes.size(), 0), moved;
+    const double near = moved_share * skin(model_);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      double d2 = 0.0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double now = state_.fill.pose[node_width * i + c] - state_.base_displacement()[Eigen::Index(c)];
+        const double far = now - double(state_.fill.searched[node_width * i + c]);
+        d2 += far * far;
+      }
+      if (d2 <= near * near) continue;
+      nodes[i] = 1;
+      for (std::size_t c = 0; c < 3; ++c)
+        state_.fill.searched[node_width * i + c] =
+            float(state_.fill.pose[node_width * i + c] - state_.base_displacement()[Eigen::Index(c)]);
+    }
+    for (const auto& corners : model_.fill.triangles)
+      moved.push_back(nodes[std::size_t(corners[0])] || nodes[std::size_t(corners[1])] ||
+                      nodes[std::size_t(corners[2])]);
+    return moved;
+  }
+
+  /// A patch where a face that looks at the triangle is within the skin. It has no bond; where it is found inside, it
+  /// begins with no more force than the triangle's other patches have.
+  void examine(const Key& key, const Convex& placed) {
+    InterfacePatch patch;
+    std::tie(patch.body, patch.cell, patch.triangle) = key;
+    const Sheet& sheet = sheets_[std::size_t(patch.triangle)];
+    const Overlap best = best_overlap(placed, sheet);
+    if (best.face < 0) return;
+    patch.face = best.face;
+    const auto& corners = model_.fill.triangles[std::size_t(patch.triangle)];
+    std::copy(corners.begin(), corners.end(), patch.node);
+    set_law(patch);
+    const Vec3 normal = placed.planes[std::size_t(best.face)].normal;
+    const Mat3 axes = patch_shape(best.polygon, normal, model_.contact.points_per_side).frame;
+    const auto body = std::size_t(patch.body);
+    const Eigen::Quaterniond own = rotation_of(state_, body).conjugate() * Eigen::Quaterniond(axes);
+    const double frame[4] = {own.w(), own.x(), own.y(), own.z()};
+    std::copy(frame, frame + 4, patch.frame);
+    set_outline(best.polygon, axes, model_.bodies[body].centroid + Vec3(&state_.pose[pose_width * body]), patch);
+    const double lift = std::max(0.0, -best.nearest - deepest_beside(patch.triangle));
+    for (std::size_t k = 0; k < 3; ++k)
+      set_rest(axes, patch, k, Vec3(normal.dot(sheet.corners[k] - best.polygon[0]) + lift, 0.0, 0.0));
+    note(patch);
+    fresh_.push_back(std::move(patch));
+    ++update_.made;
+  }
+
+  Overlap best_overlap(const Convex& placed, const Sheet& sheet) const {
+    const double within = skin(model_);
+    Overlap best;
+    for (int face = 0; face < int(placed.planes.size()); ++face) {
+      if ((placed.planes[std::size_t(face)].normal + sheet.normal).norm() > facing) continue;
+      Overlap found = overlap(placed, face, sheet);
+      if (found.area < least_area() || found.area <= best.area || std::abs(found.nearest) > within) continue;
+      best = std::move(found);
+    }
+    return best;
+  }
+
+  /// m: how far the triangle's other patches are pressed in.
+  double deepest_beside(std::int32_t triangle) const {
+    double deepest = 0.0;
+    for (auto it = first_of(of_triangle_, triangle); it != of_triangle_.end() && it->first == triangle; ++it) {
+      const InterfacePatch& other = state_.interface.patches[it->second];
+      const InterfaceJump j = interface_jump(model_, state_, other);
+      const Mat3 shape = shape_functions(other);
+      for (const PatchPoint& p : other.points) deepest = std::max(deepest, -j.point(shape, p.s, p.t)[0]);
+    }
+    return deepest;
+  }
+
+  /// As the stone's other patches, or the triangle's, or the first there is.
+  void set_law(InterfacePatch& patch) const {
+    const auto same = first_of(of_body_, patch.body), beside = first_of(of_triangle_, patch.triangle);
+    std::size_t slot = 0;
+    if (same != of_body_.end() && same->first == patch.body)
+      slot = same->second;
+    else if (beside != of_triangle_.end() && beside->first == patch.triangle)
+      slot = beside->second;
+    const InterfacePatch& like = state_.interface.patches[slot];
+    patch.law = like.law, patch.kn = like.kn, patch.ks = like.ks;
+  }
+
+  void rebuild();
+
+  const Model& model_;
+  State& state_;
+  const Branches& branches_;
+  InterfaceUpdate update_;
+  std::vector<Sheet> sheets_;
+  std::vector<char> gone_;             // of each slot: dropped, or clipped anew
+  std::vector<InterfacePatch> fresh_;  // clipped anew, then made
+  std::vector<std::pair<std::int32_t, std::int32_t>> cells_;
+  std::vector<Convex> placed_;  // where they are
+  std::vector<Key> known_;
+  Slots of_triangle_, of_body_;
+  double energy_before_ = 0.0;
+};
+
+/// What a slot's points remember, from another interface; a patch that was clipped anew keeps bonds and, in its
+/// branches, the means.
+void carry_memory(const Interface& from, const PatchMemory& old, const Interface& to, std::size_t slot, int branches,
+                  PatchMemory& memory) {
+  const InterfacePatch& patch = to.patches[slot];
+  const auto before = std::size_t(patch.from);
+  for (std::size_t c = 0; c < 2; ++c) memory.largest[2 * slot + c] = old.largest[2 * before + c];
+  for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = old.energy[3 * before + c];
+  memory.mode[slot] = old.mode[before];
+  const std::size_t rows = from.patches[before].points.size(), columns = 3 * std::size_t(branches);
+  std::vector<double> means(columns, 0.0);
+  double area = 0.0;
+  std::uint8_t bond = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double weight = from.patches[before].points[i].weight;
+    area += weight, bond |= std::uint8_t(old.broken[from.point_index(before, i, 1, 0)] & 1);
+    for (std::size_t c = 0; c < columns; ++c)
+      means[c] += weight * double(old.point_branch[from.point_index(before, i, columns, c)]);
+  }
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const auto copy = [&](auto& now, const auto& was, std::size_t width, std::size_t c) {
+      now[to.point_index(slot, i, width, c)] = was[from.point_index(before, i, width, c)];
+    };
+    if (patch.again) {
+      memory.broken[to.point_index(slot, i, 1, 0)] = bond;
+      for (std::size_t c = 0; c < columns; ++c)
+        memory.point_branch[to.point_index(slot, i, columns, c)] = float(means[c] / area);
+      continue;
+    }
+    for (std::size_t c = 0; c < 2; ++c)
+      copy(memory.point, old.point, 2, c), copy(memory.point_rest, old.point_rest, 2, c);
+    copy(memory.broken, old.broken, 1, 0);
+    for (std::size_t c = 0; c < columns; ++c) copy(memory.point_branch, old.point_branch, columns, c);
+  }
+}
+
+/// The jump of a slot as it is now, rounded as the passes round it: what the branches have seen.
+void note_jump(const Model& model, const State& state, std::size_t slot, PatchMemory& memory) {
+  const InterfacePatch& patch = state.interface.patches[slot];
+  const Mat3 shape = shape_functions(patch);
+  const InterfaceJump j = interface_jump(model, state, patch);
+  const std::size_t first = 9 * lane_count * (slot / lane_count) + slot % lane_count;
+  for (std::size_t part = 0; part < 3; ++part)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+        sum += shape(Eigen::Index(k), Eigen::Index(part)) * j.moved[k][Eigen::Index(c)];
+      memory.last[first + lane_count * (3 * part + c)] = float(sum);
+    }
+}
+
+void Search::rebuild() {
+  const Interface before = std::move(state_.interface);
+  const PatchMemory old = std::move(state_.interface_memory);
+  for (std::size_t slot = 0; slot < gone_.size(); ++slot) {
+    if (!before.used(slot) || gone_[slot]) continue;
+    fresh_.push_back(before.patches[slot]);
+    fresh_.back().from = std::int32_t(slot);
+  }
+  state_.interface = make_interface(std::move(fresh_), model_);
+  Interface& now = state_.interface;
+  PatchMemory memory;
+  memory.resize(now.patches.size(), now.points.size() / 3);
+  memory.point_branch.assign(std::size_t(branches_.count) * now.points.size(), 0.0f);
+  memory.last.assign(9 * lane_count * now.batches.size(), 0.0f);
+  std::fill(memory.broken.begin(), memory.broken.end(), std::uint8_t(1));
+  for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
+    const std::int32_t from = now.patches[slot].from;
+    if (from < 0 || !now.used(slot)) {
+      note_jump(model_, state_, slot, memory);
+      continue;
+    }
+    carry_memory(before, old, now, slot, branches_.count, memory);
+    if (now.patches[slot].again) {
+      note_jump(model_, state_, slot, memory);
+      const double* slid = now.patches[slot].slid;
+      memory.largest[2 * slot + 1] = std::max(memory.largest[2 * slot + 1], Vec3(slid).norm());
+      continue;
+    }
+    const auto lane_of = [](std::size_t s) { return 9 * lane_count * (s / lane_count) + s % lane_count; };
+    for (std::size_t c = 0; c < 9; ++c)
+      memory.last[lane_of(slot) + lane_count * c] = old.last[lane_of(std::size_t(from)) + lane_count * c];
+  }
+  state_.interface_memory = std::move(memory);
+  double energy_after = 0.0;
+  for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
+    InterfacePatch& patch = now.patches[slot];
+    if (now.used(slot) && (patch.again || patch.from < 0)) energy_after += interface_energy(model_, state_, slot);
+    patch.from = -1, patch.again = false;
+  }
+  state_.clipped_energy() += energy_before_ - energy_after;
+}
+
+}  // namespace
+
+InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip) {
+  if (model.fill.empty()) return {};
+  return Search(model, state, branches).run(clip);
+}
+
+}  // namespace voussoir
