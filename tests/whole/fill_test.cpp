@@ -1,4 +1,4 @@
-// A deformable fill as a user meets it: generated, looked at, imported, and what does not take it yet.
+// A deformable fill as a user meets it: generated, looked at, imported, run, resumed, asked for its modes.
 #include <gtest/gtest.h>
 
 #include "tests/whole/cases.h"
@@ -37,23 +37,42 @@ TEST(Fill, TwoProgramsMakeTheSameFile) {
   EXPECT_EQ(bytes_of(folder / "one.h5"), bytes_of(folder / "two.h5"));
 }
 
-TEST(Fill, WhatRunsRefusesIt) {
+/// Held at its ends, or its thrust would push the abutments out.
+const std::string shaken = bridge +
+                           "abutments = \"restrained\"\n[damping]\nkind = \"maxwell\"\n[[stage]]\nkind = \"gravity\"\n"
+                           "[[stage]]\nkind = \"motion\"\nduration = 0.2\n"
+                           "synthetic = { seed = 1, peak = 3.5, axes = [\"x\", \"y\"] }\n";
+
+TEST(Fill, RunsAndGoesOnFromItsCheckpoints) {
   Folder folder;
-  folder.write("c.toml", bridge + "[[stage]]\nkind = \"gravity\"\n");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"run", "c.toml", "-o", "run"}, {"step", "c.toml"}})
-    expect_error(voussoir(words, {.folder = folder.path()}), 2, {"c.toml", "deformable fill", "backfill = \"rigid\""});
+  folder.write("c.toml", shaken);
+  run_whole(folder, "c.toml", "whole");
+  run_whole(folder, "c.toml", "parts", {"--until", "0.09"});
+  const Outcome end = voussoir({"resume", "parts", "--no-pictures"}, {.folder = folder.path()});
+  ASSERT_EQ(end.status, 0) << end.err;
+  expect_same_run(folder / "whole", folder / "parts");
+  const nlohmann::json found = summary(folder / "whole");
+  EXPECT_TRUE(found.at("finished").get<bool>());
+  EXPECT_LT(found.at("energy_error").get<double>(), 0.01) << found.dump(2);
+}
+
+TEST(Fill, TheStepNamesANode) {
+  Folder folder;
+  folder.write("c.toml", shaken);
+  const Outcome seen = voussoir({"step", "c.toml"}, {.folder = folder.path()});
+  ASSERT_EQ(seen.status, 0) << seen.err;
+  expect_holds(seen.out, {"set by node", "of the fill at", "bodies and nodes that ask"});
 }
 
 TEST(Fill, ModesKnowIt) {
   Folder folder;
-  folder.write("c.toml", bridge);
-  const auto end =
-      voussoir({"modal", "c.toml", "--modes", "3", "--no-pictures", "-o", "modes"}, {.folder = folder.path()});
-  ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_NE(end.out.find("transverse"), std::string::npos) << end.out;
-  expect_error(voussoir({"modal", "c.toml", "--state", "gravity"}, {.folder = folder.path()}), 2,
-               {"deformable fill", "leave out --state gravity"});
+  folder.write("c.toml", shaken);
+  for (const char* state : {"intact", "gravity"}) {
+    const auto end = voussoir({"modal", "c.toml", "--modes", "3", "--state", state, "--no-pictures", "-o", state},
+                              {.folder = folder.path()});
+    ASSERT_EQ(end.status, 0) << end.err;
+    expect_holds(end.out, {state == std::string("intact") ? "transverse" : "joints as they rest under gravity"});
+  }
 }
 
 /// A tetrahedron on the upper face of the unit cube.
