@@ -9,8 +9,11 @@ namespace voussoir::test {
 namespace {
 
 /// Beyond these the reasons given for the misses no longer explain them.
-const std::map<std::string, double> known_size = {
-    {"intact-shortcut", 1e-7}, {"falling-blocks", 0.01}, {"colliding-blocks", 0.01}, {"fill-footing", 0.065}};
+const std::map<std::string, double> known_size = {{"intact-shortcut", 1e-7},
+                                                  {"falling-blocks", 0.01},
+                                                  {"colliding-blocks", 0.01},
+                                                  {"fill-footing", 0.065},
+                                                  {"fill-rankine", 0.09}};
 
 TEST(KnownMisses, StayAsSmallAsTheyAre) {
   for (const ladder::Rung& rung : ladder::rungs())

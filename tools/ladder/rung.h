@@ -62,5 +62,6 @@ Rung fill_oedometer();
 Rung fill_footing();
 Rung fill_patch();
 Rung fill_slide();
+Rung fill_rankine();
 
 }  // namespace voussoir::ladder

@@ -23,7 +23,8 @@ const std::vector<Rung>& rungs() {
       fill_oedometer(),      //
       fill_footing(),        //
       fill_patch(),          //
-      fill_slide(),
+      fill_slide(),          //
+      fill_rankine(),
   };
   return list;
 }
