@@ -4,11 +4,12 @@
 
 namespace voussoir {
 
-Generator cs1_generator();     // four-span road bridge, leaf and infill (S. Chiara)
-Generator cs2_generator();     // three-span road bridge, solid piers (Gresal)
-Generator arch_generator();    // one ring of voussoirs between fixed springings
-Generator wall_generator();    // running-bond wall of equal blocks
-Generator column_generator();  // stack of equal blocks
+Generator cs1_generator();          // four-span road bridge, leaf and infill (S. Chiara)
+Generator cs2_generator();          // three-span road bridge, solid piers (Gresal)
+Generator arch_generator();         // one ring of voussoirs between fixed springings
+Generator wall_generator();         // running-bond wall of equal blocks
+Generator column_generator();       // stack of equal blocks
+Generator filled_arch_generator();  // strip of an arch bridge with a deformable fill and a loading beam
 
 /// Materials of the case in the order of the generator's own list, so that indices are known to the generator.
 std::vector<Material> in_order(const std::vector<Material>& defaults, const GeneratorInput& input);

@@ -51,7 +51,7 @@ TEST(Generators, DefaultsAreWithinTheirRangesAndNamesAreUnique) {
       EXPECT_NE(table.find("| `" + p.name + "` |"), std::string::npos) << p.name;
     }
   }
-  for (const char* name : {"cs1", "cs2", "arch", "wall", "column"}) EXPECT_EQ(names.count(name), 1u) << name;
+  for (const char* name : {"cs1", "cs2", "arch", "wall", "column", "filled-arch"}) EXPECT_EQ(names.count(name), 1u) << name;
 }
 
 TEST(Generators, UnknownNameListsTheKnownOnes) {
@@ -59,7 +59,7 @@ TEST(Generators, UnknownNameListsTheKnownOnes) {
     find_generator("cs3");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("cs1, cs2, arch, wall, column"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("cs1, cs2, arch, wall, column, filled-arch"), std::string::npos) << error.what();
   }
 }
 

@@ -84,7 +84,7 @@ TEST(CommandLine, WrongOptionsAreRefused) {
 }
 
 TEST(CommandLine, KeysOfEachGeneratorAreListed) {
-  for (const char* name : {"cs1", "cs2", "arch", "wall", "column"}) {
+  for (const char* name : {"cs1", "cs2", "arch", "wall", "column", "filled-arch"}) {
     const Outcome outcome = voussoir({"generate", "--keys", name});
     EXPECT_EQ(outcome.status, 0) << name;
     EXPECT_NE(outcome.out.find("Pa/m"), std::string::npos) << outcome.out;

@@ -57,7 +57,8 @@ namespace {
 FillAim fill_aim(const Case& c) {
   const auto edge = c.generator_input.values.find("fill_edge");
   if (c.generator.empty() || edge == c.generator_input.values.end()) return {};
-  return {bridge_fill_space(c.generator_input), edge->second};
+  const bool bridge = c.generator_input.choices.contains("backfill");
+  return {bridge ? bridge_fill_space(c.generator_input) : 0.0, edge->second};
 }
 
 int generate(const std::vector<std::string>& arguments) {
