@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/modal/hinges.h"
 #include "solver/step/loads.h"
 #include "tools/voussoir/history_rows.h"
 
@@ -133,13 +134,26 @@ nlohmann::json collapse_json(const Simulation& run) {
   return json;
 }
 
+/// Where arches have turned open, in the end.
+nlohmann::json hinges_json(const Assembly& assembly, const Snapshot& snapshot) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const Hinge& hinge : find_hinges(assembly, snapshot))
+    json.push_back({{"a", hinge.a},
+                    {"b", hinge.b},
+                    {"edge", hinge.edge},
+                    {"place", {hinge.place.x(), hinge.place.y(), hinge.place.z()}},
+                    {"turn", hinge.turn}});
+  return json;
+}
+
 }  // namespace
 
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
   nlohmann::json json = {{"demand", demand_json(run.assembly(), history)},
                          {"sensors", sensors_json(run.assembly(), history)},
                          {"reactions", reactions_json(run.held_groups(), history)},
-                         {"damage", damage_json(run.assembly(), snapshot)}};
+                         {"damage", damage_json(run.assembly(), snapshot)},
+                         {"hinges", hinges_json(run.assembly(), snapshot)}};
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
   return json;
 }
