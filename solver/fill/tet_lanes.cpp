@@ -1,132 +1,12 @@
 // Eight tetrahedra at a time: volumes, stresses, nodal forces.
-#include "solver/fill/fill_pass.h"
+#include "solver/fill/tet_strain.h"
 
 namespace voussoir {
 
-namespace {
+namespace tet {
 
-using Vector = Triple<Lanes>;
-
-[[gnu::always_inline]] inline Quad load_quad(const double* from) {
-  Quad q;
-  std::memcpy(&q, from, sizeof(q));
-  return q;
-}
-
-/// Displacements of the four corners, and the fourth number of each.
-struct Nodes {
-  Vector u[4];
-  Lanes mean[4];
-};
-[[gnu::always_inline]] inline Nodes gather_nodes(const double* pose, const TetBatch& batch) {
-  Nodes n;
-  for (int k = 0; k < 4; k += 2) {
-    Lanes rows[lane_count];
-    for (int lane = 0; lane < lane_count; ++lane) {
-      const Quad a = load_quad(pose + node_width * std::size_t(batch.node[k][lane]));
-      const Quad b = load_quad(pose + node_width * std::size_t(batch.node[k + 1][lane]));
-      rows[lane] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-    }
-    transpose(rows);
-    n.u[k] = {rows[0], rows[1], rows[2]}, n.mean[k] = rows[3];
-    n.u[k + 1] = {rows[4], rows[5], rows[6]}, n.mean[k + 1] = rows[7];
-  }
-  return n;
-}
-
-[[gnu::always_inline]] inline void add_forces(const TetBatch& batch, const Vector (&f)[4], double* sums) {
-  const Lanes zero = splat(0.0);
-  for (int k = 0; k < 4; k += 2) {
-    Lanes rows[lane_count] = {f[k].x, f[k].y, f[k].z, zero, f[k + 1].x, f[k + 1].y, f[k + 1].z, zero};
-    transpose(rows);
-    for (int lane = 0; lane < batch.count; ++lane) {
-      double* a = sums + node_width * std::size_t(batch.sum[k][lane]);
-      double* b = sums + node_width * std::size_t(batch.sum[k + 1][lane]);
-      const Quad first = load_quad(a) + __builtin_shufflevector(rows[lane], rows[lane], 0, 1, 2, 3);
-      std::memcpy(a, &first, sizeof(first));
-      const Quad second = load_quad(b) + __builtin_shufflevector(rows[lane], rows[lane], 4, 5, 6, 7);
-      std::memcpy(b, &second, sizeof(second));
-    }
-  }
-}
-
-/// Displacement gradient H = F − 1.
-[[gnu::always_inline]] inline Tensor<Lanes> gradient(const TetBatch& batch, const Nodes& n) {
-  Tensor<Lanes> h;
-  const Vector d[3] = {n.u[1] - n.u[0], n.u[2] - n.u[0], n.u[3] - n.u[0]};
-  const Lanes* g = batch.gradient;
-  for (int c = 0; c < 3; ++c) {
-    h.m[0][c] = d[0].x * g[c] + d[1].x * g[3 + c] + d[2].x * g[6 + c];
-    h.m[1][c] = d[0].y * g[c] + d[1].y * g[3 + c] + d[2].y * g[6 + c];
-    h.m[2][c] = d[0].z * g[c] + d[1].z * g[3 + c] + d[2].z * g[6 + c];
-  }
-  return h;
-}
-
-/// det(1 + H) − 1 without cancellation.
-[[gnu::always_inline]] inline Lanes volume_change(const Tensor<Lanes>& h) {
-  const auto& m = h.m;
-  const Lanes a = m[1][1] * m[2][2] - m[1][2] * m[2][1], b = m[1][0] * m[2][2] - m[1][2] * m[2][0],
-              c = m[1][0] * m[2][1] - m[1][1] * m[2][0];
-  const Lanes second = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + a;
-  return m[0][0] + m[1][1] + m[2][2] + second + m[0][0] * a - m[0][1] * b + m[0][2] * c;
-}
-
-/// A tetrahedron that has all but lost its volume is kept from infinity; the report says where.
-constexpr double least_volume = 0.02;  // of the reference
-[[gnu::always_inline]] inline Lanes clipped(Lanes change) {
-  return larger(change, splat(least_volume - 1.0));
-}
-
-/// θ = ½ (J − 1/J), which is ln J to third order.
-[[gnu::always_inline]] inline Lanes volumetric(Lanes change) {
-  return 0.5 * change * (1.0 + 1.0 / (1.0 + change));
-}
-
-/// dev ½ ln b from b − 1, to fourth order in the elastic strain. The mean of b is divided out first.
-[[gnu::always_inline]] inline Symmetric<Lanes> elastic_deviator(const Symmetric<Lanes>& less_one) {
-  const Lanes sum = trace(less_one), scale = 3.0 / (3.0 + sum), mean = (1.0 / 3.0) * sum;
-  const Symmetric<Lanes> b = {scale * (less_one.xx - mean), scale * (less_one.yy - mean), scale * (less_one.zz - mean),
-                              scale * less_one.xy,          scale * less_one.xz,          scale * less_one.yz};
-  const Symmetric<Lanes> b2 = coaxial_product(b, b), b3 = coaxial_product(b2, b);
-  return deviator(splat(0.5) * b - splat(0.25) * b2 + splat(1.0 / 6.0) * b3);
-}
-
-struct Strain {
-  Tensor<Lanes> f, cofactor;
-  Lanes change;  // J − 1
-  Symmetric<Lanes> e;
-};
-
-[[gnu::always_inline]] inline Tensor<Lanes> cofactor(const Tensor<Lanes>& f) {
-  const auto& m = f.m;
-  const auto minor = [&](int r, int s, int c, int d) { return m[r][c] * m[s][d] - m[r][d] * m[s][c]; };
-  return {{{minor(1, 2, 1, 2), minor(1, 2, 2, 0), minor(1, 2, 0, 1)},
-           {minor(2, 0, 1, 2), minor(2, 0, 2, 0), minor(2, 0, 0, 1)},
-           {minor(0, 1, 1, 2), minor(0, 1, 2, 0), minor(0, 1, 0, 1)}}};
-}
-
-[[gnu::always_inline]] inline Strain strain_of(const TetBatch& batch, const Nodes& n, const Lanes* plastic) {
-  const Tensor<Lanes> h = gradient(batch, n);
-  Strain s;
-  s.change = clipped(volume_change(h));
-  s.f = h;
-  for (int i = 0; i < 3; ++i) s.f.m[i][i] += 1.0;
-  s.cofactor = cofactor(s.f);
-  // b − 1 = H + Hᵀ + H Hᵀ + F (Cp⁻¹ − 1) Fᵀ
-  const auto& m = h.m;
-  const auto rows = [&](int i, int j) { return m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]; };
-  const Symmetric<Lanes> total = {2.0 * m[0][0] + rows(0, 0),     2.0 * m[1][1] + rows(1, 1),
-                                  2.0 * m[2][2] + rows(2, 2),     m[0][1] + m[1][0] + rows(0, 1),
-                                  m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
-  const Symmetric<Lanes> memory = {plastic[0], plastic[1], plastic[2], plastic[3], plastic[4], plastic[5]};
-  s.e = elastic_deviator(total + push(s.f, memory));
-  return s;
-}
-
-/// Plastic flow of the lanes that need it. Returns what it dissipates, J/m3.
-[[gnu::noinline]] Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic,
-                             std::uint8_t* yield, Symmetric<Lanes>& e, Lanes& p) {
+Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
+           Symmetric<Lanes>& e, Lanes& p) {
   const Principal<Lanes> x = principal(e);
   Lanes trial[3], stress[3], region;
   for (int i = 0; i < 3; ++i) trial[i] = 2.0 * law.shear * x.value[i] + p;
@@ -167,6 +47,28 @@ struct Strain {
   work += p * dilates + law.bulk * (own - plastic[row_tension]) * opens;
   p = select(lanes, mean, p);
   return select(lanes, work, splat(0.0));
+}
+
+}  // namespace tet
+
+namespace {
+
+using namespace tet;
+
+[[gnu::always_inline]] inline void add_forces(const TetBatch& batch, const Vector (&f)[4], double* sums) {
+  const Lanes zero = splat(0.0);
+  for (int k = 0; k < 4; k += 2) {
+    Lanes rows[lane_count] = {f[k].x, f[k].y, f[k].z, zero, f[k + 1].x, f[k + 1].y, f[k + 1].z, zero};
+    transpose(rows);
+    for (int lane = 0; lane < batch.count; ++lane) {
+      double* a = sums + node_width * std::size_t(batch.sum[k][lane]);
+      double* b = sums + node_width * std::size_t(batch.sum[k + 1][lane]);
+      const Quad first = load_quad(a) + __builtin_shufflevector(rows[lane], rows[lane], 0, 1, 2, 3);
+      std::memcpy(a, &first, sizeof(first));
+      const Quad second = load_quad(b) + __builtin_shufflevector(rows[lane], rows[lane], 4, 5, 6, 7);
+      std::memcpy(b, &second, sizeof(second));
+    }
+  }
 }
 
 /// Puts `now` in the place of `last`; how much it has changed, of values rounded alike, so that changes add up.
@@ -278,8 +180,7 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
   const ElasticStrain trial = {s.e, mean - opened, own - opened};
 
   // 2. plastic flow
-  const double shear2 = 4.0 * law.shear * law.shear;
-  const LaneMask yields = ~surely_elastic(law, shear2 * inner(s.e, s.e), p);
+  const LaneMask yields = may_flow(law, s.e, p);
   for (int lane = 0; lane < lane_count; ++lane) yield[lane] &= std::uint8_t(~(yields_in_shear | yields_in_tension));
   if (any(yields)) {
     const Lanes lost = flow(law, s, yields, own, plastic, yield, s.e, p);
@@ -288,12 +189,9 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
       tile.report.yielding += (yield[lane] & (yields_in_shear | yields_in_tension)) != 0;
   }
 
-  // 3. first Piola–Kirchhoff stress: τ F⁻ᵀ, with τ = 2 μ e + p dθ/d ln J, and F S of the branches
-  const Lanes volume = 1.0 + s.change, by = 1.0 / volume;
-  const Lanes round = 0.5 * p * (volume + by);
-  const Symmetric<Lanes> dev = splat(2.0 * law.shear) * s.e;
-  const Lanes t[3][3] = {
-      {dev.xx + round, dev.xy, dev.xz}, {dev.xy, dev.yy + round, dev.yz}, {dev.xz, dev.yz, dev.zz + round}};
+  // 3. first Piola–Kirchhoff stress: τ F⁻ᵀ, and F S of the branches
+  const auto [tau, by] = kirchhoff(law, s, p);
+  const Lanes t[3][3] = {{tau.xx, tau.xy, tau.xz}, {tau.xy, tau.yy, tau.yz}, {tau.xz, tau.yz, tau.zz}};
   Tensor<Lanes> piola;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)

@@ -4,6 +4,7 @@
 
 #include "solver/contact/jump.h"
 #include "solver/contact/make_contact.h"
+#include "solver/fill/tet_stress.h"
 
 namespace voussoir {
 
@@ -122,6 +123,25 @@ void add_earlier_slip(const State& state, std::size_t contact, PatchSnapshot& s)
   if (!before.isZero(0.0)) s.slip = (before + slip_of(state, contact)).norm();
 }
 
+FillSnapshot fill_snapshot(const FillModel& fill, const FillMemory& memory) {
+  FillSnapshot s;
+  if (fill.empty()) return s;
+  for (const std::int32_t node : fill.node_of) {
+    const double* p = &memory.pose[node_width * std::size_t(node)];
+    const double* v = &memory.motion[node_width * std::size_t(node)];
+    s.displacement.emplace_back(p[0], p[1], p[2]);
+    s.velocity.emplace_back(v[0], v[1], v[2]);
+  }
+  const std::vector<std::array<double, 6>> stress = cauchy_stress(fill, memory);
+  for (std::size_t i = 0; i < fill.lane_of_tet.size(); ++i) {
+    const auto slot = std::size_t(fill.lane_of_tet[i]);
+    const double* plastic = &memory.plastic[plastic_index(slot / lane_count, 0) + slot % lane_count];
+    s.tets.push_back({stress[i], plastic[lane_count * row_shear],
+                      plastic[lane_count * row_dilation] + plastic[lane_count * row_tension], memory.yield[slot]});
+  }
+  return s;
+}
+
 }  // namespace
 
 Snapshot make_snapshot(const Model& model, const State& state) {
@@ -147,6 +167,7 @@ Snapshot make_snapshot(const Model& model, const State& state) {
     add_earlier_slip(state, i, s);
     snapshot.patches.push_back(std::move(s));
   }
+  snapshot.fill = fill_snapshot(model.fill, state.fill);
   return snapshot;
 }
 

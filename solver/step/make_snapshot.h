@@ -1,4 +1,4 @@
-// Snapshots: the state in the terms of files and pictures, blocks and joints in the assembly's order.
+// Snapshots: the state in the terms of files and pictures; blocks, joints and fill in the assembly's order.
 #pragma once
 #include "solver/model/state.h"
 #include "solver/step/snapshot.h"

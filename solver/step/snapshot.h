@@ -2,6 +2,7 @@
 // viz.
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,22 @@ struct PatchSnapshot {
       false;  // a joint that has slid or turned so far that a contact took its place, if the blocks still meet
 };
 
+/// A tetrahedron of the fill at present.
+struct TetSnapshot {
+  std::array<double, 6> stress = {};  // Pa, Cauchy: xx, yy, zz, xy, yz, xz; tension positive; without Maxwell branches
+  double plastic_shear = 0.0;         // Σ √(⅔ Δe : Δe) of the plastic deviators so far
+  double plastic_volume = 0.0;        // plastic volumetric strain: dilation and opening in tension
+  std::uint8_t yield = 0;             // TetYield bits (solver/fill/fill_memory.h)
+};
+
+/// The deformable fill, in the order of FillMesh; empty without one.
+struct FillSnapshot {
+  std::vector<Vec3> displacement;  // m, of each node since the assembly
+  std::vector<Vec3> velocity;      // m/s
+  std::vector<TetSnapshot> tets;
+  bool empty() const { return tets.empty(); }
+};
+
 struct Snapshot {
   double time = 0.0;                         // s since the start of the run
   Vec3 base_displacement = Vec3::Zero();     // m
@@ -32,6 +49,7 @@ struct Snapshot {
   std::vector<Eigen::Quaterniond> rotation;  // since the assembly
   std::vector<Vec3> velocity;                // m/s
   std::vector<PatchSnapshot> patches;
+  FillSnapshot fill;
 };
 
 }  // namespace voussoir

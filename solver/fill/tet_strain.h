@@ -1,0 +1,134 @@
+// Eight tetrahedra at a time: from the displacements of their corners to strain and stress, for the step and for what
+// is read off a state.
+#pragma once
+#include "solver/fill/fill_pass.h"
+
+namespace voussoir::tet {
+
+using Vector = Triple<Lanes>;
+
+[[gnu::always_inline]] inline Quad load_quad(const double* from) {
+  Quad q;
+  std::memcpy(&q, from, sizeof(q));
+  return q;
+}
+
+/// Displacements of the four corners, and the fourth number of each.
+struct Nodes {
+  Vector u[4];
+  Lanes mean[4];
+};
+[[gnu::always_inline]] inline Nodes gather_nodes(const double* pose, const TetBatch& batch) {
+  Nodes n;
+  for (int k = 0; k < 4; k += 2) {
+    Lanes rows[lane_count];
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const Quad a = load_quad(pose + node_width * std::size_t(batch.node[k][lane]));
+      const Quad b = load_quad(pose + node_width * std::size_t(batch.node[k + 1][lane]));
+      rows[lane] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+    transpose(rows);
+    n.u[k] = {rows[0], rows[1], rows[2]}, n.mean[k] = rows[3];
+    n.u[k + 1] = {rows[4], rows[5], rows[6]}, n.mean[k + 1] = rows[7];
+  }
+  return n;
+}
+
+/// Displacement gradient H = F − 1.
+[[gnu::always_inline]] inline Tensor<Lanes> gradient(const TetBatch& batch, const Nodes& n) {
+  Tensor<Lanes> h;
+  const Vector d[3] = {n.u[1] - n.u[0], n.u[2] - n.u[0], n.u[3] - n.u[0]};
+  const Lanes* g = batch.gradient;
+  for (int c = 0; c < 3; ++c) {
+    h.m[0][c] = d[0].x * g[c] + d[1].x * g[3 + c] + d[2].x * g[6 + c];
+    h.m[1][c] = d[0].y * g[c] + d[1].y * g[3 + c] + d[2].y * g[6 + c];
+    h.m[2][c] = d[0].z * g[c] + d[1].z * g[3 + c] + d[2].z * g[6 + c];
+  }
+  return h;
+}
+
+/// det(1 + H) − 1 without cancellation.
+[[gnu::always_inline]] inline Lanes volume_change(const Tensor<Lanes>& h) {
+  const auto& m = h.m;
+  const Lanes a = m[1][1] * m[2][2] - m[1][2] * m[2][1], b = m[1][0] * m[2][2] - m[1][2] * m[2][0],
+              c = m[1][0] * m[2][1] - m[1][1] * m[2][0];
+  const Lanes second = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + a;
+  return m[0][0] + m[1][1] + m[2][2] + second + m[0][0] * a - m[0][1] * b + m[0][2] * c;
+}
+
+/// A tetrahedron that has all but lost its volume is kept from infinity; the report says where.
+constexpr double least_volume = 0.02;  // of the reference
+[[gnu::always_inline]] inline Lanes clipped(Lanes change) {
+  return larger(change, splat(least_volume - 1.0));
+}
+
+/// θ = ½ (J − 1/J), which is ln J to third order.
+[[gnu::always_inline]] inline Lanes volumetric(Lanes change) {
+  return 0.5 * change * (1.0 + 1.0 / (1.0 + change));
+}
+
+/// dev ½ ln b from b − 1, to fourth order in the elastic strain. The mean of b is divided out first.
+[[gnu::always_inline]] inline Symmetric<Lanes> elastic_deviator(const Symmetric<Lanes>& less_one) {
+  const Lanes sum = trace(less_one), scale = 3.0 / (3.0 + sum), mean = (1.0 / 3.0) * sum;
+  const Symmetric<Lanes> b = {scale * (less_one.xx - mean), scale * (less_one.yy - mean), scale * (less_one.zz - mean),
+                              scale * less_one.xy,          scale * less_one.xz,          scale * less_one.yz};
+  const Symmetric<Lanes> b2 = coaxial_product(b, b), b3 = coaxial_product(b2, b);
+  return deviator(splat(0.5) * b - splat(0.25) * b2 + splat(1.0 / 6.0) * b3);
+}
+
+struct Strain {
+  Tensor<Lanes> f, cofactor;
+  Lanes change;  // J − 1
+  Symmetric<Lanes> e;
+};
+
+[[gnu::always_inline]] inline Tensor<Lanes> cofactor(const Tensor<Lanes>& f) {
+  const auto& m = f.m;
+  const auto minor = [&](int r, int s, int c, int d) { return m[r][c] * m[s][d] - m[r][d] * m[s][c]; };
+  return {{{minor(1, 2, 1, 2), minor(1, 2, 2, 0), minor(1, 2, 0, 1)},
+           {minor(2, 0, 1, 2), minor(2, 0, 2, 0), minor(2, 0, 0, 1)},
+           {minor(0, 1, 1, 2), minor(0, 1, 2, 0), minor(0, 1, 0, 1)}}};
+}
+
+[[gnu::always_inline]] inline Strain strain_of(const TetBatch& batch, const Nodes& n, const Lanes* plastic) {
+  const Tensor<Lanes> h = gradient(batch, n);
+  Strain s;
+  s.change = clipped(volume_change(h));
+  s.f = h;
+  for (int i = 0; i < 3; ++i) s.f.m[i][i] += 1.0;
+  s.cofactor = cofactor(s.f);
+  // b − 1 = H + Hᵀ + H Hᵀ + F (Cp⁻¹ − 1) Fᵀ
+  const auto& m = h.m;
+  const auto rows = [&](int i, int j) { return m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]; };
+  const Symmetric<Lanes> total = {2.0 * m[0][0] + rows(0, 0),     2.0 * m[1][1] + rows(1, 1),
+                                  2.0 * m[2][2] + rows(2, 2),     m[0][1] + m[1][0] + rows(0, 1),
+                                  m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
+  const Symmetric<Lanes> memory = {plastic[0], plastic[1], plastic[2], plastic[3], plastic[4], plastic[5]};
+  s.e = elastic_deviator(total + push(s.f, memory));
+  return s;
+}
+
+/// Whether the lanes may have to flow, with the elastic deviator `e` and the mean stress `p` (Pa).
+[[gnu::always_inline]] inline LaneMask may_flow(const FillLaw& law, const Symmetric<Lanes>& e, Lanes p) {
+  const double shear2 = 4.0 * law.shear * law.shear;
+  return ~surely_elastic(law, shear2 * inner(e, e), p);
+}
+
+/// Plastic flow of the lanes that need it: changes the plastic memory, the yield bits, the elastic deviator and the
+/// mean stress. Returns what it dissipates, J/m3.
+Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
+           Symmetric<Lanes>& e, Lanes& p);
+
+/// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa, and 1/J.
+struct Kirchhoff {
+  Symmetric<Lanes> stress;
+  Lanes by;
+};
+[[gnu::always_inline]] inline Kirchhoff kirchhoff(const FillLaw& law, const Strain& s, Lanes p) {
+  const Lanes volume = 1.0 + s.change, by = 1.0 / volume;
+  const Lanes round = 0.5 * p * (volume + by);
+  const Symmetric<Lanes> dev = splat(2.0 * law.shear) * s.e;
+  return {{dev.xx + round, dev.yy + round, dev.zz + round, dev.xy, dev.xz, dev.yz}, by};
+}
+
+}  // namespace voussoir::tet
