@@ -23,11 +23,11 @@ void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& co
   constexpr int steps = 200;
   for (int i = 0; i < steps; ++i)  // a hair wider than a step, so that no seams show
     overlay.rectangle(left + width * i / steps, bottom, width / steps + 0.6, height, scale_colour((i + 0.5) / steps));
-  const int ticks = scale_steps(colouring.top_mm);
+  const int ticks = scale_steps(colouring.top);
   for (int i = 0; i <= ticks; ++i) {
     const double x = left + width * i / ticks;
     overlay.line(x, bottom - 0.25 * s, x, bottom, 1.2);
-    const std::string value = fmt::format("{:.4g}", colouring.top_mm * i / ticks);
+    const std::string value = fmt::format("{:.4g}", colouring.top * i / ticks);
     overlay.text(x, bottom - 1.45 * s, (colouring.exceeded && i == ticks ? "≥ " : "") + value, 0.9 * s, Align::centre);
   }
   const double right = left + width, top = bottom + height;
@@ -40,15 +40,14 @@ void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& co
 
 void draw_legend(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {
   const double s = 0.95 * sheet.letter, gap = 1.3 * s;
-  const auto name = [](Component c) { return component_names()[std::size_t(c)]; };
   double total = -gap;
-  for (const Component c : colouring.components) total += 1.4 * s + Overlay::text_width(name(c), s) + gap;
+  for (const auto& [name, colour] : colouring.legend) total += 1.4 * s + Overlay::text_width(name, s) + gap;
   double x = 0.5 * (sheet.width - total);
-  for (const Component c : colouring.components) {
+  for (const auto& [name, colour] : colouring.legend) {
     overlay.rectangle(x - 1, 3.6 * s - 1, s + 2, s + 2, kInk);
-    overlay.rectangle(x, 3.6 * s, s, s, component_colour(c));
-    overlay.text(x + 1.4 * s, 3.5 * s, name(c), s);
-    x += 1.4 * s + Overlay::text_width(name(c), s) + gap;
+    overlay.rectangle(x, 3.6 * s, s, s, colour);
+    overlay.text(x + 1.4 * s, 3.5 * s, name, s);
+    x += 1.4 * s + Overlay::text_width(name, s) + gap;
   }
 }
 
@@ -119,7 +118,7 @@ void draw_annotation(Overlay& overlay, const Sheet& sheet, const View& view, con
   draw_axes(overlay, sheet, view);
   if (sheet.metres_per_pixel > 0.0) draw_length_scale(overlay, sheet, 7.5 * sheet.letter);
   if (!colouring.title.empty()) draw_colour_scale(overlay, sheet, colouring);
-  if (!colouring.components.empty()) draw_legend(overlay, sheet, colouring);
+  if (!colouring.legend.empty()) draw_legend(overlay, sheet, colouring);
   draw_words(overlay, sheet, words);
 }
 

@@ -25,7 +25,7 @@ struct Words {
   std::string time;    // "t = 12.50 s"
   std::string deform;  // "deformations × 2"
   std::string hidden;  // "hidden: backfill"; may be empty
-  std::string lines;  // what the lines mean that are drawn over the picture; empty: none drawn
+  std::string lines;   // what the lines mean that are drawn over the picture; empty: none drawn
   Colour line_colour = kCrack;
 };
 

@@ -1,7 +1,9 @@
 #include "viz/colouring.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
@@ -37,96 +39,184 @@ Colour varied(const Colour& colour, vtkIdType stone) {
 
 /// A round top of the scale. A few stones far beyond all others (fallen ones) do not set it: then it is cut at the 98th
 /// percentile of the values that are not zero.
-void set_top(Colouring& colouring, std::vector<double> values, double range_mm) {
+void set_top(Colouring& colouring, std::vector<double> values, double range) {
   std::erase_if(values, [](double v) { return !(v > 0.0); });
   std::sort(values.begin(), values.end());
   const double largest = values.empty() ? 0.0 : values.back();
-  double top = range_mm;
+  double top = range;
   if (top <= 0.0 && largest < 1e-6)
     top = 1.0;
   else if (top <= 0.0) {
     const double usual = values[std::size_t(0.98 * double(values.size() - 1))];
     top = nice_above(largest > 3.0 * usual ? usual : largest);
   }
-  colouring.top_mm = top;
+  colouring.top = top;
   colouring.exceeded = largest > top * (1 + 1e-9);
 }
 
-Colouring colour_by_cell(vtkPolyData* faces, const char* field, const char* title, double range_mm) {
+std::vector<double> cell_values(vtkPolyData* faces, const char* field, double factor, const char* what) {
   vtkDataArray* values = faces->GetCellData()->GetArray(field);
-  vtkDataArray* fixed = faces->GetCellData()->GetArray("fixed");
-  if (!values || !fixed)
-    throw InputError("pictures: the blocks have no field '{}'; give a file written by voussoir", field);
+  if (!values) throw InputError("pictures: the {} no field '{}'; give a file written by voussoir", what, field);
+  std::vector<double> scaled;
+  for (vtkIdType i = 0; i < faces->GetNumberOfPolys(); ++i) scaled.push_back(factor * values->GetComponent(i, 0));
+  return scaled;
+}
+
+/// Every face in the colour that `colour` gives for its number.
+template <class F>
+void paint_cells(vtkPolyData* faces, const F& colour) {
+  if (!faces) return;
   const vtkIdType n = faces->GetNumberOfPolys();
-  std::vector<double> mm;
-  for (vtkIdType i = 0; i < n; ++i) mm.push_back(fixed->GetComponent(i, 0) ? 0.0 : 1e3 * values->GetComponent(i, 0));
-  Colouring colouring{title, 0.0, false, {}};
-  set_top(colouring, mm, range_mm);
   auto colours = make_colours(n);
-  for (vtkIdType i = 0; i < n; ++i)
-    set_colour(colours, i, fixed->GetComponent(i, 0) ? kFixed : scale_colour(mm[i] / colouring.top_mm));
+  for (vtkIdType i = 0; i < n; ++i) set_colour(colours, i, colour(i));
   faces->GetCellData()->SetScalars(colours);
+}
+
+bool is_fixed(vtkPolyData* faces, vtkIdType i) {
+  vtkDataArray* fixed = faces->GetCellData()->GetArray("fixed");
+  return fixed && fixed->GetComponent(i, 0) != 0.0;
+}
+
+Colouring colour_by_cell(vtkPolyData* faces, const char* field, const char* title, double range) {
+  std::vector<double> mm = cell_values(faces, field, 1e3, "blocks have");
+  for (std::size_t i = 0; i < mm.size(); ++i)
+    if (is_fixed(faces, vtkIdType(i))) mm[i] = 0.0;
+  Colouring colouring{title, 0.0, false, {}};
+  set_top(colouring, mm, range);
+  paint_cells(faces, [&](vtkIdType i) {
+    return is_fixed(faces, i) ? kFixed : scale_colour(mm[std::size_t(i)] / colouring.top);
+  });
   return colouring;
 }
 
-Colouring colour_by_displacement(vtkPolyData* faces, double range_mm) {
-  vtkDataArray* displacement = faces->GetPointData()->GetArray("displacement_of_point");
-  const vtkIdType n = faces->GetNumberOfPoints();
+/// mm, of the points that belong to a face: a cut leaves others behind.
+std::vector<double> point_displacements(vtkPolyData* faces) {
   std::vector<double> mm;
-  for (vtkIdType i = 0; i < n; ++i) {
-    double d[3];
-    displacement->GetTuple(i, d);
-    mm.push_back(1e3 * std::hypot(d[0], d[1], d[2]));
+  if (!faces) return mm;
+  vtkDataArray* displacement = faces->GetPointData()->GetArray("displacement_of_point");
+  mm.assign(std::size_t(faces->GetNumberOfPoints()), 0.0);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
+    faces->GetPolys()->GetCellAtId(c, corners);
+    for (const vtkIdType i : *corners.GetPointer()) {
+      double d[3];
+      displacement->GetTuple(i, d);
+      mm[std::size_t(i)] = 1e3 * std::hypot(d[0], d[1], d[2]);
+    }
+  }
+  return mm;
+}
+
+Colouring colour_by_displacement(vtkPolyData* stones, vtkPolyData* fill, double range) {
+  std::vector<double> all;
+  for (vtkPolyData* faces : {stones, fill}) {
+    const std::vector<double> mm = point_displacements(faces);
+    all.insert(all.end(), mm.begin(), mm.end());
   }
   Colouring colouring{"displacement relative to the base (mm)", 0.0, false, {}};
-  set_top(colouring, mm, range_mm);
-  auto colours = make_colours(n);
-  for (vtkIdType i = 0; i < n; ++i) set_colour(colours, i, scale_colour(mm[i] / colouring.top_mm));
-  faces->GetPointData()->SetScalars(colours);
+  set_top(colouring, all, range);
+  for (vtkPolyData* faces : {stones, fill}) {
+    if (!faces) continue;
+    const std::vector<double> mm = point_displacements(faces);
+    auto colours = make_colours(vtkIdType(mm.size()));
+    for (std::size_t i = 0; i < mm.size(); ++i) set_colour(colours, vtkIdType(i), scale_colour(mm[i] / colouring.top));
+    faces->GetPointData()->SetScalars(colours);
+  }
   return colouring;
 }
 
 /// Shares of the largest displacement.
-Colouring colour_by_mode(vtkPolyData* faces) {
-  vtkDataArray* displacement = faces->GetPointData()->GetArray("displacement_of_point");
-  double range[2];
-  displacement->GetRange(range, -1);
+Colouring colour_by_mode(vtkPolyData* stones, vtkPolyData* fill) {
+  double largest = 0.0;
+  for (vtkPolyData* faces : {stones, fill})
+    for (const double mm : point_displacements(faces)) largest = std::max(largest, mm);
   // A scale of "mm" whose top is 1: the numbers at its ticks are shares.
-  Colouring colouring = colour_by_displacement(faces, range[1] > 0.0 ? 1e3 * range[1] : 1.0);
+  Colouring colouring = colour_by_displacement(stones, fill, largest > 0.0 ? largest : 1.0);
   colouring.title = "displacement, share of the largest";
-  colouring.top_mm = 1.0;
+  colouring.top = 1.0;
   return colouring;
 }
 
 /// By component, or all in the tone of stone.
-Colouring colour_plainly(vtkPolyData* faces, bool by_component) {
-  vtkDataArray* component = faces->GetCellData()->GetArray("component");
-  vtkDataArray* fixed = faces->GetCellData()->GetArray("fixed");
-  vtkDataArray* block = faces->GetCellData()->GetArray("block");
-  const vtkIdType n = faces->GetNumberOfPolys();
-  auto colours = make_colours(n);
+Colouring colour_plainly(vtkPolyData* stones, vtkPolyData* fill, bool by_component) {
+  vtkDataArray* component = stones->GetCellData()->GetArray("component");
+  vtkDataArray* block = stones->GetCellData()->GetArray("block");
   std::set<Component> seen;
-  for (vtkIdType i = 0; i < n; ++i) {
+  paint_cells(stones, [&](vtkIdType i) {
     const auto which = Component(int(component->GetComponent(i, 0)));
     seen.insert(which);
-    const bool grey = fixed && fixed->GetComponent(i, 0) != 0.0;
-    const Colour tone = by_component ? component_colour(which) : grey ? kFixed : kStone;
-    set_colour(colours, i, varied(tone, block ? vtkIdType(block->GetComponent(i, 0)) : i));
-  }
-  faces->GetCellData()->SetScalars(colours);
-  if (!by_component) seen.clear();
-  return {"", 0.0, false, {seen.begin(), seen.end()}};
+    const Colour tone = by_component ? component_colour(which) : is_fixed(stones, i) ? kFixed : kStone;
+    return varied(tone, block ? vtkIdType(block->GetComponent(i, 0)) : i);
+  });
+  paint_cells(fill, [](vtkIdType) { return component_colour(Component::backfill); });
+  if (fill) seen.insert(Component::backfill);
+  Colouring colouring;
+  if (by_component)
+    for (const Component c : seen)
+      colouring.legend.emplace_back(component_names()[std::size_t(c)], component_colour(c));
+  return colouring;
+}
+
+/// Stones beside a fill that is coloured: they take part in nothing that the colours say.
+void colour_aside(vtkPolyData* stones) {
+  paint_cells(stones, [&](vtkIdType i) { return is_fixed(stones, i) ? kFixed : kAside; });
+}
+
+Colouring colour_by_plastic_strain(vtkPolyData* stones, vtkPolyData* fill, double range) {
+  colour_aside(stones);
+  const std::vector<double> percent = cell_values(fill, "plastic_shear_strain", 100.0, "fill has");
+  Colouring colouring{"plastic shear strain of the fill (%)", 0.0, false, {}};
+  set_top(colouring, percent, range);
+  paint_cells(fill, [&](vtkIdType i) { return scale_colour(percent[std::size_t(i)] / colouring.top); });
+  return colouring;
+}
+
+/// Where it yields in shear and in tension at once it counts as the latter, which opens it.
+Colouring colour_by_yield(vtkPolyData* stones, vtkPolyData* fill) {
+  constexpr int tension = 2;
+  colour_aside(stones);
+  const std::vector<double> now = cell_values(fill, "yields_now", 1.0, "fill has"),
+                            ever = cell_values(fill, "has_yielded", 1.0, "fill has");
+  Colouring colouring;
+  colouring.legend = {{"fill: elastic", kElastic},
+                      {"has yielded", kYielded},
+                      {"yields in shear", kYieldsInShear},
+                      {"yields in tension", kYieldsInTension}};
+  paint_cells(fill, [&](vtkIdType i) {
+    const int bits = int(now[std::size_t(i)]);
+    if (bits & tension) return kYieldsInTension;
+    return bits ? kYieldsInShear : ever[std::size_t(i)] > 0.0 ? kYielded : kElastic;
+  });
+  return colouring;
 }
 
 }  // namespace
 
-Colouring colour_faces(vtkPolyData* faces, const std::string& by, double range_mm) {
-  if (by == "opening") return colour_by_cell(faces, "max_joint_opening", "largest joint opening (mm)", range_mm);
-  if (by == "slip") return colour_by_cell(faces, "max_joint_slip", "largest joint slip (mm)", range_mm);
-  if (by == "displacement") return colour_by_displacement(faces, range_mm);
-  if (by == "mode") return colour_by_mode(faces);
-  if (by == "component" || by == "stone") return colour_plainly(faces, by == "component");
-  throw InputError("pictures: cannot colour by '{}'; give opening, slip, displacement, mode, component or stone", by);
+bool colours_fill(const std::string& by) {
+  return by == "plastic" || by == "yield";
+}
+
+Colouring colour_faces(vtkPolyData* stones, vtkPolyData* fill, const std::string& by, double range) {
+  if (colours_fill(by) && !fill)
+    throw InputError(
+        "pictures: to colour by {} takes a deformable fill, and there is none to be seen: if there is one, it is "
+        "hidden "
+        "(give --hide none) or cut away; else colour by opening, slip or displacement",
+        by);
+  if (by == "plastic") return colour_by_plastic_strain(stones, fill, range);
+  if (by == "yield") return colour_by_yield(stones, fill);
+  if (by == "displacement") return colour_by_displacement(stones, fill, range);
+  if (by == "mode") return colour_by_mode(stones, fill);
+  if (by == "component" || by == "stone") return colour_plainly(stones, fill, by == "component");
+  if (by == "opening" || by == "slip") {
+    paint_cells(fill, [](vtkIdType) { return component_colour(Component::backfill); });
+    return by == "opening" ? colour_by_cell(stones, "max_joint_opening", "largest joint opening (mm)", range)
+                           : colour_by_cell(stones, "max_joint_slip", "largest joint slip (mm)", range);
+  }
+  throw InputError(
+      "pictures: cannot colour by '{}'; give opening, slip, displacement, mode, component or stone, or of a deformable "
+      "fill plastic or yield",
+      by);
 }
 
 }  // namespace voussoir

@@ -21,6 +21,11 @@ constexpr Colour kFixed = {0.78, 0.78, 0.78};    // stones that move with the gr
 constexpr Colour kInk = {0.12, 0.12, 0.14};      // text
 constexpr Colour kOutline = {0.22, 0.20, 0.18};  // edges of stones
 constexpr Colour kFaint = {0.55, 0.68, 0.85};    // what was before
+constexpr Colour kAside = {0.90, 0.90, 0.91};    // stones beside a fill that is coloured
+constexpr Colour kElastic = {0.91, 0.875, 0.80};
+constexpr Colour kYielded = {0.60, 0.78, 0.92};  // what follows from Okabe & Ito (2008)
+constexpr Colour kYieldsInShear = {0.835, 0.369, 0.0};
+constexpr Colour kYieldsInTension = {0.0, 0.32, 0.55};
 constexpr Colour kCrack = {0.80, 0.08, 0.08};
 
 /// Colour of a share 0…1 of the scale: from undamaged stone into viridis (van der Walt & Smith 2015), run from its

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "io/vtk/files.h"
@@ -28,7 +29,9 @@
 namespace voussoir {
 namespace {
 
-/// Stones: matt, flat-shaded.
+constexpr const char* kFillName = "backfill";
+
+/// Stones and fill: matt, flat-shaded.
 void add_faces(vtkRenderer* renderer, vtkPolyData* faces) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(faces);
@@ -105,7 +108,7 @@ void add_lights(vtkRenderer* renderer, const View& view) {
 /// What the picture is fitted to: all but the stones that are farther off the undeformed whole than a share of its
 /// size. One that fell off and is still falling would make a dot of the bridge.
 struct Content {
-  vtkSmartPointer<vtkPoints> points = vtkSmartPointer<vtkPoints>::New();
+  vtkNew<vtkPoints> points;
   std::set<vtkIdType> gone;  // blocks
 };
 
@@ -115,30 +118,34 @@ double diagonal(vtkPoints* points) {
   return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
 }
 
-Content content_of(vtkPolyData* faces, vtkPolyData* undeformed) {
+/// Adds the points of faces that are not too far off; `undeformed` is the box of what is at rest.
+void add_content(Content& content, vtkPolyData* faces, const Box& undeformed) {
   constexpr double far = 0.3;
   vtkDataArray* block = faces->GetCellData()->GetArray("block");
-  const double reach = far * diagonal(undeformed->GetPoints());
-  double box[6];
-  undeformed->GetPoints()->GetBounds(box);
-  Content content;
-  content.points->SetDataTypeToDouble();
+  const Vec3 reach = Vec3::Constant(far * (undeformed.high - undeformed.low).norm());
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
     faces->GetPolys()->GetCellAtId(c, corners);
-    for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
-      const double* p = faces->GetPoint(corners->GetId(k));
-      bool off = false;
-      for (int axis = 0; axis < 3; ++axis)
-        off |= p[axis] < box[2 * axis] - reach || p[axis] > box[2 * axis + 1] + reach;
-      if (off)
-        content.gone.insert(block ? vtkIdType(block->GetComponent(c, 0)) : c);
-      else
-        content.points->InsertNextPoint(faces->GetPoint(corners->GetId(k)));
+    for (const vtkIdType i : *corners.GetPointer()) {
+      const Vec3 p(faces->GetPoint(i));
+      if (((p - undeformed.low + reach).array() >= 0.0).all() && ((undeformed.high + reach - p).array() >= 0.0).all())
+        content.points->InsertNextPoint(p.data());
+      else if (block)
+        content.gone.insert(vtkIdType(block->GetComponent(c, 0)));
     }
   }
-  if (content.points->GetNumberOfPoints() == 0) content.points->DeepCopy(undeformed->GetPoints());
-  return content;
+}
+
+/// Of the points that belong to a face.
+void widen(Box& box, vtkPolyData* faces) {
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
+    faces->GetPolys()->GetCellAtId(c, corners);
+    for (const vtkIdType i : *corners.GetPointer()) {
+      const Vec3 p(faces->GetPoint(i));
+      box.low = box.low.cwiseMin(p), box.high = box.high.cwiseMax(p);
+    }
+  }
 }
 
 bool has_component(vtkDataArray* component, const std::string& name) {
@@ -147,9 +154,11 @@ bool has_component(vtkDataArray* component, const std::string& name) {
   return false;
 }
 
-Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool cracks, std::size_t gone) {
+Words words_of(const PictureGrids& grids, const RenderOptions& options, const std::optional<CutPlane>& cut, bool cracks,
+               std::size_t gone) {
   Words words;
   words.title = options.title;
+  vtkUnstructuredGrid* blocks = grids.blocks;
   if (vtkDataArray* time = blocks->GetFieldData()->GetArray("TimeValue"))
     words.time = fmt::format("t = {:.2f} s", time->GetComponent(0, 0));
   words.deform = options.amplification == 0.0   ? "undeformed"
@@ -159,8 +168,9 @@ Words words_of(vtkUnstructuredGrid* blocks, const RenderOptions& options, bool c
   std::vector<std::string> left_out;  // only what there is to hide
   if (vtkDataArray* component = blocks->GetCellData()->GetArray("component"))
     for (const std::string& name : options.hide)
-      if (has_component(component, name)) left_out.push_back(name);
+      if (has_component(component, name) || (grids.fill && name == kFillName)) left_out.push_back(name);
   if (!left_out.empty()) words.hidden = fmt::format("hidden: {}", fmt::join(left_out, ", "));
+  if (cut) words.hidden += (words.hidden.empty() ? "" : "; ") + cut->words();
   if (gone > 0)
     words.hidden +=
         fmt::format("{}{} {} far off", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
@@ -187,67 +197,112 @@ void place_camera(vtkRenderer* renderer, const View& view, vtkPoints* points, Sh
   if (!view.perspective) sheet.metres_per_pixel = 2.0 * renderer->GetActiveCamera()->GetParallelScale() / sheet.height;
 }
 
-void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden, const RenderOptions& options,
-                double lift) {
+void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden, const std::optional<CutPlane>& cut,
+                const RenderOptions& options, double lift) {
   CrackRule rule;
   rule.opening = rule.slip = 1e-3 * options.crack_mm;
   // After an earthquake most bonds are lost somewhere; what one would see is what has moved.
   if (options.crack_mm > 0.0) rule.bonded = 0.0;
-  const auto cracks = crack_patches(joints, hidden, options.amplification, rule);
+  const auto cracks = crack_patches(joints, hidden, options.amplification, rule, cut);
   if (cracks->GetNumberOfPolys() == 0) return;
   add_crack_faces(renderer, cracks);
   add_lines(renderer, borders(cracks), 2.2, kCrack, lift);
 }
 
 /// Thinner lines for more stones, so that a whole bridge does not turn black.
-double outline_width(vtkPolyData* faces) {
-  return std::clamp(0.9 * std::pow(3000.0 / double(faces->GetNumberOfPolys()), 0.2), 0.5, 0.9);
+double outline_width(vtkIdType faces) {
+  return std::clamp(0.9 * std::pow(3000.0 / double(faces), 0.2), 0.5, 0.9);
+}
+
+/// Visible faces.
+struct Shapes {
+  vtkSmartPointer<vtkPolyData> stones;
+  vtkSmartPointer<vtkPolyData> fill;  // null: none to be seen
+  vtkIdType faces() const { return stones->GetNumberOfPolys() + (fill ? fill->GetNumberOfPolys() : 0); }
+};
+
+Shapes shapes(const PictureGrids& grids, const Hidden& hidden, double amplification,
+              const std::optional<CutPlane>& cut) {
+  Shapes s{deformed_faces(grids.blocks, hidden, amplification, cut), nullptr};
+  if (!grids.fill) return s;
+  s.fill = deformed_faces(grids.fill, hidden, amplification, cut);
+  if (s.fill->GetNumberOfPolys() == 0) s.fill = nullptr;
+  return s;
+}
+
+/// As built.
+Box visible_box(const PictureGrids& grids, const Hidden& hidden) {
+  const Shapes whole = shapes(grids, hidden, 0.0, {});
+  Box box;
+  widen(box, whole.stones);
+  if (whole.fill) widen(box, whole.fill);
+  return box;
+}
+
+/// `outline`: that of what is at rest is drawn too.
+Content content_of(const Shapes& now, const Shapes& rest, bool outline) {
+  Box box;
+  Content content;
+  content.points->SetDataTypeToDouble();
+  for (vtkPolyData* faces : {rest.stones.Get(), rest.fill.Get()})
+    if (faces) widen(box, faces);
+  for (vtkPolyData* faces : {now.stones.Get(), now.fill.Get()})
+    if (faces) add_content(content, faces, box);
+  if (!outline && content.points->GetNumberOfPoints() > 0) return content;
+  for (vtkPolyData* faces : {rest.stones.Get(), rest.fill.Get()})
+    if (faces) add_content(content, faces, box);
+  return content;
 }
 
 }  // namespace
 
 void check_options(const RenderOptions& options) {
   if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
-  if (!(options.range_mm >= 0.0))
-    throw InputError("pictures: the range of the colour scale is {} mm; give 0 or more", options.range_mm);
+  if (!(options.range >= 0.0))
+    throw InputError("pictures: the range of the colour scale is {}; give 0 or more", options.range);
   if (options.width < 200 || (options.height != 0 && options.height < 150))
     throw InputError("pictures: {} × {} pixels is too small; give at least 200 × 150 (height 0: as needed)",
                      options.width, options.height);
 }
 
-void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const RenderOptions& options,
-                    const std::string& png) {
+std::vector<std::string> usually_hidden(const std::string& colour) {
+  if (colours_fill(colour)) return {};
+  return {kFillName};
+}
+
+void render_picture(const PictureGrids& grids, const RenderOptions& options, const std::string& png) {
   check_options(options);
   const View view = find_view(options.view);
   const Hidden hidden(options.hide);
-  const auto faces = deformed_faces(blocks, hidden, options.amplification);
-  if (faces->GetNumberOfPolys() == 0)
+  const std::optional<CutPlane> cut = find_cut(options.cut, view, visible_box(grids, hidden));
+  const Shapes now = shapes(grids, hidden, options.amplification, cut);
+  if (now.faces() == 0)
     throw InputError("pictures: nothing is left to draw; hide fewer components than {}", fmt::join(options.hide, ", "));
-  Colouring colouring = colour_faces(faces, options.colour, options.range_mm);
+  Colouring colouring = colour_faces(now.stones, now.fill, options.colour, options.range);
   if (!options.scale_title.empty()) colouring.title = options.scale_title;
-  const bool cracks = options.cracks && joints;
+  const bool cracks = options.cracks && grids.joints;
 
   const Display display;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  const auto undeformed = deformed_faces(blocks, hidden, 0.0);
-  const Content content = content_of(faces, undeformed);
-  vtkPoints* points = content.points;
-  if (options.outline)
-    for (vtkIdType i = 0; i < undeformed->GetNumberOfPoints(); ++i) points->InsertNextPoint(undeformed->GetPoint(i));
-  Sheet sheet = make_sheet(options, view, points);
-  place_camera(renderer, view, points, sheet);
+  const Shapes rest = shapes(grids, hidden, 0.0, cut);
+  const Content content = content_of(now, rest, options.outline);
+  Sheet sheet = make_sheet(options, view, content.points);
+  place_camera(renderer, view, content.points, sheet);
   add_lights(renderer, view);
-  const double lift = 1e-3 * diagonal(points);
-  add_faces(renderer, faces);
-  add_lines(renderer, outlines(faces), outline_width(faces), kOutline, lift);
-  if (options.undeformed) add_lines(renderer, outlines(undeformed), 0.8, kFaint, -lift);
-  if (options.outline && joints) add_lines(renderer, outer_outline(undeformed, joints), 1.6, kInk, -lift);
-  if (cracks) add_cracks(renderer, joints, hidden, options, 2.0 * lift);
+  const double lift = 1e-3 * diagonal(content.points);
+  for (vtkPolyData* faces : {now.stones.Get(), now.fill.Get()}) {
+    if (!faces) continue;
+    add_faces(renderer, faces);
+    add_lines(renderer, outlines(faces), outline_width(now.faces()), kOutline, lift);
+  }
+  if (options.undeformed) add_lines(renderer, outlines(rest.stones), 0.8, kFaint, -lift);
+  if (options.outline && grids.joints) add_lines(renderer, outer_outline(rest.stones, grids.joints), 1.6, kInk, -lift);
+  if (cracks) add_cracks(renderer, grids.joints, hidden, cut, options, 2.0 * lift);
   renderer->ResetCameraClippingRange();
 
   Overlay overlay(renderer);
-  draw_annotation(overlay, sheet, view, colouring, words_of(blocks, options, cracks, content.gone.size()));
+  draw_annotation(overlay, sheet, view, colouring, words_of(grids, options, cut, cracks, content.gone.size()));
   const auto window = offscreen_window(sheet.width, sheet.height);
   window->AddRenderer(renderer);
   write_png(window, png);
@@ -255,14 +310,17 @@ void render_picture(vtkUnstructuredGrid* blocks, vtkPolyData* joints, const Rend
 
 void render_picture(const Assembly& assembly, const Snapshot& snapshot, const RenderOptions& options,
                     const std::string& png) {
-  render_picture(block_grid(assembly, snapshot), joint_polydata(assembly, snapshot), options, png);
+  const auto blocks = block_grid(assembly, snapshot);
+  const auto joints = joint_polydata(assembly, snapshot);
+  const auto fill = snapshot.fill.empty() ? nullptr : fill_grid(assembly, snapshot);
+  render_picture(PictureGrids{blocks, joints, fill}, options, png);
 }
 
-void render_picture(const std::string& vtu, const std::string& vtp, const RenderOptions& options,
-                    const std::string& png) {
-  const auto blocks = read_vtu(vtu);
-  const auto joints = vtp.empty() ? nullptr : read_vtp(vtp);
-  render_picture(blocks, joints, options, png);
+void render_picture(const PictureFiles& files, const RenderOptions& options, const std::string& png) {
+  const auto blocks = read_vtu(files.blocks);
+  const auto joints = files.joints.empty() ? nullptr : read_vtp(files.joints);
+  const auto fill = files.fill.empty() ? nullptr : read_vtu(files.fill);
+  render_picture(PictureGrids{blocks, joints, fill}, options, png);
 }
 
 }  // namespace voussoir

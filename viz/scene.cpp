@@ -4,14 +4,13 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkFeatureEdges.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 
 #include <algorithm>
+#include <set>
 
 #include "solver/base/error.h"
 
@@ -30,41 +29,54 @@ vtkDataArray* required(vtkDataSetAttributes* data, const char* name, const char*
   return array;
 }
 
-Vec3 base_displacement(vtkDataObject* data) {
-  Vec3 base = Vec3::Zero();
-  if (vtkDataArray* array = data->GetFieldData()->GetArray("base_displacement")) array->GetTuple(0, base.data());
-  return base;
-}
-
-/// reference + amplification × displacement, where the stored points are reference + displacement + base.
-vtkSmartPointer<vtkPoints> amplified_points(vtkPointSet* data, double amplification, const char* what) {
-  vtkDataArray* displacement = required(data->GetPointData(), "displacement_of_point", what);
-  const Vec3 base = base_displacement(data);
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  const vtkIdType n = data->GetNumberOfPoints();
-  points->SetNumberOfPoints(n);
-  for (vtkIdType i = 0; i < n; ++i) {
-    Vec3 x, d;
-    data->GetPoint(i, x.data());
-    displacement->GetTuple(i, d.data());
-    points->SetPoint(i, Vec3(x - base + (amplification - 1.0) * d).data());
+/// Polygons of a grid's cells, with the cell they come from.
+struct Faces {
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkIdList> origin;
+  void add(const Loop& loop, vtkIdType cell) {
+    polygons->InsertNextCell(vtkIdType(loop.size()), loop.data());
+    origin->InsertNextId(cell);
   }
-  return points;
-}
+};
 
-/// A poly data with the given points and polygons, and the cell data of `from` for the cells listed in `origin`.
-vtkSmartPointer<vtkPolyData> polygons_of(vtkDataSet* from, vtkPoints* points, vtkCellArray* polygons,
-                                         vtkIdList* origin) {
+/// A poly data with these points and polygons, and the cell data of the cells they come from.
+vtkSmartPointer<vtkPolyData> polygons_of(vtkDataSet* from, const Places& places, double amplification,
+                                         const Faces& faces) {
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetPolys(polygons);
-  data->GetPointData()->ShallowCopy(from->GetPointData());
-  data->GetCellData()->CopyAllocate(from->GetCellData(), origin->GetNumberOfIds());
-  for (vtkIdType i = 0; i < origin->GetNumberOfIds(); ++i)
-    data->GetCellData()->CopyData(from->GetCellData(), origin->GetId(i), i);
+  data->SetPoints(places.amplified(amplification));
+  data->SetPolys(faces.polygons);
+  data->GetPointData()->AddArray(places.displacements());
+  data->GetCellData()->CopyAllocate(from->GetCellData(), faces.origin->GetNumberOfIds());
+  for (vtkIdType i = 0; i < faces.origin->GetNumberOfIds(); ++i)
+    data->GetCellData()->CopyData(from->GetCellData(), faces.origin->GetId(i), i);
   data->GetFieldData()->ShallowCopy(from->GetFieldData());
   return data;
+}
+
+Loop loop_of(vtkIdList* ids) {
+  return {ids->begin(), ids->end()};
+}
+
+std::vector<Loop> faces_of(vtkCell* cell) {
+  std::vector<Loop> faces;
+  for (int f = 0; f < cell->GetNumberOfFaces(); ++f) faces.push_back(loop_of(cell->GetFace(f)->GetPointIds()));
+  return faces;
+}
+
+Loop sorted(Loop loop) {
+  std::sort(loop.begin(), loop.end());
+  return loop;
+}
+
+/// The triangles that belong to one tetrahedron only, by their sorted corners.
+std::set<Loop> outer_triangles(vtkUnstructuredGrid* grid) {
+  std::set<Loop> outer;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+    if (grid->GetCellType(c) != VTK_TETRA) continue;
+    for (const Loop& face : faces_of(grid->GetCell(c)))
+      if (const auto [at, fresh] = outer.insert(sorted(face)); !fresh) outer.erase(at);
+  }
+  return outer;
 }
 
 }  // namespace
@@ -79,20 +91,26 @@ Hidden::Hidden(const std::vector<std::string>& names) : hidden_(component_names(
   }
 }
 
-vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hidden& hidden, double amplification) {
+vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hidden& hidden, double amplification,
+                                            const std::optional<CutPlane>& cut) {
   vtkDataArray* component = required(grid->GetCellData(), "component", "blocks");
-  const auto points = amplified_points(grid, amplification, "blocks");
-  vtkNew<vtkCellArray> polygons;
-  vtkNew<vtkIdList> origin;
+  const std::set<Loop> outer = outer_triangles(grid);
+  Places places(grid, "blocks");
+  Faces faces;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
     if (hidden(int(component->GetComponent(c, 0)))) continue;
-    vtkCell* cell = grid->GetCell(c);
-    for (int f = 0; f < cell->GetNumberOfFaces(); ++f) {
-      polygons->InsertNextCell(cell->GetFace(f)->GetPointIds());
-      origin->InsertNextId(c);
+    std::vector<Loop> loops = faces_of(grid->GetCell(c));
+    std::vector<bool> seen(loops.size(), true);
+    if (grid->GetCellType(c) == VTK_TETRA)
+      for (std::size_t f = 0; f < loops.size(); ++f) seen[f] = outer.contains(sorted(loops[f]));
+    if (cut) {
+      for (const Loop& loop : cut_body(loops, seen, places, *cut)) faces.add(loop, c);
+      continue;
     }
+    for (std::size_t f = 0; f < loops.size(); ++f)
+      if (seen[f]) faces.add(loops[f], c);
   }
-  return polygons_of(grid, points, polygons, origin);
+  return polygons_of(grid, places, amplification, faces);
 }
 
 vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces) {
@@ -109,14 +127,14 @@ vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces) {
 }
 
 vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hidden, double amplification,
-                                           const CrackRule& rule) {
-  const auto points = amplified_points(joints, amplification, "joints");
+                                           const CrackRule& rule, const std::optional<CutPlane>& cut) {
+  Places places(joints, "joints");
   const auto field = [&](const char* name) { return required(joints->GetCellData(), name, "joints"); };
   vtkDataArray *opening = field("largest_opening"), *slip = field("largest_slip"), *bonded = field("bonded");
   vtkDataArray *had_bond = field("had_bond"), *a = field("component_a"), *b = field("component_b");
   vtkDataArray* replaced = joints->GetCellData()->GetArray("replaced");  // its polygon lies where nothing is any more
-  vtkNew<vtkCellArray> polygons;
-  vtkNew<vtkIdList> origin, corners;
+  Faces faces;
+  vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < joints->GetNumberOfPolys(); ++c) {
     if (replaced && replaced->GetComponent(c, 0) != 0.0) continue;
     if (hidden(int(a->GetComponent(c, 0))) || hidden(int(b->GetComponent(c, 0)))) continue;
@@ -124,10 +142,12 @@ vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hi
     const bool moved = opening->GetComponent(c, 0) > rule.opening || slip->GetComponent(c, 0) > rule.slip;
     if (!lost && !moved) continue;
     joints->GetCellPoints(c, corners);
-    polygons->InsertNextCell(corners);
-    origin->InsertNextId(c);
+    Loop loop = loop_of(corners);
+    if (cut && in_plane(loop, places, *cut)) continue;  // it would cover the section
+    if (cut) loop = cut_polygon(loop, places, *cut, nullptr);
+    if (loop.size() >= 3) faces.add(loop, c);
   }
-  return polygons_of(joints, points, polygons, origin);
+  return polygons_of(joints, places, amplification, faces);
 }
 
 vtkSmartPointer<vtkPolyData> borders(vtkPolyData* polygons) {

@@ -1,5 +1,5 @@
-// The shapes of a picture, made from the stored grids: deformed faces and outlines of the visible stones, and the
-// cracks.
+// The shapes of a picture, made from the stored grids: deformed faces and outlines of the visible stones and of the
+// fill, and the cracks.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/assembly.h"
+#include "viz/cut.h"
 
 namespace voussoir {
 
@@ -23,9 +24,12 @@ class Hidden {
   std::vector<bool> hidden_;
 };
 
-/// Faces of the visible stones, moved to reference + amplification × displacement relative to the base. Points of one
-/// stone are shared by its faces. Cell data: the grid's, taken over face by face; point data: displacement_of_point.
-vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hidden& hidden, double amplification);
+/// Faces of the visible stones, or of a fill those that no two tetrahedra share, moved to reference + amplification ×
+/// displacement relative to the base. Points of one stone, and of the fill, are shared by its faces. What lies before
+/// the cut is left out and the section through each stone and tetrahedron is a face of its own. Cell data: the grid's,
+/// taken over face by face; point data: displacement_of_point. Throws InputError for a grid without these fields.
+vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hidden& hidden, double amplification,
+                                            const std::optional<CutPlane>& cut = {});
 
 /// Edges where faces of a stone meet at an angle, or where a face ends.
 vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces);
@@ -40,9 +44,9 @@ struct CrackRule {
   double bonded = 0.5;                 // a patch that had a bond and keeps less of its area
 };
 
-/// The cracked patches between visible stones, deformed like the stones.
+/// The cracked patches between visible stones, deformed and cut like the stones.
 vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hidden, double amplification,
-                                           const CrackRule& rule);
+                                           const CrackRule& rule, const std::optional<CutPlane>& cut = {});
 /// The border lines of polygons.
 vtkSmartPointer<vtkPolyData> borders(vtkPolyData* polygons);
 

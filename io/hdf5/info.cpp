@@ -160,7 +160,8 @@ std::string describe_modes(const std::string& path) {
   const ModesFile modes = read_modes(path);
   Lines out;
   out.add("{}: {} modes of {}", path, modes.modes.size(), modes.about);
-  out.add("  {} blocks, {:.1f} kg that can move, assembly {:016x}", modes.places.mass.size(), modes.mass,
+  const std::string nodes = modes.nodes.empty() ? "" : fmt::format(", {} nodes of a fill", modes.nodes.size());
+  out.add("  {} blocks{}, {:.1f} kg that can move, assembly {:016x}", modes.places.mass.size(), nodes, modes.mass,
           modes.assembly_hash);
   for (std::size_t i = 0; i < modes.modes.size(); ++i)
     out.add("  mode {}: {:.6g} Hz, {}", i + 1, modes.modes[i].frequency, modes.modes[i].words.text());

@@ -35,6 +35,31 @@ void write_words(h5::File& h5, const std::vector<Mode>& modes) {
   h5.write("modes/order", order);
 }
 
+std::vector<double> numbers_of(const std::vector<Vec3>& points) {
+  std::vector<double> numbers;
+  for (const Vec3& x : points) numbers.insert(numbers.end(), x.data(), x.data() + 3);
+  return numbers;
+}
+
+void write_nodes(h5::File& h5, const ModesFile& file) {
+  if (file.nodes.empty()) return;
+  std::vector<double> shapes;
+  for (const Mode& mode : file.modes)
+    shapes.insert(shapes.end(), mode.nodes.data(), mode.nodes.data() + mode.nodes.size());
+  h5.write("fill/nodes", numbers_of(file.nodes), {file.nodes.size(), 3}, "m");
+  h5.write("modes/fill_shape", shapes, {file.modes.size(), file.nodes.size(), 3}, "1");
+}
+
+void read_nodes(const h5::File& h5, ModesFile& file) {
+  if (!h5.has("fill/nodes")) return;
+  const std::vector<double> places = h5.read<double>("fill/nodes", {h5::any, 3});
+  const std::size_t nodes = places.size() / 3;
+  const std::vector<double> shapes = h5.read<double>("modes/fill_shape", {file.modes.size(), nodes, 3});
+  for (std::size_t i = 0; i < nodes; ++i) file.nodes.emplace_back(Vec3::Map(&places[3 * i]));
+  for (std::size_t i = 0; i < file.modes.size(); ++i)
+    file.modes[i].nodes = Eigen::Map<const NodeMotions>(&shapes[3 * nodes * i], Eigen::Index(nodes), 3);
+}
+
 }  // namespace
 
 void write_modes(const std::string& path, const ModesFile& file) {
@@ -48,9 +73,7 @@ void write_modes(const std::string& path, const ModesFile& file) {
   h5.set_integer("/", "assembly_hash", std::int64_t(file.assembly_hash));
   h5.set_number("/", "mass", file.mass);
   h5.set_number("/", "block_size", file.places.size);
-  std::vector<double> centroids;
-  for (const Vec3& x : file.places.centroid) centroids.insert(centroids.end(), x.data(), x.data() + 3);
-  h5.write("blocks/centroid", centroids, {blocks, 3}, "m");
+  h5.write("blocks/centroid", numbers_of(file.places.centroid), {blocks, 3}, "m");
   h5.write("blocks/mass", file.places.mass, {}, "kg");
   h5.write("modes/eigenvalue", column(file.modes, [](const Mode& m) { return m.eigenvalue; }), {}, "rad2/s2");
   h5.write("modes/frequency", column(file.modes, [](const Mode& m) { return m.frequency; }), {}, "Hz");
@@ -69,6 +92,7 @@ void write_modes(const std::string& path, const ModesFile& file) {
   for (const Mode& mode : file.modes)
     shapes.insert(shapes.end(), mode.shape.data(), mode.shape.data() + mode.shape.size());
   h5.write("modes/shape", shapes, {n, blocks, 6}, "1, 1/m");
+  write_nodes(h5, file);
   h5.save();
 }
 
@@ -106,6 +130,7 @@ ModesFile read_modes(const std::string& path) {
     mode.shape = Eigen::Map<const BlockMotions>(&shapes[6 * blocks * i], Eigen::Index(blocks), 6);
     file.modes.push_back(std::move(mode));
   }
+  read_nodes(h5, file);
   if (!h5.has("modes/damped_frequency")) return file;
   const std::vector<double> damped = numbers("damped_frequency"), ratio = numbers("damping_ratio");
   for (std::size_t i = 0; i < n; ++i) file.damped.push_back({damped[i], ratio[i]});

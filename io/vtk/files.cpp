@@ -19,8 +19,22 @@
 namespace voussoir {
 namespace {
 
+void set_packing(vtkXMLWriter* writer, Packing packing) {
+  switch (packing) {
+    case Packing::none:
+      return writer->SetCompressorTypeToNone();
+    case Packing::lz4:
+      return writer->SetCompressorTypeToLZ4();
+    case Packing::zlib_fast:
+      writer->SetCompressorTypeToZLib();
+      return writer->SetCompressionLevel(1);
+    case Packing::zlib:
+      return writer->SetCompressorTypeToZLib();
+  }
+}
+
 template <class Writer, class Data>
-void write(Data* data, const std::string& path) {
+void write(Data* data, const std::string& path, Packing packing) {
   make_folder_of(path);
   write_atomically(path, [&](const std::string& temporary) {
     bool failed = false;
@@ -30,7 +44,7 @@ void write(Data* data, const std::string& path) {
     writer->SetInputData(data);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
+    set_packing(writer, packing);
     if (writer->Write() == 0 || failed || writer->GetErrorCode() != vtkErrorCode::NoError)
       throw RunError("{}: cannot be written; is the disk full, or the folder closed to you?", path);
   });
@@ -63,11 +77,11 @@ auto read(const std::string& path, const char* kind) {
 
 }  // namespace
 
-void write_vtu(vtkUnstructuredGrid* grid, const std::string& path) {
-  write<vtkXMLUnstructuredGridWriter>(grid, path);
+void write_vtu(vtkUnstructuredGrid* grid, const std::string& path, Packing packing) {
+  write<vtkXMLUnstructuredGridWriter>(grid, path, packing);
 }
-void write_vtp(vtkPolyData* data, const std::string& path) {
-  write<vtkXMLPolyDataWriter>(data, path);
+void write_vtp(vtkPolyData* data, const std::string& path, Packing packing) {
+  write<vtkXMLPolyDataWriter>(data, path, packing);
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::string& path) {

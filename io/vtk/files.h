@@ -1,4 +1,4 @@
-// VTK XML files: appended raw data, zlib-compressed, written whole or not at all.
+// VTK XML files: appended raw data, compressed, written whole or not at all.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -8,9 +8,13 @@
 
 namespace voussoir {
 
+/// How the numbers are packed; every VTK reads all of them. What each costs: docs/performance.md.
+enum class Packing { none, lz4, zlib_fast, zlib };
+constexpr Packing usual_packing = Packing::zlib;
+
 /// Throw RunError naming the path when the file cannot be written.
-void write_vtu(vtkUnstructuredGrid* grid, const std::string& path);
-void write_vtp(vtkPolyData* data, const std::string& path);
+void write_vtu(vtkUnstructuredGrid* grid, const std::string& path, Packing packing = usual_packing);
+void write_vtp(vtkPolyData* data, const std::string& path, Packing packing = usual_packing);
 
 /// Throw InputError naming the path when the file is absent, damaged or of another kind.
 vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::string& path);

@@ -5,26 +5,17 @@
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 
 #include "io/vtk/block_shape.h"
+#include "io/vtk/grid_arrays.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 namespace {
-
-template <class ArrayType>
-vtkSmartPointer<ArrayType> make_array(const char* name, vtkIdType rows, int columns = 1) {
-  auto array = vtkSmartPointer<ArrayType>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(columns);
-  array->SetNumberOfTuples(rows);
-  return array;
-}
 
 void check(const Assembly& assembly, const Snapshot& snapshot) {
   const std::size_t blocks = assembly.blocks.size();
@@ -52,15 +43,6 @@ Vec3 reference_point(const Block& block, const Snapshot& snapshot, std::size_t i
 Vec3 rotation_vector(const Eigen::Quaterniond& rotation) {
   const Eigen::AngleAxisd turn(rotation.normalized());
   return turn.angle() * turn.axis();
-}
-
-void add_field_data(vtkDataObject* data, const Snapshot& snapshot) {
-  auto time = make_array<vtkDoubleArray>("TimeValue", 1);
-  time->SetValue(0, snapshot.time);
-  auto base = make_array<vtkDoubleArray>("base_displacement", 1, 3);
-  base->SetTuple(0, snapshot.base_displacement.data());
-  data->GetFieldData()->AddArray(time);
-  data->GetFieldData()->AddArray(base);
 }
 
 void insert_cell(vtkUnstructuredGrid* grid, const Polyhedron& shape, vtkIdType first) {
@@ -152,13 +134,16 @@ vtkSmartPointer<vtkDoubleArray> displacement_array() {
   return make_array<vtkDoubleArray>("displacement_of_point", 0, 3);
 }
 
-vtkSmartPointer<vtkPoints> make_points() {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  return points;
-}
-
 }  // namespace
+
+void add_field_data(vtkDataObject* data, const Snapshot& snapshot) {
+  auto time = make_array<vtkDoubleArray>("TimeValue", 1);
+  time->SetValue(0, snapshot.time);
+  auto base = make_array<vtkDoubleArray>("base_displacement", 1, 3);
+  base->SetTuple(0, snapshot.base_displacement.data());
+  data->GetFieldData()->AddArray(time);
+  data->GetFieldData()->AddArray(base);
+}
 
 vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const Snapshot& snapshot) {
   check(assembly, snapshot);
@@ -246,6 +231,9 @@ Snapshot rest_snapshot(const Assembly& assembly) {
     patch.bonded = patch.had_bond ? 1.0 : 0.0;
     snapshot.patches.push_back(patch);
   }
+  snapshot.fill.displacement.assign(assembly.fill.nodes.size(), Vec3::Zero());
+  snapshot.fill.velocity.assign(assembly.fill.nodes.size(), Vec3::Zero());
+  snapshot.fill.tets.resize(assembly.fill.tets.size());
   return snapshot;
 }
 

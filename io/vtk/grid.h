@@ -1,4 +1,5 @@
-// What ParaView and our own pictures are made from: stones as an unstructured grid, joint patches as polygons.
+// What ParaView and our own pictures are made from: stones and the fill as unstructured grids, joint patches as
+// polygons.
 //
 // Points are at their present, absolute place: x' = c + u + R (x − c) with the block's centroid c, displacement u and
 // rotation R. The point array "displacement_of_point" is x' − x less the base's displacement, so that
@@ -27,11 +28,22 @@ vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const 
 /// displacement is the mean over the two blocks.
 vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snapshot& snapshot);
 
-/// The same of the assembly as built, with a mode to warp it by: point data mode_shape (largest displacement of a
-/// centroid 1), cell data mode_displacement and mode_rotation (1/m).
-vtkSmartPointer<vtkUnstructuredGrid> mode_grid(const Assembly& assembly, const Mode& mode);
+/// The deformable fill: its nodes and tetrahedra in the order of FillMesh, no cell without one. Point data:
+/// displacement (m, absolute), displacement_of_point (m, as above), velocity (m/s). Cell data: component (that of
+/// backfill), material (of the assembly), stress (Pa, Cauchy, tension positive, six numbers XX YY ZZ XY YZ XZ: VTK's
+/// order of a symmetric tensor), mean_stress (Pa, their trace over 3), plastic_shear_strain, plastic_volumetric_strain,
+/// yields_now and has_yielded (0 no, 1 in shear, 2 in tension, 3 both). Field data as block_grid(). Throws InputError
+/// when the snapshot is not one of this assembly.
+vtkSmartPointer<vtkUnstructuredGrid> fill_grid(const Assembly& assembly, const Snapshot& snapshot);
 
-/// The assembly as built: nothing displaced, every joint closed and bonded where its law has tension or cohesion.
+/// The stones of the assembly as built, with a mode to warp them by: point data mode_shape (largest displacement of a
+/// centroid or node 1), cell data mode_displacement and mode_rotation (1/m).
+vtkSmartPointer<vtkUnstructuredGrid> mode_grid(const Assembly& assembly, const Mode& mode);
+/// The same of the fill, without cell data of its own. Throws InputError when the mode is not one of this fill.
+vtkSmartPointer<vtkUnstructuredGrid> mode_fill_grid(const Assembly& assembly, const Mode& mode);
+
+/// The assembly as built: nothing displaced, every joint closed and bonded where its law has tension or cohesion, the
+/// fill without stress.
 Snapshot rest_snapshot(const Assembly& assembly);
 
 }  // namespace voussoir

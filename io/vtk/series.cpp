@@ -80,6 +80,12 @@ std::string PvdSeries::file_path(const Frame& frame) const {
   return (fs::path(path_).parent_path() / frame.file).string();
 }
 
+std::string PvdSeries::file_at(double time) const {
+  for (const Frame& frame : frames_)
+    if (frame.time == time) return file_path(frame);
+  return {};
+}
+
 void PvdSeries::write() const {
   std::string text =
       "<?xml version=\"1.0\"?>\n"
@@ -93,11 +99,13 @@ void PvdSeries::write() const {
 
 VtkSeries::VtkSeries(const std::string& run_directory)
     : blocks_((fs::path(run_directory) / "vtk" / "blocks.pvd").string()),
-      joints_((fs::path(run_directory) / "vtk" / "joints.pvd").string()) {}
+      joints_((fs::path(run_directory) / "vtk" / "joints.pvd").string()),
+      fill_((fs::path(run_directory) / "vtk" / "fill.pvd").string()) {}
 
 void VtkSeries::resume_at(double time) {
   blocks_.drop_after(time);
   joints_.drop_after(time);
+  fill_.drop_after(time);
 }
 
 void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot) {
@@ -108,6 +116,10 @@ void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot) {
   write_vtp(joint_polydata(assembly, snapshot), (folder / joints).string());
   blocks_.add(snapshot.time, blocks);
   joints_.add(snapshot.time, joints);
+  if (snapshot.fill.empty()) return;
+  const std::string fill = fmt::format("fill_{:010.3f}.vtu", snapshot.time);
+  write_vtu(fill_grid(assembly, snapshot), (folder / fill).string());
+  fill_.add(snapshot.time, fill);
 }
 
 }  // namespace voussoir

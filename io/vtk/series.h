@@ -1,4 +1,5 @@
-// The frames of a run for ParaView: DIR/vtk/blocks.pvd and joints.pvd with one .vtu and one .vtp a frame.
+// The frames of a run for ParaView: DIR/vtk/blocks.pvd and joints.pvd with one .vtu and one .vtp a frame, and fill.pvd
+// with one more .vtu where there is a deformable fill.
 #pragma once
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ class PvdSeries {
   void drop_after(double time);
 
   const std::vector<Frame>& frames() const { return frames_; }
+  /// The file of the frame of exactly this time (s), as seen from the working folder; empty when there is none.
+  std::string file_at(double time) const;
   const std::string& path() const { return path_; }
   std::string file_path(const Frame& frame) const;  // as seen from the working folder
 
@@ -34,20 +37,22 @@ class PvdSeries {
   std::vector<Frame> frames_;  // ascending in time
 };
 
-/// Both series of a run directory. The first frame of a fresh run and the first after a resume go the same way.
+/// The series of a run directory. The first frame of a fresh run and the first after a resume go the same way.
 class VtkSeries {
  public:
   explicit VtkSeries(const std::string& run_directory);
   /// Forgets frames later than `time` (s).
   void resume_at(double time);
-  /// Writes vtk/blocks_000012.500.vtu and vtk/joints_000012.500.vtp and adds them to the series.
+  /// Writes vtk/blocks_000012.500.vtu, vtk/joints_000012.500.vtp and, with a fill, vtk/fill_000012.500.vtu, and adds
+  /// them to the series.
   void write(const Assembly& assembly, const Snapshot& snapshot);
 
   const PvdSeries& blocks() const { return blocks_; }
   const PvdSeries& joints() const { return joints_; }
+  const PvdSeries& fill() const { return fill_; }
 
  private:
-  PvdSeries blocks_, joints_;
+  PvdSeries blocks_, joints_, fill_;
 };
 
 }  // namespace voussoir

@@ -67,8 +67,9 @@ bool faces_fit(vtkUnstructuredGrid* grid) {
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
     const vtkIdType place = places ? places->GetValue(c) : -1;
     const int type = grid->GetCellType(c);
-    if (type != VTK_POLYHEDRON && type != VTK_HEXAHEDRON) return false;
+    if (type != VTK_POLYHEDRON && type != VTK_HEXAHEDRON && type != VTK_TETRA) return false;
     if (type == VTK_HEXAHEDRON && grid->GetCells()->GetCellSize(c) != 8) return false;
+    if (type == VTK_TETRA && grid->GetCells()->GetCellSize(c) != 4) return false;
     if (type == VTK_POLYHEDRON && (place < 0 || !faces || !faces_fit(faces, place, grid->GetNumberOfPoints())))
       return false;
   }

@@ -59,6 +59,33 @@ TEST(ModesFiles, RoundTripKeepsEveryBit) {
       << describe_file(folder / "modes.h5");
 }
 
+TEST(ModesFiles, KeepTheMotionOfAFill) {
+  const Folder folder;
+  ModesFile out = two_modes();
+  out.nodes = {Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(0, 1, 1), Vec3(0, 0, 2)};
+  for (Mode& mode : out.modes) mode.nodes = NodeMotions::Random(4, 3);
+  write_modes(folder / "modes.h5", out);
+  const ModesFile in = read_modes(folder / "modes.h5");
+  EXPECT_EQ(in.nodes, out.nodes);
+  ASSERT_EQ(in.modes.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(in.modes[i].nodes, out.modes[i].nodes);
+    EXPECT_EQ(in.modes[i].shape, out.modes[i].shape);
+  }
+  EXPECT_NE(describe_file(folder / "modes.h5").find("3 blocks, 4 nodes of a fill"), std::string::npos);
+}
+
+/// As all were before modes moved a fill.
+TEST(ModesFiles, WithoutAFillHaveNoTrailOfIt) {
+  const Folder folder;
+  write_modes(folder / "modes.h5", two_modes());
+  EXPECT_FALSE(h5::File::open(folder / "modes.h5").has("fill/nodes"));
+  EXPECT_FALSE(h5::File::open(folder / "modes.h5").has("modes/fill_shape"));
+  const ModesFile in = read_modes(folder / "modes.h5");
+  EXPECT_TRUE(in.nodes.empty());
+  EXPECT_EQ(in.modes[0].nodes.rows(), 0);
+}
+
 TEST(ModesFiles, WithoutDampingSayNothingOfIt) {
   const Folder folder;
   ModesFile out = two_modes();

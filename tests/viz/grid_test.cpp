@@ -199,6 +199,84 @@ TEST(BlockGrid, RefusesAStateOfAnotherAssembly) {
             std::string::npos);
 }
 
+TEST(FillGrid, HasNodesTetrahedraAndTheirFields) {
+  const Assembly assembly = test::heap_on_cube();
+  const auto grid = fill_grid(assembly, test::heap_flowing(assembly));
+  ASSERT_EQ(grid->GetNumberOfPoints(), 6);
+  ASSERT_EQ(grid->GetNumberOfCells(), 4);
+  double volume = 0.0;
+  for (vtkIdType c = 0; c < 4; ++c) {
+    EXPECT_EQ(grid->GetCellType(c), VTK_TETRA);
+    EXPECT_GT(cell_volume(grid, c), 0.0) << "its corners are not in VTK's order";
+    volume += cell_volume(grid, c);
+  }
+  EXPECT_NEAR(volume, 1.0 / 3.0, 1e-12);  // sheared sideways
+  EXPECT_EQ(Vec3(grid->GetPoint(5)), Vec3(0.5 + 0.6, 0.5, 1.0));
+  const auto point = [&](const char* name, vtkIdType i) {
+    return Vec3(grid->GetPointData()->GetArray(name)->GetTuple3(i));
+  };
+  EXPECT_EQ(point("displacement", 5), Vec3(0.6, 0, 0));
+  EXPECT_NEAR((point("displacement_of_point", 5) - Vec3(0.1, 0, 0)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(point("displacement_of_point", 0), Vec3(0, 0, 0));
+  EXPECT_EQ(point("velocity", 5), Vec3(1, 2, 3));
+  const auto cell = [&](const char* name, vtkIdType i, int c = 0) {
+    return grid->GetCellData()->GetArray(name)->GetComponent(i, c);
+  };
+  vtkDataArray* stress = grid->GetCellData()->GetArray("stress");
+  ASSERT_EQ(stress->GetNumberOfComponents(), 6);
+  const std::array<std::pair<std::string, double>, 6> expected = {
+      {{"XX", -1e3}, {"YY", -2e3}, {"ZZ", -6e3}, {"XY", 100}, {"YZ", 200}, {"XZ", 300}}};
+  for (int c = 0; c < 6; ++c) {
+    EXPECT_EQ(stress->GetComponentName(c), expected[std::size_t(c)].first);
+    EXPECT_EQ(cell("stress", 2, c), expected[std::size_t(c)].second);
+  }
+  EXPECT_EQ(cell("mean_stress", 2), -3e3);
+  EXPECT_EQ(cell("plastic_shear_strain", 3), 0.03);
+  EXPECT_EQ(cell("plastic_volumetric_strain", 3), 0.003);
+  EXPECT_EQ(cell("component", 0), double(Component::backfill));
+  EXPECT_EQ(cell("material", 0), 1.0);
+  const double now[4] = {0, 0, 1, 2}, ever[4] = {0, 1, 1, 3};
+  for (vtkIdType i = 0; i < 4; ++i) {
+    EXPECT_EQ(cell("yields_now", i), now[i]) << i;
+    EXPECT_EQ(cell("has_yielded", i), ever[i]) << i;
+  }
+  EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 3.25);
+  EXPECT_EQ(grid->GetFieldData()->GetArray("base_displacement")->GetComponent(0, 0), 0.5);
+}
+
+TEST(FillGrid, RefusesAStateOfAnotherAssembly) {
+  const Assembly assembly = test::heap_on_cube();
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.fill.tets.pop_back();
+  EXPECT_NE(message_of<InputError>([&] {
+              fill_grid(assembly, snapshot);
+            }).find("6 nodes and 3 tetrahedra and that of the assembly 6 and 4"),
+            std::string::npos);
+  EXPECT_EQ(fill_grid(test::two_cubes(), rest_snapshot(test::two_cubes()))->GetNumberOfCells(), 0);
+}
+
+TEST(FillGrid, ReadsBackAsWritten) {
+  const Folder folder;
+  const Assembly assembly = test::heap_on_cube();
+  const auto grid = fill_grid(assembly, test::heap_flowing(assembly));
+  write_vtu(grid, folder / "fill.vtu");
+  const auto back = read_vtu(folder / "fill.vtu");
+  ASSERT_EQ(back->GetNumberOfPoints(), 6);
+  for (vtkIdType i = 0; i < 6; ++i) EXPECT_EQ(Vec3(back->GetPoint(i)), Vec3(grid->GetPoint(i)));
+  for (vtkIdType c = 0; c < 4; ++c) EXPECT_EQ(cell_volume(back, c), cell_volume(grid, c));
+  vtkDataArray* stress = back->GetCellData()->GetArray("stress");
+  ASSERT_NE(stress, nullptr);
+  EXPECT_STREQ(stress->GetComponentName(4), "YZ");
+  EXPECT_EQ(stress->GetComponent(3, 2), -6e3);
+  // A corner beyond the points is refused, not read past the end.
+  const auto wrong = fill_grid(assembly, test::heap_flowing(assembly));
+  const vtkIdType corners[4] = {0, 1, 4, 77};
+  wrong->GetCells()->ReplaceCellAtId(0, 4, corners);
+  write_vtu(wrong, folder / "wrong.vtu");
+  EXPECT_NE(message_of<InputError>([&] { read_vtu(folder / "wrong.vtu"); }).find("do not fit together"),
+            std::string::npos);
+}
+
 TEST(VtkFiles, ReadBackAsWritten) {
   const Folder folder;
   const Assembly assembly = mixed_shapes();
@@ -274,6 +352,30 @@ TEST(VtkSeries, ListsFramesAndForgetsLaterOnes) {
   EXPECT_EQ(read_vtu(blocks.file_path(blocks.frames()[2]))->GetNumberOfCells(), 2);
 }
 
+TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
+  const Folder folder;
+  const Assembly assembly = test::heap_on_cube();
+  Snapshot snapshot = test::heap_flowing(assembly);
+  VtkSeries series(folder.str());
+  for (const double t : {0.0, 0.5}) {
+    snapshot.time = t;
+    series.write(assembly, snapshot);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "vtk/fill_000000.500.vtu"));
+  VtkSeries resumed(folder.str());
+  ASSERT_EQ(resumed.fill().frames().size(), 2u);
+  EXPECT_EQ(read_vtu(resumed.fill().file_at(0.5))->GetNumberOfCells(), 4);
+  resumed.resume_at(0.25);
+  EXPECT_EQ(resumed.fill().frames().size(), 1u);
+  EXPECT_EQ(resumed.fill().file_at(0.5), "");
+  // Without a fill there is no trail of one.
+  const Folder other;
+  const Assembly cubes = test::two_cubes();
+  VtkSeries plain(other.str());
+  plain.write(cubes, rest_snapshot(cubes));
+  EXPECT_EQ(test::files_in(other / "vtk"), 4u);
+}
+
 TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
   const Folder folder;
   test::write_text(folder / "blocks.pvd", "<VTKFile type=\"Other\"></VTKFile>");
@@ -306,6 +408,148 @@ TEST(Scene, OuterOutlineIsThatOfTheWhole) {
   EXPECT_NEAR(length_of(outer_outline(faces, joint_polydata(assembly, rest))), 4 * 2.0 + 8 * 1.0, 1e-9);
 }
 
+double area_of(vtkPolyData* faces) {
+  double sum = 0.0;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
+    faces->GetPolys()->GetCellAtId(c, ids);
+    Vec3 twice = Vec3::Zero();
+    const Vec3 from(faces->GetPoint(ids->GetId(0)));
+    for (vtkIdType k = 1; k + 1 < ids->GetNumberOfIds(); ++k) {
+      const Vec3 a(faces->GetPoint(ids->GetId(k))), b(faces->GetPoint(ids->GetId(k + 1)));
+      twice += (a - from).cross(b - from);
+    }
+    sum += 0.5 * twice.norm();
+  }
+  return sum;
+}
+
+/// The volume within faces that look outwards.
+double volume_of(vtkPolyData* faces) {
+  Polyhedron shape;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < faces->GetNumberOfPoints(); ++i) shape.vertices.emplace_back(faces->GetPoint(i));
+  for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
+    faces->GetPolys()->GetCellAtId(c, ids);
+    shape.faces.emplace_back(ids->begin(), ids->end());
+  }
+  return mass_properties(shape).volume;
+}
+
+TEST(Scene, OfAFillOnlyTheSurfaceIsSeen) {
+  const Assembly assembly = test::heap_on_cube();
+  const auto grid = fill_grid(assembly, test::heap_flowing(assembly));
+  const auto faces = deformed_faces(grid, Hidden({}), 0.0);
+  EXPECT_EQ(faces->GetNumberOfPolys(), 8);  // four below, four above; none between the tetrahedra
+  EXPECT_NEAR(area_of(faces), 1.0 + 4 * 0.25 * std::sqrt(5.0), 1e-12);
+  EXPECT_EQ(deformed_faces(grid, Hidden({"backfill"}), 0.0)->GetNumberOfPolys(), 0);
+  double box[6];
+  deformed_faces(grid, Hidden({}), 10.0)->GetBounds(box);
+  EXPECT_NEAR(box[1], 1.5, 1e-12);  // the top moves by 0.1 m beyond the base
+}
+
+CutPlane cut_at(int axis, double place, double side) {
+  return {axis, place, side};
+}
+
+/// What is left is closed: its faces hold the volume behind the plane.
+TEST(Scene, CutsLeaveClosedBodies) {
+  const Assembly stones = mixed_shapes();  // an L, a wedge and a box
+  const auto blocks = block_grid(stones, rest_snapshot(stones));
+  const auto left = [&](int axis, double place, double side) {
+    return volume_of(deformed_faces(blocks, Hidden({}), 0.0, cut_at(axis, place, side)));
+  };
+  // x: the L has 2 m2 up to x = 1 and 1 m2 from there, the wedge from x = 5 on 3 m × 1 m, tapering, the box 3 m2.
+  EXPECT_NEAR(left(0, 0.5, 1.0), 2.0 + 3.0 + 1.5, 1e-9);
+  EXPECT_NEAR(left(0, 0.5, -1.0), 1.0 + 1.5, 1e-9);
+  EXPECT_NEAR(left(0, 1.5, -1.0), 2.5 + 3.0, 1e-9);
+  EXPECT_NEAR(left(0, 6.0, 1.0), 0.75, 1e-9);
+  // z: the L's plane through both arms is not convex; at z = 1 it passes through its inner edge and a face of it.
+  EXPECT_NEAR(left(2, 0.5, -1.0), 1.0 + 2.25 + 0.5, 1e-9);
+  EXPECT_NEAR(left(2, 1.0, 1.0), 1.0 + 2.0, 1e-9);
+  EXPECT_NEAR(left(2, 1.0, -1.0), 2.0 + 3.0 + 1.0, 1e-9);
+  EXPECT_NEAR(left(1, 0.25, 1.0), 0.75 * 3.0 + 3.0, 1e-9);
+
+  const Assembly heap = test::heap_on_cube();
+  const auto fill = fill_grid(heap, test::heap_flowing(heap));
+  EXPECT_NEAR(volume_of(deformed_faces(fill, Hidden({}), 0.0, cut_at(2, 0.5, 1.0))), 1.0 / 24.0, 1e-12);
+  EXPECT_NEAR(volume_of(deformed_faces(fill, Hidden({}), 0.0, cut_at(1, 0.5, 1.0))), 1.0 / 6.0, 1e-12);
+  EXPECT_NEAR(volume_of(deformed_faces(fill, Hidden({}), 0.0, cut_at(0, 0.25, -1.0))), 5.0 / 96.0, 1e-12);
+}
+
+/// A plane through faces of stones cuts none of them, and what only touches it is left out.
+TEST(Scene, CutsAlongAJointTakeWholeStones) {
+  const Assembly assembly = two_cubes();
+  const auto grid = block_grid(assembly, rest_snapshot(assembly));
+  EXPECT_EQ(deformed_faces(grid, Hidden({}), 0.0, cut_at(2, 1.0, 1.0))->GetNumberOfPolys(), 6);
+  EXPECT_EQ(deformed_faces(grid, Hidden({}), 0.0, cut_at(2, 1.0 + 1e-8, 1.0))->GetNumberOfPolys(), 6);
+  EXPECT_EQ(deformed_faces(grid, Hidden({}), 0.0, cut_at(2, 0.4, 1.0))->GetNumberOfPolys(), 12);
+}
+
+/// Between tetrahedra there is nothing to be seen, but where the plane takes one of them away.
+TEST(Scene, CutsAlongFacesOfTetrahedraShowThem) {
+  Assembly assembly;
+  assembly.materials.push_back({});
+  assembly.fill.nodes = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}};
+  assembly.fill.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  assembly.fill.material = {0, 0};
+  const auto grid = fill_grid(assembly, rest_snapshot(assembly));
+  EXPECT_EQ(deformed_faces(grid, Hidden({}), 0.0)->GetNumberOfPolys(), 6);
+  for (const double side : {1.0, -1.0})
+    EXPECT_NEAR(volume_of(deformed_faces(grid, Hidden({}), 0.0, cut_at(0, 0.0, side))), 1.0 / 6.0, 1e-12);
+}
+
+/// The section moves with the material.
+TEST(Scene, CutsAreMadeInTheAssemblyAsBuilt) {
+  const Assembly assembly = test::heap_on_cube();
+  const auto grid = fill_grid(assembly, test::heap_flowing(assembly));
+  const auto faces = deformed_faces(grid, Hidden({}), 10.0, cut_at(2, 0.5, -1.0));
+  Vec3 farthest = Vec3::Constant(-1e300);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < faces->GetNumberOfPolys(); ++c) {
+    faces->GetPolys()->GetCellAtId(c, ids);
+    for (const vtkIdType i : *ids.GetPointer()) farthest = farthest.cwiseMax(Vec3(faces->GetPoint(i)));
+  }
+  EXPECT_NEAR(farthest.z(), 0.5, 1e-12);
+  EXPECT_NEAR(farthest.x(), 0.75 + 0.5, 1e-12);  // at half its height it has moved half as far as its top, 10 × 0.1 m
+}
+
+TEST(Scene, CracksAreCutToo) {
+  const Assembly assembly = two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.patches[0].bonded = 0.0;
+  const auto joints = joint_polydata(assembly, snapshot);
+  EXPECT_NEAR(area_of(crack_patches(joints, Hidden({}), 1.0, {}, cut_at(0, 0.25, 1.0))), 0.75, 1e-12);
+  EXPECT_EQ(crack_patches(joints, Hidden({}), 1.0, {}, cut_at(2, 1.5, 1.0))->GetNumberOfPolys(), 0);
+  EXPECT_EQ(crack_patches(joints, Hidden({}), 1.0, {}, cut_at(2, 1.0, 1.0))->GetNumberOfPolys(), 0) << "in the plane";
+}
+
+TEST(Cut, WordsAreRead) {
+  const Box content{{0, -2, 0}, {20, 4, 8}};
+  const auto cut = [&](const std::string& text, const std::string& view = "oblique") {
+    return find_cut(text, find_view(view), content);
+  };
+  EXPECT_FALSE(cut(""));
+  EXPECT_EQ(cut("y")->place, 1.0);
+  EXPECT_EQ(cut("y")->axis, 1);
+  EXPECT_EQ(cut("x=2.5")->place, 2.5);
+  EXPECT_EQ(cut("x=2.5")->words(), "cut at x = 2.5 m");
+  // What lies before the plane is left out: seen from above, what is above it; from the right, what is to the right.
+  EXPECT_EQ(cut("y=1", "front")->side, 1.0);
+  EXPECT_EQ(cut("x=1", "side")->side, -1.0);
+  EXPECT_EQ(cut("z=1", "plan")->side, -1.0);
+  EXPECT_EQ(cut("z=1")->side, -1.0);
+  const auto message = [&](const std::string& text, const std::string& view = "oblique") {
+    return message_of<InputError>([&] { cut(text, view); });
+  };
+  for (const char* text : {"w", "y=", "y=a", "y=1m", "y 1", "1", "y=nan", "y=1e999", "yy"})
+    EXPECT_NE(message(text).find(fmt::format("the cut is '{}'; give an axis", text)), std::string::npos)
+        << message(text);
+  EXPECT_NE(message("y=4.5").find("reaches from -2.000 to 4.000 m"), std::string::npos) << message("y=4.5");
+  EXPECT_NE(message("y=-2").find("meets nothing"), std::string::npos);
+  EXPECT_NE(message("x=3", "front").find("give the view side or oblique"), std::string::npos);
+}
+
 /// Half of a face covered, half bare: the edge is outline where it is bare.
 TEST(Scene, OuterOutlineIsCutWhereAJointEnds) {
   Assembly assembly;
@@ -334,6 +578,21 @@ TEST(Grid, OfAModeWarpsByTheRigidMotionOfEachStone) {
     const Vec3 arm = x - Vec3(0.5, 0.5, 1.5);
     const Vec3 expected = i < 8 ? Vec3(0, 0, 0) : Vec3(1 + 0.5 * arm.z(), 0, -0.5 * arm.x());
     EXPECT_NEAR((u - expected).norm(), 0.0, 1e-12) << i;
+  }
+}
+
+TEST(Grid, OfAModeHasTheFillsMotion) {
+  const Assembly assembly = test::heap_on_cube();
+  Mode mode;
+  mode.shape = BlockMotions::Zero(1, 6);
+  EXPECT_NE(message_of<InputError>([&] { mode_fill_grid(assembly, mode); }).find("0 nodes of a fill"),
+            std::string::npos);
+  mode.nodes = NodeMotions::Random(6, 3);
+  const auto grid = mode_fill_grid(assembly, mode);
+  ASSERT_EQ(grid->GetNumberOfCells(), 4);
+  for (vtkIdType i = 0; i < 6; ++i) {
+    EXPECT_EQ(Vec3(grid->GetPoint(i)), assembly.fill.nodes[std::size_t(i)]);
+    EXPECT_EQ(Vec3(grid->GetPointData()->GetArray("mode_shape")->GetTuple3(i)), Vec3(mode.nodes.row(i)));
   }
 }
 

@@ -187,7 +187,7 @@ TEST_F(NoDisplay, OptionsChangeThePicture) {
   };
   EXPECT_GT(plain.differing(changed([](auto& o) { o.hide = {"spandrel"}; })), 3000u);
   EXPECT_GT(plain.differing(changed([](auto& o) { o.amplification = 6; })), 1000u);
-  EXPECT_GT(plain.differing(changed([](auto& o) { o.range_mm = 100; })), 1000u);
+  EXPECT_GT(plain.differing(changed([](auto& o) { o.range = 100; })), 1000u);
   EXPECT_GT(plain.differing(changed([](auto& o) { o.title = "A title"; })), 50u);
   const Picture whole = changed([](auto& o) { o.cracks = false; });
   EXPECT_GT(plain.share(kCrack), 2e-3);
@@ -210,8 +210,10 @@ TEST_F(NoDisplay, PictureFromStoredFrameEqualsPictureFromState) {
   series.write(assembly, snapshot);
   const Display display;
   render_picture(assembly, snapshot, small(), folder / "state.png");
-  render_picture(series.blocks().file_path(series.blocks().frames()[0]),
-                 series.joints().file_path(series.joints().frames()[0]), small(), folder / "frame.png");
+  EXPECT_EQ(series.joints().file_at(12.25), "");
+  render_picture(
+      PictureFiles{series.blocks().file_at(12.5), series.joints().file_at(12.5), series.fill().file_at(12.5)}, small(),
+      folder / "frame.png");
   EXPECT_EQ(test::read_text(folder / "state.png"), test::read_text(folder / "frame.png"));
 }
 
@@ -227,8 +229,71 @@ TEST_F(NoDisplay, WrongOptionsAreNamed) {
   EXPECT_NE(message([](auto& o) { o.colour = "red"; }).find("opening, slip"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.hide = {"roof"}; }).find("'roof'"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.hide = {"base", "wall"}; }).find("nothing is left"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.cut = "q"; }).find("the cut is 'q'"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.cut = "y=5"; }).find("reaches from 0.000 to 1.000 m"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.width = 20; }).find("too small"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
+}
+
+TEST_F(NoDisplay, TheFillIsHiddenUntilAskedFor) {
+  const Assembly assembly = test::heap_on_cube();
+  const Snapshot snapshot = test::heap_flowing(assembly);
+  const Display display;
+  const auto drawn = [&](auto change) {
+    RenderOptions options = small();
+    options.amplification = 1.0;
+    change(options);
+    render_picture(assembly, snapshot, options, folder / "picture.png");
+    return read_png(folder / "picture.png");
+  };
+  const Colour soil = component_colour(Component::backfill);
+  EXPECT_EQ(drawn([](auto&) {}).share(soil, 0.03), 0.0);
+  EXPECT_GT(drawn([](auto& o) { o.hide = {}; }).share(soil, 0.03), 0.02);
+  EXPECT_GT(drawn([](auto& o) { o.hide = {}, o.colour = "component"; }).share(soil, 0.03), 0.02);
+  // What yields is seen in its own colour, and in the legend.
+  const auto yield = [&](const char* view, const char* cut) {
+    return drawn([&](auto& o) { o.hide = {}, o.colour = "yield", o.view = view, o.cut = cut; });
+  };
+  // A level section is square to the lamps, so that colours are what they mean.
+  const Picture plan = yield("plan", "z=0.25"), front = yield("front", "");
+  EXPECT_GT(plan.share(kYieldsInShear), 0.01);
+  EXPECT_GT(plan.share(kYieldsInTension), 0.01);
+  EXPECT_GT(plan.share(kYielded), 0.01);
+  EXPECT_LT(front.share(kYieldsInShear), 2e-3);  // behind; in the legend only
+  EXPECT_GT(plan.share(kYieldsInShear), 5 * front.share(kYieldsInShear));
+  EXPECT_GT(yield("front", "y").share(kYieldsInTension), 0.01);
+  // A scale in per cent.
+  const Picture plastic = drawn([](auto& o) { o.hide = {}, o.colour = "plastic", o.view = "plan", o.cut = "z=0.25"; });
+  EXPECT_GT(plastic.share(scale_colour(0.6)), 0.01);  // 3 % of 5 %
+  EXPECT_GT(plastic.differing(drawn(
+                [](auto& o) { o.hide = {}, o.colour = "plastic", o.view = "plan", o.cut = "z=0.25", o.range = 3; })),
+            500u);
+}
+
+/// Stones and fill of one displacement have one colour.
+TEST(Colours, OfDisplacementsAreSharedByStonesAndFill) {
+  const Assembly assembly = test::heap_on_cube();
+  Snapshot snapshot = rest_snapshot(assembly);
+  for (Vec3& u : snapshot.fill.displacement) u = {0.02, 0, 0};
+  const auto stones = deformed_faces(block_grid(assembly, snapshot), Hidden({}), 1.0);
+  const auto fill = deformed_faces(fill_grid(assembly, snapshot), Hidden({}), 1.0);
+  EXPECT_EQ(colour_faces(stones, nullptr, "displacement", 0.0).top, 1.0);
+  EXPECT_EQ(colour_faces(stones, fill, "displacement", 0.0).top, 20.0);
+  const auto red = [](vtkPolyData* faces) { return faces->GetPointData()->GetScalars()->GetComponent(0, 0) / 255.0; };
+  EXPECT_NEAR(red(stones), scale_colour(0.0)[0], 0.01);
+  EXPECT_NEAR(red(fill), scale_colour(1.0)[0], 0.01);
+  EXPECT_EQ(colour_faces(stones, fill, "mode", 0.0).top, 1.0);
+  EXPECT_NEAR(red(fill), scale_colour(1.0)[0], 0.01);
+}
+
+TEST(Colours, OfAFillNeedOne) {
+  const Assembly assembly = test::heap_on_cube();
+  const auto stones = deformed_faces(block_grid(assembly, rest_snapshot(assembly)), Hidden({}), 1.0);
+  for (const char* by : {"plastic", "yield"})
+    EXPECT_NE(message_of<InputError>([&] { colour_faces(stones, nullptr, by, 0.0); }).find("takes a deformable fill"),
+              std::string::npos);
+  EXPECT_EQ(usually_hidden("opening"), std::vector<std::string>{"backfill"});
+  EXPECT_TRUE(usually_hidden("yield").empty());
 }
 
 TEST_F(NoDisplay, ChartsShowTheirLines) {
@@ -333,16 +398,16 @@ TEST(Colours, TopOfTheScaleIsRoundAndAFallenStoneDoesNotSetIt) {
   const Assembly assembly = test::arch_and_wall(120);
   Snapshot snapshot = rest_snapshot(assembly);
   const auto scale = [&](double range) {
-    return colour_faces(deformed_faces(block_grid(assembly, snapshot), Hidden({}), 1.0), "opening", range);
+    return colour_faces(deformed_faces(block_grid(assembly, snapshot), Hidden({}), 1.0), nullptr, "opening", range);
   };
-  EXPECT_EQ(scale(0).top_mm, 1.0);  // nothing opened
+  EXPECT_EQ(scale(0).top, 1.0);  // nothing opened
   for (auto& patch : snapshot.patches) patch.largest_opening = 3.1e-3;
-  EXPECT_EQ(scale(0).top_mm, 5.0);
+  EXPECT_EQ(scale(0).top, 5.0);
   EXPECT_FALSE(scale(0).exceeded);
-  EXPECT_EQ(scale(2.0).top_mm, 2.0);
+  EXPECT_EQ(scale(2.0).top, 2.0);
   EXPECT_TRUE(scale(2.0).exceeded);
   snapshot.patches[30].largest_opening = 4.0;
-  EXPECT_EQ(scale(0).top_mm, 5.0);
+  EXPECT_EQ(scale(0).top, 5.0);
   EXPECT_TRUE(scale(0).exceeded);
 }
 

@@ -1,11 +1,14 @@
 // Small hand-made assemblies with known displacements for the tests of pictures and VTK files.
 #pragma once
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "geometry/assembly.h"
+#include "geometry/fill_mesh.h"
 #include "geometry/joints.h"
 #include "io/vtk/grid.h"
+#include "solver/fill/fill_memory.h"
 
 namespace voussoir::test {
 
@@ -38,6 +41,41 @@ inline Assembly two_cubes() {
   assembly.blocks.push_back(make_block(make_box({0, 0, 1}, {1, 1, 2}), Component::wall));
   finish(assembly);
   return assembly;
+}
+
+/// A heap of four tetrahedra about the middle of its base: on a fixed cube, 1 m high.
+inline Assembly heap_on_cube() {
+  Assembly assembly;
+  assembly.blocks.push_back(make_block(make_box({0, 0, -1}, {1, 1, 0}), Component::base, true));
+  finish(assembly);
+  assembly.materials.push_back(assembly.materials[0]);
+  assembly.materials[1].name = "soil";
+  FillMesh& fill = assembly.fill;
+  fill.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 1}};
+  fill.tets = {{0, 1, 4, 5}, {1, 2, 4, 5}, {2, 3, 4, 5}, {3, 0, 4, 5}};
+  fill.material.assign(4, 1);
+  find_surface(fill);
+  return assembly;
+}
+
+/// Its top moves along x; the four tetrahedra are elastic, have yielded, yield in shear and yield in tension.
+inline Snapshot heap_flowing(const Assembly& assembly) {
+  Snapshot snapshot = rest_snapshot(assembly);
+  snapshot.time = 3.25;
+  snapshot.base_displacement = {0.5, 0, 0};
+  for (Vec3& u : snapshot.displacement) u += snapshot.base_displacement;
+  for (Vec3& u : snapshot.fill.displacement) u += snapshot.base_displacement;
+  snapshot.fill.displacement[5] += Vec3(0.1, 0, 0);
+  snapshot.fill.velocity[5] = {1, 2, 3};
+  for (std::size_t i = 0; i < 4; ++i) {
+    TetSnapshot& tet = snapshot.fill.tets[i];
+    tet.stress = {-1e3, -2e3, -6e3, 100, 200, 300};
+    tet.plastic_shear = 0.01 * double(i);
+    tet.plastic_volume = 0.001 * double(i);
+    tet.yield = std::array<std::uint8_t, 4>{0, has_yielded_in_shear, yields_in_shear | has_yielded_in_shear,
+                                            yields_in_tension | has_yielded_in_shear | has_yielded_in_tension}[i];
+  }
+  return snapshot;
 }
 
 /// A wedge of a ring in the xz plane between two angles (rad, from +x), from y = 0 to `depth`.

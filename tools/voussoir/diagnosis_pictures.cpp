@@ -36,7 +36,7 @@ PagePicture residual_map(const Assembly& assembly, const Location& location, con
   RenderOptions options = plain_options();
   options.colour = "displacement";
   options.scale_title = "correction that is missing (% of the largest)";
-  options.range_mm = 100.0;
+  options.range = 100.0;
   options.amplification = 0.0;
   options.cracks = false;
   options.title = fmt::format("Where model and measurement disagree, {}", when);

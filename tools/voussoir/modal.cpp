@@ -73,6 +73,7 @@ ModesFile modes_file(const ModalSource& source, const Modes& modes, const std::s
   file.assembly_hash = assembly_hash(source.assembly);
   file.mass = modes.mass;
   file.places = block_places(source.assembly, source.model);
+  file.nodes = source.assembly.fill.nodes;
   file.modes = modes.modes;
   const DampingSettings& damping = source.c.settings.damping;
   if (damping.kind != DampingSettings::Kind::none)
@@ -89,11 +90,14 @@ void remove_earlier(const std::string& directory) {
 }
 
 void write_shapes(const std::string& directory, const Assembly& assembly, const std::vector<Mode>& modes) {
-  PvdSeries series(directory + "/vtk/modes.pvd");
+  PvdSeries series(directory + "/vtk/modes.pvd"), fill_series(directory + "/vtk/modes_fill.pvd");
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    const std::string name = fmt::format("mode_{:02}.vtu", i + 1);
+    const std::string name = fmt::format("mode_{:02}.vtu", i + 1), of_fill = fmt::format("mode_fill_{:02}.vtu", i + 1);
     write_vtu(mode_grid(assembly, modes[i]), directory + "/vtk/" + name);
     series.add(double(i + 1), name);  // the collection's "time" is the mode's number
+    if (assembly.fill.empty()) continue;
+    write_vtu(mode_fill_grid(assembly, modes[i]), directory + "/vtk/" + of_fill);
+    fill_series.add(double(i + 1), of_fill);
   }
 }
 
@@ -144,6 +148,13 @@ void keep_lowest(Findings& f, std::size_t count) {
   if (!f.file.damped.empty()) f.file.damped.resize(count);
 }
 
+std::string counts_text(const Assembly& assembly) {
+  const std::string blocks = fmt::format("{} blocks", assembly.blocks.size());
+  if (assembly.fill.empty()) return blocks;
+  return fmt::format("{}, a fill of {} nodes and {} tetrahedra", blocks, assembly.fill.nodes.size(),
+                     assembly.fill.tets.size());
+}
+
 /// The modes of the source, and of a damaged one those of the intact assembly beside them. Local modes of loosened
 /// stones come between those of the whole: the search goes on past the number asked for until each has its partner, or
 /// three times as far.
@@ -170,9 +181,9 @@ Findings find(const ModalSource& source) {
     f.file = modes_file(source, f.modes, source.about);
   }
   f.json = modes_json(f.file, source.assembly, f.modes);
-  f.text = fmt::format("{}\n{} blocks, {:.2f} t that can move\n\n{}\n{}\n{}{}", source.about,
-                       source.assembly.blocks.size(), 1e-3 * f.modes.mass, modes_table(f.file),
-                       effort_text(f.modes.report), loose_text(source.assembly, f.modes), comparison);
+  f.text = fmt::format("{}\n{}, {:.2f} t that can move\n\n{}\n{}\n{}{}", source.about, counts_text(source.assembly),
+                       1e-3 * f.modes.mass, modes_table(f.file), effort_text(f.modes.report),
+                       loose_text(source.assembly, f.modes), comparison);
   if (source.damaged) f.json["intact"] = intact_json;
   const std::vector<PeriodCheck> periods = check_periods(source.c.expected_periods, f.modes.modes);
   if (periods.empty() || source.damaged) return f;

@@ -151,6 +151,8 @@ nlohmann::json modes_json(const ModesFile& file, const Assembly& assembly, const
   json["about"] = file.about;
   json["version"] = VOUSSOIR_VERSION;
   json["blocks"] = assembly.blocks.size();
+  if (!assembly.fill.empty())
+    json["fill"] = {{"nodes", assembly.fill.nodes.size()}, {"tetrahedra", assembly.fill.tets.size()}};
   json["unknowns"] = modes.report.unknowns;
   json["mass"] = file.mass;
   const Eigenpairs& s = modes.report.solution;

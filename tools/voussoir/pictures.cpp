@@ -22,6 +22,20 @@ void draw_state(const std::string& images, const Assembly& assembly, const Snaps
   }
 }
 
+/// What a deformable fill has gone through, in the section along the bridge's middle.
+void draw_fill(const std::string& images, const Assembly& assembly, const Snapshot& snapshot) {
+  RenderOptions o;
+  o.cut = std::string("y");
+  for (const char* colour : {"plastic", "yield"}) {
+    o.colour = colour;
+    o.hide = usually_hidden(colour);
+    for (const char* view : {"oblique", "front"}) {
+      o.view = view;
+      render_picture(assembly, snapshot, o, fmt::format("{}/{}_{}.png", images, colour, view));
+    }
+  }
+}
+
 /// The assembly on its way down, displacements enlarged to a third of a block.
 void draw_mechanism(const std::string& images, const Simulation& run, const Snapshot& snapshot) {
   const Model& model = run.model();
@@ -97,6 +111,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
   const std::string images = directory + "/images";
   try {
     draw_state(images, run.assembly(), snapshot);
+    if (!snapshot.fill.empty()) draw_fill(images, run.assembly(), snapshot);
     if (run.collapse().found) draw_mechanism(images, run, snapshot);
     draw_charts(images, run.assembly(), history);
     for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);

@@ -28,10 +28,11 @@ RenderOptions render_options(const options::variables_map& values) {
   o.amplification = values["amplification"].as<double>();
   o.colour = values["colour"].as<std::string>();
   o.view = values["view"].as<std::string>();
-  o.hide = words_in(values["hide"].as<std::string>());
+  o.hide = values.count("hide") ? words_in(values["hide"].as<std::string>()) : usually_hidden(o.colour);
+  if (values.count("cut")) o.cut = values["cut"].as<std::string>();
   o.cracks = values.count("no-cracks") == 0;
   o.crack_mm = values["crack"].as<double>();
-  o.range_mm = values["range"].as<double>();
+  o.range = values["range"].as<double>();
   o.width = values["width"].as<int>();
   o.height = values["height"].as<int>();
   o.undeformed = values.count("undeformed") > 0;
@@ -52,10 +53,9 @@ void render_frame(const std::string& directory, const options::variables_map& va
         std::min_element(frames.begin(), frames.end(), [t = values["time"].as<double>()](const auto& a, const auto& b) {
           return std::abs(a.time - t) < std::abs(b.time - t);
         });
-  const auto& joints = series.joints().frames();
-  const auto same = std::find_if(joints.begin(), joints.end(), [&](const auto& f) { return f.time == best->time; });
-  render_picture(series.blocks().file_path(*best), same == joints.end() ? "" : series.joints().file_path(*same), o,
-                 png);
+  render_picture(PictureFiles{series.blocks().file_path(*best), series.joints().file_at(best->time),
+                              series.fill().file_at(best->time)},
+                 o, png);
 }
 
 /// A checkpoint, or an assembly as built.
@@ -91,14 +91,19 @@ int render(const std::vector<std::string>& arguments) {
       "time,t", options::value<double>()->value_name("T"), "stored frame nearest to this time (s); default: the last")(
       "amplification,a", options::value<double>()->default_value(2.0), "of the displacements")(
       "colour,c", options::value<std::string>()->default_value("opening"),
-      "opening, slip, displacement, mode (share of the largest), component or stone")(
-      "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
-      "hide", options::value<std::string>()->default_value("backfill"),
-      "components left out, by commas; none: show all")("no-cracks", "do not mark cracked joints")(
-      "crack", options::value<double>()->default_value(1.0),
-      "opening or slip that counts as a crack, mm; 0: a lost bond too")(
-      "range", options::value<double>()->default_value(0.0), "top of the colour scale, mm; 0: from the data")(
-      "width", options::value<int>()->default_value(1800), "pixels")(
+      "opening, slip, displacement, mode (share of the largest), component or stone; of a deformable fill plastic "
+      "(shear "
+      "strain) or yield")("view,v", options::value<std::string>()->default_value("oblique"),
+                          "front, side, plan or oblique")(
+      "hide", options::value<std::string>()->value_name("NAMES"),
+      "components left out, by commas; none: show all; default: backfill, a deformable one too, unless it is coloured")(
+      "cut", options::value<std::string>()->value_name("PLANE"),
+      "leave out what lies before a plane: an axis and a place in m, such as y=0.5, or the axis alone for the middle")(
+      "no-cracks", "do not mark cracked joints")("crack", options::value<double>()->default_value(1.0),
+                                                 "opening or slip that counts as a crack, mm; 0: a lost bond too")(
+      "range", options::value<double>()->default_value(0.0),
+      "top of the colour scale, mm (plastic: %); 0: from the data")("width", options::value<int>()->default_value(1800),
+                                                                    "pixels")(
       "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
       "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""),
                                                              "words above the picture");

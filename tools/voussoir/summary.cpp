@@ -146,6 +146,23 @@ nlohmann::json hinges_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
+/// Shares are of its volume as built.
+nlohmann::json fill_json(const FillMesh& mesh, const Snapshot& snapshot) {
+  const FillSnapshot& fill = snapshot.fill;
+  double whole = 0.0, sheared = 0.0, torn = 0.0, most = 0.0, farthest = 0.0;
+  for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
+    const auto x = [&](std::size_t k) { return mesh.nodes[std::size_t(mesh.tets[i][k])]; };
+    const double volume = (x(1) - x(0)).dot((x(2) - x(0)).cross(x(3) - x(0))) / 6.0;
+    whole += volume;
+    if (fill.tets[i].yield & has_yielded_in_shear) sheared += volume;
+    if (fill.tets[i].yield & has_yielded_in_tension) torn += volume;
+    most = std::max(most, fill.tets[i].plastic_shear);
+  }
+  for (const Vec3& u : fill.displacement) farthest = std::max(farthest, (u - snapshot.base_displacement).norm());
+  return {{"nodes", mesh.nodes.size()},         {"tetrahedra", mesh.tets.size()}, {"yielded_in_shear", sheared / whole},
+          {"yielded_in_tension", torn / whole}, {"largest_plastic_shear", most},  {"largest_displacement", farthest}};
+}
+
 }  // namespace
 
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
@@ -154,6 +171,7 @@ nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot,
                          {"reactions", reactions_json(run.held_groups(), history)},
                          {"damage", damage_json(run.assembly(), snapshot)},
                          {"hinges", hinges_json(run.assembly(), snapshot)}};
+  if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
   return json;
 }
