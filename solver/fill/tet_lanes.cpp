@@ -1,4 +1,5 @@
 // Eight tetrahedra at a time: volumes, stresses, nodal forces.
+#include "solver/fill/principal.h"
 #include "solver/fill/tet_strain.h"
 
 namespace voussoir {
@@ -7,7 +8,7 @@ namespace tet {
 
 Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
            Symmetric<Lanes>& e, Lanes& p) {
-  const Principal<Lanes> x = principal(e);
+  const Principal<Lanes> x = principal_axes(e);
   Lanes trial[3], stress[3], region;
   for (int i = 0; i < 3; ++i) trial[i] = 2.0 * law.shear * x.value[i] + p;
   return_to_surface(law, trial, stress, &region);

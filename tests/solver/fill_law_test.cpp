@@ -5,6 +5,7 @@
 #include <random>
 
 #include "solver/fill/mohr_coulomb.h"
+#include "solver/fill/principal.h"
 
 using namespace voussoir;
 
@@ -194,15 +195,25 @@ TEST(FillLaw, PrincipalAxes) {
     if (i % 3 == 0) s = a * Vec3(1, 1, 2).asDiagonal() * a.transpose();
     if (i % 7 == 0) s = 1e-9 * s + Mat3::Identity();
     if (i % 11 == 0) s = Vec3(normal(random), 1, 1).asDiagonal();
-    const Principal<double> x = principal(Symmetric<double>{s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)});
-    Mat3 v;
-    for (int k = 0; k < 9; ++k) v(k / 3, k % 3) = x.axes.m[k / 3][k % 3];
-    const Vec3 values(x.value[0], x.value[1], x.value[2]);
-    ASSERT_LT((v * values.asDiagonal() * v.transpose() - s).norm(), 1e-13 * s.norm());
-    ASSERT_LT((v.transpose() * v - Mat3::Identity()).norm(), 1e-13);
-    ASSERT_GE(values[0], values[1]);
-    ASSERT_GE(values[1], values[2]);
+    if (i % 13 == 0) {  // two equal ones, or nearly, along any axes
+      const Mat3 q = Eigen::HouseholderQR<Mat3>(a).householderQ();
+      s = q * Vec3(i % 2 ? 2 : -2, 1, 1 + 1e-12 * (i % 5)).asDiagonal() * q.transpose();
+      s = (0.5 * (s + s.transpose())).eval();
+    }
+    if (i % 17 == 0) s = normal(random) * Mat3::Identity();
+    const Symmetric<double> tensor = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)};
+    for (const Principal<double>& x : {principal(tensor), principal_axes(tensor)}) {
+      Mat3 v;
+      for (int k = 0; k < 9; ++k) v(k / 3, k % 3) = x.axes.m[k / 3][k % 3];
+      const Vec3 values(x.value[0], x.value[1], x.value[2]);
+      ASSERT_LT((v * values.asDiagonal() * v.transpose() - s).norm(), 1e-13 * s.norm());
+      ASSERT_LT((v.transpose() * v - Mat3::Identity()).norm(), 1e-13);
+      ASSERT_GE(values[0], values[1] - 1e-15 * s.norm());
+      ASSERT_GE(values[1], values[2] - 1e-15 * s.norm());
+    }
   }
+  const Principal<double> nothing = principal_axes(Symmetric<double>{});
+  for (const double value : nothing.value) EXPECT_EQ(value, 0.0);
 }
 
 TEST(FillLaw, RefusesWhatIsNoMaterial) {

@@ -1,0 +1,93 @@
+// Principal axes of symmetric 3 × 3 tensors in closed form, for elements that flow by the thousand. principal() in
+// symmetric.h finds the same by rotations, without a case that is special: what this is tested against.
+#pragma once
+#include "solver/fill/symmetric.h"
+
+namespace voussoir {
+
+namespace detail {
+
+template <class T>
+[[gnu::always_inline]] inline Triple<T> times(const Symmetric<T>& a, const Triple<T>& v) {
+  return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
+          a.xz * v.x + a.yz * v.y + a.zz * v.z};
+}
+
+/// 2 cos(⅓ arccos r) for r from 0 to 1, the greatest root of x³ − 3 x = 2 r. It
+/// is a simple one, so that x(r) is smooth: its Chebyshev series of degree 8
+/// errs by 3.2e-9, and a step of Newton leaves rounding.
+template <class T>
+[[gnu::always_inline]] inline T greatest_root(T r) {
+  constexpr double series[9] = {1.87938524119,     0.131643590843,     -0.0128628088564,
+                                0.00221362188183,  -0.000467441341792, 0.000108729480224,
+                                -2.71702355317e-5, 8.65124696062e-6,   -2.41656397918e-6};
+  const T t = 2.0 * r - 1.0;
+  T x = all_lanes<T>(series[8]);
+  for (int i = 7; i >= 0; --i) x = x * t + series[i];
+  return x - ((x * x - 3.0) * x - 2.0 * r) / (3.0 * x * x - 3.0);
+}
+
+template <class T>
+[[gnu::always_inline]] inline Triple<T> choose(decltype(less(T{}, T{})) m, const Triple<T>& a, const Triple<T>& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+
+/// The eigenvector to an eigenvalue apart from the two others, which lie on one
+/// side of it: all columns of the adjugate of `a` less that value point along
+/// it; the longest has the greatest diagonal.
+template <class T>
+[[gnu::always_inline]] inline Triple<T> axis_of(const Symmetric<T>& a, T value) {
+  const T xx = a.xx - value, yy = a.yy - value, zz = a.zz - value;
+  const T cx = yy * zz - a.yz * a.yz, cy = xx * zz - a.xz * a.xz, cz = xx * yy - a.xy * a.xy;
+  const T xy = a.xz * a.yz - a.xy * zz, xz = a.xy * a.yz - a.xz * yy, yz = a.xy * a.xz - a.yz * xx;
+  const Triple<T> rows[3] = {{cx, xy, xz}, {xy, cy, yz}, {xz, yz, cz}};
+  Triple<T> n = choose(less(cx, cy), rows[1], rows[0]);
+  n = choose(less(larger(cx, cy), cz), rows[2], n);
+  return (1.0 / square_root(dot(n, n))) * n;
+}
+
+}  // namespace detail
+
+/// Of the deviator one principal value is apart from both others by at least
+/// its own size; it comes from the cubic in closed form (Smith 1961), its axis
+/// from the adjugate (Scherzinger & Dohrmann 2008). What is left is a tensor in
+/// the plane across, given axes as Duff et al. (2017) and turned into its own
+/// by one Jacobi rotation (Golub & Van Loan 2013, 8.5.2). All to rounding of
+/// the deviator's norm; so is their order.
+template <class T>
+inline Principal<T> principal_axes(const Symmetric<T>& s) {
+  const T zero = all_lanes<T>(0.0), one = all_lanes<T>(1.0);
+  const T mean = (1.0 / 3.0) * trace(s);
+  const Symmetric<T> d = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.xz, s.yz};
+  // Scaled to roots of x³ − 3 x = 2 r, turned over where r is below zero.
+  T scale = 1.0 / larger(square_root((1.0 / 6.0) * inner(d, d)), all_lanes<T>(1e-100));
+  const T r =
+      0.5 * scale * scale * scale *
+      (d.xx * (d.yy * d.zz - d.yz * d.yz) - d.xy * (d.xy * d.zz - d.yz * d.xz) + d.xz * (d.xy * d.yz - d.yy * d.xz));
+  const auto over = less(r, zero);
+  scale = select(over, -scale, scale);
+  const T most = -larger(-magnitude(r), -one);
+  const Triple<T> n = detail::axis_of(scale * d, detail::greatest_root(most));
+  // Two axes across it.
+  const T sign = select(less(n.z, zero), -one, one), turn = -1.0 / (sign + n.z), both = n.x * n.y * turn;
+  const Triple<T> u = {one + sign * n.x * n.x * turn, sign * both, -sign * n.x};
+  const Triple<T> w = {both, sign + n.y * n.y * turn, -n.y};
+  const Triple<T> du = detail::times(d, u), dw = detail::times(d, w);
+  const T uu = dot(u, du), uw = 2.0 * dot(u, dw), ww = dot(w, dw);
+  const T apart = ww - uu, root = square_root(apart * apart + uw * uw);
+  const T wide = larger(magnitude(apart) + root, all_lanes<T>(1e-100));
+  const T norm = 1.0 / square_root(wide * wide + uw * uw);
+  const auto rises = less(zero, apart);
+  const T a = norm * select(rises, uw, wide), b = norm * select(rises, wide, uw);
+  const Triple<T> upper = a * u + b * w, lower = b * u - a * w;
+  const T middle = mean + 0.5 * (uu + ww), high = middle + 0.5 * root, low = middle - 0.5 * root;
+  const T alone = mean - (uu + ww);
+  Principal<T> x;
+  const Triple<T> first = detail::choose(over, upper, n), second = detail::choose(over, lower, upper),
+                  third = detail::choose(over, n, lower);
+  x.value[0] = select(over, high, alone), x.value[1] = select(over, low, high), x.value[2] = select(over, alone, low);
+  x.axes = {{{first.x, second.x, third.x}, {first.y, second.y, third.y}, {first.z, second.z, third.z}}};
+  return x;
+}
+
+}  // namespace voussoir
