@@ -68,13 +68,13 @@ TEST_F(FillShown, ARunLeavesFramesAndPictures) {
 
   // The fill is hidden as backfill is, and shown when it is coloured.
   const std::string shown = picture({"run", "--hide", "none"});
-  EXPECT_NE(shown, picture({"run"}));
+  EXPECT_TRUE(shown != picture({"run"}));
   EXPECT_EQ(shown.substr(0, 4), "\x89PNG");
   const std::string plastic = picture({"run", "--colour", "plastic"});
-  EXPECT_NE(plastic, picture({"run", "--colour", "yield"}));
-  EXPECT_NE(plastic, picture({"run", "--colour", "plastic", "--cut", "y=0.3"}));
-  EXPECT_EQ(picture({"run", "--colour", "yield", "--time", "0.04"}),
-            picture({"run/checkpoints/00000.040.h5", "--colour", "yield"}));
+  EXPECT_TRUE(plastic != picture({"run", "--colour", "yield"}));
+  EXPECT_TRUE(plastic != picture({"run", "--colour", "plastic", "--cut", "y=0.3"}));
+  EXPECT_TRUE(picture({"run", "--colour", "yield", "--time", "0.04"}) ==
+              picture({"run/checkpoints/stage_02_00000.040.h5", "--colour", "yield"}));
   EXPECT_EQ(picture({"run/assembly.h5", "--colour", "plastic"}).substr(0, 4), "\x89PNG");
 
   const auto refused = [&](std::vector<std::string> words, const std::vector<std::string>& pieces) {
@@ -98,7 +98,7 @@ TEST_F(FillShown, AResumedRunHasTheSameFrames) {
   ASSERT_EQ(voussoir({"run", "c.toml", "-o", "parts", "--no-pictures", "--until", "0.03"}, there).status, 0);
   ASSERT_EQ(voussoir({"resume", "parts", "--no-pictures"}, there).status, 0);
   for (const char* file : {"vtk/fill.pvd", "vtk/fill_000000.040.vtu"})
-    EXPECT_EQ(bytes_of(folder / "whole/" + file), bytes_of(folder / "parts/" + file));
+    EXPECT_TRUE(bytes_of(folder / "whole/" + file) == bytes_of(folder / "parts/" + file)) << file;
 }
 
 TEST_F(FillShown, ModesMoveItInFilesAndPictures) {
@@ -115,7 +115,7 @@ TEST_F(FillShown, ModesMoveItInFilesAndPictures) {
                there)
           .status,
       0);
-  EXPECT_NE(shown, bytes_of(folder / "modes/images/mode_01.png"));
+  EXPECT_TRUE(shown != bytes_of(folder / "modes/images/mode_01.png"));
   EXPECT_FALSE(exists(folder / "modes/vtk/mode_fill_02.vtu")) << "of the analysis before";
 }
 
