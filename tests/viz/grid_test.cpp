@@ -294,9 +294,23 @@ TEST(VtkFiles, ReadBackAsWritten) {
   EXPECT_EQ(back->GetCellData()->GetNumberOfArrays(), grid->GetCellData()->GetNumberOfArrays());
   EXPECT_EQ(back->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 1.0 / 3.0);
   const std::string text = test::read_text(folder / "deep/er/blocks.vtu");
-  EXPECT_NE(text.find("vtkZLibDataCompressor"), std::string::npos);
+  EXPECT_NE(text.find("vtkLZ4DataCompressor"), std::string::npos);
   EXPECT_NE(text.find("format=\"appended\""), std::string::npos);
   EXPECT_EQ(test::files_in(folder / "deep/er"), 1u);  // no temporary is left
+}
+
+/// Runs of before wrote zlib.
+TEST(VtkFiles, EveryPackingIsRead) {
+  const Folder folder;
+  const Assembly assembly = mixed_shapes();
+  const auto grid = block_grid(assembly, rest_snapshot(assembly));
+  for (const Packing packing : {Packing::none, Packing::lz4, Packing::zlib_fast, Packing::zlib}) {
+    write_vtu(grid, folder / "a.vtu", packing);
+    const auto back = read_vtu(folder / "a.vtu");
+    ASSERT_EQ(back->GetNumberOfPoints(), grid->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < back->GetNumberOfPoints(); ++i)
+      EXPECT_EQ(Vec3(back->GetPoint(i)), Vec3(grid->GetPoint(i)));
+  }
 }
 
 TEST(VtkFiles, ErrorsNameTheFile) {
