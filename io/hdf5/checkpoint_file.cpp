@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t format_version = 4;
+constexpr std::int64_t format_version = 5;
 constexpr const char* numbers_group = "header/numbers";
 
 void set_hash(h5::File& file, const std::string& name, std::uint64_t value) {
@@ -135,6 +135,11 @@ CheckpointHeader read_checkpoint_header(const std::string& path) {
 void read_checkpoint(const std::string& path, CheckpointHeader& header, const std::vector<NamedArray>& arrays) {
   with_checkpoint(path, [&](const h5::File& file) {
     header = get_header(file);
+    if (const std::int64_t version = file.integer("/", "format_version"); version != format_version)
+      throw h5::ForeignFile(
+          "{} was written by voussoir {} and keeps the state in another order (version {}, expected {}): go on with "
+          "that program, or begin the run anew",
+          path, header.program_version, version, format_version);
     for (const NamedArray& array : arrays) read_array(file, array);
     if (const std::size_t found = file.datasets().size(); found != arrays.size())
       file.fail("/", fmt::format("it holds {} arrays, expected {}: another version wrote it ({})", found, arrays.size(),

@@ -1,5 +1,6 @@
 // Eight contacts at a time, always point by point; while they stay wholly open their jump alone.
 #include "solver/contact/lane_points.h"
+#include "solver/model/with_branches.h"
 
 namespace voussoir {
 
@@ -110,20 +111,8 @@ PassReport contacts_of(const PatchPass& pass, const std::int32_t* begin, const s
 }  // namespace
 
 PassReport PatchPass::contacts(std::size_t tile, const std::int32_t* begin, const std::int32_t* end) const {
-  static_assert(most_branches == 4);
   TileEnergy* energy = energies ? &energies[tile] : nullptr;
-  switch (branches.count) {
-    case 0:
-      return contacts_of<0>(*this, begin, end, energy);
-    case 1:
-      return contacts_of<1>(*this, begin, end, energy);
-    case 2:
-      return contacts_of<2>(*this, begin, end, energy);
-    case 3:
-      return contacts_of<3>(*this, begin, end, energy);
-    default:
-      return contacts_of<4>(*this, begin, end, energy);
-  }
+  return with_branches(branches.count, [&](auto count) { return contacts_of<count>(*this, begin, end, energy); });
 }
 
 }  // namespace voussoir

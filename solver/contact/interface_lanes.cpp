@@ -1,5 +1,6 @@
 // Eight patches between stones and fill at a time, point by point.
 #include "solver/contact/lane_points.h"
+#include "solver/model/with_branches.h"
 
 namespace voussoir {
 
@@ -118,24 +119,12 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
 bool PatchPass::interface(std::size_t tile) const {
   const std::vector<std::int32_t>& first = state->interface.first_batch;
   TileEnergy* energy = energies ? &energies[tile] : nullptr;
-  bool reclip = false;
-  for (auto k = std::size_t(first[tile]); k < std::size_t(first[tile + 1]); ++k) switch (branches.count) {
-      case 0:
-        reclip |= batch_of<0>(*this, k, energy);
-        break;
-      case 1:
-        reclip |= batch_of<1>(*this, k, energy);
-        break;
-      case 2:
-        reclip |= batch_of<2>(*this, k, energy);
-        break;
-      case 3:
-        reclip |= batch_of<3>(*this, k, energy);
-        break;
-      default:
-        reclip |= batch_of<4>(*this, k, energy);
-    }
-  return reclip;
+  return with_branches(branches.count, [&](auto count) {
+    bool reclip = false;
+    for (auto k = std::size_t(first[tile]); k < std::size_t(first[tile + 1]); ++k)
+      reclip |= batch_of<count>(*this, k, energy);
+    return reclip;
+  });
 }
 
 }  // namespace voussoir

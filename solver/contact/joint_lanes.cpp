@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solver/contact/lane_points.h"
+#include "solver/model/with_branches.h"
 
 namespace voussoir {
 
@@ -352,19 +353,7 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
 }  // namespace
 
 PassReport PatchPass::joints(std::size_t tile) const {
-  static_assert(most_branches == 4);
-  switch (branches.count) {
-    case 0:
-      return joints_of<0>(*this, tile);
-    case 1:
-      return joints_of<1>(*this, tile);
-    case 2:
-      return joints_of<2>(*this, tile);
-    case 3:
-      return joints_of<3>(*this, tile);
-    default:
-      return joints_of<4>(*this, tile);
-  }
+  return with_branches(branches.count, [&](auto count) { return joints_of<count>(*this, tile); });
 }
 
 }  // namespace voussoir

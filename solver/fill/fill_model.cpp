@@ -75,18 +75,25 @@ void fill_lane(const FillModel& fill, const Element& element, int lane, TetBatch
   for (int k = 0; k < 4; ++k) batch.node[k][lane] = element.nodes[std::size_t(k)];
 }
 
-void add_batch(const std::vector<Element>& elements, std::size_t first, std::size_t end, FillModel& fill) {
-  TetBatch batch{};
-  batch.law = elements[first].law;
-  batch.count = std::int32_t(end - first);
-  for (int lane = 0; lane < lane_count; ++lane) {
-    const bool spare = lane >= batch.count;
-    const Element& element = elements[spare ? end - 1 : first + std::size_t(lane)];
-    fill_lane(fill, element, lane, batch);
-    if (!spare) fill.lane_of_tet[std::size_t(element.tet)] = std::int32_t(fill.tet_of_lane.size());
-    fill.tet_of_lane.push_back(spare ? -1 : element.tet);
+/// A lane takes elements one after the other from its own part of the list: those side by side seldom share nodes, and
+/// additions to one node do not wait for each other.
+void add_batches(const std::vector<Element>& elements, std::size_t first, std::size_t end, FillModel& fill) {
+  const std::size_t all = end - first, batches = (all + lane_count - 1) / lane_count;
+  const std::size_t longer = all - lane_count * (batches - 1);  // lanes that are at work in the last batch, too
+  for (std::size_t b = 0; b < batches; ++b) {
+    TetBatch batch{};
+    batch.law = elements[first].law;
+    batch.count = std::int32_t(b + 1 < batches ? std::size_t(lane_count) : longer);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const bool spare = lane >= batch.count;
+      const auto at = std::size_t(spare ? batch.count - 1 : lane);
+      const Element& element = elements[first + at * batches - (at > longer ? at - longer : 0) + b];
+      fill_lane(fill, element, lane, batch);
+      if (!spare) fill.lane_of_tet[std::size_t(element.tet)] = std::int32_t(fill.tet_of_lane.size());
+      fill.tet_of_lane.push_back(spare ? -1 : element.tet);
+    }
+    fill.batches.push_back(batch);
   }
-  fill.batches.push_back(batch);
 }
 
 /// Nodes of later tiles that batches from the tile's first on touch, each once and in order.
@@ -122,10 +129,10 @@ void make_tiles(const std::vector<Element>& elements, FillModel& fill) {
     tile.first_batch = std::int32_t(fill.batches.size());
     while (element < elements.size() && elements[element].tile() == first / tile_nodes) {
       std::size_t end = element + 1;
-      while (end < elements.size() && end - element < lane_count && elements[end].tile() == elements[element].tile() &&
+      while (end < elements.size() && elements[end].tile() == elements[element].tile() &&
              elements[end].law == elements[element].law)
         ++end;
-      add_batch(elements, element, end, fill);
+      add_batches(elements, element, end, fill);
       element = end;
     }
     tile.end_batch = std::int32_t(fill.batches.size());

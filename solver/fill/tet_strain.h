@@ -72,8 +72,10 @@ constexpr double least_volume = 0.02;  // of the reference
   const Lanes sum = trace(less_one), scale = 3.0 / (3.0 + sum), mean = (1.0 / 3.0) * sum;
   const Symmetric<Lanes> b = {scale * (less_one.xx - mean), scale * (less_one.yy - mean), scale * (less_one.zz - mean),
                               scale * less_one.xy,          scale * less_one.xz,          scale * less_one.yz};
-  const Symmetric<Lanes> b2 = coaxial_product(b, b), b3 = coaxial_product(b2, b);
-  return deviator(splat(0.5) * b - splat(0.25) * b2 + splat(1.0 / 6.0) * b3);
+  // ½ b − ¼ b² + ⅙ b³; without a trace, dev b³ = ½ tr b² b (Cayley–Hamilton).
+  const Symmetric<Lanes> b2 = coaxial_product(b, b);
+  const Lanes squares = trace(b2);
+  return (0.5 + (1.0 / 12.0) * squares) * b - splat(0.25) * deviator(b2);
 }
 
 struct Strain {
@@ -90,6 +92,14 @@ struct Strain {
            {minor(0, 1, 1, 2), minor(0, 1, 2, 0), minor(0, 1, 0, 1)}}};
 }
 
+/// Whether any of the eight has ever flowed: if not, their plastic memory is zero and need not be read.
+[[gnu::always_inline]] inline bool has_flowed(const std::uint8_t* yield) {
+  std::uint64_t flags;
+  std::memcpy(&flags, yield, sizeof(flags));
+  return flags != 0;
+}
+
+/// `plastic`: rows of plastic memory, or null where nothing has flowed.
 [[gnu::always_inline]] inline Strain strain_of(const TetBatch& batch, const Nodes& n, const Lanes* plastic) {
   const Tensor<Lanes> h = gradient(batch, n);
   Strain s;
@@ -100,11 +110,14 @@ struct Strain {
   // b − 1 = H + Hᵀ + H Hᵀ + F (Cp⁻¹ − 1) Fᵀ
   const auto& m = h.m;
   const auto rows = [&](int i, int j) { return m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]; };
-  const Symmetric<Lanes> total = {2.0 * m[0][0] + rows(0, 0),     2.0 * m[1][1] + rows(1, 1),
-                                  2.0 * m[2][2] + rows(2, 2),     m[0][1] + m[1][0] + rows(0, 1),
-                                  m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
-  const Symmetric<Lanes> memory = {plastic[0], plastic[1], plastic[2], plastic[3], plastic[4], plastic[5]};
-  s.e = elastic_deviator(total + push(s.f, memory));
+  Symmetric<Lanes> total = {2.0 * m[0][0] + rows(0, 0),     2.0 * m[1][1] + rows(1, 1),
+                            2.0 * m[2][2] + rows(2, 2),     m[0][1] + m[1][0] + rows(0, 1),
+                            m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
+  if (plastic) {
+    const Symmetric<Lanes> memory = {plastic[0], plastic[1], plastic[2], plastic[3], plastic[4], plastic[5]};
+    total = total + push(s.f, memory);
+  }
+  s.e = elastic_deviator(total);
   return s;
 }
 

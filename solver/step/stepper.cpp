@@ -196,7 +196,7 @@ struct Found {
 
 /// The fill's tiles are numbered after those of the bodies, which have nothing to do in the round before.
 void add_fill_work(RoundWork& work, FillPass& fill, std::size_t body_tiles, std::vector<Found>& found,
-                   std::vector<Energies>& energies) {
+                   std::vector<Energies>& energies, std::vector<TileCost>* costs) {
   const auto shared = [body_tiles](std::function<void(std::size_t)> of_bodies, auto of_fill) {
     return [body_tiles, of_bodies = std::move(of_bodies), of_fill](std::size_t tile) {
       if (tile >= body_tiles)
@@ -211,6 +211,20 @@ void add_fill_work(RoundWork& work, FillPass& fill, std::size_t body_tiles, std:
       shared(work.first, [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill = fill.stresses(tile); });
   work.second =
       shared(work.second, [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill.merge(fill.nodes(tile)); });
+  if (costs) {
+    const auto timed_tile = [&, body_tiles, costs](auto of_bodies, double TileCost::*sum) {
+      return [=, &found](std::size_t tile) {
+        if (tile < body_tiles) return of_bodies(tile);
+        TileCost& cost = (*costs)[tile];
+        timed(cost.*sum, [&] { return of_bodies(tile), 0; });
+        if (sum == &TileCost::patches) cost.yielding += found[tile].fill.yielding;
+      };
+    };
+    work.before_first = timed_tile(work.before_first, &TileCost::volumes);
+    work.before_second = timed_tile(work.before_second, &TileCost::volumes);
+    work.first = timed_tile(work.first, &TileCost::patches);
+    work.second = timed_tile(work.second, &TileCost::bodies);
+  }
   work.between = shared(
       work.between, [&, body_tiles](std::size_t tile) { energies[body_tiles + tile] = energies_of_fill(fill, tile); });
 }
@@ -302,18 +316,21 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
   work.second = [&](std::size_t tile) { found[tile].bodies = move_tile(tile); };
   work.between = [&](std::size_t tile) { energies[tile] = energies_of_tile(*this, bodies, tile); };
   if (costs) {
-    costs->resize(model->tiles.size());
+    costs->resize(all_tiles);
     work.first = [&](std::size_t tile) {
       TileCost& cost = (*costs)[tile];
       const PassReport report = timed(cost.patches, [&] { return tile_patches(patches, tile); });
       cost.intact += report.intact, cost.points += report.points, cost.contacts += report.contacts;
+      if (!state->interface.empty())
+        cost.interface +=
+            lane_count * (state->interface.first_batch[tile + 1] - std::int64_t(state->interface.first_batch[tile]));
       found[tile].patches = report;
     };
     work.second = [&](std::size_t tile) {
       found[tile].bodies = timed((*costs)[tile].bodies, [&] { return move_tile(tile); });
     };
   }
-  if (!model->fill.empty()) add_fill_work(work, fill, body_tiles, found, energies);
+  if (!model->fill.empty()) add_fill_work(work, fill, body_tiles, found, energies, costs);
   work.next = [&](RoundKind done) {
     if (done == RoundKind::before) return step_kind;
     if (done == RoundKind::first_only) return RoundKind::between;

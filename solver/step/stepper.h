@@ -28,10 +28,13 @@ struct Advance {
   std::int64_t intact = 0, points = 0;                // patches of the last step on either path
 };
 
-/// What the steps have cost a tile, wall time in s, and how many patches went which way.
+/// What the steps have cost a tile, wall time in s, and how many patches went which way. Tiles of the fill come after
+/// those of bodies.
 struct TileCost {
-  double patches = 0.0, bodies = 0.0;
-  std::int64_t intact = 0, points = 0, contacts = 0;
+  double patches = 0.0, bodies = 0.0;  // of the fill: stresses, nodes
+  double volumes = 0.0;                // of the fill
+  std::int64_t intact = 0, points = 0, contacts = 0, interface = 0;
+  std::int64_t yielding = 0;  // tetrahedra
 };
 
 /// What a step works with. The stepper owns only scratch memory; everything that must survive is in the state.

@@ -149,19 +149,17 @@ TEST(Checkpoint, TruncationAnywhereIsFound) {
   EXPECT_FALSE(accepted(folder / "b.h5", 0, 0.0));
 }
 
-TEST(Checkpoint, DigestSeesWhatChecksumsCannot) {
-  const Folder folder;
-  State state = make_state(10), other;
-  write_checkpoint(folder / "c.h5", make_header(), state.arrays());
-  // Another program changed a value and wrote sound checksums.
-  const h5::File from = h5::File::open(folder / "c.h5");
-  h5::File to = h5::File::create(folder / "d.h5");
+/// A checkpoint as another program may have written it, with sound checksums: the attributes of another file, but for
+/// its version, and these arrays.
+void forge(const std::string& path, const std::string& like, std::int64_t version, State& state) {
+  const h5::File from = h5::File::open(like);
+  h5::File to = h5::File::create(path);
   for (const char* name : {"format", "assembly_hash", "case_hash", "state_hash", "program_version"})
     to.set_text("/", name, from.text("/", name));
-  for (const char* name : {"format_version", "step", "stage"}) to.set_integer("/", name, from.integer("/", name));
+  to.set_integer("/", "format_version", version);
+  for (const char* name : {"step", "stage"}) to.set_integer("/", name, from.integer("/", name));
   for (const char* name : {"time", "stage_time"}) to.set_number("/", name, from.number("/", name));
   to.make_group("header/numbers");
-  state.key[3] += 1;
   for (const NamedArray& array : state.arrays())
     std::visit(
         [&](const auto* v) {
@@ -171,6 +169,30 @@ TEST(Checkpoint, DigestSeesWhatChecksumsCannot) {
         },
         array.data);
   to.save();
+}
+
+std::int64_t version_of(const std::string& path) {
+  return h5::File::open(path).integer("/", "format_version");
+}
+
+TEST(Checkpoint, EarlierVersionsAreNotResumed) {
+  const Folder folder;
+  State state = make_state(10), other;
+  write_checkpoint(folder / "c.h5", make_header(), state.arrays());
+  forge(folder / "d.h5", folder / "c.h5", version_of(folder / "c.h5") - 1, state);
+  CheckpointHeader header;
+  const std::string message =
+      test::message_of<InputError>([&] { read_checkpoint(folder / "d.h5", header, other.arrays()); });
+  EXPECT_NE(message.find("begin the run anew"), std::string::npos) << message;
+  EXPECT_EQ(read_checkpoint_header(folder / "d.h5").step, make_header().step);
+}
+
+TEST(Checkpoint, DigestSeesWhatChecksumsCannot) {
+  const Folder folder;
+  State state = make_state(10), other;
+  write_checkpoint(folder / "c.h5", make_header(), state.arrays());
+  state.key[3] += 1;
+  forge(folder / "d.h5", folder / "c.h5", version_of(folder / "c.h5"), state);
   CheckpointHeader header;
   const std::string message =
       test::message_of<RunError>([&] { read_checkpoint(folder / "d.h5", header, other.arrays()); });

@@ -6,7 +6,9 @@
 
 #include "solver/contact/search.h"
 #include "solver/step/energy.h"
+#include "tools/bench/machine.h"
 #include "tools/bench/phases.h"
+#include "tools/ladder/fill_rig.h"
 
 namespace voussoir {
 namespace {
@@ -31,17 +33,91 @@ PatchPass pass_of(Running& r, int branches, bool shortcut) {
   return pass;
 }
 
+/// Items, bytes, operations, and which share of the machine's limit that is: of copies within `memory` bytes or of
+/// multiply–adds, whichever takes longer.
+void report(benchmark::State& timing, double items, const Work& work, double memory) {
+  static const double peak = multiply_add_peak(1);
+  static std::map<double, double> bandwidths;
+  if (!bandwidths.count(memory)) bandwidths[memory] = copy_bandwidth(memory, 1);
+  const double all = double(timing.iterations()) * items;
+  timing.SetItemsProcessed(std::int64_t(all));
+  timing.SetBytesProcessed(std::int64_t(all * work.bytes));
+  timing.counters["op/s"] = benchmark::Counter(all * work.operations, benchmark::Counter::kIsRate);
+  const double least = std::max(work.bytes / bandwidths[memory], work.operations / peak);
+  timing.counters["of_limit"] = benchmark::Counter(all * least, benchmark::Counter::kIsRate);
+}
+
 void joints(benchmark::State& timing, const char* name, bool shortcut) {
   Running& r = wall(name);
   const int branches = int(timing.range(0));
   const PatchPass pass = pass_of(r, branches, shortcut);
   for (auto _ : timing)
     for (std::size_t tile = 0; tile < r.model.tiles.size(); ++tile) benchmark::DoNotOptimize(pass.joints(tile));
-  const double items = double(timing.iterations()) * double(r.model.joints.size());
+  const double items = double(r.model.joints.size());
   const Work work = shortcut ? intact_work(branches) : points_work(branches, 9.0, true);
-  timing.SetItemsProcessed(std::int64_t(items));
-  timing.SetBytesProcessed(std::int64_t(items * work.bytes));
-  timing.counters["op/s"] = benchmark::Counter(items * work.operations, benchmark::Counter::kIsRate);
+  report(timing, items, work, items * work.bytes);
+}
+
+/// A box of soil under pressure in all directions and shear to and fro: too little for it to flow, or so much that
+/// every tetrahedron does, at every pass.
+struct Soil {
+  FillModel model;
+  FillMemory memory;
+  Array<double> sums, volume_sums;
+  FillPass pass;
+  Array<double> other;  // the placement of the passes between
+
+  Soil(int cells, double shear, int branches) : model(box(cells)), memory(initial_fill(model)) {
+    set_fill_branches(model, memory, branches);
+    sums.resize(node_width * model.sum_count()), volume_sums.resize(model.sum_count());
+    other = memory.pose;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+      const Vec3& x = model.nodes[i];
+      for (std::size_t c = 0; c < 3; ++c)
+        memory.pose[node_width * i + c] = other[node_width * i + c] = -1e-4 * x[Eigen::Index(c)];
+      memory.pose[node_width * i] += shear * x.z(), other[node_width * i] -= shear * x.z();
+    }
+    pass.fill = &model, pass.memory = &memory;
+    pass.sums = sums.data(), pass.volume_sums = volume_sums.data();
+    pass.branches.count = branches;
+    for (int k = 0; k < branches; ++k) pass.branches.e[k] = 0.99, pass.branches.g[k] = 0.02;
+  }
+
+  static FillModel box(int cells) {
+    Assembly assembly;
+    Material soil;
+    soil.name = "soil", soil.density = 1800.0, soil.youngs_modulus = 300e6, soil.shear_modulus = 120e6;
+    soil.friction_angle = 0.6, soil.cohesion = 1e3, soil.tensile_strength = 1e3;
+    assembly.materials = {soil};
+    assembly.fill = ladder::box_mesh(Vec3::Zero(), 0.3 * Vec3(cells, cells, cells), cells, cells, cells);
+    assembly.fill.material.assign(assembly.fill.tets.size(), 0);
+    return build_fill(assembly);
+  }
+
+  std::int64_t step() {
+    std::swap(memory.pose, other);
+    for (std::size_t tile = 0; tile < model.tiles.size(); ++tile) pass.volumes(tile);
+    for (std::size_t tile = 0; tile < model.tiles.size(); ++tile) pass.means(tile);
+    std::int64_t yielding = 0;
+    for (std::size_t tile = 0; tile < model.tiles.size(); ++tile) yielding += pass.stresses(tile).yielding;
+    return yielding;
+  }
+};
+
+void tetrahedra(benchmark::State& timing, double shear) {
+  const int cells = int(timing.range(0)), branches = int(timing.range(1));
+  Soil soil(cells, shear, branches);
+  soil.step();
+  std::int64_t yielding = 0;
+  for (auto _ : timing) yielding += soil.step();
+  const double items = double(soil.model.lane_of_tet.size()), nodes = double(soil.model.nodes.size());
+  const double flowed = double(yielding) / double(timing.iterations()) / items;
+  const Work first = volume_work(flowed), second = stress_work(branches, flowed),
+             of_nodes = node_work(double(soil.model.sums.size()) / nodes);
+  const Work work = {first.bytes + second.bytes + nodes / items * of_nodes.bytes,
+                     first.operations + second.operations + nodes / items * of_nodes.operations};
+  report(timing, items, work, items * work.bytes);
+  timing.counters["flow"] = flowed;
 }
 
 void bodies(benchmark::State& timing) {
@@ -50,11 +126,9 @@ void bodies(benchmark::State& timing) {
   const BodyPass pass = r.stepper.body_pass();
   for (auto _ : timing) benchmark::DoNotOptimize(pass.bodies(0, r.model.bodies.size()));
   r.state.pose = pose, r.state.motion = motion;
-  const double items = double(timing.iterations()) * double(r.model.bodies.size());
-  const Work work = body_work(double(r.model.sums.size()) / double(r.model.bodies.size()));
-  timing.SetItemsProcessed(std::int64_t(items));
-  timing.SetBytesProcessed(std::int64_t(items * work.bytes));
-  timing.counters["op/s"] = benchmark::Counter(items * work.operations, benchmark::Counter::kIsRate);
+  const double items = double(r.model.bodies.size());
+  const Work work = body_work(double(r.model.sums.size()) / items);
+  report(timing, items, work, items * work.bytes);
 }
 
 void energies(benchmark::State& timing) {
@@ -80,6 +154,8 @@ void search(benchmark::State& timing) {
 BENCHMARK_CAPTURE(joints, intact, "wall-1040-bonded", true)->Arg(0)->Arg(1)->Arg(3);
 BENCHMARK_CAPTURE(joints, point_by_point, "wall-1040", false)->Arg(0)->Arg(1)->Arg(3);
 BENCHMARK(bodies);
+BENCHMARK_CAPTURE(tetrahedra, elastic, 0.0)->ArgsProduct({{12, 40}, {0, 1, 3}});
+BENCHMARK_CAPTURE(tetrahedra, flowing, 1e-3)->ArgsProduct({{12, 40}, {0, 1, 3}});
 BENCHMARK(energies);
 BENCHMARK(search);
 

@@ -63,6 +63,58 @@ Work body_work(double sums) {
   return {bytes, 6.0 * sums + 30.0 + 150.0 + 112.0 + 13.0 + 6.0 + 25.0};
 }
 
+namespace {
+
+constexpr double gradient_operations = 54.0, volume_operations = 35.0;
+
+/// What the fill's tiles cost over `n` steps.
+void add_fill_phases(const Running& r, const std::vector<TileCost>& costs, double n, std::vector<Phase>& phases) {
+  const FillModel& fill = r.model.fill;
+  TileCost all;
+  for (std::size_t i = r.model.tiles.size(); i < costs.size(); ++i) {
+    all.volumes += costs[i].volumes, all.patches += costs[i].patches, all.bodies += costs[i].bodies;
+    all.yielding += costs[i].yielding;
+  }
+  double flowed = 0.0;
+  for (std::size_t b = 0; b < fill.batches.size(); ++b)
+    for (int lane = 0; lane < lane_count; ++lane)
+      if (r.state.fill.yield[lane_count * b + std::size_t(lane)] != 0) {
+        flowed += 1.0;
+        break;
+      }
+  flowed /= double(fill.batches.size());
+  const double tets = double(fill.lane_of_tet.size()), nodes = double(fill.nodes.size());
+  const double sums = double(fill.sums.size()) / nodes;
+  phases.push_back({"tetrahedra: means", tets, all.volumes / n, tets * volume_work(flowed)});
+  phases.push_back(
+      {"tetrahedra: stresses", tets, all.patches / n, tets * stress_work(r.stepper.damping.branches.count, flowed)});
+  phases.push_back({"nodes", nodes, all.bodies / n, nodes * node_work(sums)});
+  phases.push_back({"tetrahedra that flow", double(all.yielding) / n, 0.0, {}});
+}
+
+}  // namespace
+
+Work volume_work(double flowed) {
+  const double bytes = double(sizeof(TetBatch)) / lane_count + 1.0 + 8.0 * flowed;
+  return {bytes, gradient_operations + volume_operations + 6.0 + flowed};
+}
+
+Work stress_work(int branches, double flowed) {
+  const double kept = branches > 0 ? 2.0 * sizeof(float) * (strain_rows + 6.0 * branches) : 0.0;
+  const double bytes = double(sizeof(TetBatch)) / lane_count + 2.0 + kept + 8.0 * plastic_width * flowed;
+  // Cofactor 27, b 42, its deviator 67, mean and pressure 11, yield 20, Kirchhoff 26, Piola 45, nodal forces 66.
+  const double elastic = gradient_operations + volume_operations + 304.0;
+  // Material strain 79, change 7, work 25, stress 22, its part of Piola 60, and 30 a branch.
+  const double viscous = branches > 0 ? 193.0 + 30.0 * branches : 0.0;
+  return {bytes, elastic + viscous + 75.0 * flowed};
+}
+
+Work node_work(double sums) {
+  // Displacement and velocity read and written, searched, mass twice, weight, held; sums of forces and of volumes.
+  const double bytes = 4.0 * sizeof(Quad) + 16.0 + 25.0 + sums * (sizeof(Quad) + 8.0 + 8.0);
+  return {bytes, 4.0 * sums + 40.0};
+}
+
 std::vector<Phase> step_phases(Running& r, std::int64_t steps) {
   std::vector<TileCost> costs;
   const int threads = r.stepper.threads;
@@ -71,19 +123,19 @@ std::vector<Phase> step_phases(Running& r, std::int64_t steps) {
   const Progressed p = advance_scene(r, steps);
   r.stepper.costs = nullptr;
   r.stepper.threads = threads;
-  const auto tiles = Eigen::Index(costs.size());
-  Eigen::MatrixXd counts(tiles, 3);
+  const auto tiles = Eigen::Index(r.model.tiles.size());
+  Eigen::MatrixXd counts(tiles, 4);
   Eigen::VectorXd times(tiles);
   double bodies = 0.0;
   for (Eigen::Index i = 0; i < tiles; ++i) {
     const TileCost& c = costs[std::size_t(i)];
-    counts.row(i) << double(c.intact), double(c.points), double(c.contacts);
+    counts.row(i) << double(c.intact), double(c.points), double(c.contacts), double(c.interface);
     times[i] = c.patches;
     bodies += c.bodies;
   }
-  const Eigen::Vector3d each = counts.completeOrthogonalDecomposition().solve(times);
+  const Eigen::Vector4d each = counts.completeOrthogonalDecomposition().solve(times);
   const double n = double(p.steps);
-  const Eigen::Vector3d all = counts.colwise().sum().transpose() / n;
+  const Eigen::Vector4d all = counts.colwise().sum().transpose() / n;
   const int branches = r.stepper.damping.branches.count;
   double rectangles = 0.0, points = 0.0;
   for (const JointBatch& b : r.model.batches) rectangles += b.rectangles, points += b.points;
@@ -97,8 +149,10 @@ std::vector<Phase> step_phases(Running& r, std::int64_t steps) {
       {"intact patches", all[0], each[0] * all[0], all[0] * intact_work(branches)},
       {"point-wise patches", all[1], each[1] * all[1], all[1] * mixed},
       {"contacts", all[2], each[2] * all[2], {}},
+      {"patches with the fill", all[3], each[3] * all[3], {}},
       {"gather and integrate", n_bodies, bodies / n, n_bodies * body_work(double(r.model.sums.size()) / n_bodies)},
       {"contact search", double(p.searches) / n, p.search_seconds / n, {}}};
+  if (!r.model.fill.empty()) add_fill_phases(r, costs, n, phases);
   return phases;
 }
 

@@ -16,6 +16,11 @@ struct Work {
 Work intact_work(int branches);
 /// A joint that goes point by point: `points` points, from tables or of a rectangle.
 Work points_work(int branches, double points, bool rectangle);
+/// A tetrahedron's first round (volumes) and its second (stresses), with `flowed` the share whose plastic memory is
+/// read; a node of the fill with so many sums.
+Work volume_work(double flowed);
+Work stress_work(int branches, double flowed);
+Work node_work(double sums);
 /// A free body whose wrenches lie in `sums` places.
 Work body_work(double sums);
 

@@ -49,10 +49,11 @@ Assembly dry(int size) {
   return wall(size, size, 0.0, 0.0);
 }
 
-Assembly bridge(const char* name, double scale) {
+Assembly bridge(const char* name, double scale, const char* backfill = "") {
   const Generator& generator = find_generator(name);
   GeneratorInput in = default_input(generator);
   in.values["block_scale"] = scale;
+  if (*backfill) in.choices["backfill"] = backfill;
   return generator.build(in);
 }
 
@@ -83,6 +84,10 @@ std::vector<Scene> make_scenes() {
   const auto cs1 = [](double scale) { return bridge("cs1", scale); };
   shake(add("cs1", "CS1 under base motion that damages it, Maxwell damping (cs1@0.5: block_scale = 0.5)", cs1)).before =
       1.0;
+  const auto filled = [](double scale) { return bridge("cs1", scale, "deformable"); };
+  shake(add("cs1-fill", "CS1 with its fill as a continuum, under base motion that damages it, Maxwell damping", filled))
+      .before = 1.0;
+  add("cs1-fill-rest", "the same unloaded, without damping or equilibrium", filled).settled = false;
   add("cs1-rest", "CS1 unloaded, without damping or equilibrium: for sizes (cs1-rest@0.33)", cs1).settled = false;
   Scene& coarse = shake(add("cs1-2", "CS1 at block_scale = 2 under base motion that damages it, Maxwell damping", cs1));
   coarse.scale = 2.0, coarse.before = 1.0;
@@ -101,8 +106,10 @@ GroundMotion shaking() {
 }
 
 std::string settle(Stepper& stepper) {
-  const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr, nullptr);
-  if (newton.converged) return newton.account;
+  if (stepper.model->fill.empty()) {
+    const Equilibrium newton = newton_equilibrium(stepper, 1e-6, nullptr, nullptr);
+    if (newton.converged) return newton.account;
+  }
   return relax(stepper, 1e-4, {.steps = 60000}, nullptr, nullptr).account;
 }
 

@@ -1,0 +1,102 @@
+// Maxwell branches of eight tetrahedra at a time (docs/theory/damping.md, fill.md). Rows of a batch: branch by branch
+// the six components, two of them side by side in a register. They lose 1 − e of themselves, because e itself, near
+// one, would be rounded to another relaxation time in single precision.
+#pragma once
+#include "solver/fill/tet_strain.h"
+
+namespace voussoir::tet {
+
+/// Elastic strain with its mean volumetric part, and the tetrahedron's own volumetric part.
+struct ElasticStrain {
+  Symmetric<Lanes> e;
+  Lanes mean, own;
+};
+
+/// Fᵀ (e + ⅓ θ 1) F.
+[[gnu::always_inline]] inline Symmetric<Lanes> material(const Tensor<Lanes>& f, const ElasticStrain& s) {
+  const Lanes third = (1.0 / 3.0) * s.mean;
+  const Symmetric<Lanes> whole = {s.e.xx + third, s.e.yy + third, s.e.zz + third, s.e.xy, s.e.xz, s.e.yz};
+  return push(transposed(f), whole);
+}
+
+/// The six components two by two: xx yy, zz xy, xz yz.
+struct Packed {
+  Pairs of[3];
+  Singles trace() const { return low(of[0]) + high(of[0]) + low(of[1]); }
+};
+[[gnu::always_inline]] inline Packed pack(const Symmetric<Lanes>& a) {
+  return {{pair(narrow(a.xx), narrow(a.yy)), pair(narrow(a.zz), narrow(a.xy)), pair(narrow(a.xz), narrow(a.yz))}};
+}
+[[gnu::always_inline]] inline Symmetric<Lanes> unpack(const Packed& a) {
+  return {widen(low(a.of[0])),  widen(high(a.of[0])), widen(low(a.of[1])),
+          widen(high(a.of[1])), widen(low(a.of[2])),  widen(high(a.of[2]))};
+}
+/// a : b.
+[[gnu::always_inline]] inline Singles inner(const Packed& a, const Packed& b) {
+  const Pairs first = a.of[0] * b.of[0], second = a.of[1] * b.of[1], third = a.of[2] * b.of[2];
+  return low(first) + high(first) + low(second) + 2.0f * (high(second) + low(third) + high(third));
+}
+[[gnu::always_inline]] inline void save_pair(Pairs x, Singles* rows) {
+  std::memcpy(rows, &x, sizeof(x));
+}
+
+/// Their stress on material axes, and the work done on them (J/m3): q ← e q + g Δε of the elastic strain
+/// Fᵀ (e + ⅓ θ 1) F, θ the mean one. Nodes work on it with all strain, what has flowed included (`trial`: before the
+/// flow), and with the tetrahedron's own volumetric part. `last`: strain at the last pass, rounded to single precision,
+/// so that changes add up.
+template <int count>
+[[gnu::always_inline]] inline Symmetric<Lanes> viscous(const Branches& branches, const FillLaw& law,
+                                                       const Tensor<Lanes>& f, const ElasticStrain& strain,
+                                                       const ElasticStrain& trial, bool flows, Singles* last,
+                                                       Singles* kept, Lanes& work) {
+  const Symmetric<Lanes> now = material(f, strain);
+  const Packed rounded = pack(now);
+  Packed change, q{}, both{};  // sums over the branches, and over both ends of the step
+  for (int c = 0; c < 3; ++c) {
+    change.of[c] = rounded.of[c] - load_pair(last + 2 * c);
+    save_pair(rounded.of[c], last + 2 * c);
+  }
+  for (int k = 0; k < count; ++k) {
+    const Pairs gain = pair(singles(branches.g[k]), singles(branches.g[k])),
+                fade = pair(singles(1.0 - branches.e[k]), singles(1.0 - branches.e[k]));
+    for (int c = 0; c < 3; ++c) {
+      Singles* row = kept + 6 * k + 2 * c;
+      const Pairs then = load_pair(row), next = then + (gain * change.of[c] - fade * then);
+      q.of[c] += next, both.of[c] += then + next;
+      save_pair(next, row);
+    }
+  }
+  const Singles own = narrow(strain.own);
+  Singles swollen = own - last[6];
+  last[6] = own;
+  if (flows) {
+    const Packed flowed = pack(material(f, trial) - now);
+    for (int c = 0; c < 3; ++c) change.of[c] += flowed.of[c];
+    swollen += narrow(trial.own - strain.own);
+  }
+  // By the mean of the stresses at both ends of the step.
+  const Lanes sum = widen(both.trace()), grown = widen(change.trace());
+  work =
+      law.shear * widen(inner(both, change)) + 0.5 * sum * (law.lame() * grown + law.bulk * (widen(swollen) - grown));
+
+  const Symmetric<Lanes> strains = unpack(q);
+  Symmetric<Lanes> stress = splat(2.0 * law.shear) * strains;
+  const Lanes volume = law.lame() * trace(strains);
+  stress.xx += volume, stress.yy += volume, stress.zz += volume;
+  return stress;
+}
+
+/// Energy in the branches' springs, J/m3.
+template <int count>
+Lanes branch_energy(const Branches& branches, const FillLaw& law, const Singles* kept) {
+  Lanes sum = splat(0.0);
+  for (int k = 0; k < count; ++k) {
+    const Singles* row = kept + 6 * k;
+    const Symmetric<Lanes> q = unpack({{load_pair(row), load_pair(row + 2), load_pair(row + 4)}});
+    const Lanes volume = trace(q);
+    sum += branches.stored[k] * (law.shear * inner(q, q) + 0.5 * law.lame() * volume * volume);
+  }
+  return sum;
+}
+
+}  // namespace voussoir::tet
