@@ -30,6 +30,11 @@ struct CacheAligned {
 template <class T>
 using Array = std::vector<T, CacheAligned<T>>;
 
+/// Asks for memory that will be needed soon.
+[[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
+  for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<const char*>(from) + at);
+}
+
 /// One array of the state under the name it has in a checkpoint file, e.g. "bodies/displacement".
 struct NamedArray {
   std::string name;

@@ -19,7 +19,8 @@ void order_nodes(const FillMesh& mesh, FillModel& fill) {
   fill.node_of.resize(mesh.nodes.size());
   for (std::size_t i = 0; i < fill.mesh_node.size(); ++i) {
     fill.node_of[std::size_t(fill.mesh_node[i])] = std::int32_t(i);
-    fill.nodes.push_back(mesh.nodes[std::size_t(fill.mesh_node[i])]);
+    const Vec3& at = fill.nodes.emplace_back(mesh.nodes[std::size_t(fill.mesh_node[i])]);
+    fill.place.insert(fill.place.end(), {at.x(), at.y(), at.z(), 0.0});
   }
 }
 
@@ -57,21 +58,14 @@ std::vector<Element> order_elements(const Assembly& assembly, FillModel& fill) {
   return elements;
 }
 
-/// Gradients of the shape functions of corners 1 to 3: the rows of the inverse of the edges from corner 0.
 void fill_lane(const FillModel& fill, const Element& element, int lane, TetBatch& batch) {
   const auto at = [&](int k) { return fill.nodes[std::size_t(element.nodes[std::size_t(k)])]; };
-  Mat3 edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = at(k + 1) - at(0);
-  const double volume = edges.determinant() / 6.0;
+  const double volume = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6.0;
   if (!(volume > 0.0))
     throw InputError(
         "tetrahedron {} of the fill, at ({:.3f}, {:.3f}, {:.3f}) m, has a volume of {:.3g} m3: it must be "
         "above zero; mesh the fill anew",
         element.tet, at(0).x(), at(0).y(), at(0).z(), volume);
-  const Mat3 inverse = edges.inverse();
-  for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < 3; ++c) batch.gradient[3 * k + c][lane] = inverse(k, c);
-  batch.volume[lane] = volume;
   for (int k = 0; k < 4; ++k) batch.node[k][lane] = element.nodes[std::size_t(k)];
 }
 
@@ -163,16 +157,34 @@ void lump(FillModel& fill) {
   for (std::size_t b = 0; b < fill.batches.size(); ++b) {
     const TetBatch& batch = fill.batches[b];
     const FillLaw& law = fill.law_of(b);
-    for (int lane = 0; lane < batch.count; ++lane)
-      for (const auto& corner : batch.node) {
-        fill.mass[std::size_t(corner[lane])] += 0.25 * law.density * batch.volume[lane];
-        fill.weight[std::size_t(corner[lane])] += law.bulk * batch.volume[lane];
+    for (int lane = 0; lane < batch.count; ++lane) {
+      const TetShape shape = tet_shape(fill, b, lane);
+      for (const std::int32_t node : shape.nodes) {
+        fill.mass[std::size_t(node)] += 0.25 * law.density * shape.volume;
+        fill.weight[std::size_t(node)] += law.bulk * shape.volume;
       }
+    }
   }
   fill.inertial = fill.mass;
 }
 
 }  // namespace
+
+TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane) {
+  TetShape shape;
+  for (std::size_t k = 0; k < 4; ++k) shape.nodes[k] = fill.batches[batch].node[k][lane];
+  const Vec3& first = fill.nodes[std::size_t(shape.nodes[0])];
+  Mat3 edges;
+  for (int k = 0; k < 3; ++k) edges.col(k) = fill.nodes[std::size_t(shape.nodes[std::size_t(k) + 1])] - first;
+  shape.volume = edges.determinant() / 6.0;
+  const Mat3 inverse = edges.inverse();  // its rows are the gradients of corners 1 to 3
+  shape.gradient[0] = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    shape.gradient[std::size_t(k) + 1] = inverse.row(k);
+    shape.gradient[0] -= shape.gradient[std::size_t(k) + 1];
+  }
+  return shape;
+}
 
 FillModel build_fill(const Assembly& assembly) {
   FillModel fill;

@@ -8,7 +8,8 @@
 
 #include "geometry/assembly.h"
 #include "solver/base/arrays.h"
-#include "solver/fill/mohr_coulomb.h"
+#include "solver/base/lanes.h"
+#include "solver/fill/fill_law.h"
 
 namespace voussoir {
 
@@ -16,10 +17,9 @@ namespace voussoir {
 using Quad = double __attribute__((vector_size(32)));
 constexpr int node_width = 4;
 
-/// Eight tetrahedra of one material, a lane each; further lanes repeat the last one and put nothing on its nodes.
+/// Eight tetrahedra of one material, a lane each; further lanes repeat the last one and put nothing on its nodes. Their
+/// shapes follow from where the nodes are: to compute them is cheaper than to read them.
 struct alignas(64) TetBatch {
-  Lanes gradient[9];  // 1/m: x, y, z of ∇N of corners 1, 2, 3 in the reference placement
-  Lanes volume;       // m3
   std::int32_t node[4][lane_count];
   std::int32_t sum[4][lane_count];  // where the tile adds up what they put on their nodes
   std::int32_t count = 0;
@@ -37,6 +37,7 @@ constexpr std::int32_t tile_nodes = 64;
 struct FillModel {
   std::vector<FillLaw> laws;       // of the assembly's materials that the fill is made of
   std::vector<Vec3> nodes;         // m, reference placement
+  Array<double> place;             // the same, node_width a node, the last zero
   std::vector<double> mass;        // kg, lumped
   std::vector<double> inertial;    // kg, differs from mass only in relaxations
   Array<double> weight;            // J, Σ κ V of the tetrahedra around a node: weights its mean volumetric strain
@@ -54,6 +55,14 @@ struct FillModel {
   bool empty() const { return nodes.empty(); }
   const FillLaw& law_of(std::size_t batch) const { return laws[std::size_t(batches[batch].law)]; }
 };
+
+/// One tetrahedron in the reference placement.
+struct TetShape {
+  std::array<std::int32_t, 4> nodes = {};
+  std::array<Vec3, 4> gradient;  // 1/m: of the shape functions
+  double volume = 0.0;           // m3
+};
+TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane);
 
 /// Throws InputError for a material that cannot be one of a fill, or a tetrahedron without positive volume.
 FillModel build_fill(const Assembly& assembly);

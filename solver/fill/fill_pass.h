@@ -57,6 +57,9 @@ struct FillPass {
   FillReport nodes(std::size_t tile) const;
 
   NodeUpdate update(std::size_t node) const;
+
+ private:
+  void fetch_outside(std::size_t node) const;
 };
 
 }  // namespace voussoir

@@ -6,28 +6,10 @@
 //
 // Elastic stiffness is isotropic: σ_i = λ tr ε + 2 μ ε_i.
 #pragma once
-#include <algorithm>
-
-#include "geometry/assembly.h"
+#include "solver/fill/fill_law.h"
 #include "solver/fill/symmetric.h"
 
 namespace voussoir {
-
-/// Constants of one fill material; SI.
-struct FillLaw {
-  double density = 0.0;                       // kg/m3
-  double bulk = 0.0, shear = 0.0;             // κ, μ, Pa
-  double tension = 0.0;                       // ft, Pa
-  double major = 1.0, minor = 1.0;            // 1 + sin φ, 1 − sin φ
-  double flow_major = 1.0, flow_minor = 1.0;  // the same of ψ
-  double strength = 0.0;                      // 2 c cos φ, Pa
-  double cone = 1.0;                          // 1 + sin² φ / 3: of the circular cone inside the hexagonal one
-  double stiff() const { return bulk + 4.0 / 3.0 * shear; }  // λ + 2 μ
-  double lame() const { return bulk - 2.0 / 3.0 * shear; }   // λ
-};
-/// Throws InputError for moduli that are not positive, or give a Poisson's ratio below 0, and for a dilation above the
-/// friction.
-FillLaw fill_law(const Material& material);
 
 /// Where on the yield surface a stress was returned to: which planes hold it there.
 enum class ReturnRegion { elastic, plane, edge_12, edge_23, cut, cut_12, apex, plane_cut, vertex_23, vertex_12 };
@@ -43,7 +25,8 @@ template <class T>
          at_most((2.0 / 3.0) * two_j2, below * below);
 }
 
-/// The admissible stress that a trial stress (sorted, Pa) returns to; `region`, where wanted, says which planes.
+/// The admissible stress that a trial stress (sorted, Pa) returns to; `region`, where wanted, says which planes. What
+/// few need is computed only if some lane is left for it.
 template <class T>
 inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stress)[3], T* region = nullptr) {
   const double a = law.major, b = law.minor, ag = law.flow_major, bg = law.flow_minor;
@@ -51,56 +34,64 @@ inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stres
   // D r of the plane's flow along the greatest, a middle and the least stress.
   const double up = P * ag - L * bg, mid = L * (ag - bg), down = L * ag - P * bg;
   const double h = a * up - b * down, g12 = a * mid - b * down, g23 = a * up - b * mid;
-  const T zero = all_lanes<T>(0.0);
+  const T zero = all_lanes<T>(0.0), cut = all_lanes<T>(ft);
   const T t1 = trial[0], t2 = trial[1], t3 = trial[2];
   const T slack = 1e-10 * (magnitude(t1) + magnitude(t3) + k);
-  const T f13 = a * t1 - b * t3 - k, f23 = a * t2 - b * t3 - k, f12 = a * t1 - b * t2 - k;
-  // What is found last where nothing before it holds: the corner where cut-off and cone meet, on either side.
-  const T corner = all_lanes<T>((a * ft - k) / b), cut = all_lanes<T>(ft);
-  T x[3] = {cut, corner, corner};
-  T found = all_lanes<T>(double(ReturnRegion::vertex_23));
-  const auto take = [&](auto holds, T u, T v, T w, ReturnRegion which) {
-    x[0] = select(holds, u, x[0]), x[1] = select(holds, v, x[1]), x[2] = select(holds, w, x[2]);
-    found = select(holds, all_lanes<T>(double(which)), found);
-  };
+  const T f13 = a * t1 - b * t3 - k;
   const auto sorted = [&](T u, T v, T w) { return at_most(v, u + slack) & at_most(w, v + slack); };
   const auto inside = [&](T u, T w) { return at_most(a * u - b * w, k + slack) & at_most(u, ft + slack); };
-
-  {  // cone and cut-off
-    const double n_cut = a * P - b * L, det = h * P - n_cut * up;
-    const T one = (P * f13 - n_cut * (t1 - ft)) / det, two = (h * (t1 - ft) - up * f13) / det;
-    const T u = t1 - up * one - P * two, v = t2 - mid * one - L * two, w = t3 - down * one - L * two;
-    take(less(u + slack, v), cut, cut, corner, ReturnRegion::vertex_12);
-    take(at_most(zero, one) & at_most(zero, two) & sorted(u, v, w), u, v, w, ReturnRegion::plane_cut);
-  }
-  {                                                            // the cut-off along all three, two, one
-    const T e = (t1 + t2 + t3 - 3.0 * ft) / (3.0 * law.bulk);  // tr ε past the apex
-    const T least = (t3 - ft - L * e) / (2.0 * law.shear);
-    take(at_most(zero, least), cut, cut, cut, ReturnRegion::apex);
-    const T both = (t1 + t2 - 2.0 * ft) / (P + L), apart = (t1 - t2) / (P - L);
+  T x[3] = {t1, t2, t3}, found = all_lanes<T>(double(ReturnRegion::elastic));
+  auto left = without(at_most(zero, zero), at_most(f13, zero) & at_most(t1, cut));
+  /// Of the lanes that are left those where it holds are done; whether any is left then.
+  const auto take = [&](auto holds, T u, T v, T w, ReturnRegion which) {
+    const auto here = left & holds;
+    x[0] = select(here, u, x[0]), x[1] = select(here, v, x[1]), x[2] = select(here, w, x[2]);
+    found = select(here, all_lanes<T>(double(which)), found);
+    left = without(left, holds);
+    return any(left);
+  };
+  const auto cone = [&] {
+    const T one = (1.0 / h) * f13;
+    const T u = t1 - up * one, v = t2 - mid * one, w = t3 - down * one;
+    return take(at_most(zero, one) & sorted(u, v, w) & inside(u, w), u, v, w, ReturnRegion::plane);
+  };
+  const auto middle_and_least = [&] {  // equal at the cone's edge
+    const double by = 1.0 / (h * h - g23 * g23);
+    const T f12 = a * t1 - b * t2 - k;
+    const T one = by * (h * f13 - g23 * f12), two = by * (h * f12 - g23 * f13);
+    const T u = t1 - up * (one + two), w = t3 - down * one - mid * two;
+    return take(at_most(zero, one) & at_most(zero, two) & sorted(u, w, w) & inside(u, w), u, w, w,
+                ReturnRegion::edge_23);
+  };
+  const auto greatest_and_middle = [&] {
+    const double by = 1.0 / (h * h - g12 * g12);
+    const T f23 = a * t2 - b * t3 - k;
+    const T one = by * (h * f13 - g12 * f23), two = by * (h * f23 - g12 * f13);
+    const T u = t1 - up * one - mid * two, w = t3 - down * (one + two);
+    return take(at_most(zero, one) & at_most(zero, two) & sorted(u, u, w) & inside(u, w), u, u, w,
+                ReturnRegion::edge_12);
+  };
+  const auto cut_off = [&] {  // along one axis, two, all three
+    const T one = (1.0 / P) * (t1 - ft), v = t2 - L * one, w = t3 - L * one;
+    take(at_most(zero, one) & sorted(cut, v, w) & inside(cut, w), cut, v, w, ReturnRegion::cut);
+    const T both = (1.0 / (P + L)) * (t1 + t2 - 2.0 * ft), apart = (1.0 / (P - L)) * (t1 - t2);
     const T w2 = t3 - L * both;
     take(at_most(apart, both) & at_most(w2, ft + slack) & inside(cut, w2), cut, cut, w2, ReturnRegion::cut_12);
-    const T one = (t1 - ft) / P, v = t2 - L * one, w = t3 - L * one;
-    take(at_most(zero, one) & sorted(cut, v, w) & inside(cut, w), cut, v, w, ReturnRegion::cut);
-  }
-  {  // the cone's edges: greatest and middle equal, middle and least equal
-    const double det = h * h - g12 * g12;
-    const T one = (h * f13 - g12 * f23) / det, two = (h * f23 - g12 * f13) / det;
-    const T u = t1 - up * one - mid * two, w = t3 - down * (one + two);
-    take(at_most(zero, one) & at_most(zero, two) & sorted(u, u, w) & inside(u, w), u, u, w, ReturnRegion::edge_12);
-  }
-  {
-    const double det = h * h - g23 * g23;
-    const T one = (h * f13 - g23 * f12) / det, two = (h * f12 - g23 * f13) / det;
-    const T u = t1 - up * (one + two), w = t3 - down * one - mid * two;
-    take(at_most(zero, one) & at_most(zero, two) & sorted(u, w, w) & inside(u, w), u, w, w, ReturnRegion::edge_23);
-  }
-  {  // the cone's plane
-    const T one = f13 / h;
-    const T u = t1 - up * one, v = t2 - mid * one, w = t3 - down * one;
-    take(at_most(zero, one) & sorted(u, v, w) & inside(u, w), u, v, w, ReturnRegion::plane);
-  }
-  take(at_most(f13, zero) & at_most(t1, cut), t1, t2, t3, ReturnRegion::elastic);
+    const T e = (1.0 / (3.0 * law.bulk)) * (t1 + t2 + t3 - 3.0 * ft);  // tr ε past the apex
+    const T least = (1.0 / (2.0 * law.shear)) * (t3 - ft - L * e);
+    return take(at_most(zero, least), cut, cut, cut, ReturnRegion::apex);
+  };
+  const auto cone_and_cut_off = [&] {
+    const double n_cut = a * P - b * L, by = 1.0 / (h * P - n_cut * up);
+    const T one = by * (P * f13 - n_cut * (t1 - ft)), two = by * (h * (t1 - ft) - up * f13);
+    const T u = t1 - up * one - P * two, v = t2 - mid * one - L * two, w = t3 - down * one - L * two;
+    take(at_most(zero, one) & at_most(zero, two) & sorted(u, v, w), u, v, w, ReturnRegion::plane_cut);
+    // What nothing before it holds: the corner where they meet, on either side.
+    const T corner = all_lanes<T>((a * ft - k) / b);
+    take(less(u + slack, v), cut, cut, corner, ReturnRegion::vertex_12);
+    take(left, cut, corner, corner, ReturnRegion::vertex_23);
+  };
+  if (any(left) && cone() && middle_and_least() && greatest_and_middle() && cut_off()) cone_and_cut_off();
   for (int i = 0; i < 3; ++i) stress[i] = x[i];
   if (region) *region = found;
 }

@@ -23,6 +23,13 @@ Quad quad(const double* from) {
   std::memcpy(&q, from, sizeof(q));
   return q;
 }
+void put(const Quad& q, double* to) {
+  std::memcpy(to, &q, sizeof(q));
+}
+double dot3(const Quad& a, const Quad& b) {
+  const Quad c = a * b;
+  return c[0] + c[1] + c[2];
+}
 
 double sign(double x) {
   return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
@@ -32,54 +39,69 @@ double sign(double x) {
 
 NodeUpdate FillPass::update(std::size_t node) const {
   NodeUpdate next;
-  Quad force = {};
+  Quad force = fill->mass[node] * Quad{gravity.x(), gravity.y(), gravity.z(), 0.0};
   for (std::int32_t i = fill->first_sum[node]; i < fill->first_sum[node + 1]; ++i)
     force += quad(sums + node_width * std::size_t(fill->sums[std::size_t(i)]));
   if (outside)
     for (std::int32_t i = (*first_of_node)[node]; i < (*first_of_node)[node + 1]; ++i)
       force += quad(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
-  const double weighs = fill->mass[node];
-  force += Quad{weighs * gravity.x(), weighs * gravity.y(), weighs * gravity.z(), 0.0};
   next.force = force;
   const Quad before = quad(&memory->motion[node_width * node]);
-  const double inertia = fill->inertial[node];
   if (local > 0.0)  // Cundall: a share of the force, against the velocity
     for (int c = 0; c < 3; ++c) force[c] -= local * std::abs(force[c]) * sign(before[c]);
   const double rate = 0.5 * mass_rate * dt;
-  next.velocity = ((1.0 - rate) * before + (dt / inertia) * force) / (1.0 + rate);
-  for (int c = 0; c < 3; ++c)
-    if (fill->held[node] >> c & 1) next.velocity[c] = before[c];
+  next.velocity = (1.0 / (1.0 + rate)) * ((1.0 - rate) * before + (dt / fill->inertial[node]) * force);
+  if (fill->held[node])
+    for (int c = 0; c < 3; ++c)
+      if (fill->held[node] >> c & 1) next.velocity[c] = before[c];
   next.velocity[3] = 0.0;
   return next;
 }
 
+namespace {
+
+/// Work taken by held nodes and by damping of nodes in a step, J.
+void count_losses(const FillPass& pass, std::size_t node, const NodeUpdate& next, double* lost) {
+  const double* v = &pass.memory->motion[node_width * node];
+  for (int c = 0; c < 3; ++c) {
+    const double mean = 0.5 * (v[c] + next.velocity[c]);
+    if (pass.fill->held[node] >> c & 1)
+      lost[2] -= pass.dt * next.force[c] * mean;
+    else
+      lost[3] += mean * (pass.dt * next.force[c] - pass.fill->inertial[node] * (next.velocity[c] - v[c]));
+  }
+}
+
+}  // namespace
+
+/// Forces from outside lie apart: those on a node to come are asked for before it is.
+void FillPass::fetch_outside(std::size_t node) const {
+  if (node >= fill->nodes.size()) return;
+  for (std::int32_t i = (*first_of_node)[node]; i < (*first_of_node)[node + 1]; ++i)
+    __builtin_prefetch(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
+}
+
 FillReport FillPass::nodes(std::size_t tile) const {
+  using Floats = float __attribute__((vector_size(16)));
+  constexpr double past_sense = 1000.0;  // m/s
   const FillTile& t = fill->tiles[tile];
+  const bool damped = mass_rate > 0.0 || local > 0.0;
+  const Quad base = {base_displacement.x(), base_displacement.y(), base_displacement.z(), 0.0};
   FillReport report;
-  double* lost = &memory->lost[4 * tile];
   for (std::int32_t i = t.first_node; i < t.end_node; ++i) {
     const auto node = std::size_t(i);
+    if (outside) fetch_outside(node + 4);
     const NodeUpdate next = update(node);
-    double *u = &memory->pose[node_width * node], *v = &memory->motion[node_width * node];
-    constexpr double past_sense = 1000.0;  // m/s
-    bool runs = false;
-    for (int c = 0; c < 3; ++c) {
-      const double mean = 0.5 * (v[c] + next.velocity[c]);
-      if (fill->held[node] >> c & 1)
-        lost[2] -= dt * next.force[c] * mean;
-      else if (mass_rate > 0.0 || local > 0.0)
-        lost[3] += mean * (dt * next.force[c] - fill->inertial[node] * (next.velocity[c] - v[c]));
-      v[c] = next.velocity[c];
-      u[c] += dt * v[c];
-      runs |= !(std::abs(v[c]) < past_sense);
-    }
-    const float* from = &memory->searched[node_width * node];
-    double far2 = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      const double far = u[c] - base_displacement[c] - double(from[c]);
-      far2 += far * far;
-    }
-    report.search |= far2 > search_distance * search_distance;
+    if (damped || fill->held[node]) count_losses(*this, node, next, &memory->lost[4 * tile]);
+    double* u = &memory->pose[node_width * node];
+    const Quad moved = quad(u) + dt * next.velocity;
+    put(next.velocity, &memory->motion[node_width * node]);
+    put(moved, u);
+    Floats from;
+    std::memcpy(&from, &memory->searched[node_width * node], sizeof(from));
+    const Quad far = moved - base - __builtin_convertvector(from, Quad);
+    report.search |= dot3(far, far) > search_distance * search_distance;
+    const bool runs = !(dot3(next.velocity, next.velocity) < past_sense * past_sense);
     if (runs && (report.runaway < 0 || fill->mesh_node[node] < report.runaway)) report.runaway = fill->mesh_node[node];
   }
   return report;

@@ -11,6 +11,12 @@ inline bool less(double a, double b) {
 inline bool at_most(double a, double b) {
   return a <= b;
 }
+inline bool any(bool m) {
+  return m;
+}
+inline bool without(bool a, bool b) {
+  return a && !b;
+}
 inline double select(bool m, double a, double b) {
   return m ? a : b;
 }

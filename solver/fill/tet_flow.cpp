@@ -13,6 +13,7 @@ Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes
   for (int i = 0; i < 3; ++i) trial[i] = 2.0 * law.shear * x.value[i] + p;
   return_to_surface(law, trial, stress, &region);
   lanes &= less(splat(0.5), region);  // the circular cone was on the safe side
+  if (!any(lanes)) return splat(0.0);
   for (int lane = 0; lane < lane_count; ++lane) {
     if (!lanes[lane]) continue;
     constexpr std::uint8_t shear = yields_in_shear | has_yielded_in_shear,
@@ -22,10 +23,10 @@ Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes
     yield[lane] |= bits[int(region[lane])];
   }
   const Lanes mean = (1.0 / 3.0) * (stress[0] + stress[1] + stress[2]);
-  const Lanes swell = (p - mean) / law.bulk;
+  const Lanes swell = (1.0 / law.bulk) * (p - mean);
   Lanes kept[3], stretch[3], work = splat(0.0), flowed = splat(0.0);
   for (int i = 0; i < 3; ++i) {
-    kept[i] = (stress[i] - mean) / (2.0 * law.shear);
+    kept[i] = (1.0 / (2.0 * law.shear)) * (stress[i] - mean);
     const Lanes change = x.value[i] - kept[i], y = 2.0 * kept[i];
     work += (stress[i] - mean) * change;
     flowed += change * change;

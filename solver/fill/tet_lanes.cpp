@@ -1,4 +1,6 @@
 // Eight tetrahedra at a time: volumes, stresses, nodal forces.
+#include <algorithm>
+
 #include "solver/fill/tet_branches.h"
 #include "solver/model/with_branches.h"
 
@@ -55,9 +57,6 @@ int count_yielding(const std::uint8_t* yield, int count) {
 
 /// Batches are passed in order, but each in several arrays: what comes next is asked for before it is needed.
 constexpr std::size_t ahead = 4;  // batches
-inline void fetch(const void* from, std::size_t bytes) {
-  for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<const char*>(from) + at);
-}
 template <int count>
 void fetch_ahead(const FillModel& fill, const FillMemory& memory, std::size_t index) {
   const std::size_t next = index + ahead;
@@ -78,7 +77,7 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
   const TetBatch& batch = fill.batches[index];
   const FillLaw& law = fill.law_of(index);
   const LaneMask used = LaneMask::first(batch.count);
-  const Lanes zero = splat(0.0), volume = select(used, batch.volume, zero);
+  const Lanes zero = splat(0.0);
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
   std::uint8_t* yield = &memory.yield[lane_count * index];
   const bool flowed = has_flowed(yield);
@@ -86,7 +85,9 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
 
   // 1. strain, elastic trial stress
   const Nodes n = gather_nodes(memory.pose.data(), batch);
-  Strain s = strain_of(batch, n, flowed ? plastic : nullptr);
+  const Shape shape = shape_of(fill.place.data(), batch);
+  const Lanes volume = select(used, (1.0 / 6.0) * shape.volume6, zero);
+  Strain s = strain_of(shape, n, flowed ? plastic : nullptr);
   const LaneMask flat = ~less(splat(least_volume - 1.0), s.change) & used;
   if (any(flat)) note_inverted(fill, index, flat, tile.report);
   const Lanes dilated = flowed ? plastic[row_dilation] : zero, opened = flowed ? plastic[row_tension] : zero;
@@ -107,9 +108,9 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
     strain = {s.e, p / law.bulk, own - (plastic[row_dilation] - dilated) - plastic[row_tension]};
   }
 
-  // 3. V times the first Piola–Kirchhoff stress: τ F⁻ᵀ, and F S of the branches
+  // 3. a sixth of the first Piola–Kirchhoff stress: τ F⁻ᵀ, and F S of the branches
   const auto [tau, by] = kirchhoff(law, s, p);
-  const Symmetric<Lanes> pull = (by * batch.volume) * tau;
+  const Symmetric<Lanes> pull = ((1.0 / 6.0) * by) * tau;
   const Lanes t[3][3] = {{pull.xx, pull.xy, pull.xz}, {pull.xy, pull.yy, pull.yz}, {pull.xz, pull.yz, pull.zz}};
   Tensor<Lanes> piola;
   for (int i = 0; i < 3; ++i)
@@ -120,7 +121,7 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
     auto* kept = reinterpret_cast<Singles*>(&memory.branch[6 * lane_count * std::size_t(count) * index]);
     Lanes work;
     const Symmetric<Lanes> v =
-        batch.volume * viscous<count>(pass.branches, law, s.f, strain, trial, flows, last, kept, work);
+        splat(1.0 / 6.0) * viscous<count>(pass.branches, law, s.f, strain, trial, flows, last, kept, work);
     tile.work += volume * work;
     const Lanes w[3][3] = {{v.xx, v.xy, v.xz}, {v.xy, v.yy, v.yz}, {v.xz, v.yz, v.zz}};
     for (int i = 0; i < 3; ++i)
@@ -133,9 +134,9 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
   Vector f[4];
   f[0] = {zero, zero, zero};
   for (int k = 0; k < 3; ++k) {
-    const Lanes* g = batch.gradient + 3 * k;
+    const Vector& g = shape.area[k];
     Lanes out[3];
-    for (int i = 0; i < 3; ++i) out[i] = piola.m[i][0] * g[0] + piola.m[i][1] * g[1] + piola.m[i][2] * g[2];
+    for (int i = 0; i < 3; ++i) out[i] = piola.m[i][0] * g.x + piola.m[i][1] * g.y + piola.m[i][2] * g.z;
     f[k + 1] = {-out[0], -out[1], -out[2]};
     f[0] = f[0] - f[k + 1];
   }
@@ -169,13 +170,14 @@ void FillPass::volumes(std::size_t tile) const {
     const TetBatch& batch = fill->batches[std::size_t(b)];
     if (std::size_t(b) + ahead < fill->batches.size()) fetch(&batch + ahead, sizeof(TetBatch));
     const Nodes n = gather_nodes(memory->pose.data(), batch);
-    const Lanes change = clipped(volume_change(gradient(batch, n)));
+    const Shape shape = shape_of(fill->place.data(), batch);
+    const Lanes change = clipped(volume_change(gradient(shape, n)));
     Lanes strain = volumetric(change);
     if (has_flowed(&memory->yield[lane_count * std::size_t(b)])) {
       const auto* plastic = reinterpret_cast<const Lanes*>(&memory->plastic[plastic_index(std::size_t(b), 0)]);
       strain -= plastic[row_dilation];
     }
-    const Lanes part = fill->law_of(std::size_t(b)).bulk * batch.volume * strain;
+    const Lanes part = fill->law_of(std::size_t(b)).bulk * (1.0 / 6.0) * shape.volume6 * strain;
     for (int k = 0; k < 4; ++k)
       for (int lane = 0; lane < batch.count; ++lane) volume_sums[batch.sum[k][lane]] += part[lane];
   }

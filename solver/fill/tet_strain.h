@@ -2,6 +2,7 @@
 // is read off a state.
 #pragma once
 #include "solver/fill/fill_pass.h"
+#include "solver/fill/mohr_coulomb.h"
 
 namespace voussoir::tet {
 
@@ -34,16 +35,34 @@ struct Nodes {
   return n;
 }
 
+/// In the reference placement: six times the volume (m3), and its products with the gradients of the shape functions
+/// of corners 1 to 3 (m2), which are those of the edges from corner 0.
+struct Shape {
+  Vector area[3];
+  Lanes volume6;
+};
+[[gnu::always_inline]] inline Shape shape_of(const double* place, const TetBatch& batch) {
+  const Nodes at = gather_nodes(place, batch);
+  const Vector e[3] = {at.u[1] - at.u[0], at.u[2] - at.u[0], at.u[3] - at.u[0]};
+  Shape shape;
+  for (int k = 0; k < 3; ++k) shape.area[k] = cross(e[(k + 1) % 3], e[(k + 2) % 3]);
+  shape.volume6 = dot(e[0], shape.area[0]);
+  return shape;
+}
+
 /// Displacement gradient H = F − 1.
-[[gnu::always_inline]] inline Tensor<Lanes> gradient(const TetBatch& batch, const Nodes& n) {
+[[gnu::always_inline]] inline Tensor<Lanes> gradient(const Shape& shape, const Nodes& n) {
   Tensor<Lanes> h;
-  const Vector d[3] = {n.u[1] - n.u[0], n.u[2] - n.u[0], n.u[3] - n.u[0]};
-  const Lanes* g = batch.gradient;
-  for (int c = 0; c < 3; ++c) {
-    h.m[0][c] = d[0].x * g[c] + d[1].x * g[3 + c] + d[2].x * g[6 + c];
-    h.m[1][c] = d[0].y * g[c] + d[1].y * g[3 + c] + d[2].y * g[6 + c];
-    h.m[2][c] = d[0].z * g[c] + d[1].z * g[3 + c] + d[2].z * g[6 + c];
-  }
+  const Lanes by = 1.0 / shape.volume6;
+  const Vector d[3] = {by * (n.u[1] - n.u[0]), by * (n.u[2] - n.u[0]), by * (n.u[3] - n.u[0])};
+  const auto row = [&](Lanes(&to)[3], Lanes first, Lanes second, Lanes third) {
+    to[0] = first * shape.area[0].x + second * shape.area[1].x + third * shape.area[2].x;
+    to[1] = first * shape.area[0].y + second * shape.area[1].y + third * shape.area[2].y;
+    to[2] = first * shape.area[0].z + second * shape.area[1].z + third * shape.area[2].z;
+  };
+  row(h.m[0], d[0].x, d[1].x, d[2].x);
+  row(h.m[1], d[0].y, d[1].y, d[2].y);
+  row(h.m[2], d[0].z, d[1].z, d[2].z);
   return h;
 }
 
@@ -100,12 +119,12 @@ struct Strain {
 }
 
 /// `plastic`: rows of plastic memory, or null where nothing has flowed.
-[[gnu::always_inline]] inline Strain strain_of(const TetBatch& batch, const Nodes& n, const Lanes* plastic) {
-  const Tensor<Lanes> h = gradient(batch, n);
+[[gnu::always_inline]] inline Strain strain_of(const Shape& shape, const Nodes& n, const Lanes* plastic) {
+  const Tensor<Lanes> h = gradient(shape, n);
   Strain s;
   s.change = clipped(volume_change(h));
-  s.f = h;
-  for (int i = 0; i < 3; ++i) s.f.m[i][i] += 1.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) s.f.m[i][j] = i == j ? 1.0 + h.m[i][j] : h.m[i][j];
   s.cofactor = cofactor(s.f);
   // b − 1 = H + Hᵀ + H Hᵀ + F (Cp⁻¹ − 1) Fᵀ
   const auto& m = h.m;

@@ -12,7 +12,7 @@ Symmetric<Lanes> batch_cauchy(const FillModel& fill, FillMemory& memory, std::si
   const TetBatch& batch = fill.batches[index];
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
   const tet::Nodes n = tet::gather_nodes(memory.pose.data(), batch);
-  tet::Strain s = tet::strain_of(batch, n, plastic);
+  tet::Strain s = tet::strain_of(tet::shape_of(fill.place.data(), batch), n, plastic);
   const Lanes own = tet::volumetric(s.change) - plastic[row_dilation];
   const Lanes mean = 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]);
   Lanes p = law.bulk * (mean - plastic[row_tension]);

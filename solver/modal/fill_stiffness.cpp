@@ -27,22 +27,16 @@ struct Element {
 };
 
 Element element(const FillModel& fill, const Array<double>& pose, std::size_t batch, int lane) {
-  const TetBatch& b = fill.batches[batch];
+  const TetShape shape = tet_shape(fill, batch, lane);
   Element e;
-  e.volume = b.volume[lane];
+  e.nodes = shape.nodes;
+  e.volume = shape.volume;
   e.law = &fill.law_of(batch);
-  std::array<Vec3, 4> g;
-  g[0] = Vec3::Zero();
   Mat3 f = Mat3::Identity();
-  for (std::size_t k = 0; k < 4; ++k) {
-    e.nodes[k] = b.node[k][lane];
-    if (k > 0)
-      for (std::size_t c = 0; c < 3; ++c) g[k][Eigen::Index(c)] = b.gradient[3 * (k - 1) + c][lane];
-    if (k > 0) g[0] -= g[k];
-  }
-  for (std::size_t k = 0; k < 4; ++k) f += Vec3(&pose[node_width * std::size_t(e.nodes[k])]) * g[k].transpose();
+  for (std::size_t k = 0; k < 4; ++k)
+    f += Vec3(&pose[node_width * std::size_t(e.nodes[k])]) * shape.gradient[k].transpose();
   const Mat3 turn = f.inverse().transpose();
-  for (std::size_t k = 0; k < 4; ++k) e.gradient[k] = turn * g[k];
+  for (std::size_t k = 0; k < 4; ++k) e.gradient[k] = turn * shape.gradient[k];
   return e;
 }
 

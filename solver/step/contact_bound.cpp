@@ -34,16 +34,10 @@ std::vector<std::vector<std::int32_t>> joints_of_bodies(const Model& model) {
 std::vector<double> stiffness_of_elements(const FillModel& fill) {
   std::vector<double> sums(fill.nodes.size(), 0.0);
   for (std::size_t b = 0; b < fill.batches.size(); ++b) {
-    const TetBatch& batch = fill.batches[b];
-    for (int lane = 0; lane < batch.count; ++lane) {
-      Vec3 first = Vec3::Zero();
-      for (int k = 3; k >= 0; --k) {
-        Vec3 g = -first;
-        if (k > 0)
-          g = Vec3(batch.gradient[3 * k - 3][lane], batch.gradient[3 * k - 2][lane], batch.gradient[3 * k - 1][lane]);
-        if (k > 0) first += g;
-        sums[std::size_t(batch.node[k][lane])] += batch.volume[lane] * fill.law_of(b).stiff() * g.squaredNorm();
-      }
+    for (int lane = 0; lane < fill.batches[b].count; ++lane) {
+      const TetShape shape = tet_shape(fill, b, lane);
+      for (std::size_t k = 0; k < 4; ++k)
+        sums[std::size_t(shape.nodes[k])] += shape.volume * fill.law_of(b).stiff() * shape.gradient[k].squaredNorm();
     }
   }
   return sums;

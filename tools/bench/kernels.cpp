@@ -154,7 +154,7 @@ void search(benchmark::State& timing) {
 BENCHMARK_CAPTURE(joints, intact, "wall-1040-bonded", true)->Arg(0)->Arg(1)->Arg(3);
 BENCHMARK_CAPTURE(joints, point_by_point, "wall-1040", false)->Arg(0)->Arg(1)->Arg(3);
 BENCHMARK(bodies);
-BENCHMARK_CAPTURE(tetrahedra, elastic, 0.0)->ArgsProduct({{12, 40}, {0, 1, 3}});
+BENCHMARK_CAPTURE(tetrahedra, elastic, 0.0)->ArgsProduct({{12, 20, 30, 40}, {0, 1, 3}});
 BENCHMARK_CAPTURE(tetrahedra, flowing, 1e-3)->ArgsProduct({{12, 40}, {0, 1, 3}});
 BENCHMARK(energies);
 BENCHMARK(search);

@@ -175,15 +175,8 @@ struct FillRig {
     for (std::size_t b = 0; b < fill.batches.size(); ++b) {
       const FillLaw& law = fill.law_of(b);
       const double speed = std::sqrt(law.stiff() / law.density);
-      for (int lane = 0; lane < fill.batches[b].count; ++lane) {
-        Vec3 g[4];
-        g[0] = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-          for (int c = 0; c < 3; ++c) g[k + 1][c] = fill.batches[b].gradient[3 * k + c][lane];
-          g[0] -= g[k + 1];
-        }
-        for (const Vec3& one : g) least = std::min(least, 1.0 / (one.norm() * speed));
-      }
+      for (int lane = 0; lane < fill.batches[b].count; ++lane)
+        for (const Vec3& g : tet_shape(fill, b, lane).gradient) least = std::min(least, 1.0 / (g.norm() * speed));
     }
     return share * least;
   }
