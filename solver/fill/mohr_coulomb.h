@@ -96,8 +96,4 @@ inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stres
   if (region) *region = found;
 }
 
-/// ∂σ_i/∂ε_j of the returned principal stresses with respect to the trial strains, in a region: D − D R (Nᵀ D R)⁻¹ Nᵀ
-/// D.
-Mat3 return_tangent(const FillLaw& law, ReturnRegion region);
-
 }  // namespace voussoir

@@ -149,7 +149,46 @@ TEST(FillLaw, LanesDoNotKnowOfEachOther) {
   }
 }
 
-TEST(FillLaw, TangentIsTheDerivative) {
+/// D − D R (Nᵀ D R)⁻¹ Nᵀ D for planes with these normals and flows, columns of n and r.
+template <int planes>
+Mat3 along(const Mat3& d, const Eigen::Matrix<double, 3, planes>& n, const Eigen::Matrix<double, 3, planes>& r) {
+  const Eigen::Matrix<double, planes, planes> across = n.transpose() * d * r;
+  return d - d * r * across.inverse() * n.transpose() * d;
+}
+Mat3 along_both(const Mat3& d, const Vec3& n, const Vec3& r, const Vec3& m, const Vec3& s) {
+  Eigen::Matrix<double, 3, 2> normals, flows;
+  normals << n, m;
+  flows << r, s;
+  return along<2>(d, normals, flows);
+}
+
+/// ∂σ_i/∂ε_j of the returned principal stresses with respect to the trial strains, in a region.
+Mat3 return_tangent(const FillLaw& law, ReturnRegion region) {
+  const double a = law.major, b = law.minor, ag = law.flow_major, bg = law.flow_minor;
+  const Mat3 d = law.lame() * Mat3::Ones() + 2.0 * law.shear * Mat3::Identity();
+  const Vec3 n13(a, 0, -b), n23(0, a, -b), n12(a, -b, 0), r13(ag, 0, -bg), r23(0, ag, -bg), r12(ag, -bg, 0);
+  const Vec3 e1(1, 0, 0), e2(0, 1, 0);
+  switch (region) {
+    case ReturnRegion::elastic:
+      return d;
+    case ReturnRegion::plane:
+      return along<1>(d, n13, r13);
+    case ReturnRegion::cut:
+      return along<1>(d, e1, e1);
+    case ReturnRegion::edge_12:
+      return along_both(d, n13, r13, n23, r23);
+    case ReturnRegion::edge_23:
+      return along_both(d, n13, r13, n12, r12);
+    case ReturnRegion::cut_12:
+      return along_both(d, e1, e1, e2, e2);
+    case ReturnRegion::plane_cut:
+      return along_both(d, n13, r13, e1, e1);
+    default:
+      return Mat3::Zero();  // corners: three planes
+  }
+}
+
+TEST(FillLaw, SlopesAreThoseOfThePlanes) {
   for (const Material& m : soils()) {
     const FillLaw law = fill_law(m);
     const Mat3 d = law.lame() * Mat3::Ones() + 2.0 * law.shear * Mat3::Identity();
