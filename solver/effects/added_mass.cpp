@@ -1,6 +1,8 @@
-// Mass on the deck: pavement, ballast, a water main. It moves with the topmost stones between the parapets, in
-// proportion to their volume.
+// Mass on the deck: pavement, ballast, a water main. It moves with the topmost stones between the parapets and the
+// elements of a deformable fill that have a face there, in proportion to their volume.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
@@ -18,9 +20,28 @@ BlockSet deck(const Assembly& assembly) {
   return blocks_where(assembly, [&](const Block& b) { return counts(b) && block_box(b).high.z() > top - 1e-6; });
 }
 
+double volume_of(const FillMesh& fill, std::size_t tet) {
+  const auto at = [&](std::size_t k) { return fill.nodes[std::size_t(fill.tets[tet][k])]; };
+  return (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6.0;
+}
+
+/// Tetrahedra with a face on the highest level of the fill.
+std::vector<std::size_t> deck_of_fill(const FillMesh& fill) {
+  double top = -1e300;
+  for (const Vec3& node : fill.nodes) top = std::max(top, node.z());
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < fill.tets.size(); ++i) {
+    const auto high = [&](std::int32_t node) { return fill.nodes[std::size_t(node)].z() > top - 1e-6; };
+    if (std::count_if(fill.tets[i].begin(), fill.tets[i].end(), high) >= 3) found.push_back(i);
+  }
+  return found;
+}
+
 void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   const BlockSet on_deck = deck(assembly);
+  const std::vector<std::size_t> elements = deck_of_fill(assembly.fill);
   double low = 1e300, high = -1e300, volume = 0.0;
+  for (const std::size_t tet : elements) volume += volume_of(assembly.fill, tet);
   for (std::size_t i = 0; i < on_deck.size(); ++i) {
     if (!on_deck[i]) continue;
     const Box box = block_box(assembly.blocks[i]);
@@ -30,18 +51,19 @@ void apply(Assembly& assembly, const std::string&, const std::vector<double>& va
   const double density = values[0] * (high - low) / volume;  // kg/m3, to be added
   if (density == 0.0) return;
   std::map<std::int32_t, std::int32_t> loaded;  // materials
-  for (std::size_t i = 0; i < on_deck.size(); ++i) {
-    if (!on_deck[i]) continue;
-    Block& block = assembly.blocks[i];
-    if (!loaded.contains(block.material)) {
-      Material heavier = assembly.materials[std::size_t(block.material)];
+  const auto load = [&](std::int32_t& material) {
+    const auto [own, fresh] = loaded.try_emplace(material, std::int32_t(assembly.materials.size()));
+    if (fresh) {
+      Material heavier = assembly.materials[std::size_t(material)];
       heavier.name += fmt::format(" + {:g} kg/m", values[0]);
       heavier.density += density;
-      loaded[block.material] = std::int32_t(assembly.materials.size());
       assembly.materials.push_back(heavier);
     }
-    block.material = loaded[block.material];
-  }
+    material = own->second;
+  };
+  for (std::size_t i = 0; i < on_deck.size(); ++i)
+    if (on_deck[i]) load(assembly.blocks[i].material);
+  for (const std::size_t tet : elements) load(assembly.fill.material[tet]);
   finish_blocks(assembly);
 }
 

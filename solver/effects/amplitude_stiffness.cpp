@@ -1,4 +1,4 @@
-// Joints without bond that are open at the amplitude of the data: a share of their area carries nothing.
+// Joints, and patches of a deformable fill, without bond that are open at the amplitude of the data: a share of their area carries nothing.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 
@@ -6,19 +6,24 @@ namespace voussoir {
 
 namespace {
 
-bool bonded(const Assembly& assembly, const Joint& joint) {
-  const JointLaw& law = assembly.laws[std::size_t(joint.law)];
+template <class Patch>  // a Joint or a FillJoint
+bool bonded(const Assembly& assembly, const Patch& patch) {
+  const JointLaw& law = assembly.laws[std::size_t(patch.law)];
   return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > 0.0;
 }
 
 void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   for (Joint& joint : assembly.joints)
     if (!bonded(assembly, joint)) joint.kn *= 1.0 - values[0], joint.ks *= 1.0 - values[0];
+  for (FillJoint& patch : assembly.fill_joints)
+    if (!bonded(assembly, patch)) patch.kn *= 1.0 - values[0], patch.ks *= 1.0 - values[0];
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
   for (const Joint& joint : assembly.joints)
     if (!bonded(assembly, joint)) return {"all"};
+  for (const FillJoint& patch : assembly.fill_joints)
+    if (!bonded(assembly, patch)) return {"all"};
   return {};
 }
 

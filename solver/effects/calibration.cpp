@@ -36,12 +36,16 @@ void apply(Assembly& assembly, const std::string& where, const std::vector<doubl
     joint.ks *= values[0];
   }
   scale_density(assembly, blocks_where(assembly, [&](const Block& b) { return kind_of(b) == kind; }), values[1]);
+  if (kind != Kind::fill || assembly.fill.empty()) return;
+  scale_fill(assembly, values[0], values[1]);
+  scale_patches(assembly, BlockSet(assembly.blocks.size(), true), values[0]);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
   std::vector<std::string> names;
   for (Kind kind : {Kind::masonry, Kind::infill, Kind::fill})
-    if (std::any_of(assembly.blocks.begin(), assembly.blocks.end(),
+    if ((kind == Kind::fill && !assembly.fill.empty()) ||
+        std::any_of(assembly.blocks.begin(), assembly.blocks.end(),
                     [&](const Block& b) { return !b.fixed && kind_of(b) == kind; }))
       names.push_back(kind_names[std::size_t(kind)]);
   return names;

@@ -7,11 +7,13 @@ namespace voussoir {
 namespace {
 
 void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
-  scale_between(assembly, component(assembly, Component::backfill), masonry_part(assembly, where), values[0]);
+  const BlockSet masonry = masonry_part(assembly, where);
+  scale_between(assembly, component(assembly, Component::backfill), masonry, values[0]);
+  scale_patches(assembly, masonry, values[0]);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
-  std::vector<std::string> names = all_if_any(assembly, Component::backfill);
+  std::vector<std::string> names = all_if_filled(assembly);
   if (!names.empty() && !all_if_any(assembly, Component::spandrel).empty()) names.push_back("spandrels");
   return names;
 }

@@ -8,10 +8,11 @@ namespace {
 
 void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   scale_inside(assembly, component(assembly, Component::backfill), values[0]);
+  scale_fill(assembly, values[0], 1.0);
 }
 
 std::vector<std::string> places(const Assembly& assembly) {
-  return all_if_any(assembly, Component::backfill);
+  return all_if_filled(assembly);
 }
 
 }  // namespace
@@ -19,7 +20,8 @@ std::vector<std::string> places(const Assembly& assembly) {
 Effect fill_stiffness() {
   return {"fill_stiffness",
           "the backfill is softer or stiffer than thought",
-          {{"factor", "-", "on the stiffness of its joints", 0.05, 20.0, 1.0, 1.0, 0.7, true}},
+          {{"factor", "-", "on the stiffness of its joints, or on its moduli as a continuum", 0.05, 20.0, 1.0, 1.0, 0.7,
+            true}},
           places,
           apply,
           nullptr};

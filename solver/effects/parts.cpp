@@ -164,6 +164,33 @@ void scale_density(Assembly& assembly, const BlockSet& part, double factor) {
   }
 }
 
+std::vector<std::string> all_if_filled(const Assembly& assembly) {
+  if (!assembly.fill.empty()) return {"all"};
+  return all_if_any(assembly, Component::backfill);
+}
+
+void scale_fill(Assembly& assembly, double stiffness, double density) {
+  std::map<std::int32_t, std::int32_t> scaled;  // materials
+  for (std::int32_t& material : assembly.fill.material) {
+    const auto [own, fresh] = scaled.try_emplace(material, std::int32_t(assembly.materials.size()));
+    if (fresh) {
+      Material changed = assembly.materials[std::size_t(material)];
+      changed.youngs_modulus *= stiffness, changed.shear_modulus *= stiffness;
+      changed.density *= density;
+      assembly.materials.push_back(changed);
+    }
+    material = own->second;
+  }
+}
+
+void scale_patches(Assembly& assembly, const BlockSet& part, double factor) {
+  for (FillJoint& patch : assembly.fill_joints) {
+    if (!part[std::size_t(patch.block)]) continue;
+    patch.kn *= factor;
+    patch.ks *= factor;
+  }
+}
+
 void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   scale_inside(assembly, masonry_part(assembly, where), values[0]);
 }

@@ -52,6 +52,12 @@ void scale_inside(Assembly& assembly, const BlockSet& part, double factor);
 void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor);
 /// Multiplies the density of blocks. Materials that others have too are split.
 void scale_density(Assembly& assembly, const BlockSet& part, double factor);
+/// Whether there is backfill, of blocks or as a continuum: {"all"}, else nothing.
+std::vector<std::string> all_if_filled(const Assembly& assembly);
+/// Multiplies moduli and density of the deformable fill. Materials that blocks have too are split.
+void scale_fill(Assembly& assembly, double stiffness, double density);
+/// Multiplies kn and ks of the fill's patches with these blocks.
+void scale_patches(Assembly& assembly, const BlockSet& part, double factor);
 /// scale_inside() a masonry part by the first of an effect's values: what several effects do.
 void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values);
 

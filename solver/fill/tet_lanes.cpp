@@ -55,14 +55,15 @@ int count_yielding(const std::uint8_t* yield, int count) {
   return sum;
 }
 
-/// Batches are passed in order, but each in several arrays: what comes next is asked for before it is needed.
+/// Batches are passed in order, but each in several arrays: what comes next is asked for before it is needed. Past the
+/// tile's `end` nothing is read, others may be at work there.
 constexpr std::size_t ahead = 4;  // batches
 template <int count>
-void fetch_ahead(const FillModel& fill, const FillMemory& memory, std::size_t index) {
+void fetch_ahead(const FillModel& fill, const FillMemory& memory, std::size_t index, std::size_t end) {
   const std::size_t next = index + ahead;
   if (next >= fill.batches.size()) return;
   fetch(&fill.batches[next], sizeof(TetBatch));
-  if (has_flowed(&memory.yield[lane_count * next]))
+  if (next < end && has_flowed(&memory.yield[lane_count * next]))
     fetch(&memory.plastic[plastic_index(next, 0)], plastic_width * sizeof(Lanes));
   if constexpr (count > 0) {
     fetch(&memory.last[strain_rows * lane_count * next], strain_rows * sizeof(Singles));
@@ -71,7 +72,7 @@ void fetch_ahead(const FillModel& fill, const FillMemory& memory, std::size_t in
 }
 
 template <int count>
-void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
+void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, TileSums& tile) {
   const FillModel& fill = *pass.fill;
   FillMemory& memory = *pass.memory;
   const TetBatch& batch = fill.batches[index];
@@ -81,7 +82,7 @@ void batch_stresses(const FillPass& pass, std::size_t index, TileSums& tile) {
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
   std::uint8_t* yield = &memory.yield[lane_count * index];
   const bool flowed = has_flowed(yield);
-  fetch_ahead<count>(fill, memory, index);
+  fetch_ahead<count>(fill, memory, index, end);
 
   // 1. strain, elastic trial stress
   const Nodes n = gather_nodes(memory.pose.data(), batch);
@@ -188,7 +189,8 @@ FillReport FillPass::stresses(std::size_t tile) const {
   std::fill(sums + node_width * t.first_sum, sums + node_width * t.end_sum, 0.0);
   TileSums found;
   with_branches(branches.count, [&](auto count) {
-    for (std::int32_t b = t.first_batch; b < t.end_batch; ++b) batch_stresses<count>(*this, std::size_t(b), found);
+    const auto end = std::size_t(t.end_batch);
+    for (auto b = std::size_t(t.first_batch); b < end; ++b) batch_stresses<count>(*this, b, end, found);
   });
   double* lost = &memory->lost[4 * tile];
   lost[0] += sum_of(found.dissipated);

@@ -20,6 +20,20 @@ Assembly bridge(const std::string& abutments = "free") {
   return assembly;
 }
 
+/// The same, its fill one continuum of few elements.
+Assembly filled_bridge() {
+  const Generator& generator = find_generator("cs1");
+  GeneratorInput input = default_input(generator);
+  input.choices.at("abutments") = "free";
+  input.choices.at("backfill") = "deformable";
+  input.values.at("block_scale") = 4.0;
+  input.values.at("fill_edge") = 2.0;
+  Assembly assembly = generator.build(input);
+  assembly.generator = "cs1";
+  assembly.sensors = {{"A01", assembly.blocks[0].centroid, Vec3::UnitY(), 0}};
+  return assembly;
+}
+
 std::vector<double> frequencies(const Assembly& assembly, int count = 3) {
   std::vector<double> f;
   for (const Mode& mode : modes_of(Bench(assembly), count)) f.push_back(mode.frequency);
@@ -61,6 +75,71 @@ TEST_P(EachEffect, ActsAtEachOfItsPlacesAndLeavesABridge) {
       EXPECT_NE(after[0], before[0]);
     }
   }
+}
+
+TEST_P(EachEffect, ActsOnABridgeWithAFill) {
+  const Effect& effect = find_effect(GetParam());
+  static const Assembly plain = filled_bridge();
+  static const double before = frequencies(plain, 1)[0];
+  ASSERT_FALSE(effect.places(plain).empty());
+  if (!effect.apply) return;
+  const std::string where = effect.places(plain).back();
+  const Assembly changed = with(plain, effect.name, where);
+  const double after = frequencies(changed, 1)[0];
+  EXPECT_GT(after, 0.3 * before);
+  EXPECT_LT(after, 3.0 * before);
+  for (const FillJoint& patch : changed.fill_joints) {
+    const Vec3 centre = polygon_centroid(patch.polygon);
+    const Box box = block_box(changed.blocks[std::size_t(patch.block)]);
+    ASSERT_LT((centre - box.low.cwiseMax(centre.cwiseMin(box.high))).norm(), 1e-6) << "a patch lies on another stone";
+  }
+}
+
+TEST(Effects, OnAFillActOnItsModuliDensityAndPatches) {
+  const Assembly plain = filled_bridge();
+  const auto of_fill = [](const Assembly& a) { return a.materials[std::size_t(a.fill.material[0])]; };
+  const auto of_stone = [](const Assembly& a) { return a.materials[std::size_t(a.blocks[0].material)]; };
+  const Assembly stiffer = with(plain, "fill_stiffness", "all", {{"factor", 4.0}});
+  EXPECT_DOUBLE_EQ(of_fill(stiffer).youngs_modulus, 4.0 * of_fill(plain).youngs_modulus);
+  EXPECT_DOUBLE_EQ(of_fill(stiffer).shear_modulus, 4.0 * of_fill(plain).shear_modulus);
+  EXPECT_EQ(of_fill(stiffer).density, of_fill(plain).density);
+  EXPECT_EQ(of_stone(stiffer).youngs_modulus, of_stone(plain).youngs_modulus);
+  EXPECT_EQ(stiffer.fill_joints[0].kn, plain.fill_joints[0].kn);
+  EXPECT_GT(frequencies(stiffer, 1)[0], 1.02 * frequencies(plain, 1)[0]);
+
+  const Assembly loose = with(plain, "fill_interface", "spandrels", {{"factor", 0.5}});
+  std::size_t halved = 0;
+  for (std::size_t i = 0; i < plain.fill_joints.size(); ++i) {
+    const FillJoint &was = plain.fill_joints[i], &is = loose.fill_joints[i];
+    const bool spandrel = plain.blocks[std::size_t(was.block)].component == Component::spandrel;
+    EXPECT_DOUBLE_EQ(is.kn, (spandrel ? 0.5 : 1.0) * was.kn);
+    EXPECT_DOUBLE_EQ(is.ks, (spandrel ? 0.5 : 1.0) * was.ks);
+    halved += spandrel;
+  }
+  EXPECT_GT(halved, 10u);
+
+  const Assembly heavy = with(plain, "calibration", "backfill", {{"stiffness", 1.0}, {"density", 2.0}});
+  EXPECT_DOUBLE_EQ(of_fill(heavy).density, 2.0 * of_fill(plain).density);
+  EXPECT_LT(frequencies(heavy, 1)[0], 0.98 * frequencies(plain, 1)[0]);
+
+  const auto mass = [](const Assembly& a) {
+    double sum = 0.0;
+    for (const double m : build_model(a, SolverSettings{}).fill.mass) sum += m;
+    for (const Block& b : a.blocks) sum += b.fixed ? 0.0 : b.mass;
+    return sum;
+  };
+  const auto on_fill = [&](const Assembly& a) {
+    const std::vector<double> masses = build_model(a, SolverSettings{}).fill.mass;
+    return std::accumulate(masses.begin(), masses.end(), 0.0);
+  };
+  const Assembly paved = with(plain, "added_mass", "deck", {{"mass_per_length", 1000.0}});
+  double low = 1e300, high = -1e300;
+  for (const Block& b : plain.blocks) {
+    if (b.component != Component::spandrel) continue;
+    low = std::min(low, block_box(b).low.x()), high = std::max(high, block_box(b).high.x());
+  }
+  EXPECT_NEAR(mass(paved) - mass(plain), 1000.0 * (high - low), 1e-6 * mass(plain));
+  EXPECT_GT(on_fill(paved) - on_fill(plain), 0.5 * 1000.0 * (high - low));  // most of the deck is fill
 }
 
 TEST_P(EachEffect, LeavesABridgeThatRuns) {
