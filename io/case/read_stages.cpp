@@ -4,7 +4,7 @@
 #include "io/case/degrees.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
-#include "io/records/columns.h"
+#include "io/records/format.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
 
@@ -91,6 +91,9 @@ void read_record(TableReader& stage, const Case& c, MotionSource& source) {
     if (!std::filesystem::is_regular_file(source.files[axis]))
       stage.fail("record", fmt::format("is \"{}\": there is no such file", source.files[axis]));
     source.texts[axis] = read_text(source.files[axis]);
+    if (const RecordFormat& format = recognise(source.texts[axis]); format.unit > 0.0 && stage.has("units"))
+      stage.fail("units", fmt::format("is given, but {} is a file of {}, which says its units itself: leave it out",
+                                      source.files[axis], format.name));
   }
   if (!any) stage.fail("record", "names no file: give at least one");
   const std::vector<std::string> known = unit_names();
@@ -106,7 +109,9 @@ GroundMotion motion_of_records(const TableReader& stage, const MotionSource& sou
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = std::size_t(axis);
     if (source.files[i].empty()) continue;
-    const Record record = parse_columns(source.texts[i], source.files[i], source.dt);
+    const RecordFile file = parse_record(source.texts[i], source.files[i], source.dt);
+    const Record& record = file.record;
+    const double unit = file.unit > 0.0 ? file.unit : unit_size(source.units);
     if (first < 0) {
       first = axis;
       motion.dt = record.dt;
@@ -116,8 +121,7 @@ GroundMotion motion_of_records(const TableReader& stage, const MotionSource& sou
     }
     if (record.values.size() > motion.acceleration.size())
       motion.acceleration.resize(record.values.size(), Vec3::Zero());
-    for (std::size_t k = 0; k < record.values.size(); ++k)
-      motion.acceleration[k][axis] = record.values[k] * unit_size(source.units);
+    for (std::size_t k = 0; k < record.values.size(); ++k) motion.acceleration[k][axis] = record.values[k] * unit;
   }
   return source.correct ? correct_baseline(motion) : motion;
 }

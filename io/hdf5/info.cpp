@@ -13,7 +13,7 @@
 #include "io/hdf5/h5.h"
 #include "io/hdf5/history_file.h"
 #include "io/hdf5/modes_file.h"
-#include "io/records/columns.h"
+#include "io/records/format.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
 
@@ -169,10 +169,14 @@ std::string describe_modes(const std::string& path) {
 }
 
 std::string describe_record(const std::string& path) {
-  const Record record = read_columns(path);
+  const RecordFile file = read_record(path);
+  const Record& record = file.record;
   const std::vector<double> velocity = integrate(record.values, record.dt);
   Lines out;
-  out.add("{}: record of {} samples, {:.6g} s at {:.6g} s", path, record.values.size(), record.duration(), record.dt);
+  out.add("{}: {}record of {} samples, {:.6g} s at {:.6g} s", path, file.unit > 0.0 ? file.format + " " : "",
+          record.values.size(), record.duration(), record.dt);
+  if (file.unit > 0.0)
+    out.add("  {}, station {}, component {}; units of {:g} m/s2", file.event, file.station, file.component, file.unit);
   out.add("  largest value {:.6g}, largest velocity {:.6g}, at the end {:.6g}", largest(record.values),
           largest(velocity), velocity.back());
   out.add("  values in the file's own unit; velocities in that unit times s");

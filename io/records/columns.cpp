@@ -1,10 +1,10 @@
 #include "io/records/columns.h"
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "io/hdf5/atomic_file.h"
+#include "io/records/rows.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -19,33 +19,13 @@ struct Row {
   std::vector<double> values;
 };
 
-double parse_number(std::string_view word, const std::string& name, std::size_t row) {
-  std::string_view digits = word;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size())
-    throw InputError("{}:{}: '{}' is not a number: rows must be numbers, headings begin with #", name, row, word);
-  if (!std::isfinite(value)) throw InputError("{}:{}: {} is not a finite number: mend the record", name, row, word);
-  return value;
-}
-
 std::vector<Row> parse_rows(std::string_view text, const std::string& name) {
   std::vector<Row> rows;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    line = line.substr(0, line.find('#'));
-    Row row{number, {}};
-    while (true) {
-      const std::size_t begin = line.find_first_not_of(separators);
-      if (begin == std::string_view::npos) break;
-      line.remove_prefix(begin);
-      const std::size_t length = std::min(line.find_first_of(separators), line.size());
-      row.values.push_back(parse_number(line.substr(0, length), name, number));
-      line.remove_prefix(length);
-    }
+  std::size_t number = 0;
+  for (const std::string_view line : lines_of(text)) {
+    Row row{++number, {}};
+    append_numbers(line.substr(0, line.find('#')), separators, name, number,
+                   "rows must be numbers, headings begin with #", row.values);
     if (!row.values.empty()) rows.push_back(std::move(row));
   }
   return rows;

@@ -1,0 +1,80 @@
+// PEER AT2 (NGA-West2): four lines of heading, then numbers, five a row. The step is given with four decimals, so that
+// 1/409.6 s reads .0024: whoever knows better gives `dt`.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "io/records/format.h"
+#include "io/records/rows.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr std::size_t heading = 4;  // lines
+
+std::string upper(std::string_view text) {
+  std::string word(text);
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+  return word;
+}
+
+bool recognises(std::string_view text) {
+  const std::vector<std::string_view> lines = lines_of(text.substr(0, 2000));
+  return lines.size() > heading && upper(lines[heading - 1]).find("NPTS") != std::string::npos &&
+         upper(lines[heading - 1]).find("DT") != std::string::npos;
+}
+
+/// "NPTS=  16392, DT=   .0024 SEC" or "16392  .0024  NPTS, DT": the numbers in their order.
+std::pair<double, double> size_and_step(const std::string& line, const std::string& name) {
+  std::vector<double> numbers;
+  std::string word;
+  for (const char c : line + " ") {
+    if (std::isdigit(static_cast<unsigned char>(c)) || c == '.' || ((c == 'E' || c == '-') && !word.empty())) {
+      word += c;
+    } else if (!word.empty()) {
+      if (word != ".") numbers.push_back(number_in(word, name, heading, "expected the number of samples and the step"));
+      word.clear();
+    }
+  }
+  if (numbers.size() < 2 || numbers[0] < 2.0 || numbers[0] != std::floor(numbers[0]) || !(numbers[1] > 0.0))
+    throw InputError("{}:{}: '{}' names no number of samples and step (s), expected as in 'NPTS= 4000, DT= .0050 SEC'",
+                     name, heading, trimmed(line));
+  return {numbers[0], numbers[1]};
+}
+
+RecordFile read(const std::string& text, const std::string& name, double dt) {
+  const std::vector<std::string_view> lines = lines_of(text);
+  if (upper(lines[2]).find("ACCELERATION") == std::string::npos || upper(lines[2]).find(" G") == std::string::npos)
+    throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, trimmed(lines[2]));
+  const auto [samples, step] = size_and_step(upper(lines[heading - 1]), name);
+  RecordFile file;
+  file.record.dt = dt > 0.0 ? dt : step;
+  for (std::size_t i = heading; i < lines.size(); ++i)
+    append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after four lines of heading",
+                   file.record.values);
+  if (double(file.record.values.size()) != samples)
+    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is not whole; fetch it again", name,
+                     file.record.values.size(), heading, samples);
+  // "Imperial Valley-06, 10/15/1979, Agrarias, 3"
+  const std::string_view about = lines[1];
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= about.size();) {
+    const std::size_t end = std::min(about.find(',', begin), about.size());
+    parts.emplace_back(trimmed(about.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  file.event = parts.front();
+  if (parts.size() > 2) file.station = parts[parts.size() - 2];
+  if (parts.size() > 1) file.component = parts.back();
+  return file;
+}
+
+}  // namespace
+
+RecordFormat peer_at2() {
+  return {"PEER AT2", 9.80665, recognises, read};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,75 @@
+// Files of ITACA and ESM (ITACA 1.1 and 2.0, DYNA 1.0 and 1.2): lines "KEY: value", then one number a line.
+#include <cctype>
+#include <map>
+
+#include "io/records/format.h"
+#include "io/records/rows.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+bool recognises(std::string_view text) {
+  return text.starts_with("EVENT_NAME:");
+}
+
+struct Header {
+  std::map<std::string, std::pair<std::string, std::size_t>, std::less<>> values;  // and their lines, from 1
+  std::size_t lines = 0;
+};
+
+Header header_of(const std::vector<std::string_view>& lines) {
+  Header header;
+  for (const std::string_view line : lines) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos || !std::isalpha(static_cast<unsigned char>(line[0]))) break;
+    ++header.lines;
+    header.values[std::string(line.substr(0, colon))] = {std::string(trimmed(line.substr(colon + 1))), header.lines};
+  }
+  return header;
+}
+
+double number_of(const Header& header, std::string_view key, const std::string& name) {
+  const auto at = header.values.find(key);
+  if (at == header.values.end())
+    throw InputError("{}: the heading has no line '{}:': the file is not whole; fetch it again", name, key);
+  const auto& [value, line] = at->second;
+  return number_in(value, name, line, std::string(key) + " must be a number");
+}
+
+std::string text_of(const Header& header, std::string_view key) {
+  const auto at = header.values.find(key);
+  return at == header.values.end() ? "" : at->second.first;
+}
+
+RecordFile read(const std::string& text, const std::string& name, double dt) {
+  const std::vector<std::string_view> lines = lines_of(text);
+  const Header header = header_of(lines);
+  RecordFile file;
+  const std::string type = text_of(header, "DATA_TYPE"), units = text_of(header, "UNITS");
+  if (type.find("ACCELERATION") == std::string::npos || type.find("SPECTR") != std::string::npos)
+    throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, type);
+  if (units != "cm/s^2") throw InputError("{}: UNITS is '{}', expected cm/s^2", name, units);
+  const double step = number_of(header, "SAMPLING_INTERVAL_S", name), samples = number_of(header, "NDATA", name);
+  if (!(step > 0.0)) throw InputError("{}: SAMPLING_INTERVAL_S is {}, expected more than 0 s", name, step);
+  file.record.dt = dt > 0.0 ? dt : step;
+  for (std::size_t i = header.lines; i < lines.size(); ++i)
+    append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after the heading", file.record.values);
+  if (double(file.record.values.size()) != samples)
+    throw InputError("{}: {} samples, but NDATA is {:.0f}: the file is not whole; fetch it again", name,
+                     file.record.values.size(), samples);
+  file.event = text_of(header, "EVENT_NAME");
+  file.station = text_of(header, "STATION_CODE");
+  file.component = text_of(header, "COMPONENT");
+  if (file.component.empty()) file.component = text_of(header, "STREAM");
+  return file;
+}
+
+}  // namespace
+
+RecordFormat dyna() {
+  return {"ITACA/ESM ASCII", 0.01, recognises, read};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,165 @@
+// Files of ground motion by their formats.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "io/records/format.h"
+#include "solver/base/error.h"
+#include "tests/io/folder.h"
+namespace voussoir {
+namespace {
+
+/// Samples that are easy to tell: k/1000, the sign by turns.
+double sample(int k) {
+  return (k % 2 ? -0.001 : 0.001) * k;
+}
+
+std::string at2(const std::string& sizes, int samples) {
+  std::string text =
+      "PEER NGA STRONG MOTION DATABASE RECORD\r\nNowhere-02, 1/2/2003, Old Mill, 3\r\n"
+      "ACCELERATION TIME SERIES IN UNITS OF G\r\n" +
+      sizes + "\r\n";
+  for (int k = 0; k < samples; ++k) {
+    text += fmt::format("{:15.7E}", sample(k));
+    if (k % 5 == 4) text += "\r\n";
+  }
+  return text + "\r\n";
+}
+
+std::string dyna_text(int samples, const std::string& change = "", const std::string& to = "") {
+  std::string text =
+      "EVENT_NAME: NOWHERE 3RD SHOCK\nSTATION_CODE: NOW\nSAMPLING_INTERVAL_S: 0.005000\nNDATA: 6\nSTREAM: HNE\n"
+      "UNITS: cm/s^2\nDATA_TYPE: ACCELERATION\nUSER1: /a/b:c\nUSER2: \n";
+  if (const std::size_t at = text.find(change); !change.empty() && at != std::string::npos)
+    text.replace(at, change.size(), to);
+  for (int k = 0; k < samples; ++k) text += fmt::format("{:.6f}\n", sample(k));
+  return text;
+}
+
+/// Eight a row, as wide as their columns.
+std::string csmip_text(int samples, const std::string& line) {
+  std::string text =
+      "CORRECTED ACCELEROGRAM   01336       CHAN  1: UP          FROM   \nUNCORRECTED\nNOWHERE, CA  EARTHQUAKE   \n"
+      "DATE\nNUMBER\nPLACE\nOLD MILL  \n    1    2    3\n" +
+      line + "\n";
+  for (int k = 0; k < samples; ++k) {
+    text += fmt::format("{:10.3f}", k % 2 ? -10000.0 - k : k);
+    if (k % 8 == 7) text += "   \n";
+  }
+  return text + "\n    3 POINTS OF VELOC DATA EQUALLY SPACED AT  .010 SEC.  (UNITS: CM/SEC)\n 1 2 3\n";
+}
+const std::string csmip_line = "   19 POINTS OF ACCEL DATA EQUALLY SPACED AT  .010 SEC.  (UNITS: CM/SEC/SEC)";
+
+std::string fault(const std::string& text) {
+  return test::message_of<InputError>([&] { parse_record(text, "r"); });
+}
+bool says(const std::string& message, const std::string& words) {
+  return message.find(words) != std::string::npos;
+}
+
+TEST(Records, PeerAt2) {
+  for (const std::string sizes : {"NPTS=     13, DT=   .0024 SEC,", "  13  .0024   NPTS, DT"}) {
+    const RecordFile file = parse_record(at2(sizes, 13), "r.AT2");
+    EXPECT_EQ(file.format, "PEER AT2");
+    EXPECT_EQ(file.unit, 9.80665);
+    EXPECT_EQ(file.record.dt, 0.0024);
+    ASSERT_EQ(file.record.values.size(), 13u);
+    for (int k = 0; k < 13; ++k) EXPECT_DOUBLE_EQ(file.record.values[std::size_t(k)], sample(k));
+    EXPECT_EQ(file.event, "Nowhere-02");
+    EXPECT_EQ(file.station, "Old Mill");
+    EXPECT_EQ(file.component, "3");
+  }
+  // Rounded steps: the user knows better.
+  EXPECT_EQ(parse_record(at2("NPTS= 13, DT= .0024 SEC", 13), "r", 1.0 / 409.6).record.dt, 1.0 / 409.6);
+  EXPECT_TRUE(says(fault(at2("NPTS= 14, DT= .0024 SEC", 13)), "13 samples, but line 4 says 14"));
+  EXPECT_TRUE(says(fault(at2("NPTS, DT", 13)), "r:4: 'NPTS, DT' names no number of samples"));
+  EXPECT_TRUE(says(fault(at2("NPTS= 13, DT= 0 SEC", 13)), "r:4:"));
+  std::string velocity = at2("NPTS= 13, DT= .0024 SEC", 13);
+  velocity.replace(velocity.find("ACCELERATION"), 12, "VELOCITY    ");
+  EXPECT_TRUE(says(fault(velocity), "r:3: 'VELOCITY"));
+  std::string damaged = at2("NPTS= 13, DT= .0024 SEC", 13);
+  damaged.replace(damaged.rfind("E-0"), 3, "NaN");
+  EXPECT_TRUE(says(fault(damaged), "r:7: '"));
+}
+
+TEST(Records, ItacaAndEsm) {
+  const RecordFile file = parse_record(dyna_text(6), "r.ASC");
+  EXPECT_EQ(file.format, "ITACA/ESM ASCII");
+  EXPECT_EQ(file.unit, 0.01);
+  EXPECT_EQ(file.record.dt, 0.005);
+  ASSERT_EQ(file.record.values.size(), 6u);
+  EXPECT_DOUBLE_EQ(file.record.values[5], -0.005);
+  EXPECT_EQ(file.event, "NOWHERE 3RD SHOCK");
+  EXPECT_EQ(file.component, "HNE");
+  EXPECT_TRUE(says(fault(dyna_text(5)), "5 samples, but NDATA is 6"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "ACCELERATION", "VELOCITY")), "DATA_TYPE is 'VELOCITY'"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "ACCELERATION", "ACCELERATION RESPONSE SPECTRUM")), "DATA_TYPE is"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "cm/s^2", "g")), "UNITS is 'g', expected cm/s^2"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "NDATA: 6\n", "")), "no line 'NDATA:'"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "soon")), "r:3: 'soon' is not a number"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "0")), "SAMPLING_INTERVAL_S is 0"));
+}
+
+TEST(Records, CsmipInFixedColumns) {
+  const RecordFile file = parse_record(csmip_text(19, csmip_line), "r.V2");
+  EXPECT_EQ(file.format, "CSMIP V2");
+  EXPECT_EQ(file.unit, 0.01);
+  EXPECT_EQ(file.record.dt, 0.01);
+  ASSERT_EQ(file.record.values.size(), 19u);
+  for (int k = 0; k < 19; ++k) EXPECT_EQ(file.record.values[std::size_t(k)], k % 2 ? -10000.0 - k : k);
+  EXPECT_EQ(file.event, "NOWHERE, CA  EARTHQUAKE");
+  EXPECT_EQ(file.station, "OLD MILL");
+  EXPECT_EQ(file.component, "1: UP");
+  EXPECT_TRUE(says(fault(csmip_text(11, csmip_line)), "11 of 19 samples, then a row with fewer than 8"));
+  EXPECT_TRUE(says(fault(csmip_text(19, "1e300" + csmip_line.substr(5))), "r:9: '1e300"));
+  EXPECT_TRUE(says(fault(csmip_text(19, csmip_line) + csmip_line), "another channel"));
+  EXPECT_TRUE(says(fault(csmip_text(19, csmip_line.substr(0, 60))), "r:9:"));
+}
+
+TEST(Records, OthersAreColumns) {
+  EXPECT_EQ(parse_record("0 1\n0.1 2\n", "r").format, "columns");
+  EXPECT_EQ(parse_record("0 1\n0.1 2\n", "r").unit, 0.0);
+  EXPECT_EQ(parse_record("1\r\n2\r\n\r\n", "r", 0.005).record.values.size(), 2u);
+}
+
+TEST(Records, EveryBeginningOfAFileIsReadOrRefused) {
+  for (const std::string& whole : {at2("NPTS=     13, DT=   .0024 SEC,", 13), dyna_text(6), csmip_text(19, csmip_line)})
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+      try {
+        parse_record(whole.substr(0, length), "r");
+      } catch (const InputError&) {
+      }
+    }
+}
+
+/// Real files, where they are at hand: their own headings say their peaks.
+TEST(Records, RealFiles) {
+  const std::string folder = VOUSSOIR_SOURCE_DIR "/../shared/records";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no real records here";
+  const auto peak = [&](const std::string& name, double dt = 0.0) {
+    const RecordFile file = read_record(folder + "/" + name, dt);
+    double most = 0.0;
+    for (const double a : file.record.values) most = std::max(most, std::abs(a));
+    return std::tuple(file.format, most, file.record.values.size(), file.record.dt);
+  };
+  EXPECT_EQ(peak("csmip_v2/CHAN14.V2"), std::tuple(std::string("CSMIP V2"), 225.090, std::size_t(5696), 0.010));
+  EXPECT_EQ(peak("itaca_dyna/19971014_152309ITDPC_NCR__NSX.DAT"),
+            std::tuple(std::string("ITACA/ESM ASCII"), 130.573, std::size_t(6560), 0.005));
+  const auto [format, most, samples, dt] = peak("acc_simbad_ccby/20090406_0132_AQG_NS.acc", 0.005);
+  EXPECT_EQ(format, "columns");
+  EXPECT_NEAR(most / 9.80665, 0.4887, 5e-5);
+  EXPECT_EQ(samples, 20001u);
+  EXPECT_EQ(dt, 0.005);
+  for (const char* sub : {"esm_asc", "itaca_dyna", "csmip_v2"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + sub)) {
+      const std::string name = entry.path().filename().string();
+      if (!entry.is_regular_file() || (!name.ends_with("ACC.ASC") && !name.ends_with(".DAT") && !name.ends_with(".V2")))
+        continue;
+      EXPECT_GT(read_record(entry.path().string()).record.values.size(), 1000u) << name;
+    }
+}
+
+}  // namespace
+}  // namespace voussoir
