@@ -16,6 +16,7 @@
 #include "io/records/format.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
+#include "solver/motion/intensity.h"
 
 namespace voussoir {
 
@@ -180,6 +181,13 @@ std::string describe_record(const std::string& path) {
   out.add("  largest value {:.6g}, largest velocity {:.6g}, at the end {:.6g}", largest(record.values),
           largest(velocity), velocity.back());
   out.add("  values in the file's own unit; velocities in that unit times s");
+  if (file.unit > 0.0) {
+    std::vector<double> acceleration = record.values;
+    for (double& a : acceleration) a *= file.unit;
+    const Intensity i = intensity_of(acceleration, record.dt);
+    out.add("  PGA {:.4f} g, PGV {:.4g} m/s, Arias intensity {:.4g} m/s, 5 to 95 % of it in {:.4g} s", i.pga / 9.80665,
+            i.pgv, i.arias, i.significant());
+  }
   return out.text;
 }
 
