@@ -1,0 +1,23 @@
+// Elastic response spectra of the codes, horizontal.
+#pragma once
+namespace voussoir {
+
+enum class TargetCode { ntc2018, en1998_type_1, en1998_type_2 };
+
+struct TargetSpectrum {
+  TargetCode code = TargetCode::ntc2018;
+  double ag = 0.0;     // g, on rock
+  double f0 = 2.5;     // largest amplification on rock; NTC alone, EN 1998-1 has 2.5
+  double tc = 0.0;     // s, Tc* on rock; NTC alone
+  char soil = 'A';     // to E
+  int topography = 1;  // T1 to T4 (NTC); EN 1998-1, annex A, has the same factors
+  double damping = 0.05;
+};
+
+/// Throws InputError for a soil or topography that there is not, and for values out of their ranges.
+void check(const TargetSpectrum& target);
+/// Acceleration (g) at a period (s). NTC 2018, 3.2.3.2.1, equations 3.2.2 to 3.2.8 and tables 3.2.IV and 3.2.V;
+/// EN 1998-1:2004, 3.2.2.2, equations 3.2 to 3.6 and tables 3.2 and 3.3.
+double spectral_acceleration(const TargetSpectrum& target, double period);
+
+}  // namespace voussoir
