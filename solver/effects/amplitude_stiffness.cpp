@@ -1,4 +1,5 @@
-// Joints, and patches of a deformable fill, without bond that are open at the amplitude of the data: a share of their area carries nothing.
+// Joints, and patches of a deformable fill, without bond that are open at the amplitude of the data: a share of their
+// area carries nothing.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 
