@@ -100,14 +100,13 @@ Eigen::VectorXd tangent_times(const Surroundings& at, const Eigen::VectorXd& her
 
 /// The Newton step of a model with a fill: plastic flow leaves a tangent that is not symmetric, so the factored
 /// stiffness, in which the fill is elastic, only preconditions it. (With less stiffness for elements that flow it took
-/// two to eight times as many products.)
+/// three to ten times as many products.)
 Eigen::VectorXd consistent_step(const Surroundings& at, const Cholesky& cholesky, const Eigen::VectorXd& force) {
   constexpr double tolerance = 1e-3;
   constexpr int most_products = 150;
   return solve_by_products([&](const Eigen::VectorXd& x) { return tangent_times(at, force, x); },
                            [&](const Eigen::VectorXd& b) -> Eigen::VectorXd { return cholesky.solve(b); }, force,
-                           tolerance, most_products)
-      .x;
+                           tolerance, most_products);
 }
 
 }  // namespace

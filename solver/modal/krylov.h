@@ -79,16 +79,10 @@ struct Eigen::internal::generic_product_impl<voussoir::ProductMatrix, Right, Eig
 
 namespace voussoir {
 
-struct KrylovSolution {
-  Eigen::VectorXd x;
-  int products = 0;
-  double error = 0.0;  // of the residual, relative
-};
-
-/// A x = b to a relative residual of `tolerance`, with at most `most` products; what is nearest where that is not
+/// x of A x = b to a relative residual of `tolerance`, with at most `most` products; what is nearest where that is not
 /// enough.
-inline KrylovSolution solve_by_products(const LinearMap& product, const LinearMap& approximate_inverse,
-                                        const Eigen::VectorXd& b, double tolerance, int most) {
+inline Eigen::VectorXd solve_by_products(const LinearMap& product, const LinearMap& approximate_inverse,
+                                         const Eigen::VectorXd& b, double tolerance, int most) {
   const ProductMatrix matrix(b.size(), product);
   Eigen::GMRES<ProductMatrix, MapPreconditioner> gmres;
   gmres.preconditioner().apply = approximate_inverse;
@@ -96,11 +90,7 @@ inline KrylovSolution solve_by_products(const LinearMap& product, const LinearMa
   gmres.setMaxIterations(most);
   gmres.set_restart(most);
   gmres.compute(matrix);
-  KrylovSolution solution;
-  solution.x = gmres.solve(b);
-  solution.products = int(gmres.iterations());
-  solution.error = gmres.error();
-  return solution;
+  return gmres.solve(b);
 }
 
 }  // namespace voussoir
