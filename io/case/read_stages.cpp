@@ -4,7 +4,7 @@
 #include "io/case/degrees.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
-#include "io/records/format.h"
+#include "io/records/sets.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
 
@@ -26,23 +26,8 @@ std::string motion_file_name(std::size_t stage, int axis) {
 
 namespace {
 
-struct Unit {
-  const char* name;
-  double size;  // m/s2
-};
-constexpr Unit units[] = {{"m/s2", 1.0}, {"g", 9.80665}, {"cm/s2", 0.01}};
 constexpr double largest_peak = 1e4;  // m/s2; beyond, the unit or the scale is wrong
 const std::vector<std::string> axes = {"x", "y", "z"};
-
-std::vector<std::string> unit_names() {
-  std::vector<std::string> names;
-  for (const Unit& unit : units) names.emplace_back(unit.name);
-  return names;
-}
-
-double unit_size(const std::string& name) {
-  return std::find_if(std::begin(units), std::end(units), [&](const Unit& unit) { return name == unit.name; })->size;
-}
 
 PulseSettings read_pulse(TableReader& table) {
   PulseSettings pulse;
@@ -96,40 +81,28 @@ void read_record(TableReader& stage, const Case& c, MotionSource& source) {
                                       source.files[axis], format.name));
   }
   if (!any) stage.fail("record", "names no file: give at least one");
-  const std::vector<std::string> known = unit_names();
+  const std::vector<std::string>& known = acceleration_units();
   source.units = known[stage.word("units", known, 0)];
   source.dt = stage.number("dt", 0.0, {0.0, 10.0, "s", true});
   source.correct = stage.flag("correct", false);
 }
 
-/// The components on one time grid; shorter ones end in zeros.
-GroundMotion motion_of_records(const TableReader& stage, const MotionSource& source) {
-  GroundMotion motion;
-  int first = -1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = std::size_t(axis);
+GroundMotion motion_of_records(const MotionSource& source) {
+  std::array<RecordFile, 3> files;
+  std::array<const RecordFile*, 3> along = {};
+  for (std::size_t i = 0; i < 3; ++i) {
     if (source.files[i].empty()) continue;
-    const RecordFile file = parse_record(source.texts[i], source.files[i], source.dt);
-    const Record& record = file.record;
-    const double unit = file.unit > 0.0 ? file.unit : unit_size(source.units);
-    if (first < 0) {
-      first = axis;
-      motion.dt = record.dt;
-    } else if (std::abs(record.dt - motion.dt) > 1e-6 * motion.dt) {
-      stage.fail("record", fmt::format("has components of different time steps: {} s in {}, {} s in {}: resample them",
-                                       motion.dt, source.files[std::size_t(first)], record.dt, source.files[i]));
-    }
-    if (record.values.size() > motion.acceleration.size())
-      motion.acceleration.resize(record.values.size(), Vec3::Zero());
-    for (std::size_t k = 0; k < record.values.size(); ++k) motion.acceleration[k][axis] = record.values[k] * unit;
+    files[i] = parse_record(source.texts[i], source.files[i], source.dt);
+    along[i] = &files[i];
   }
+  const GroundMotion motion = join_components(along, acceleration_unit(source.units));
   return source.correct ? correct_baseline(motion) : motion;
 }
 
 GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
   GroundMotion motion;
   try {
-    if (source.kind == MotionSource::Kind::record) motion = motion_of_records(stage, source);
+    if (source.kind == MotionSource::Kind::record) motion = motion_of_records(source);
     if (source.kind == MotionSource::Kind::pulse) motion = make_pulse(source.pulse);
     if (source.kind == MotionSource::Kind::synthetic) motion = synthesize(source.synthetic);
   } catch (const InputError& error) {

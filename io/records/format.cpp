@@ -1,6 +1,7 @@
 #include "io/records/format.h"
 
 #include "io/hdf5/atomic_file.h"
+#include "io/records/rows.h"
 
 namespace voussoir {
 
@@ -29,6 +30,15 @@ RecordFile parse_record(const std::string& text, const std::string& name, double
 
 RecordFile read_record(const std::string& path, double dt) {
   return parse_record(read_text(path), path, dt);
+}
+
+bool columns_without_time(std::string_view text) {
+  if (recognise(text).unit > 0.0) return false;
+  for (std::string_view line : lines_of(text)) {
+    line = trimmed(line.substr(0, line.find('#')));
+    if (!line.empty()) return line.find_first_of(" \t,;") == std::string_view::npos;
+  }
+  return false;
 }
 
 RecordFormat plain_columns() {

@@ -30,6 +30,8 @@ const std::vector<RecordFormat>& record_formats();
 const RecordFormat& recognise(std::string_view text);
 RecordFile parse_record(const std::string& text, const std::string& name, double dt = 0.0);
 RecordFile read_record(const std::string& path, double dt = 0.0);
+/// Plain numbers, one a row in the first row that has any.
+bool columns_without_time(std::string_view text);
 
 RecordFormat peer_at2();
 RecordFormat dyna();
