@@ -26,7 +26,8 @@ struct MotionSource {
   Kind kind = Kind::none;
   std::array<std::string, 3> files,
       texts;                   // record: paths as opened, and contents; empty for no motion along that axis
-  std::string units = "m/s2";  // record: m/s2, g or cm/s2
+  std::string units = "m/s2";  // record: m/s2, g or cm/s2; of plain columns
+  bool units_asked = false;    // some of the files do not say them
   double dt = 0.0;             // s; record of one column
   bool correct = false;        // record: baseline correction
   double scale = 1.0;

@@ -41,10 +41,31 @@ PulseSettings read_pulse(TableReader& table) {
   return pulse;
 }
 
+/// The spectrum that a synthetic motion shall have.
+std::optional<TargetSpectrum> read_spectrum(TableReader& table) {
+  if (!table.has("spectrum")) {
+    for (const char* key : {"ag", "f0", "tc", "soil", "topography"})
+      if (table.has(key)) table.fail(key, "belongs to a 'spectrum': name it, such as spectrum = \"ntc2018\"");
+    return std::nullopt;
+  }
+  TargetSpectrum t;
+  t.code = TargetCode(table.required_word("spectrum", target_codes()));
+  t.ag = table.required_number("ag", {0.0, 5.0, "g", true});
+  if (t.code == TargetCode::ntc2018) {
+    t.f0 = table.required_number("f0", {2.0, 5.0, ""});
+    t.tc = table.required_number("tc", {0.0, 2.0, "s", true});
+  }
+  t.soil = char('A' + table.required_word("soil", {"A", "B", "C", "D", "E"}));
+  t.topography = int(table.integer("topography", 1, 1, 4));
+  return t;
+}
+
 SyntheticSettings read_synthetic(TableReader& table, double stage_duration) {
   SyntheticSettings s;
   s.seed = std::uint64_t(table.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
-  s.peak = table.required_number("peak", {0.0, 1e3, "m/s2", true});
+  s.spectrum = read_spectrum(table);
+  if (!s.spectrum) s.peak = table.required_number("peak", {0.0, 1e3, "m/s2", true});
+  if (s.spectrum && table.has("peak")) table.fail("peak", "and 'spectrum' are both given: keep one");
   s.duration = table.number("duration", stage_duration, {0.0, 1e4, "s", true});
   s.frequency = table.number("frequency", s.frequency, {0.0, 50.0, "Hz", true});
   s.bandwidth = table.number("bandwidth", s.bandwidth, {0.0, 2.0, "(damping ratio of the ground)", true});
@@ -76,9 +97,11 @@ void read_record(TableReader& stage, const Case& c, MotionSource& source) {
     if (!std::filesystem::is_regular_file(source.files[axis]))
       stage.fail("record", fmt::format("is \"{}\": there is no such file", source.files[axis]));
     source.texts[axis] = read_text(source.files[axis]);
-    if (const RecordFormat& format = recognise(source.texts[axis]); format.unit > 0.0 && stage.has("units"))
+    const RecordFormat& format = recognise(source.texts[axis]);
+    if (format.unit > 0.0 && stage.has("units"))
       stage.fail("units", fmt::format("is given, but {} is a file of {}, which says its units itself: leave it out",
                                       source.files[axis], format.name));
+    if (format.unit == 0.0) source.units_asked = true;
   }
   if (!any) stage.fail("record", "names no file: give at least one");
   const std::vector<std::string>& known = acceleration_units();

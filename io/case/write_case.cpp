@@ -121,11 +121,18 @@ std::string synthetic_text(const SyntheticSettings& s) {
   std::vector<std::string> axes;
   for (int axis = 0; axis < 3; ++axis)
     if (s.axes[std::size_t(axis)]) axes.push_back(quoted(axis_names[axis]));
+  std::string size = "peak = " + number_text(s.peak);
+  if (s.spectrum) {
+    const TargetSpectrum& t = *s.spectrum;
+    size = fmt::format("spectrum = {}, ag = {}", quoted(target_codes()[std::size_t(t.code)]), number_text(t.ag));
+    if (t.code == TargetCode::ntc2018) size += fmt::format(", f0 = {}, tc = {}", number_text(t.f0), number_text(t.tc));
+    size += fmt::format(", soil = \"{}\", topography = {}", t.soil, t.topography);
+  }
   return fmt::format(
-      "{{ seed = {}, peak = {}, duration = {}, axes = [{}], frequency = {}, bandwidth = {}, rise = {}, strong = {}, "
+      "{{ seed = {}, {}, duration = {}, axes = [{}], frequency = {}, bandwidth = {}, rise = {}, strong = {}, "
       "dt = {} }}",
-      s.seed, number_text(s.peak), number_text(s.duration), fmt::join(axes, ", "), number_text(s.frequency),
-      number_text(s.bandwidth), number_text(s.rise), number_text(s.strong), number_text(s.dt));
+      s.seed, size, number_text(s.duration), fmt::join(axes, ", "), number_text(s.frequency), number_text(s.bandwidth),
+      number_text(s.rise), number_text(s.strong), number_text(s.dt));
 }
 
 void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) {
@@ -137,7 +144,7 @@ void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) 
   for (int axis = 0; axis < 3; ++axis)
     names.push_back(quoted(source.files[std::size_t(axis)].empty() ? "" : motion_file_name(stage, axis)));
   out.raw("record", fmt::format("[{}]", fmt::join(names, ", ")));
-  out.set("units", source.units);
+  if (source.units_asked) out.set("units", source.units);
   if (source.dt > 0.0) out.set("dt", source.dt);
   out.set_flag("correct", source.correct);
 }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "solver/base/error.h"
+#include "solver/base/random.h"
 #include "solver/identify/harmonic.h"
 #include "solver/identify/picking.h"
 #include "solver/identify/references.h"
@@ -185,20 +186,16 @@ int find_again(const std::map<int, std::vector<Pole>>& poles, const Candidate& c
 }
 
 /// The segments in `parts` parts drawn at random, and again until there are enough parts: each segment is left out
-/// equally often. The stream is splitmix64 (Steele, Lea & Flood 2014), always the same.
+/// equally often. The stream is always the same.
 std::vector<std::vector<bool>> parts_to_leave_out(int segments) {
   std::vector<std::vector<bool>> result;
-  std::uint64_t state = 1;
+  RandomStream random(1);
   while (int(result.size()) < replicates) {
     std::vector<int> order(static_cast<std::size_t>(segments));
     for (int i = 0; i < segments; ++i) {
-      state += 0x9e3779b97f4a7c15ULL;
-      std::uint64_t z = state;
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-      const int j = int((z ^ (z >> 31)) % std::uint64_t(i + 1));
-      order[std::size_t(i)] = order[std::size_t(j)];
-      order[std::size_t(j)] = i;
+      const std::size_t j = random.below(std::size_t(i) + 1);
+      order[std::size_t(i)] = order[j];
+      order[j] = i;
     }
     for (int part = 0; part < parts; ++part) {
       result.emplace_back(std::size_t(segments), false);

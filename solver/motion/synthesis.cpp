@@ -1,10 +1,16 @@
 #include "solver/motion/synthesis.h"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <unsupported/Eigen/FFT>
 
 #include "solver/base/error.h"
+#include "solver/base/random.h"
 #include "solver/motion/baseline.h"
+#include "solver/motion/filter.h"
+#include "solver/motion/intensity.h"
 
 namespace voussoir {
 
@@ -13,38 +19,8 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double highest_frequency = 25.0;  // Hz; above it neither records nor bridges have much to say
 
-/// Standard normal numbers from splitmix64 (Steele, Lea & Flood 2014) by the method of Box & Muller (1958).
-class NormalStream {
- public:
-  explicit NormalStream(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    if (has_spare_) {
-      has_spare_ = false;
-      return spare_;
-    }
-    const double radius = std::sqrt(-2.0 * std::log(uniform())), angle = two_pi * uniform();
-    spare_ = radius * std::sin(angle);
-    has_spare_ = true;
-    return radius * std::cos(angle);
-  }
-
- private:
-  /// In (0, 1]: the logarithm must exist.
-  double uniform() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return (double(z >> 11) + 1.0) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
-  double spare_ = 0.0;
-  bool has_spare_ = false;
-};
-
 /// Σ √(S Δω) (A cos ωt + B sin ωt) at n samples; the cosines by turning a phasor, which costs two products a sample.
-std::vector<double> stationary_noise(const SyntheticSettings& settings, std::size_t n, NormalStream& normal) {
+std::vector<double> stationary_noise(const SyntheticSettings& settings, std::size_t n, RandomStream& random) {
   std::vector<double> a(n, 0.0);
   const double step = 1.0 / (2.0 * settings.duration);  // Hz: the sum repeats only after twice the duration
   const double highest = std::min(highest_frequency, 0.5 / settings.dt);
@@ -52,7 +28,7 @@ std::vector<double> stationary_noise(const SyntheticSettings& settings, std::siz
     const double omega = two_pi * double(k) * step;
     const double size =
         std::sqrt(ground_spectrum(omega, two_pi * settings.frequency, settings.bandwidth) * two_pi * step);
-    double c = size * normal.next(), s = size * normal.next();
+    double c = size * random.normal(), s = size * random.normal();
     const double turn_c = std::cos(omega * settings.dt), turn_s = std::sin(omega * settings.dt);
     for (std::size_t i = 0; i < n; ++i) {
       a[i] += c;
@@ -69,7 +45,11 @@ void check(const SyntheticSettings& s) {
     if (!(value > 0.0) || !std::isfinite(value))
       throw InputError("synthetic motion: '{}' is {} {}: must be above 0", name, value, unit);
   };
-  positive(s.peak, "peak", "m/s2");
+  if (s.spectrum) {
+    check_target(*s.spectrum);
+  } else {
+    positive(s.peak, "peak", "m/s2");
+  }
   positive(s.duration, "duration", "s");
   positive(s.frequency, "frequency", "Hz");
   positive(s.bandwidth, "bandwidth", "(damping ratio)");
@@ -82,6 +62,87 @@ void check(const SyntheticSettings& s) {
     throw InputError("synthetic motion: 'duration' {} s holds fewer than 20 steps of 'dt' {} s", s.duration, s.dt);
   if (s.duration / s.dt > 1e6)
     throw InputError("synthetic motion: {} s at {} s are more than a million samples", s.duration, s.dt);
+}
+
+constexpr double shortest_matched = 0.04, longest_matched = 4.0;  // s
+constexpr int matching_rounds = 30;
+
+/// Periods at which spectra are compared: forty a decade.
+std::vector<double> matching_periods(const SyntheticSettings& settings) {
+  const double longest = std::min(longest_matched, settings.duration / 3.0);
+  std::vector<double> periods;
+  for (int k = 0;; ++k) {
+    periods.push_back(shortest_matched * std::pow(10.0, double(k) / 40.0));
+    if (periods.back() > longest) return periods;
+  }
+}
+
+/// Target over response at a frequency, linear in the logarithm of the period; beyond the ends as there.
+double correction_at(double frequency, const std::vector<double>& periods, const std::vector<double>& factors) {
+  if (!(frequency > 0.0)) return 1.0;
+  const double period = 1.0 / frequency;
+  if (period <= periods.front()) return factors.front();
+  if (period >= periods.back()) return factors.back();
+  const auto above = std::upper_bound(periods.begin(), periods.end(), period);
+  const auto i = std::size_t(above - periods.begin());
+  const double share = std::log(period / periods[i - 1]) / std::log(periods[i] / periods[i - 1]);
+  return std::pow(factors[i - 1], 1.0 - share) * std::pow(factors[i], share);
+}
+
+/// One component with the same phases, and amplitudes multiplied by a factor over the period.
+std::vector<double> with_amplitudes(const std::vector<double>& values, double dt, const std::vector<double>& periods,
+                                    const std::vector<double>& factors) {
+  Eigen::FFT<double> transform;
+  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::size_t n = 2;
+  while (n < 2 * values.size()) n *= 2;
+  std::vector<double> padded(n, 0.0);
+  std::ranges::copy(values, padded.begin());
+  std::vector<std::complex<double>> spectrum;
+  transform.fwd(spectrum, padded);
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    spectrum[k] *= correction_at(double(k) / (double(n) * dt), periods, factors);
+  transform.inv(padded, spectrum, Eigen::Index(n));
+  padded.resize(values.size());
+  return padded;
+}
+
+/// Largest of |ln(response/target)|: how far a component is off its target.
+double misfit(const std::vector<double>& response, const std::vector<double>& target) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < target.size(); ++k) most = std::max(most, std::abs(std::log(response[k] / target[k])));
+  return most;
+}
+
+/// The best of the rounds, since the last need not be: neighbouring periods pull against each other.
+GroundMotion matched(const GroundMotion& noise, const SyntheticSettings& settings) {
+  constexpr double g = 9.80665;
+  const std::vector<double> periods = matching_periods(settings);
+  GroundMotion result = noise;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!settings.axes[std::size_t(axis)]) continue;
+    std::vector<double> target;
+    for (const double period : periods)
+      target.push_back(g * (axis == 2 ? vertical_spectral_acceleration(*settings.spectrum, period)
+                                      : spectral_acceleration(*settings.spectrum, period)));
+    GroundMotion now{noise.dt, {}};
+    for (const Vec3& a : noise.acceleration) now.acceleration.emplace_back(a[axis], 0.0, 0.0);
+    double best = INFINITY;
+    for (int round = 0; round < matching_rounds; ++round) {
+      now = correct_baseline(now);
+      std::vector<double> values = component(now, 0);
+      const std::vector<double> response = response_spectrum(values, now.dt, periods, settings.spectrum->damping);
+      if (const double off = misfit(response, target); off < best) {
+        best = off;
+        for (std::size_t i = 0; i < values.size(); ++i) result.acceleration[i][axis] = values[i];
+      }
+      std::vector<double> factors;
+      for (std::size_t k = 0; k < periods.size(); ++k) factors.push_back(target[k] / response[k]);
+      values = with_amplitudes(values, now.dt, periods, factors);
+      for (std::size_t i = 0; i < values.size(); ++i) now.acceleration[i].x() = values[i];
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -107,16 +168,17 @@ GroundMotion synthesize(const SyntheticSettings& settings) {
   GroundMotion motion;
   motion.dt = settings.dt;
   motion.acceleration.assign(n, Vec3::Zero());
-  NormalStream normal(settings.seed);
+  RandomStream random(settings.seed);
   for (int axis = 0; axis < 3; ++axis) {
     if (!settings.axes[std::size_t(axis)]) continue;
-    const std::vector<double> noise = stationary_noise(settings, n, normal);
+    const std::vector<double> noise = stationary_noise(settings, n, random);
     for (std::size_t i = 0; i < n; ++i) {
       const double envelope = jennings_envelope(double(i) * settings.dt, settings.rise * settings.duration,
                                                 settings.strong * settings.duration, settings.duration);
       motion.acceleration[i][axis] = envelope * noise[i];
     }
   }
+  if (settings.spectrum) return matched(motion, settings);
   motion = correct_baseline(motion);
   for (int axis = 0; axis < 3; ++axis) {
     double largest = 0.0;

@@ -2,8 +2,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "solver/motion/target.h"
 #include "solver/step/settings.h"
 
 namespace voussoir {
@@ -18,6 +20,8 @@ struct SyntheticSettings {
   double rise = 0.15;                               // share of the duration until full strength
   double strong = 0.55;                             // share of the duration until decay begins
   double dt = 0.005;                                // s
+  /// Instead of `peak`: each axis has this response spectrum, z the vertical one. The filter then only begins it.
+  std::optional<TargetSpectrum> spectrum = std::nullopt;
   bool operator==(const SyntheticSettings&) const = default;
 };
 
@@ -31,8 +35,10 @@ double ground_spectrum(double omega, double ground_omega, double ground_damping)
 double jennings_envelope(double t, double rise, double strong, double duration);
 
 /// Sum of cosines with Gaussian coefficients, enveloped, baseline-corrected (zero velocity at the end) and scaled to
-/// the peak. The random numbers are the program's own (splitmix64 and Box-Muller), so a seed means the same motion
-/// anywhere. Throws InputError when peak, duration, frequency, bandwidth or dt is not positive or no axis is chosen.
+/// the peak. The random numbers are the program's own, so a seed means the same motion anywhere. With a spectrum the
+/// amplitudes of its Fourier components are multiplied by target over response at their periods, again and again, and
+/// their phases kept (Gasparini & Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Throws InputError
+/// when peak, duration, frequency, bandwidth or dt is not positive or no axis is chosen.
 GroundMotion synthesize(const SyntheticSettings& settings);
 
 }  // namespace voussoir

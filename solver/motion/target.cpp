@@ -67,9 +67,13 @@ Shape shape_of(const TargetSpectrum& t) {
   return t.code == TargetCode::ntc2018 ? ntc2018(t) : en1998(t, t.code == TargetCode::en1998_type_2);
 }
 
+double eta_of(const TargetSpectrum& t) {
+  return std::max(0.55, std::sqrt(10.0 / (5.0 + 100.0 * t.damping)));
+}
+
 }  // namespace
 
-void check(const TargetSpectrum& t) {
+void check_target(const TargetSpectrum& t) {
   if (!(t.ag > 0.0 && t.ag < 5.0)) throw InputError("ag is {} g: expected above 0 and below 5 g", t.ag);
   if (t.code == TargetCode::ntc2018) {
     if (!(t.f0 >= 2.0 && t.f0 < 5.0)) throw InputError("f0 is {}: expected 2.2 to 3 or near it", t.f0);
@@ -80,9 +84,31 @@ void check(const TargetSpectrum& t) {
   shape_of(t);
 }
 
+const std::vector<std::string>& target_codes() {
+  static const std::vector<std::string> names = {"ntc2018", "en1998-1", "en1998-2"};
+  return names;
+}
+
+double vertical_spectral_acceleration(const TargetSpectrum& t, double period) {
+  constexpr double tb = 0.05, tc = 0.15, td = 1.0;  // s, on every soil
+  double ground = 0.0, top = 0.0;                   // g
+  if (t.code == TargetCode::ntc2018) {
+    // F_v = 1.35 F0 √(ag/g); amplified by the topography, not by the soil.
+    ground = t.ag * topography(t) * 1.35 * std::sqrt(t.ag);
+    top = ground * eta_of(t) * t.f0;
+  } else {
+    ground = t.ag * (t.code == TargetCode::en1998_type_1 ? 0.90 : 0.45);
+    top = ground * eta_of(t) * 3.0;
+  }
+  if (period < tb) return ground + (top - ground) * period / tb;
+  if (period < tc) return top;
+  if (period < td) return top * tc / period;
+  return top * tc * td / (period * period);
+}
+
 double spectral_acceleration(const TargetSpectrum& t, double period) {
   const Shape s = shape_of(t);
-  const double eta = std::max(0.55, std::sqrt(10.0 / (5.0 + 100.0 * t.damping)));
+  const double eta = eta_of(t);
   const double ground = t.ag * s.factor, top = ground * eta * s.plateau;
   if (period < s.tb) return ground + (top - ground) * period / s.tb;
   if (period < s.tc) return top;

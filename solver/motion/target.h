@@ -1,5 +1,8 @@
-// Elastic response spectra of the codes, horizontal.
+// Elastic response spectra of the codes.
 #pragma once
+#include <string>
+#include <vector>
+
 namespace voussoir {
 
 enum class TargetCode { ntc2018, en1998_type_1, en1998_type_2 };
@@ -12,12 +15,19 @@ struct TargetSpectrum {
   char soil = 'A';     // to E
   int topography = 1;  // T1 to T4 (NTC); EN 1998-1, annex A, has the same factors
   double damping = 0.05;
+  bool operator==(const TargetSpectrum&) const = default;
 };
 
 /// Throws InputError for a soil or topography that there is not, and for values out of their ranges.
-void check(const TargetSpectrum& target);
+void check_target(const TargetSpectrum& target);
 /// Acceleration (g) at a period (s). NTC 2018, 3.2.3.2.1, equations 3.2.2 to 3.2.8 and tables 3.2.IV and 3.2.V;
 /// EN 1998-1:2004, 3.2.2.2, equations 3.2 to 3.6 and tables 3.2 and 3.3.
 double spectral_acceleration(const TargetSpectrum& target, double period);
+/// The same of vertical motion. NTC 2018, 3.2.3.2.2, equations 3.2.8 to 3.2.10 and table 3.2.VI; EN
+/// 1998-1:2004, 3.2.2.3, equations 3.8 to 3.11 and table 3.4.
+double vertical_spectral_acceleration(const TargetSpectrum& target, double period);
+
+/// "ntc2018", "en1998-1", "en1998-2", in the order of TargetCode.
+const std::vector<std::string>& target_codes();
 
 }  // namespace voussoir

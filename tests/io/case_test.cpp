@@ -353,6 +353,26 @@ TEST_F(CaseFile, BaselineCorrectionAndOneColumn) {
   EXPECT_NEAR(velocity, 0.0, 1e-15);
 }
 
+TEST_F(CaseFile, ResolvedCopiesKeepFormatsAndSpectra) {
+  folder.write(
+      "e.asc",
+      "EVENT_NAME: N\nSAMPLING_INTERVAL_S: 0.01\nNDATA: 4\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n1\n2\n-3\n4\n");
+  const std::string text =
+      "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"motion\"\nduration = 1.0\nrecord = \"e.asc\"\n"
+      "[[stage]]\nkind = \"motion\"\nduration = 4.0\nsynthetic = { spectrum = \"ntc2018\", ag = 0.2607, f0 = 2.36, "
+      "tc = 0.35, soil = \"D\", axes = [\"x\", \"z\"], seed = 7 }\n";
+  const Case c = parse_case(text, folder / "c.toml");
+  EXPECT_DOUBLE_EQ(c.settings.stages[0].motion.acceleration[2].x(), -0.03);
+  ASSERT_TRUE(c.motions[1].synthetic.spectrum);
+  std::filesystem::create_directory(folder / "copy");
+  write_resolved_case(c, folder / "copy");
+  const Case copy = read_case(folder / "copy/case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  EXPECT_EQ(copy.motions[1].synthetic, c.motions[1].synthetic);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(copy.settings.stages[i].motion.acceleration, c.settings.stages[i].motion.acceleration);
+}
+
 TEST_F(CaseFile, GeometryNeedsNoStage) {
   const std::string text = "[bridge]\ngenerator = \"column\"\n";
   EXPECT_EQ(parse_case(text, "c.toml", CaseUse::geometry).settings.stages.size(), 0u);

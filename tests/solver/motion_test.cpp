@@ -6,18 +6,15 @@
 
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
+#include "solver/motion/filter.h"
 #include "solver/motion/ground_path.h"
+#include "solver/motion/intensity.h"
 #include "solver/motion/pulse.h"
 #include "solver/motion/synthesis.h"
+#include "solver/motion/target.h"
 
 namespace voussoir {
 namespace {
-
-std::vector<double> component(const GroundMotion& motion, int axis) {
-  std::vector<double> a;
-  for (const Vec3& v : motion.acceleration) a.push_back(v[axis]);
-  return a;
-}
 
 double end_velocity(const GroundMotion& motion, int axis) {
   return integrate(component(motion, axis), motion.dt).back();
@@ -160,6 +157,34 @@ TEST(Synthesis, CrossesZeroAtTheRateOfItsSpectrum) {
     seconds += double(a.size() - 800) * base.dt;
   }
   EXPECT_NEAR(crossings / seconds, expected, 0.05 * expected);
+}
+
+TEST(Synthesis, HasTheSpectrumItIsAskedFor) {
+  constexpr double g = 9.80665;
+  SyntheticSettings settings;
+  settings.duration = 20.0, settings.axes = {true, true, true};
+  settings.spectrum = TargetSpectrum{TargetCode::ntc2018, 0.2607, 2.36, 0.35, 'D', 1, 0.05};
+  std::vector<double> periods;
+  for (double period = 0.05; period < 3.0; period *= 1.031) periods.push_back(period);  // not those it was made at
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    settings.seed = seed;
+    const GroundMotion motion = synthesize(settings);
+    EXPECT_EQ(motion.acceleration, synthesize(settings).acceleration);
+    double sums[3] = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<double> a = component(motion, axis), response = response_spectrum(a, motion.dt, periods);
+      EXPECT_NEAR(integrate(a, motion.dt).back(), 0.0, 1e-9);
+      for (std::size_t k = 0; k < periods.size(); ++k) {
+        const double target = g * (axis == 2 ? vertical_spectral_acceleration(*settings.spectrum, periods[k])
+                                             : spectral_acceleration(*settings.spectrum, periods[k]));
+        EXPECT_NEAR(response[k] / target, 1.0, 0.15) << "axis " << axis << ", " << periods[k] << " s, seed " << seed;
+        sums[axis] += response[k] / target / double(periods.size());
+      }
+    }
+    for (const double mean : sums) EXPECT_NEAR(mean, 1.0, 0.03);
+  }
+  settings.spectrum->soil = 'F';
+  EXPECT_THROW(synthesize(settings), InputError);
 }
 
 TEST(Synthesis, RefusesNonsense) {

@@ -5,27 +5,21 @@
 #include <cstdint>
 #include <numbers>
 
+#include "solver/base/random.h"
+
 namespace voussoir {
 
-/// Standard normal numbers (splitmix64, Box & Muller): the same on every machine.
+/// Standard normal numbers, the second of each pair left out.
 class Normal {
  public:
-  explicit Normal(std::uint64_t seed) : state_(seed * 0x2545f4914f6cdd1dULL) {}
+  explicit Normal(std::uint64_t seed) : random_(seed * 0x2545f4914f6cdd1dULL) {}
   double operator()() {
-    const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+    const double radius = std::sqrt(-2.0 * std::log(random_.uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * random_.uniform());
   }
 
  private:
-  double uniform() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return (double(z >> 11) + 1.0) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
+  RandomStream random_;
 };
 
 /// x⁺ = A x + b u of one mode under a force held over the step: exact (matrix exponential in closed form).

@@ -1,13 +1,9 @@
 // The page of a diagnosis: one HTML file to look at, to print and to send on.
 #pragma once
 #include "tools/voussoir/diagnosis_report.h"
+#include "tools/voussoir/html.h"
 
 namespace voussoir {
-
-/// A PNG file that is put into the page; one that cannot be read is left out with a note.
-struct PagePicture {
-  std::string title, caption, png;
-};
 
 /// One self-contained HTML page: no scripts, nothing from elsewhere. The same input and result give the same text: it
 /// holds no date and no times of computing.

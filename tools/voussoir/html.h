@@ -26,4 +26,14 @@ Cell signed_cell(double value);
 /// `tag` is td or th; `kind` the class of the row, may be empty.
 std::string table_row(const std::vector<Cell>& cells, const char* tag, const char* kind = "");
 
+/// A PNG file that the page holds itself.
+struct PagePicture {
+  std::string title, caption, png;
+};
+/// Two beside each other, under a heading; empty without pictures. A file that is no PNG is said in its place.
+std::string pictures_section(const std::vector<PagePicture>& pictures, std::string_view title = "Pictures");
+
+/// A self-contained page around html: no scripts, nothing from elsewhere.
+std::string html_page(std::string_view title, std::string_view body);
+
 }  // namespace voussoir

@@ -35,7 +35,7 @@ struct TextStyle {
 struct ShapeStyle {
   std::string fill = "none", stroke = "none";  // codes
   double width = 1.0;                          // of the stroke
-  std::string dashes;                          // "4 3"
+  std::string dashes = {};                     // "4 3"
 };
 
 class SvgDrawing {

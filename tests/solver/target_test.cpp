@@ -56,11 +56,27 @@ TEST(Target, EurocodeByHand) {
   EXPECT_NEAR(spectral_acceleration(t, 0.2), 2.5 * 1.8 * 0.2607, 1e-12);
 }
 
+TEST(Target, VerticalByHand) {
+  // NTC 2018: 0.2607 · 1.35 · √0.2607 = 0.17970 at 0 s, times F0 on the plateau; no factor of the soil.
+  EXPECT_NEAR(vertical_spectral_acceleration(aquila(), 0.0), 0.179700, 1e-5);
+  EXPECT_NEAR(vertical_spectral_acceleration(aquila(), 0.1), 0.424091, 2e-5);
+  EXPECT_NEAR(vertical_spectral_acceleration(aquila(), 0.025), 0.5 * (0.179700 + 0.424091), 2e-5);
+  EXPECT_NEAR(vertical_spectral_acceleration(aquila(), 0.6), 0.424091 * 0.15 / 0.6, 1e-5);
+  EXPECT_NEAR(vertical_spectral_acceleration(aquila(), 2.0), 0.424091 * 0.15 / 4.0, 1e-5);
+  // EN 1998-1: avg/ag 0.90 and 0.45, plateau of 3 avg.
+  TargetSpectrum t;
+  t.code = TargetCode::en1998_type_1, t.ag = 0.2, t.soil = 'C';
+  EXPECT_NEAR(vertical_spectral_acceleration(t, 0.0), 0.18, 1e-12);
+  EXPECT_NEAR(vertical_spectral_acceleration(t, 0.15), 0.54, 1e-12);
+  t.code = TargetCode::en1998_type_2;
+  EXPECT_NEAR(vertical_spectral_acceleration(t, 0.1), 0.27, 1e-12);
+}
+
 TEST(Target, WhatThereIsNotIsRefused) {
   const auto fault = [](auto change) {
     TargetSpectrum t = aquila();
     change(t);
-    return test::message_of<InputError>([&] { check(t); });
+    return test::message_of<InputError>([&] { check_target(t); });
   };
   EXPECT_EQ(fault([](TargetSpectrum&) {}), "");
   EXPECT_EQ(fault([](TargetSpectrum& t) { t.soil = 'F'; }), "soil 'F': expected A, B, C, D or E");

@@ -1,0 +1,43 @@
+// The program's own random numbers: a seed means the same numbers anywhere.
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+namespace voussoir {
+
+/// splitmix64 (Steele, Lea & Flood 2014); normal numbers by the method of Box & Muller (1958).
+class RandomStream {
+ public:
+  explicit RandomStream(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t bits() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+  }
+  /// In (0, 1]: its logarithm exists.
+  double uniform() { return (double(bits() >> 11) + 1.0) * 0x1.0p-53; }
+  /// In 0 … n − 1, n > 0; each as often within n / 2^64.
+  std::size_t below(std::size_t n) { return std::size_t(bits() % n); }
+  /// Mean 0, standard deviation 1.
+  double normal() {
+    if (has_spare_) {
+      has_spare_ = false;
+      return spare_;
+    }
+    const double radius = std::sqrt(-2.0 * std::log(uniform())), angle = 2.0 * std::numbers::pi * uniform();
+    spare_ = radius * std::sin(angle);
+    has_spare_ = true;
+    return radius * std::cos(angle);
+  }
+
+ private:
+  std::uint64_t state_;
+  double spare_ = 0.0;
+  bool has_spare_ = false;
+};
+
+}  // namespace voussoir
