@@ -30,6 +30,7 @@ struct MotionSource {
   bool units_asked = false;    // some of the files do not say them
   double dt = 0.0;             // s; record of one column
   bool correct = false;        // record: baseline correction
+  double begin = 0.0;          // s, record: what comes before is left out
   double scale = 1.0;
   PulseSettings pulse;
   SyntheticSettings synthetic;

@@ -108,9 +108,10 @@ void read_record(TableReader& stage, const Case& c, MotionSource& source) {
   source.units = known[stage.word("units", known, 0)];
   source.dt = stage.number("dt", 0.0, {0.0, 10.0, "s", true});
   source.correct = stage.flag("correct", false);
+  source.begin = stage.number("begin", 0.0, {0.0, 1e5, "s"});
 }
 
-GroundMotion motion_of_records(const MotionSource& source) {
+GroundMotion motion_of_records(const TableReader& stage, const MotionSource& source) {
   std::array<RecordFile, 3> files;
   std::array<const RecordFile*, 3> along = {};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -118,14 +119,18 @@ GroundMotion motion_of_records(const MotionSource& source) {
     files[i] = parse_record(source.texts[i], source.files[i], source.dt);
     along[i] = &files[i];
   }
-  const GroundMotion motion = join_components(along, acceleration_unit(source.units));
+  GroundMotion motion = join_components(along, acceleration_unit(source.units));
+  const auto left_out = std::size_t(std::llround(source.begin / motion.dt));
+  if (left_out + 2 > motion.acceleration.size())
+    stage.fail("begin", fmt::format("is {} s, and the record ends at {} s", source.begin, motion.duration()));
+  motion.acceleration.erase(motion.acceleration.begin(), motion.acceleration.begin() + std::ptrdiff_t(left_out));
   return source.correct ? correct_baseline(motion) : motion;
 }
 
 GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
   GroundMotion motion;
   try {
-    if (source.kind == MotionSource::Kind::record) motion = motion_of_records(source);
+    if (source.kind == MotionSource::Kind::record) motion = motion_of_records(stage, source);
     if (source.kind == MotionSource::Kind::pulse) motion = make_pulse(source.pulse);
     if (source.kind == MotionSource::Kind::synthetic) motion = synthesize(source.synthetic);
   } catch (const InputError& error) {
@@ -163,7 +168,7 @@ void read_motion(TableReader& table, const Case& c, StageSettings& stage, Motion
     source.kind = MotionSource::Kind::record;
     read_record(table, c, source);
   } else {
-    for (const char* key : {"units", "dt", "correct"})
+    for (const char* key : {"units", "dt", "correct", "begin"})
       if (table.has(key)) table.fail(key, "belongs to a 'record': remove it");
     source.kind = pulse ? MotionSource::Kind::pulse : MotionSource::Kind::synthetic;
     if (auto sub = table.table("pulse", "the pulse of " + table.place())) source.pulse = read_pulse(*sub);

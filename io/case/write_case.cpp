@@ -146,6 +146,7 @@ void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) 
   out.raw("record", fmt::format("[{}]", fmt::join(names, ", ")));
   if (source.units_asked) out.set("units", source.units);
   if (source.dt > 0.0) out.set("dt", source.dt);
+  if (source.begin > 0.0) out.set("begin", source.begin);
   out.set_flag("correct", source.correct);
 }
 

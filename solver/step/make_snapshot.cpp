@@ -165,6 +165,9 @@ Snapshot make_snapshot(const Model& model, const State& state) {
     const Tractions sum = point_tractions(p, j, state.contact_points, state.contact);
     PatchSnapshot s = patch_snapshot(model, p, j, sum, state.contact_corners, &state.contact.largest[2 * i]);
     add_earlier_slip(state, i, s);
+    // Faces that met during the run were never a joint: how far apart they are, or were when they were found, is no
+    // opening. What a joint had opened before a contact took its place stays with the joint.
+    s.opening = s.largest_opening = 0.0;
     snapshot.patches.push_back(std::move(s));
   }
   snapshot.fill = fill_snapshot(model.fill, state.fill);

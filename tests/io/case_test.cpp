@@ -351,6 +351,9 @@ TEST_F(CaseFile, BaselineCorrectionAndOneColumn) {
   for (std::size_t i = 1; i < corrected.acceleration.size(); ++i)
     velocity += 0.01 * (corrected.acceleration[i].x() + corrected.acceleration[i - 1].x());
   EXPECT_NEAR(velocity, 0.0, 1e-15);
+  const GroundMotion late = parse_case(head + "begin = 0.04\n", folder / "c.toml").settings.stages[0].motion;
+  ASSERT_EQ(late.acceleration.size(), 5u);
+  EXPECT_EQ(late.acceleration[0], plain.acceleration[2]);
 }
 
 TEST_F(CaseFile, ResolvedCopiesKeepFormatsAndSpectra) {

@@ -1,4 +1,5 @@
 // Blocks that find their neighbours, and towers that stand (falls and collisions: tools/ladder).
+#include "solver/step/make_snapshot.h"
 #include "solver/step/simulation.h"
 #include "tests/solver/models.h"
 
@@ -25,6 +26,10 @@ TEST(Falling, ThroughAGapSmallerThanTheSkin) {
   const double z = simulation.state().pose[pose_width * std::size_t(simulation.model().body_of_block[1]) + 2];
   const double sag = 2000 * 0.5 * 9.81 / (1.0 / (0.25 / 1e8 + 0.5 / 1e8));  // σ/kn of the contact, 0.07 mm
   EXPECT_NEAR(z, -gap - sag, 5e-4);
+  // The gap that it fell through is no opening: no joint was there.
+  const Snapshot snapshot = make_snapshot(simulation.model(), simulation.state());
+  ASSERT_EQ(snapshot.patches.size(), 1u);
+  EXPECT_EQ(snapshot.patches[0].largest_opening, 0.0);
 }
 
 /// Dynamic relaxation looks for contacts too: a loose block is caught by the slab below it.

@@ -15,6 +15,7 @@
 #include "solver/base/error.h"
 #include "solver/step/make_snapshot.h"
 #include "tools/voussoir/history_rows.h"
+#include "tools/voussoir/run_page.h"
 #include "tools/voussoir/summary.h"
 
 namespace voussoir {
@@ -200,12 +201,9 @@ void RunSession::write_summary(RunEnd end) {
       {"equilibrium", costs.equilibrium}, {"steps", costs.steps},   {"contact_searches", costs.searches},
       {"history", costs.history},         {"fields", costs.fields}, {"checkpoints", costs.checkpoints}};
   if (const MassScaling& scaling = run.mass_scaling(); scaling.at_work())
-    json["mass_scaling"] = {{"share", scaling.share},
-                            {"blocks", scaling.bodies},
-                            {"heavier", scaling.heavier},
-                            {"nodes", scaling.nodes},
-                            {"largest", scaling.largest},
-                            {"largest_rotary", scaling.largest_rotary}};
+    json["mass_scaling"] = {{"share", scaling.share},     {"blocks", scaling.bodies},
+                            {"heavier", scaling.heavier}, {"nodes", scaling.nodes},
+                            {"largest", scaling.largest}, {"largest_rotary", scaling.largest_rotary}};
   json.update(summary_of_state(run, make_snapshot(run.model(), run.state()), history_));
   if (!json.contains("collapse"))
     if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
@@ -257,6 +255,8 @@ int RunSession::run() {
     const std::string missing = make_pictures(request_.directory, case_, *simulation_,
                                               make_snapshot(simulation_->model(), simulation_->state()), history_);
     log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
+    write_run_page(request_.directory);
+    log(fmt::format("page in {}", path("report.html")));
   }
   return 0;
 }

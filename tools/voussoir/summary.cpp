@@ -7,6 +7,7 @@
 
 #include "solver/modal/hinges.h"
 #include "solver/step/loads.h"
+#include "tools/voussoir/damage_words.h"
 #include "tools/voussoir/history_rows.h"
 
 namespace voussoir {
@@ -34,10 +35,11 @@ nlohmann::json demand_json(const Assembly& assembly, const History& history) {
   return demand;
 }
 
-/// Per component: share of the area of its bonded joints whose bond is lost, largest opening and slip (m).
+/// Per component: share of the area of its bonded joints whose bond is lost, largest opening and slip since the start
+/// and at present (m), and a word for it.
 nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   struct Damage {
-    double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0;
+    double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0, open_now = 0.0, slip_now = 0.0;
   };
   std::map<std::string, Damage> damage;
   for (const PatchSnapshot& p : snapshot.patches)
@@ -46,12 +48,18 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
       if (p.had_bond) d.bonded += p.area, d.broken += p.area * (1.0 - p.bonded);
       d.opening = std::max(d.opening, p.largest_opening);
       d.slip = std::max(d.slip, p.largest_slip);
+      d.open_now = std::max(d.open_now, p.opening);
+      d.slip_now = std::max(d.slip_now, p.slip);
     }
   nlohmann::json json = nlohmann::json::object();
   for (const auto& [name, d] : damage)
     json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0},
+                  {"bonded", d.bonded > 0.0},
+                  {"class", damage_word(d.opening)},
                   {"largest_opening", d.opening},
-                  {"largest_slip", d.slip}};
+                  {"largest_slip", d.slip},
+                  {"residual_opening", d.open_now},
+                  {"residual_slip", d.slip_now}};
   return json;
 }
 

@@ -28,6 +28,7 @@ Verb effects_verb();
 Verb diagnose_verb();
 Verb hide_verb();
 Verb motion_verb();
+Verb report_verb();
 
 namespace options = boost::program_options;
 

@@ -1,0 +1,48 @@
+#include "tools/voussoir/damage_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace voussoir {
+
+namespace {
+
+/// "0.04 mm", "18 mm", "1.2 m".
+std::string length_text(double metres) {
+  if (metres >= 1.0) return fmt::format("{:.1f} m", metres);
+  const double mm = 1e3 * metres;
+  return fmt::format("{:.{}f} mm", mm, mm < 0.1 ? 2 : mm < 10.0 ? 1 : 0);
+}
+
+}  // namespace
+
+const std::vector<DamageClass>& damage_classes() {
+  static const std::vector<DamageClass> classes = {{"negligible", 1e-4}, {"very slight", 1e-3},
+                                                   {"slight", 5e-3},     {"moderate", 15e-3},
+                                                   {"severe", 25e-3},    {"very severe", INFINITY}};
+  return classes;
+}
+
+const char* damage_word(double opening) {
+  for (const DamageClass& c : damage_classes())
+    if (opening < c.below) return c.word;
+  return damage_classes().back().word;
+}
+
+std::string damage_sentence(const nlohmann::json& damage) {
+  const double opening = damage.value("largest_opening", 0.0), slip = damage.value("largest_slip", 0.0),
+               broken = damage.value("broken_share", 0.0);
+  std::string text = damage_word(opening);
+  text += ": joints opened by up to " + length_text(opening);
+  if (damage.contains("residual_opening"))
+    text += fmt::format(" ({} still open)", length_text(damage.value("residual_opening", 0.0)));
+  text += ", slid by up to " + length_text(slip);
+  if (!damage.value("bonded", true)) return text + "; joints without bond";
+  return text + fmt::format("; {} of the bonded joint area broken",
+                            broken == 0.0    ? "nothing"
+                            : broken < 0.001 ? "less than 0.1 %"
+                                             : fmt::format("{:.{}f} %", 100.0 * broken, broken < 0.1 ? 1 : 0));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,22 @@
+// Damage of a component in a word and a sentence.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace voussoir {
+
+struct DamageClass {
+  const char* word;
+  double below;  // m, largest opening
+};
+/// By the width of cracks, after Burland, Broms & de Mello (1977), table 1: negligible below 0.1 mm, very slight 1,
+/// slight 5, moderate 15, severe 25, very severe beyond.
+const std::vector<DamageClass>& damage_classes();
+const char* damage_word(double opening);
+
+/// "severe: joints opened by up to 18 mm (6 mm still open), slid by up to 9 mm; 12 % of the bonded joint area broken".
+/// `damage` is a component's entry in summary.json.
+std::string damage_sentence(const nlohmann::json& damage);
+
+}  // namespace voussoir
