@@ -9,7 +9,7 @@ namespace voussoir {
 
 struct Verb {
   std::string name;
-  std::string summary;                                      // one line
+  std::string summary;                                      // one line; empty: for the program itself, not listed
   std::function<int(const std::vector<std::string>&)> run;  // arguments after the verb; returns the exit status
 };
 
@@ -27,6 +27,8 @@ Verb step_verb();
 Verb effects_verb();
 Verb diagnose_verb();
 Verb hide_verb();
+Verb campaign_verb();
+Verb campaign_run_verb();
 
 namespace options = boost::program_options;
 
