@@ -27,7 +27,6 @@ struct MotionSource {
   std::array<std::string, 3> files,
       texts;                   // record: paths as opened, and contents; empty for no motion along that axis
   std::string units = "m/s2";  // record: m/s2, g or cm/s2; of plain columns
-  bool units_asked = false;    // some of the files do not say them
   double dt = 0.0;             // s; record of one column
   bool correct = false;        // record: baseline correction
   double begin = 0.0;          // s, record: what comes before is left out

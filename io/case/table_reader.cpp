@@ -154,6 +154,13 @@ std::vector<double> TableReader::numbers(const std::string& key, std::size_t cou
   return values;
 }
 
+std::vector<double> TableReader::number_list(const std::string& key, const Limits& limits) {
+  if (!is_list(key)) return {required_number(key, limits)};
+  const std::vector<double> values = list(key, limits);
+  if (values.empty()) fail(key, "is empty: give at least one number");
+  return values;
+}
+
 std::vector<std::string> TableReader::texts(const std::string& key) {
   const toml::node* node = find(key);
   if (!node) missing(key, "text in quotes or a list of texts");

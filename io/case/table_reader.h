@@ -43,6 +43,8 @@ class TableReader {
   std::size_t required_word(const std::string& key, const std::vector<std::string>& words);
   /// A list of exactly `count` numbers.
   std::vector<double> numbers(const std::string& key, std::size_t count, const Limits& limits = {});
+  /// One number or a list of at least one.
+  std::vector<double> number_list(const std::string& key, const Limits& limits = {});
   /// One text or a list of texts.
   std::vector<std::string> texts(const std::string& key);
   Vec3 vector(const std::string& key, const Vec3& fallback);

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "io/case/case.h"
 #include "io/case/degrees.h"
+#include "io/case/motion_source.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
+#include "io/records/format.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -136,18 +139,10 @@ std::string synthetic_text(const SyntheticSettings& s) {
 }
 
 void write_motion(TomlText& out, const MotionSource& source, std::size_t stage) {
-  out.set("scale", source.scale);
-  if (source.kind == MotionSource::Kind::pulse) out.raw("pulse", pulse_text(source.pulse));
-  if (source.kind == MotionSource::Kind::synthetic) out.raw("synthetic", synthetic_text(source.synthetic));
-  if (source.kind != MotionSource::Kind::record) return;
-  std::vector<std::string> names;
-  for (int axis = 0; axis < 3; ++axis)
-    names.push_back(quoted(source.files[std::size_t(axis)].empty() ? "" : motion_file_name(stage, axis)));
-  out.raw("record", fmt::format("[{}]", fmt::join(names, ", ")));
-  if (source.units_asked) out.set("units", source.units);
-  if (source.dt > 0.0) out.set("dt", source.dt);
-  if (source.begin > 0.0) out.set("begin", source.begin);
-  out.set_flag("correct", source.correct);
+  std::array<std::string, 3> names;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!source.files[axis].empty()) names[axis] = motion_file_name(stage, int(axis));
+  out.text_ += motion_source_text(source, names);
 }
 
 std::string list_text(const Vec3& v) {
@@ -301,6 +296,23 @@ void write_resolved_case(const Case& c, const std::string& directory) {
       if (const std::string& text = c.plots[i].measured[k].text; !text.empty())
         write_atomically((folder / measured_file_name(i, k)).string(), text);
   write_atomically((folder / "case.toml").string(), resolved_text(c));
+}
+
+std::string motion_source_text(const MotionSource& source, const std::array<std::string, 3>& files) {
+  TomlText out;
+  out.text_.clear();
+  out.set("scale", source.scale);
+  if (source.kind == MotionSource::Kind::pulse) out.raw("pulse", pulse_text(source.pulse));
+  if (source.kind == MotionSource::Kind::synthetic) out.raw("synthetic", synthetic_text(source.synthetic));
+  if (source.kind != MotionSource::Kind::record) return out.text_;
+  out.raw("record", fmt::format("[{}, {}, {}]", quoted(files[0]), quoted(files[1]), quoted(files[2])));
+  // A file that says its unit itself is refused with another beside it.
+  if (std::ranges::none_of(source.texts, [](const std::string& text) { return recognise(text).unit > 0.0; }))
+    out.set("units", source.units);
+  if (source.dt > 0.0) out.set("dt", source.dt);
+  if (source.begin > 0.0) out.set("begin", source.begin);
+  out.set_flag("correct", source.correct);
+  return out.text_;
 }
 
 std::string effects_text(const std::vector<EffectSetting>& effects) {

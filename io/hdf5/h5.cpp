@@ -204,6 +204,34 @@ void File::write(const std::string& name, std::span<const T> values, Shape shape
   write_raw(name, values.data(), values.size(), memory_type<T>(), sizeof(T), std::move(shape), unit);
 }
 
+void File::write_texts(const std::string& name, const std::vector<std::string>& values) {
+  std::size_t longest = 1;
+  for (const std::string& value : values) longest = std::max(longest, value.size());
+  std::string padded;
+  for (const std::string& value : values) padded += value + std::string(longest - value.size(), '\0');
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), longest);
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  write_raw(name, padded.data(), values.size(), type.id(), longest, {}, "");
+}
+
+std::vector<std::string> File::read_texts(const std::string& name) const {
+  const Handle set = open_dataset(name), type(H5Dget_type(set.id()), H5Tclose);
+  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0)
+    fail(name, "expected texts of fixed length");
+  const std::size_t length = H5Tget_size(type.id()), size = checked_size(name, {any}, length);
+  std::string padded(size * length, '\0');
+  if (size > 0 && H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0)
+    fail(name, "damaged: " + last_reason());
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::string text = padded.substr(i * length, length);
+    values.push_back(text.substr(0, text.find('\0')));
+  }
+  return values;
+}
+
 Handle File::open_dataset(const std::string& name) const {
   if (!has(name)) fail(name, "the dataset is missing");
   Handle set(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);

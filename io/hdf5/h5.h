@@ -62,6 +62,9 @@ class File {
   void write(const std::string& name, const std::vector<T>& values, Shape shape = {}, const std::string& unit = "") {
     write(name, std::span<const T>(values), std::move(shape), unit);
   }
+  /// One dimension of fixed-length UTF-8 texts, padded with nulls to the longest.
+  void write_texts(const std::string& name, const std::vector<std::string>& values);
+  std::vector<std::string> read_texts(const std::string& name) const;
   /// Reads a dataset whose shape must agree with `expected` (default: one dimension of any size). Integers are not read
   /// as floating-point numbers nor the other way round; sizes are converted.
   template <Element T>

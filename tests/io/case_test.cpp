@@ -236,6 +236,22 @@ TEST_F(CaseFile, GuidesSurviveResolving) {
   }
 }
 
+/// A file that says its unit itself is refused with another beside it, also in the resolved copy.
+TEST_F(CaseFile, RecordsThatSayTheirUnitSurviveResolving) {
+  folder.write("x.AT2",
+               "PEER\nEV, 1/1/2000, ST, 000\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=    4, DT=   .0050 SEC\n"
+               " .1 .2 .1 .0\n");
+  const Case c = parse_case(
+      "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"motion\"\nduration = 0.1\nrecord = [\"\", \"x.AT2\"]\n",
+      folder / "c.toml");
+  const Folder run;
+  write_resolved_case(c, run.path());
+  const Case copy = read_case(run / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  ASSERT_EQ(copy.settings.stages[0].motion.acceleration.size(), 4u);
+  EXPECT_DOUBLE_EQ(copy.settings.stages[0].motion.acceleration[1].y(), 0.2 * 9.80665);
+}
+
 /// A plot changes nothing in a run, so not its hash either; a measured curve goes along with the resolved case, and one
 /// that is not there is no error.
 TEST_F(CaseFile, PlotsSurviveResolving) {

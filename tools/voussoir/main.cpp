@@ -13,7 +13,8 @@ void print_help() {
       "voussoir {}: masonry arch bridges, stone by stone\n\nUsage: voussoir VERB …   (voussoir VERB --help says "
       "more)\n\n",
       VOUSSOIR_VERSION);
-  for (const voussoir::Verb& verb : voussoir::verbs()) fmt::print("  {:<10} {}\n", verb.name, verb.summary);
+  for (const voussoir::Verb& verb : voussoir::verbs())
+    if (!verb.summary.empty()) fmt::print("  {:<10} {}\n", verb.name, verb.summary);
   fmt::print("\nExit status: 0 done, 1 the work failed, 2 the input is wrong.\n");
 }
 
@@ -30,7 +31,8 @@ int run(int argc, char** argv) {
   for (const voussoir::Verb& verb : voussoir::verbs())
     if (verb.name == name) return verb.run({argv + 2, argv + argc});
   std::vector<std::string> names;
-  for (const voussoir::Verb& verb : voussoir::verbs()) names.push_back(verb.name);
+  for (const voussoir::Verb& verb : voussoir::verbs())
+    if (!verb.summary.empty()) names.push_back(verb.name);
   throw voussoir::InputError("unknown verb '{}'{}; voussoir --help says more", name, voussoir::suggestion(name, names));
 }
 

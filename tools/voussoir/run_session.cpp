@@ -1,6 +1,7 @@
 #include "tools/voussoir/run_session.h"
 
 #include <fmt/chrono.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
@@ -24,9 +25,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::atomic<bool> stop_flag{false};
+std::atomic<bool> stop_flag{false}, late_flag{false};
 
 void ask_to_stop(int) {
+  stop_flag.store(true);
+}
+
+void time_is_up(int) {
+  late_flag.store(true);
   stop_flag.store(true);
 }
 
@@ -67,6 +73,23 @@ Observers RunSession::observers() {
 
 void RunSession::append_history(const Sample& s) {
   history_.append(history_row(*simulation_, s));
+  if (!fallen_ && has_fallen()) {
+    fallen_ = true;
+    stop_flag.store(true);
+  }
+}
+
+double RunSession::fallen_share() const {
+  const Model& model = simulation_->model();
+  double whole = 0.0, gone = 0.0;
+  for (std::size_t i = 0; i < assembly_.blocks.size(); ++i) {
+    const Body& body = model.bodies[std::size_t(model.body_of_block[i])];
+    if (body.fixed) continue;
+    whole += body.mass;
+    const Vec3 u = relative_displacement(model, simulation_->state(), std::int64_t(i), assembly_.blocks[i].centroid);
+    if (!(u.norm() <= request_.fall_displacement)) gone += body.mass;
+  }
+  return whole > 0.0 ? gone / whole : 0.0;
 }
 
 /// Of the last gravity stage, whether it ran now or before a restart.
@@ -196,6 +219,7 @@ void RunSession::write_summary(RunEnd end) {
                            {"newton_iterations", e.iterations},
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}}};
+  if (fallen_) json["fallen"] = {{"time", run.state().time()}, {"share_of_mass", fallen_share()}};
   const RunCosts& costs = run.costs();
   json["seconds_of_this_part"] = {
       {"equilibrium", costs.equilibrium}, {"steps", costs.steps},   {"contact_searches", costs.searches},
@@ -215,11 +239,12 @@ void RunSession::write_summary(RunEnd end) {
 RunEnd RunSession::simulate() {
   try {
     for (const char* folder : {"checkpoints/", "vtk/"}) make_folder_of(path(folder));
-    const RunEnd end = simulation_->run(request_.until);
+    fallen_ = simulation_->state().time() > 0.0 && has_fallen();  // resumed from its last moment
+    const RunEnd end = fallen_ ? RunEnd::interrupted : simulation_->run(request_.until);
     progress_.end();
     history_.flush();
-    const bool stopped = end == RunEnd::interrupted && stop_flag.load();
-    if (end == RunEnd::interrupted && !stopped) write_checkpoint(false);  // --until
+    const bool stopped = end == RunEnd::interrupted && stop_flag.load() && !fallen_;
+    if (end == RunEnd::interrupted && !stopped && !fallen_) write_checkpoint(false);  // --until
     if (!stopped) write_summary(end);
     return end;
   } catch (const RunError& error) {
@@ -229,35 +254,46 @@ RunEnd RunSession::simulate() {
   }
 }
 
+void RunSession::draw_pictures() {
+  for (const PlotSpec& plot : case_.plots)
+    for (const MeasuredCurve& curve : plot.measured)
+      if (curve.text.empty()) log(fmt::format("{}.png goes without {}: there is no such file", plot.name, curve.file));
+  const std::string missing = make_pictures(request_.directory, case_, *simulation_,
+                                            make_snapshot(simulation_->model(), simulation_->state()), history_);
+  log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
+  write_run_page(request_.directory);
+  log(fmt::format("page in {}", path("report.html")));
+}
+
 int RunSession::run() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  if (request_.time_limit > 0.0) {
+    std::signal(SIGALRM, time_is_up);
+    ::alarm(unsigned(std::ceil(request_.time_limit)));
+  }
   const RunEnd end = simulate();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  if (end == RunEnd::failed)
+  if (end == RunEnd::failed) {
+    end_ = SessionEnd::failed;
     throw RunError("{}\nThe last good checkpoints are in {}", simulation_->failure(), path("checkpoints"));
-  if (end == RunEnd::interrupted && stop_flag.load()) {
-    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", simulation_->state().time(),
-                    request_.directory));
+  }
+  if (fallen_) {
+    end_ = SessionEnd::fallen;
+    log(fmt::format("ended at t = {:.3f} s: {:.0f} % of the mass has moved more than {:g} m", time(),
+                    100.0 * fallen_share(), request_.fall_displacement));
+  } else if (end == RunEnd::interrupted && stop_flag.load()) {
+    end_ = late_flag.load() ? SessionEnd::late : SessionEnd::stopped;
+    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", time(), request_.directory));
     return 1;
+  } else {
+    end_ = end == RunEnd::finished ? SessionEnd::done : SessionEnd::paused;
+    const std::string done = end == RunEnd::finished ? "done" : "paused";
+    log(time() > 0.0 ? fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", done, time(),
+                                   simulation_->state().step(), duration_text(wall), simulation_->worst_balance())
+                     : fmt::format("{} in {}", done, duration_text(wall)));
   }
-  const std::string done = end == RunEnd::finished ? "done" : "paused";
-  const std::int64_t steps = simulation_->state().step();
-  log(simulation_->state().time() > 0.0
-          ? fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", done,
-                        simulation_->state().time(), steps, duration_text(wall), simulation_->worst_balance())
-          : fmt::format("{} in {}", done, duration_text(wall)));
-  if (end == RunEnd::finished && request_.pictures) {
-    for (const PlotSpec& plot : case_.plots)
-      for (const MeasuredCurve& curve : plot.measured)
-        if (curve.text.empty())
-          log(fmt::format("{}.png goes without {}: there is no such file", plot.name, curve.file));
-    const std::string missing = make_pictures(request_.directory, case_, *simulation_,
-                                              make_snapshot(simulation_->model(), simulation_->state()), history_);
-    log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
-    write_run_page(request_.directory);
-    log(fmt::format("page in {}", path("report.html")));
-  }
+  if (request_.pictures && end_ != SessionEnd::paused) draw_pictures();
   return 0;
 }
 

@@ -17,8 +17,13 @@ struct RunRequest {
   int threads = 1;
   bool quiet = false;
   bool pictures = true;
-  double until = -1.0;  // s of simulated time; negative: to the end
+  double until = -1.0;             // s of simulated time; negative: to the end
+  double time_limit = 0.0;         // s of wall time after which it stops with a checkpoint; 0: none
+  double fall_displacement = 0.0;  // m; the run ends once more than …
+  double fall_share = 0.0;         // … of the mass that can move has gone that far; 0: never
 };
+
+enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };  // late: past its time limit
 
 class RunSession {
  public:
@@ -30,10 +35,18 @@ class RunSession {
   void resume();
   /// Runs to the end (or `until`); returns the exit status.
   int run();
+  /// How run() ended, also when it threw: `failed` is the solver's failure, `none` anything else (a full disk).
+  SessionEnd end() const { return end_; }
+  double time() const { return simulation_->state().time(); }  // s, simulated
+  /// Share of the mass that can move which has gone farther than fall_displacement, relative to the ground and to where
+  /// it stood under gravity.
+  double fallen_share() const;
 
  private:
   Observers observers();
   RunEnd simulate();
+  bool has_fallen() const { return request_.fall_share > 0.0 && fallen_share() > request_.fall_share; }
+  void draw_pictures();
   void go_on_from(CheckpointHeader& header);
   const Equilibrium& equilibrium() const;
   void write_checkpoint(bool stage_end);
@@ -52,6 +65,8 @@ class RunSession {
   VtkSeries vtk_;
   Equilibrium equilibrium_before_;  // found by a part of this run that ended earlier
   double before_seconds_ = 0.0;     // wall time of the parts of this run that ended earlier
+  bool fallen_ = false;
+  SessionEnd end_ = SessionEnd::none;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 

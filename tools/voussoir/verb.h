@@ -9,7 +9,7 @@ namespace voussoir {
 
 struct Verb {
   std::string name;
-  std::string summary;                                      // one line
+  std::string summary;                                      // one line; empty: for the program itself, not listed
   std::function<int(const std::vector<std::string>&)> run;  // arguments after the verb; returns the exit status
 };
 
@@ -29,6 +29,8 @@ Verb diagnose_verb();
 Verb hide_verb();
 Verb motion_verb();
 Verb report_verb();
+Verb campaign_verb();
+Verb campaign_run_verb();
 
 namespace options = boost::program_options;
 

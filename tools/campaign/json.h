@@ -1,0 +1,46 @@
+// Reading JSON with errors a person can act on.
+#pragma once
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "solver/base/error.h"
+
+namespace voussoir::campaign {
+
+using nlohmann::json;
+
+/// Throws InputError "PLACE: 'KEY' is missing: …" or for a value of another type.
+template <class T>
+T need(const json& object, const char* key, const std::string& place) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  if (!object.is_object() || found == object.end()) throw InputError("{}: '{}' is missing", place, key);
+  try {
+    return found->template get<T>();
+  } catch (const json::exception&) {
+    throw InputError("{}: '{}' is {}, which is of the wrong type", place, key, found->dump().substr(0, 60));
+  }
+}
+
+/// The same where it may be missing or null.
+template <class T>
+T value_or(const json& object, const char* key, const T& fallback, const std::string& place) {
+  const auto found = object.find(key);
+  return found == object.end() || found->is_null() ? fallback : need<T>(object, key, place);
+}
+
+/// NaN is null.
+inline json number_json(double value) {
+  return std::isfinite(value) ? json(value) : json();
+}
+
+inline json parse_json(const std::string& text, const std::string& path) {
+  try {
+    return json::parse(text);
+  } catch (const json::exception& error) {
+    throw InputError("{} is no valid JSON: {}", path, error.what());
+  }
+}
+
+}  // namespace voussoir::campaign

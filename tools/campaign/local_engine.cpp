@@ -1,0 +1,132 @@
+// Runs as processes of this machine.
+#include <fmt/format.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include "solver/base/error.h"
+#include "tools/campaign/engine.h"
+#include "tools/campaign/process.h"
+#include "tools/campaign/sharing.h"
+
+namespace voussoir::campaign {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Child {
+  pid_t process = -1;
+  std::size_t run = 0;
+};
+
+/// The program's own fault, as against being ended from outside: to be kept as a failure, and not tried again and
+/// again.
+bool crash(int signal) {
+  for (const int fault : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP})
+    if (signal == fault) return true;
+  return false;
+}
+
+class Local {
+ public:
+  explicit Local(const Work& work) : work_(work), plan_(*work.plan), tally_(tally(work.directory, plan_)) {
+    sharing_ = share_cores(plan_.engine, work.cores, work.todo.size());
+  }
+
+  WorkEnd run() {
+    work_.say(fmt::format("{} at once, {} each, on {} of this machine's cores", counted(sharing_.runs, "run"),
+                          counted(sharing_.threads, "thread"), work_.cores));
+    std::size_t next = 0;
+    bool stopping = false;
+    while (!children_.empty() || (next < work_.todo.size() && !stopping)) {
+      if (stop_signal() != 0 && !stopping) {
+        stopping = true;
+        work_.say(fmt::format("stopping: waiting for the checkpoints of {}", counted(children_.size(), "run")));
+        for (const Child& child : children_) ::kill(child.process, SIGTERM);
+      }
+      while (!stopping && next < work_.todo.size() && children_.size() < std::size_t(sharing_.runs))
+        begin(work_.todo[next++]);
+      take_ended();
+      tally_.running = children_.size();
+      work_.progress(tally_, ended_);
+      pause_milliseconds(20);
+    }
+    return stopping ? WorkEnd::stopped : WorkEnd::ended;
+  }
+
+ private:
+  static std::string counted(std::size_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  }
+
+  void begin(std::size_t number) {
+    const PlannedRun& run = plan_.runs[number];
+    const std::string folder = folder_of(work_.directory, run);
+    std::error_code failed;
+    if (fs::create_directories(folder, failed); failed)
+      throw RunError("cannot make the folder {}: {}", folder, failed.message());
+    children_.push_back({start({work_.program, "campaign-run", work_.directory, run.id, "--threads",
+                                std::to_string(sharing_.threads), "--parent", std::to_string(::getpid())},
+                               folder + "/" + output_name),
+                         number});
+  }
+
+  void take_ended() {
+    for (std::size_t i = 0; i < children_.size();) {
+      Finished how;
+      if (!has_ended(children_[i].process, how)) {
+        ++i;
+        continue;
+      }
+      settle(plan_.runs[children_[i].run], how);
+      children_.erase(children_.begin() + std::ptrdiff_t(i));
+    }
+  }
+
+  void settle(const PlannedRun& run, const Finished& how) {
+    Outcome outcome = read_outcome(work_.directory, run);
+    if (outcome.status == Status::missing && crash(how.signal)) {
+      outcome.status = Status::failed;
+      outcome.reason =
+          fmt::format("the program crashed (signal {}, {}): this is a fault of the program, please report it",
+                      how.signal, ::strsignal(how.signal));
+      outcome.goes_on = false;
+      write_outcome(work_.directory, run, outcome);
+    }
+    --tally_.missing;
+    count(tally_, outcome.status);
+    ++ended_;
+    if (outcome.status == Status::failed) work_.say(fmt::format("FAILED {}: {}", run.id, outcome.reason));
+    if (outcome.status == Status::collapsed) work_.say(fmt::format("collapsed {}: {}", run.id, outcome.reason));
+    if (outcome.status != Status::missing || stop_signal() != 0) return;
+    const std::string why = how.signal == SIGKILL ? "it was killed (by the system, where memory ran out?)"
+                            : how.signal > 0      ? fmt::format("it was ended by signal {}", how.signal)
+                                                  : fmt::format("exit status {}", how.status);
+    work_.say(
+        fmt::format("{} has not ended: {}; see {}/{}", run.id, why, folder_of(work_.directory, run), output_name));
+  }
+
+  const Work& work_;
+  const Plan& plan_;
+  Sharing sharing_;
+  Tally tally_;
+  std::vector<Child> children_;
+  std::size_t ended_ = 0;
+};
+
+}  // namespace
+
+Engine local_engine() {
+  return {"local", [](const Work& work) {
+            if (!work.wait)
+              throw InputError(
+                  "--no-wait is for Slurm, which goes on by itself; runs of this machine end with the campaign");
+            return Local(work).run();
+          }};
+}
+
+}  // namespace voussoir::campaign

@@ -1,0 +1,234 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/case/motion_source.h"
+#include "io/case/sections.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/records/sets.h"
+#include "solver/base/error.h"
+#include "tools/campaign/engine.h"
+#include "tools/campaign/measures.h"
+#include "tools/campaign/settings.h"
+
+namespace voussoir::campaign {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string>& distributions() {
+  static const std::vector<std::string> names = {"lognormal", "normal", "uniform"};
+  return names;
+}
+
+namespace {
+
+constexpr int most_samples = 10000;
+
+void refuse_twice(const TableReader& table, const std::string& key, std::vector<double> values) {
+  std::ranges::sort(values);
+  if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
+    table.fail(key, fmt::format("holds {} twice: runs are told apart by it", *twice));
+}
+
+Sampled read_sampled(TableReader& table) {
+  Sampled s;
+  if (!table.has("key")) table.missing("key", "such as \"materials.masonry.youngs_modulus\", or a list of them");
+  s.keys = table.texts("key");
+  if (s.keys.empty()) table.fail("key", "is empty: name a number of the case");
+  s.distribution = Sampled::Distribution(table.required_word("distribution", distributions()));
+  s.own_mean = table.has("mean");
+  s.mean = table.number("mean", 0.0);
+  if (s.own_mean && s.keys.size() > 1)
+    table.fail("mean", "is given for several keys: leave it out (each has the case's value), or sample them apart");
+  const bool uniform = s.distribution == Sampled::Distribution::uniform;
+  if (uniform && (table.has("low") || table.has("high"))) {
+    s.low = table.required_number("low");
+    s.high = table.required_number("high");
+    for (const char* key : {"mean", "cov", "deviation"})
+      if (table.has(key)) table.fail(key, "and 'low', 'high' both say how wide a uniform distribution is: keep one");
+  } else {
+    if (table.has("cov") == table.has("deviation"))
+      table.missing("cov", "standard deviation over mean, or 'deviation' in the key's unit (not both)");
+    s.cov = table.number("cov", 0.0, {0.0, 10.0, "", true});
+    s.deviation = table.number("deviation", 0.0, {0.0, 1e300, "", true});
+    if (!uniform) s.low = table.number("low", s.low), s.high = table.number("high", s.high);
+  }
+  if (!uniform && s.keys.size() > 1 && (table.has("low") || table.has("high")))
+    table.fail("low", "or 'high' would cut one of several keys that are drawn together: leave them out");
+  if (!(s.low < s.high)) table.fail("low", fmt::format("is {}: must be below 'high', {}", s.low, s.high));
+  table.finish();
+  return s;
+}
+
+/// [[record]]: what a motion stage has, with a name.
+Shaking read_shaking(TableReader& table, const std::string& path) {
+  Shaking s;
+  s.name = table.required_text("name");
+  if (s.name.empty()) table.fail("name", "is empty: it stands in the table");
+  s.event = table.text("event", s.name);
+  if (table.has("scale")) table.fail("scale", "belongs to the campaign ('scales'): of one record it is 'factor'");
+  s.source = read_motion_source(table, path, 10.0);
+  s.source.scale = table.number("factor", 1.0, {-1e6, 1e6, ""});
+  table.finish();
+  return s;
+}
+
+void read_records(TableReader& root, TableReader& campaign, Settings& s) {
+  std::vector<TableReader> tables = root.tables("record");
+  const bool named = campaign.has("records");
+  if (named == !tables.empty()) {
+    if (named) campaign.fail("records", "and [[record]] are both given: keep one");
+    campaign.missing("records", "a selection.json or a folder of record files; or [[record]] tables");
+  }
+  if (!named)
+    for (const char* key : {"units", "dt", "correct"})
+      if (campaign.has(key)) campaign.fail(key, "belongs to 'records': give it in each [[record]]");
+  for (TableReader& table : tables) s.records.push_back(read_shaking(table, s.path));
+  if (!named) return;
+  const std::string place = relative_to(s.path, campaign.text("records", ""));
+  const std::vector<std::string>& units = acceleration_units();
+  const std::string unit = units[campaign.word("units", units, 0)];
+  const double dt = campaign.number("dt", 0.005, {0.0, 10.0, "s", true});
+  const bool correct = campaign.flag("correct", false);
+  std::error_code ignored;
+  if (fs::is_directory(place, ignored)) {
+    s.records = read_folder(place, unit, dt, correct, s.left_out);
+  } else if (fs::is_regular_file(place, ignored)) {
+    for (const char* key : {"units", "dt"})
+      if (campaign.has(key)) campaign.fail(key, "is of plain columns in a folder: a selection says it itself");
+    s.records = read_selection(place, correct);
+  } else {
+    campaign.fail("records", fmt::format("is \"{}\": there is no such file or folder", place));
+  }
+}
+
+void check_names(const TableReader& root, const Settings& s) {
+  std::vector<std::string> names;
+  for (const Shaking& record : s.records) names.push_back(record.name);
+  std::ranges::sort(names);
+  if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+    root.fail(fmt::format("has two records called \"{}\": the table tells them apart by name", *twice));
+}
+
+void read_cases(TableReader& campaign, Settings& s) {
+  if (!campaign.has("cases")) campaign.missing("cases", "a list of case files");
+  for (const std::string& name : campaign.texts("cases")) {
+    s.cases.push_back(relative_to(s.path, name));
+    if (std::error_code ignored; !fs::is_regular_file(s.cases.back(), ignored))
+      campaign.fail("cases", fmt::format("names \"{}\": there is no such file", s.cases.back()));
+  }
+  if (s.cases.empty()) campaign.fail("cases", "is empty: name at least one case file");
+}
+
+void read_samples(TableReader& campaign, Settings& s) {
+  for (TableReader& table : campaign.tables("sample")) s.sampled.push_back(read_sampled(table));
+  s.samples = int(campaign.integer("samples", 0, 1, most_samples));
+  s.seed = std::uint64_t(campaign.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+  if (s.samples > 0 && s.sampled.empty())
+    campaign.fail("samples", "is given, but nothing is sampled: add [[campaign.sample]] tables, or remove it");
+  if (s.samples == 0 && !s.sampled.empty()) campaign.missing("samples", "how many are drawn of [[campaign.sample]]");
+}
+
+void read_output(TableReader& campaign, Settings& s) {
+  s.run.fields_every = campaign.number("fields_every", -1.0, {0.0, 1e6, "s"});
+  s.run.pictures = campaign.flag("pictures", false);
+  s.run.keep_checkpoints = campaign.flag("keep_checkpoints", false);
+  s.periods = {0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.75, 1.0, 1.5, 2.0};
+  if (campaign.has("periods")) s.periods = campaign.number_list("periods", {0.01, 20.0, "s"});
+  for (const double t : s.periods)
+    if (std::abs(100.0 * t - std::round(100.0 * t)) > 1e-6)
+      campaign.fail("periods", fmt::format("holds {} s: give full hundredths, which name the columns", t));
+  refuse_twice(campaign, "periods", s.periods);
+  if (auto fall = campaign.table("fall", "[campaign.fall]")) {
+    s.run.fall.displacement = fall->number("displacement", s.run.fall.displacement, {0.0, 1e3, "m", true});
+    s.run.fall.share = fall->number("share", s.run.fall.share, {0.0, 1.0, "(of the mass; 0: never)"});
+    fall->finish();
+  }
+}
+
+/// What comes before the significant part of records; what comes after it the plan knows.
+void leave_out_quiet(Settings& s, bool significant) {
+  s.significant = significant;
+  for (Shaking& shaking : s.records)
+    if (significant && shaking.source.kind == MotionSource::Kind::record && shaking.source.begin == 0.0)
+      shaking.source.begin = significant_begin(ground_motion(shaking.source));
+}
+
+void read_campaign(TableReader& root, Settings& s) {
+  auto campaign = root.table("campaign", "[campaign]");
+  if (!campaign) root.missing("campaign", "a table with cases and records");
+  read_cases(*campaign, s);
+  read_records(root, *campaign, s);
+  if (campaign->has("scales")) s.scales = campaign->number_list("scales", {0.0, 1e6, "", true});
+  refuse_twice(*campaign, "scales", s.scales);
+  s.run.block_scale = campaign->number("block_scale", 0.0, {0.0, 100.0, "", true});
+  if (campaign->is_text("duration"))
+    leave_out_quiet(s, campaign->word("duration", {"significant"}, 0) == 0);
+  else
+    s.duration = campaign->number("duration", 0.0, {0.0, 1e6, "s", true});
+  s.run.free_after = campaign->number("free_after", 0.0, {0.0, 1e6, "s", true});
+  read_samples(*campaign, s);
+  read_output(*campaign, s);
+  campaign->finish();
+}
+
+void read_engine(TableReader& root, Settings& s) {
+  auto table = root.table("engine", "[engine]");
+  if (!table) return;
+  EngineSettings& e = s.engine;
+  std::vector<std::string> kinds;
+  for (const Engine& engine : engines()) kinds.push_back(engine.name);
+  e.kind = kinds[table->word("kind", kinds, 0)];
+  e.runs_at_once = int(table->integer("runs_at_once", 0, 1, 100000));
+  e.threads = int(table->integer("threads", 0, 1, 1024));
+  e.time_limit = table->number("time_limit", 0.0, {0.0, 1e8, "s", true});
+  e.memory = table->number("memory", 0.0, {0.0, 1e9, "MB", true});
+  e.partition = table->text("partition", "");
+  e.account = table->text("account", "");
+  e.qos = table->text("qos", "");
+  if (table->has("options")) e.options = table->texts("options");
+  for (const std::string& option : e.options)
+    if (!option.starts_with("--"))
+      table->fail("options",
+                  fmt::format("holds \"{}\": each is one word of sbatch, such as \"--constraint=avx512\"", option));
+  table->finish();
+}
+
+void read_limit_states(TableReader& root, Settings& s) {
+  for (TableReader& table : root.tables("limit_state")) {
+    LimitState limit;
+    limit.name = table.required_text("name");
+    limit.demand = table.required_text("demand");
+    if (!limit.demand.starts_with("edp.") && !limit.demand.starts_with("damage."))
+      table.fail("demand", fmt::format("is \"{}\": expected a column of the table that begins with \"edp.\" or "
+                                       "\"damage.\", such as \"edp.keystone_x\"",
+                                       limit.demand));
+    limit.threshold = table.required_number("threshold", {0.0, 1e300, "(the column's unit)", true});
+    limit.only = table.text("case", "");
+    table.finish();
+    s.limit_states.push_back(limit);
+  }
+}
+
+}  // namespace
+
+Settings read_settings(const std::string& path) {
+  Settings s;
+  s.path = path;
+  s.text = read_text(path);
+  const toml::table file = parse_toml(s.text, path);
+  TableReader root(file, path, "the campaign");
+  if (!root.has("campaign") && root.has("bridge"))
+    throw InputError("{} is a case, not a campaign: run it with voussoir run, or name it in 'cases' of a campaign file",
+                     path);
+  read_campaign(root, s);
+  read_engine(root, s);
+  read_limit_states(root, s);
+  root.finish();
+  check_names(root, s);
+  return s;
+}
+
+}  // namespace voussoir::campaign

@@ -1,0 +1,92 @@
+// Records out of a selection or a folder.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/case/sections.h"
+#include "io/hdf5/atomic_file.h"
+#include "io/records/sets.h"
+#include "solver/base/error.h"
+#include "tools/campaign/settings.h"
+
+namespace voussoir::campaign {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// A value of a JSON object, or the fallback where there is none (or null). Throws InputError for one of another type.
+template <class T>
+T value_of(const json& object, const std::string& key, const T& fallback, const std::string& place, const char* type) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return fallback;
+  try {
+    return found->get<T>();
+  } catch (const json::exception&) {
+    throw InputError("{}: '{}' is {}: expected {}", place, key, found->dump().substr(0, 60), type);
+  }
+}
+
+MotionSource source_of(const std::array<std::string, 3>& files, const std::string& units, double dt, bool correct) {
+  MotionSource source;
+  source.kind = MotionSource::Kind::record;
+  source.files = files;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!files[axis].empty()) source.texts[axis] = read_text(files[axis]);
+  if (!units.empty()) source.units = units;
+  source.dt = dt;
+  source.correct = correct;
+  return source;
+}
+
+Shaking read_entry(const json& entry, const std::string& path, const std::string& place, bool correct) {
+  if (!entry.is_object()) throw InputError("{} is no object: expected name, files, factor …", place);
+  Shaking s;
+  s.name = value_of<std::string>(entry, "name", "", place, "text");
+  if (s.name.empty()) throw InputError("{} has no 'name': the table tells records apart by it", place);
+  s.event = value_of<std::string>(entry, "event", s.name, place, "text");
+  if (s.event.empty()) s.event = s.name;
+  const auto names = value_of<std::vector<std::string>>(entry, "files", {}, place, "a list of texts");
+  if (names.empty() || names.size() > 3)
+    throw InputError("{} names {} files: expected one, or up to three for x, y, z", place, names.size());
+  std::array<std::string, 3> files;
+  for (std::size_t axis = 0; axis < names.size(); ++axis)
+    if (!names[axis].empty()) files[axis] = relative_to(path, names[axis]);
+  const auto units = value_of<std::string>(entry, "units", "", place, "text");
+  if (!units.empty()) acceleration_unit(units);
+  s.source = source_of(files, units, value_of<double>(entry, "dt", 0.0, place, "a number in s"), correct);
+  s.source.scale = value_of<double>(entry, "factor", 1.0, place, "a number");
+  return s;
+}
+
+}  // namespace
+
+std::vector<Shaking> read_selection(const std::string& path, bool correct) {
+  json file;
+  try {
+    file = json::parse(read_text(path));
+  } catch (const json::exception& error) {
+    throw InputError("{} is no valid JSON ({}): expected a selection that voussoir motion select wrote, or a folder",
+                     path, error.what());
+  }
+  if (!file.is_object() || !file.contains("records") || !file["records"].is_array())
+    throw InputError("{} has no list 'records': expected a selection that voussoir motion select wrote", path);
+  std::vector<Shaking> records;
+  for (const json& entry : file["records"])
+    records.push_back(read_entry(entry, path, fmt::format("{}: record number {}", path, records.size() + 1), correct));
+  if (records.empty()) throw InputError("{}: its list 'records' is empty: nothing to shake with", path);
+  return records;
+}
+
+std::vector<Shaking> read_folder(const std::string& path, const std::string& units, double dt, bool correct,
+                                 std::vector<std::string>& left_out) {
+  const RecordFolder folder = read_record_folder(path, {units, dt});
+  left_out = folder.left_out;
+  std::vector<Shaking> records;
+  for (const RecordSet& set : folder.sets)
+    records.push_back(
+        {set.name, set.event.empty() ? set.name : set.event, source_of(set.files, set.units, set.dt, correct)});
+  return records;
+}
+
+}  // namespace voussoir::campaign

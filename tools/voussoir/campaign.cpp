@@ -1,0 +1,218 @@
+// voussoir campaign: many runs, here or on a cluster, and one table of them.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "solver/base/error.h"
+#include "solver/base/suggestion.h"
+#include "tools/campaign/engine.h"
+#include "tools/campaign/process.h"
+#include "tools/campaign/write_table.h"
+#include "tools/voussoir/directory_lock.h"
+#include "tools/voussoir/terminal.h"
+#include "tools/voussoir/verb.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+using namespace campaign;
+
+namespace {
+
+constexpr std::size_t most_listed = 20;  // failures
+
+struct Request {
+  std::string file, directory;
+  bool from_folder = false;  // go on with a campaign's folder; its file is not needed
+  bool quiet = false;
+};
+
+Request request_of(const options::variables_map& values) {
+  Request r;
+  r.file = values["FILE"].as<std::string>();
+  r.quiet = values.count("quiet") > 0;
+  std::error_code ignored;
+  r.from_folder = fs::is_directory(r.file, ignored);
+  r.directory = r.from_folder ? r.file : fs::path(r.file).stem().string();
+  if (values.count("output") && r.from_folder)
+    throw InputError("{} is a campaign's folder already: leave out -o, or name the campaign's file", r.file);
+  if (values.count("output")) r.directory = values["output"].as<std::string>();
+  if (r.from_folder && !holds_plan(r.directory))
+    throw InputError("{} is a folder without a campaign in it: give a campaign file, or the folder of an earlier one",
+                     r.file);
+  r.directory = fs::absolute(r.directory).lexically_normal().string();
+  while (r.directory.size() > 1 && r.directory.back() == '/') r.directory.pop_back();
+  return r;
+}
+
+Draft draft_of(const Request& wanted) {
+  const Settings settings = read_settings(wanted.file);
+  if (!wanted.quiet)
+    for (const std::string& record : settings.left_out) fmt::print(stderr, "left out: {}\n", record);
+  return make_draft(settings);
+}
+
+std::string counts_text(const Tally& t) {
+  std::string text = fmt::format("{} of {} runs done", t.done + t.collapsed, t.all());
+  if (t.collapsed > 0) text += fmt::format(", {} of them collapsed", t.collapsed);
+  if (t.running > 0) text += fmt::format(", {} running", t.running);
+  if (t.failed > 0) text += fmt::format(", {} failed", t.failed);
+  return text;
+}
+
+/// A line for each run.
+void print_plan(const Plan& plan) {
+  fmt::print("{:<60} {:>8} {:>8} {:>10}\n", "run", "scale", "t [s]", "PGA [m/s2]");
+  for (const PlannedRun& run : plan.runs) {
+    const PlannedRecord& record = plan.records[run.record];
+    fmt::print("{:<60} {:>8g} {:>8.2f} {:>10.3g}\n", run.id, run.scale, record.duration,
+               record.measures.empty() ? 0.0 : run.scale * record.measures[0]);
+  }
+  fmt::print("{} runs: {} cases, {} records\n", plan.runs.size(), plan.cases.size(), plan.records.size());
+}
+
+void print_status(const Plan& plan, const std::string& directory) {
+  for (const PlannedRun& run : plan.runs) {
+    const Outcome o = read_outcome(directory, run);
+    fmt::print("{:<10} {}{}{}\n", status_name(o.status), run.id, o.reason.empty() ? "" : ": ", o.reason);
+  }
+  fmt::print("{}\n", counts_text(tally(directory, plan)));
+}
+
+/// What went wrong, after everything else.
+void list_failures(const Plan& plan, const std::string& directory) {
+  std::size_t listed = 0;
+  const Tally t = tally(directory, plan);
+  for (const PlannedRun& run : plan.runs) {
+    const Outcome o = read_outcome(directory, run);
+    if (o.status != Status::failed) continue;
+    if (++listed > most_listed) break;
+    fmt::print(stderr, "failed: {}: {}\n", run.id, o.reason);
+  }
+  if (t.failed > most_listed) fmt::print(stderr, "… and {} more; --status lists all\n", t.failed - most_listed);
+  if (t.failed > 0)
+    fmt::print(stderr, "what is left of a failed run is in its folder, {}/runs/…; --retry-failed tries them again\n",
+               directory);
+}
+
+const Engine& engine_named(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Engine& engine : engines()) {
+    if (engine.name == name) return engine;
+    names.push_back(engine.name);
+  }
+  throw InputError("--engine is '{}'{}", name, suggestion(name, names));
+}
+
+/// The progress line with what is left of the time, judged by the runs of this session.
+class Watch {
+ public:
+  Watch(std::size_t todo, bool quiet) : todo_(todo), quiet_(quiet), line_(quiet) {}
+  void show(const Tally& t, std::size_t ended) {
+    Progress p;
+    p.stage = "campaign";
+    p.timed = false;
+    p.note = counts_text(t);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    if (ended > 0 && ended < todo_)
+      p.note += fmt::format(", {} left", duration_text(seconds / double(ended) * double(todo_ - ended)));
+    line_.show(p);
+  }
+  void say(const std::string& text) {
+    line_.end();
+    if (!quiet_) fmt::print(stderr, "{}\n", text);
+  }
+  void end() { line_.end(); }
+
+ private:
+  std::size_t todo_;
+  bool quiet_;
+  ProgressLine line_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+WorkEnd compute(const Plan& plan, const Request& wanted, const options::variables_map& values) {
+  const Engine& engine = engine_named(values.count("engine") ? values["engine"].as<std::string>() : plan.engine.kind);
+  Work work;
+  work.plan = &plan;
+  work.directory = wanted.directory;
+  work.program = own_program();
+  work.cores = threads_asked(values);
+  work.wait = values.count("no-wait") == 0;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    if (read_outcome(wanted.directory, plan.runs[i]).status == Status::missing) work.todo.push_back(i);
+  if (work.todo.empty()) return WorkEnd::ended;
+  Watch watch(work.todo.size(), wanted.quiet);
+  work.say = [&](const std::string& text) { watch.say(text); };
+  work.progress = [&](const Tally& t, std::size_t ended) { watch.show(t, ended); };
+  if (work.todo.size() < plan.runs.size())
+    watch.say(fmt::format("{} of {} runs have ended before", plan.runs.size() - work.todo.size(), plan.runs.size()));
+  watch_signals();
+  const WorkEnd end = engine.run(work);
+  watch.end();
+  return end;
+}
+
+/// The exit status.
+int finish(const Plan& plan, const Request& wanted, WorkEnd end) {
+  const std::string& directory = wanted.directory;
+  write_table(plan, directory);
+  const Tally t = tally(directory, plan);
+  if (!wanted.quiet) fmt::print(stderr, "{}; table in {}/table.csv and table.h5\n", counts_text(t), directory);
+  list_failures(plan, directory);
+  if (end == WorkEnd::left) return 0;
+  if (end == WorkEnd::stopped || t.missing > 0)
+    fmt::print(stderr, "{} runs have not ended; go on with: voussoir campaign {}\n", t.missing, directory);
+  return t.failed + t.missing > 0 || end == WorkEnd::stopped ? 1 : 0;
+}
+
+void add_options(CommandLine& line) {
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
+                               "the campaign's folder (default: the file's name)")(
+      "plan", "list the runs, write and run nothing")("status", "say how far each run is")(
+      "table", "write the table of what there is, run nothing")("retry-failed", "run what has failed once more")(
+      "engine", options::value<std::string>()->value_name("NAME"), "local or slurm, in place of the file's")(
+      "no-wait", "leave the runs to Slurm; start the campaign again to gather them");
+}
+
+int run_campaign(const std::vector<std::string>& arguments) {
+  CommandLine line("campaign", "campaign FILE [-o DIR]   (or, to go on: campaign DIR)",
+                   "voussoir campaign cases/campaigns/walls.toml -o walls");
+  add_options(line);
+  line.positional = line.required = {"FILE"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  const Request wanted = request_of(values);
+  const std::string& directory = wanted.directory;
+  if (values.count("plan")) {
+    print_plan(wanted.from_folder ? read_plan(directory) : draft_of(wanted).plan);
+    return 0;
+  }
+  if (values.count("status") || values.count("table")) {
+    const Plan plan = read_plan(directory);
+    if (values.count("status")) print_status(plan, directory);
+    if (values.count("table")) return finish(plan, wanted, WorkEnd::left);
+    return 0;
+  }
+  if (!wanted.quiet) fmt::print(stderr, "reading {}\n", wanted.file);
+  const Draft draft = wanted.from_folder ? Draft{read_plan(directory), {}, {}, ""} : draft_of(wanted);
+  const Plan& plan = draft.plan;
+  std::error_code failed;
+  fs::create_directories(directory, failed);
+  if (failed)
+    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+  const DirectoryLock lock(directory);
+  if (!wanted.from_folder) write_draft(draft, directory);
+  if (values.count("retry-failed"))
+    if (const std::size_t n = forget_failures(directory, plan); n > 0 && !wanted.quiet)
+      fmt::print(stderr, "{} failed runs are tried again\n", n);
+  return finish(plan, wanted, compute(plan, wanted, values));
+}
+
+}  // namespace
+
+Verb campaign_verb() {
+  return {"campaign", "many runs: cases, records, scales, sampled materials; here or on a Slurm cluster", run_campaign};
+}
+
+}  // namespace voussoir

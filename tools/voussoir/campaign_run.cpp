@@ -1,0 +1,197 @@
+// One run of a campaign: what its engines start. Not listed among the verbs.
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <new>
+#include <optional>
+
+#include "io/hdf5/atomic_file.h"
+#include "solver/base/error.h"
+#include "tools/campaign/json.h"
+#include "tools/campaign/outcome.h"
+#include "tools/campaign/process.h"
+#include "tools/voussoir/run_directory.h"
+#include "tools/voussoir/run_session.h"
+#include "tools/voussoir/verb.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+using namespace campaign;
+
+namespace {
+
+constexpr int patience = 600;  // tenths of a second: for a run that another process is just leaving
+
+/// Its process ends, with a checkpoint, when the campaign that started it does, however that ends.
+void end_with(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) throw RunError("the campaign that started this run has ended");
+}
+
+/// Waits until no other process is in the run's folder.
+void wait_for(const std::string& folder) {
+  for (int i = 0;; ++i) try {
+      DirectoryLock free(folder);
+      return;
+    } catch (const InputError&) {
+      if (i >= patience) throw;
+      pause_milliseconds(100);
+    }
+}
+
+struct Job {
+  const Plan& plan;
+  const PlannedRun& run;
+  std::string directory, folder;  // of the campaign, of the run
+  int threads = 1;
+};
+
+RunRequest request_of(const Job& job) {
+  RunRequest r;
+  r.directory = job.folder;
+  r.threads = job.threads;
+  r.pictures = job.plan.run.pictures;
+  r.time_limit = job.plan.engine.time_limit;
+  r.fall_displacement = job.plan.run.fall.displacement;
+  r.fall_share = job.plan.run.fall.share;
+  return r;
+}
+
+/// Goes on with what is there, or begins; what is there and cannot be gone on with is begun anew.
+struct Held {
+  std::optional<DirectoryLock> lock;
+  std::optional<RunSession> session;
+};
+void begin(const Job& job, Held& held) {
+  if (fs::exists(job.folder + "/case.toml")) try {
+      held.lock.emplace(job.folder);
+      held.session.emplace(request_of(job));
+      held.session->resume();
+      return;
+    } catch (const InputError& error) {
+      fmt::print(stderr, "{}; beginning anew\n", error.what());
+      held.session.reset();
+      held.lock.reset();
+    }
+  held.lock.emplace(prepare_directory(case_of(job.plan, job.run, job.directory), job.folder, true));
+  held.session.emplace(request_of(job));
+}
+
+/// The end state's checkpoint stays, for modes and pictures.
+void drop_checkpoints(const std::string& folder) {
+  std::vector<fs::path> ends;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder + "/checkpoints", ignored))
+    if (entry.path().filename().string().starts_with("stage_"))
+      ends.push_back(entry.path());
+    else
+      fs::remove(entry.path(), ignored);
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) fs::remove(ends[i], ignored);
+}
+
+double seconds_of(const std::string& folder) {
+  const json summary = json::parse(read_text(folder + "/summary.json"), nullptr, false);
+  return summary.is_object() ? summary.value("wall_seconds", 0.0) : 0.0;
+}
+
+Outcome outcome_of(const Job& job, const RunSession& session) {
+  Outcome o;
+  switch (session.end()) {
+    case SessionEnd::done:
+      o.status = Status::done;
+      o.seconds = seconds_of(job.folder);
+      break;
+    case SessionEnd::fallen:
+      o.status = Status::collapsed;
+      o.reason = fmt::format("at t = {:.2f} s {:.0f} % of the mass had moved more than {:g} m", session.time(),
+                             100.0 * session.fallen_share(), job.plan.run.fall.displacement);
+      o.seconds = seconds_of(job.folder);
+      break;
+    case SessionEnd::late:
+      o.status = Status::failed;
+      o.reason = fmt::format("at t = {:.2f} s its time limit of {:g} s was over; --retry-failed goes on from there",
+                             session.time(), job.plan.engine.time_limit);
+      o.seconds = job.plan.engine.time_limit;
+      o.goes_on = true;
+      break;
+    default:
+      break;  // stopped: it will go on
+  }
+  return o;
+}
+
+/// The exit status. Whatever goes wrong is kept as the run's failure.
+int work(const Job& job) {
+  const auto started = std::chrono::steady_clock::now();
+  Held held;
+  Outcome o;
+  const auto fail = [&](const std::string& why) {
+    fmt::print(stderr, "failed: {}\n", why);
+    o = {};
+    o.status = Status::failed;
+    o.reason = why;
+    o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    // What the solver cannot do it will not do the second time; a full disk may have been emptied.
+    o.goes_on = held.session && held.session->end() != SessionEnd::failed;
+  };
+  try {
+    begin(job, held);
+    held.session->run();
+    o = outcome_of(job, *held.session);
+  } catch (const std::bad_alloc&) {
+    fail("out of memory: use a larger block_scale, or fewer runs at once");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  if (o.status == Status::missing) return 1;
+  write_outcome(job.directory, job.run, o);
+  if (o.status == Status::done && !job.plan.run.keep_checkpoints) drop_checkpoints(job.folder);
+  return o.status == Status::failed ? 1 : 0;
+}
+
+/// Which run of a list that was given to Slurm.
+std::string run_of_batch(const std::string& directory, const std::string& batch, int task) {
+  const std::string file = directory + "/slurm/" + fs::path(batch).filename().string();
+  const auto runs = need<std::vector<std::string>>(parse_json(read_text(file), file), "runs", file);
+  if (task < 0 || std::size_t(task) >= runs.size())
+    throw InputError("{} has {} runs, from 0: there is no {}", file, runs.size(), task);
+  return runs[std::size_t(task)];
+}
+
+int campaign_run(const std::vector<std::string>& arguments) {
+  CommandLine line("campaign-run", "campaign-run DIR RUN", "voussoir campaign-run campaign cs1-f__aquila__x1");
+  line.described.add_options()("batch", options::value<std::string>()->value_name("FILE"), "list of runs in DIR/slurm")(
+      "task", options::value<int>()->value_name("N"), "place in that list, from 0")(
+      "parent", options::value<int>()->value_name("PID"), "process with which this one ends");
+  line.positional = {"DIR", "RUN"};
+  line.required = {"DIR"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  if (values.count("parent")) end_with(values["parent"].as<int>());
+  const std::string directory = values["DIR"].as<std::string>();
+  if (values.count("RUN") == values.count("batch") || values.count("batch") != values.count("task"))
+    throw InputError("give a run, or --batch and --task; usage: voussoir {}", line.usage);
+  const std::string id = values.count("RUN")
+                             ? values["RUN"].as<std::string>()
+                             : run_of_batch(directory, values["batch"].as<std::string>(), values["task"].as<int>());
+  const Plan plan = read_plan(directory);
+  const PlannedRun& run = find_run(plan, id);
+  const Job job{plan, run, directory, folder_of(directory, run), threads_asked(values)};
+  fs::create_directories(job.folder);
+  wait_for(job.folder);
+  if (read_outcome(directory, run).status != Status::missing) return 0;  // nothing is run twice
+  return work(job);
+}
+
+}  // namespace
+
+Verb campaign_run_verb() {
+  return {"campaign-run", "", campaign_run};
+}
+
+}  // namespace voussoir
