@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "solver/base/error.h"
+#include "solver/base/random.h"
 #include "solver/motion/baseline.h"
 
 namespace voussoir {
@@ -13,38 +14,8 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double highest_frequency = 25.0;  // Hz; above it neither records nor bridges have much to say
 
-/// Standard normal numbers from splitmix64 (Steele, Lea & Flood 2014) by the method of Box & Muller (1958).
-class NormalStream {
- public:
-  explicit NormalStream(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    if (has_spare_) {
-      has_spare_ = false;
-      return spare_;
-    }
-    const double radius = std::sqrt(-2.0 * std::log(uniform())), angle = two_pi * uniform();
-    spare_ = radius * std::sin(angle);
-    has_spare_ = true;
-    return radius * std::cos(angle);
-  }
-
- private:
-  /// In (0, 1]: the logarithm must exist.
-  double uniform() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return (double(z >> 11) + 1.0) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
-  double spare_ = 0.0;
-  bool has_spare_ = false;
-};
-
 /// Σ √(S Δω) (A cos ωt + B sin ωt) at n samples; the cosines by turning a phasor, which costs two products a sample.
-std::vector<double> stationary_noise(const SyntheticSettings& settings, std::size_t n, NormalStream& normal) {
+std::vector<double> stationary_noise(const SyntheticSettings& settings, std::size_t n, RandomStream& random) {
   std::vector<double> a(n, 0.0);
   const double step = 1.0 / (2.0 * settings.duration);  // Hz: the sum repeats only after twice the duration
   const double highest = std::min(highest_frequency, 0.5 / settings.dt);
@@ -52,7 +23,7 @@ std::vector<double> stationary_noise(const SyntheticSettings& settings, std::siz
     const double omega = two_pi * double(k) * step;
     const double size =
         std::sqrt(ground_spectrum(omega, two_pi * settings.frequency, settings.bandwidth) * two_pi * step);
-    double c = size * normal.next(), s = size * normal.next();
+    double c = size * random.normal(), s = size * random.normal();
     const double turn_c = std::cos(omega * settings.dt), turn_s = std::sin(omega * settings.dt);
     for (std::size_t i = 0; i < n; ++i) {
       a[i] += c;
@@ -107,10 +78,10 @@ GroundMotion synthesize(const SyntheticSettings& settings) {
   GroundMotion motion;
   motion.dt = settings.dt;
   motion.acceleration.assign(n, Vec3::Zero());
-  NormalStream normal(settings.seed);
+  RandomStream random(settings.seed);
   for (int axis = 0; axis < 3; ++axis) {
     if (!settings.axes[std::size_t(axis)]) continue;
-    const std::vector<double> noise = stationary_noise(settings, n, normal);
+    const std::vector<double> noise = stationary_noise(settings, n, random);
     for (std::size_t i = 0; i < n; ++i) {
       const double envelope = jennings_envelope(double(i) * settings.dt, settings.rise * settings.duration,
                                                 settings.strong * settings.duration, settings.duration);
