@@ -6,6 +6,9 @@
 
 namespace voussoir {
 
+/// The whole page, with its style in it: no scripts, no links, fit to print. `body` is html.
+std::string html_page(std::string_view title, const std::string& body);
+
 std::string paragraph(std::string_view words);
 /// Smaller, below what it explains.
 std::string note(std::string_view words);

@@ -27,6 +27,7 @@ Verb step_verb();
 Verb effects_verb();
 Verb diagnose_verb();
 Verb hide_verb();
+Verb fragility_verb();
 
 namespace options = boost::program_options;
 
