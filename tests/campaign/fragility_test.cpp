@@ -45,7 +45,9 @@ TEST(Cloud, WhatDeterminesNoLineIsSaid) {
   EXPECT_EQ(fit_cloud(trials, {}, 1.0).identified, Identified::flat);
   for (Trial& t : trials) t.im = 1.0 + double(t.record);
   trials.push_back({6, 20.0, test::none, true, true});
-  EXPECT_EQ(fit_cloud(trials, {}, 1.0).identified, Identified::collapses);  // all above all that stand
+  EXPECT_EQ(fit_cloud(trials, {}, 4.0).identified, Identified::yes);
+  trials.back().im = 0.5;  // the weakest motion alone
+  EXPECT_EQ(fit_cloud(trials, {}, 4.0).identified, Identified::collapses);
   for (Trial& t : trials) t.demand = t.collapsed ? t.demand : 0.0;
   EXPECT_EQ(fit_cloud(trials, {}, 1.0).identified, Identified::few_demands);
 }
@@ -75,6 +77,19 @@ TEST(Cloud, TotalProbability) {
   curve.collapse_theta = curve.collapse_beta = test::none;
   EXPECT_NEAR(curve.median(), 2.0, 1e-10);
   EXPECT_DOUBLE_EQ(curve.dispersion(), 0.5);
+}
+
+/// All that collapse lie above all that stand, which have no scatter: two steps.
+TEST(Cloud, SeparatedCollapsesAreAStep) {
+  std::vector<Trial> trials;
+  for (std::size_t i = 0; i < 6; ++i) trials.push_back({i, 1.0 + double(i), 1.0 + double(i), false, i >= 3});
+  for (std::size_t i = 6; i < 8; ++i) trials.push_back({i, 24.0, test::none, true, true});
+  const CloudFit fit = fit_cloud(trials, {}, 100.0);
+  ASSERT_EQ(fit.identified, Identified::yes);
+  EXPECT_DOUBLE_EQ(fit.curve.collapse_theta, 12.0);  // √(6 · 24)
+  EXPECT_EQ(fit.curve.at(11.9), 0.0);
+  EXPECT_EQ(fit.curve.at(12.1), 1.0);
+  EXPECT_NEAR(fit.curve.median(), 12.0, 1e-9);
 }
 
 /// Estimates over many campaigns: unbiased, and scattering as their standard errors say.

@@ -53,8 +53,17 @@ TEST(Counts, WhatDeterminesNoCurveIsSaid) {
   EXPECT_EQ(apart.identified, Identified::separated);
   EXPECT_DOUBLE_EQ(apart.below, 2.0);
   EXPECT_DOUBLE_EQ(apart.above, 3.0);
-  // Both outcomes at one level alone, which is then the median of a step.
-  EXPECT_EQ(fit_counts({{1.0, 5.0, 0.0}, {2.0, 5.0, 2.0}, {3.0, 5.0, 5.0}}).identified, Identified::separated);
+  // Both outcomes at one level alone: which side of it the median is on follows from the share there.
+  const LognormalFit mixed = fit_counts({{1.0, 5.0, 0.0}, {2.0, 5.0, 2.0}, {3.0, 5.0, 5.0}});
+  EXPECT_EQ(mixed.identified, Identified::one_mixed);
+  EXPECT_DOUBLE_EQ(mixed.below, 2.0);
+  EXPECT_DOUBLE_EQ(mixed.above, 3.0);
+  EXPECT_EQ(mixed.mixed.beyond, 2.0);
+  const LognormalFit top = fit_counts({{1.0, 5.0, 0.0}, {2.0, 5.0, 2.0}});
+  EXPECT_EQ(top.identified, Identified::one_mixed);
+  EXPECT_DOUBLE_EQ(top.below, 2.0);
+  EXPECT_TRUE(std::isnan(top.above));
+  EXPECT_DOUBLE_EQ(fit_counts({{1.0, 5.0, 0.0}, {2.0, 5.0, 3.0}}).below, 1.0);
   EXPECT_EQ(fit_counts({{1.0, 5.0, 5.0}, {2.0, 5.0, 0.0}}).identified, Identified::falling);
   EXPECT_EQ(fit_counts({{1.0, 5.0, 3.0}, {2.0, 5.0, 2.0}}).identified, Identified::falling);
   EXPECT_EQ(fit_counts({{1.0, 5.0, 2.0}, {2.0, 5.0, 2.0}}).identified, Identified::falling);

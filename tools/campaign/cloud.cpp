@@ -18,7 +18,10 @@ double lognormal(double im, double theta, double beta) {
 
 LognormalFit collapse_fit(std::vector<Trial> trials, const std::vector<double>& levels) {
   for (Trial& t : trials) t.beyond = t.collapsed;
-  return fit_counts(counts_of(trials, levels));
+  LognormalFit fit = fit_counts(counts_of(trials, levels));
+  // The likelihood then grows towards a step anywhere between.
+  if (fit.identified == Identified::separated) fit.theta = std::sqrt(fit.below * fit.above), fit.beta = 0.0;
+  return fit;
 }
 
 /// Standard errors of θ and β to first order: mean, slope and scatter of a line are independent of each other.
@@ -68,7 +71,7 @@ CloudFit fit_cloud(const std::vector<Trial>& trials, const std::vector<double>& 
     fit.identified = Identified::one_level;
   else if (!(fit.line.slope > 0.0))
     fit.identified = Identified::flat;
-  else if (any_collapsed && fit.collapse.identified != Identified::yes)
+  else if (any_collapsed && std::isnan(fit.collapse.theta))
     fit.identified = Identified::collapses;
   else
     fit.identified = Identified::yes;

@@ -42,8 +42,9 @@ struct CloudFit {
 
 /// ln demand = a + b ln im with normal scatter s, the same everywhere (Cornell et al. 2002): θ = exp((ln c − a)/b) and
 /// β = s/b for the threshold c. Runs that collapsed have no demand; the probability of that is a probit of its own, and
-/// the two make up the whole (total probability: Jalayer et al. 2017, who take a logistic one). `levels` (from
-/// levels_of(), may be empty) are for its counts. `threshold` above 0.
+/// the two make up the whole (total probability: Jalayer et al. 2017, who take a logistic one). Where all that collapse
+/// lie above all that stand it is a step half-way between, in logarithms. `levels` (from levels_of(), may be empty) are
+/// for its counts. `threshold` above 0.
 CloudFit fit_cloud(const std::vector<Trial>& trials, const std::vector<double>& levels, double threshold);
 
 /// A count a run, or a count a level where `levels` are given (from levels_of()).

@@ -155,7 +155,7 @@ Estimate estimate_counts(const std::vector<Trial>& trials, const std::vector<dou
   Estimate e;
   e.method = Method::counts;
   e.identified = fit.identified;
-  e.below = fit.below, e.above = fit.above;
+  e.below = fit.below, e.above = fit.above, e.mixed = fit.mixed;
   if (fit.identified != Identified::yes) return e;
   e.curve.theta = e.theta = fit.theta;
   e.curve.beta = e.beta = fit.beta;

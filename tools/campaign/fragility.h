@@ -44,6 +44,7 @@ struct Estimate {
   double theta = LognormalFit::nan, beta = LognormalFit::nan;  // of the whole curve: median and dispersion
   double ln_theta_std = LognormalFit::nan, beta_std = LognormalFit::nan;
   double below = LognormalFit::nan, above = LognormalFit::nan;  // bounds of θ where the data do not tell it
+  Count mixed;                                                  // of counts that differ at one level alone: that level
 };
 /// By counts, at the levels where there are any.
 Estimate estimate_counts(const std::vector<Trial>& trials, const std::vector<double>& levels);

@@ -24,8 +24,28 @@ Ranges ranges_of(const std::vector<Count>& counts) {
   return r;
 }
 
+/// All runs are on their side of one intensity x, but for those at x itself. Where fewer than half of them go beyond,
+/// the median lies above it, and below the next intensity; where more do, the other way round.
+void bound_by_one_level(const std::vector<Count>& counts, double x, LognormalFit& fit) {
+  double next = INFINITY, last = -INFINITY;
+  fit.identified = Identified::one_mixed;
+  fit.mixed.im = std::exp(x);
+  for (const Count& c : counts) {
+    const double here = std::log(c.im);
+    if (here == x) fit.mixed.runs += c.runs, fit.mixed.beyond += c.beyond;
+    if (here > x) next = std::min(next, here);
+    if (here < x) last = std::max(last, here);
+  }
+  const double share = fit.mixed.beyond / fit.mixed.runs;
+  if (share <= 0.5) fit.below = fit.mixed.im;
+  if (share >= 0.5) fit.above = fit.mixed.im;
+  if (share < 0.5 && std::isfinite(next)) fit.above = std::exp(next);
+  if (share > 0.5 && std::isfinite(last)) fit.below = std::exp(last);
+}
+
 /// Sets `identified` and the bounds of the median; true when the likelihood has a maximum of finite slope.
-bool overlapping(const Ranges& r, LognormalFit& fit) {
+bool overlapping(const std::vector<Count>& counts, LognormalFit& fit) {
+  const Ranges r = ranges_of(counts);
   const bool any_within = r.within_low <= r.within_high, any_beyond = r.beyond_low <= r.beyond_high;
   fit.identified = Identified::yes;
   if (!any_within && !any_beyond)
@@ -36,7 +56,9 @@ bool overlapping(const Ranges& r, LognormalFit& fit) {
     fit.identified = Identified::all_beyond, fit.above = std::exp(r.beyond_low);
   else if (std::min(r.within_low, r.beyond_low) == std::max(r.within_high, r.beyond_high))
     fit.identified = Identified::one_level;
-  else if (r.within_high <= r.beyond_low) {
+  else if (r.within_high == r.beyond_low)
+    bound_by_one_level(counts, r.within_high, fit);
+  else if (r.within_high < r.beyond_low) {
     fit.identified = Identified::separated;
     fit.below = std::exp(r.within_high), fit.above = std::exp(r.beyond_low);
   } else if (r.beyond_high <= r.within_low)
@@ -84,7 +106,7 @@ Likelihood likelihood(const std::vector<Count>& counts, const std::vector<double
 
 LognormalFit fit_counts(const std::vector<Count>& counts) {
   LognormalFit fit;
-  if (!overlapping(ranges_of(counts), fit)) return fit;
+  if (!overlapping(counts, fit)) return fit;
   const Standardised s = standardised(counts);
   double a = 0.0, g = 0.0;
   Likelihood now = likelihood(counts, s.u, a, g);

@@ -20,6 +20,7 @@ enum class Identified {
   all_beyond,   // the median lies below the smallest
   one_level,    // one intensity alone: a share, but no slope
   separated,    // all below some intensity stay within, all above it go beyond: no slope
+  one_mixed,    // the same, but for a level at which some do
   falling,      // the share that goes beyond does not grow with the intensity
   few_demands,  // of a cloud: fewer than five demands to draw a line through
   flat,         // of a cloud: the demand does not grow with the intensity
@@ -31,6 +32,7 @@ struct LognormalFit {
   double theta = nan, beta = nan;             // median (unit of the intensity), dispersion (of the logarithm)
   double ln_theta_std = nan, beta_std = nan;  // standard errors, of runs that are independent of each other
   double below = nan, above = nan;            // bounds of the median where it is not identified; NaN: none
+  Count mixed;                                // that level
   double log_likelihood = nan;
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };

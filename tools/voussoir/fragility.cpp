@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A column by its name, with or without "edp.".
-std::string demand_column(const CampaignTable& table, const std::string& word) {
-  if (word != collapse_demand && !table.find(word) && table.find("edp." + word)) return "edp." + word;
-  return word;
+/// "spandrel_y" is short for edp.spandrel_y.
+std::string demand_column(const std::string& word) {
+  const bool whole = word == collapse_demand || word.find('.') != std::string::npos;
+  return whole ? word : "edp." + word;
 }
 
 /// "NAME:DEMAND:THRESHOLD", or "NAME:collapse".
@@ -74,7 +74,7 @@ std::vector<LimitState> limits_in(const std::string& path, const CampaignTable& 
   if (!json["limit_states"].is_array()) throw InputError("{}: 'limit_states' is no list", path);
   for (const auto& one : json["limit_states"]) {
     LimitState limit = limit_from_json(one, path);
-    limit.demand = demand_column(table, limit.demand);
+    limit.demand = demand_column(limit.demand);
     check_limit(table, limit, path);
     limits.push_back(limit);
   }
@@ -87,7 +87,7 @@ std::vector<LimitState> all_limits(const CampaignTable& table, const std::string
   std::vector<LimitState> limits = limits_in(directory + "/campaign.json", table), more;
   for (const std::string& words : asked) {
     LimitState limit = limit_from_words(words);
-    limit.demand = demand_column(table, limit.demand);
+    limit.demand = demand_column(limit.demand);
     check_limit(table, limit, "--limit " + words);
     std::erase_if(limits, [&](const LimitState& l) { return l.name == limit.name; });
     more.push_back(limit);

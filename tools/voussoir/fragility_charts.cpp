@@ -42,6 +42,11 @@ void draw_left_axis(SvgDrawing& drawing, const Plot& plot, const std::string& ti
   drawing.text(16.0, 0.5 * (plot.top + plot.bottom), title, {.anchor = "middle", .turn = -90.0});
 }
 
+Marker case_marker(std::size_t index) {
+  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  return markers[index % 4];
+}
+
 /// A line with its words, one below the other.
 void draw_entry(SvgDrawing& drawing, double y, std::size_t index, const std::string& words) {
   drawing.rectangle(kLeft, y - 11.0, 34.0, 13.0, {tint(index), "none", 1.0, ""});
@@ -67,11 +72,6 @@ void draw_curve(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::
   high.insert(high.end(), low.rbegin(), low.rend());
   drawing.area(high, tint(index));
   drawing.curve(middle, case_colour(index), 2.4);
-}
-
-Marker case_marker(std::size_t index) {
-  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
-  return markers[index % 4];
 }
 
 /// The share at each level, the number of its runs beside it.
@@ -150,7 +150,9 @@ SvgAxis logarithmic(SvgAxis axis) {
 
 std::string curves_chart(const std::vector<const Fragility*>& curves) {
   if (!any_trials(curves)) return "";
-  const double rugs = kRug * double(curves.size()) + 4.0;
+  const bool any_cloud =
+      std::any_of(curves.begin(), curves.end(), [](const Fragility* f) { return f->levels.empty(); });
+  const double rugs = any_cloud ? kRug * double(curves.size()) + 4.0 : 0.0;
   Plot plot;
   plot.top = kEntry * double(curves.size()) + 12.0 + rugs;
   plot.bottom = plot.top + kPlotHeight;
@@ -165,6 +167,8 @@ std::string curves_chart(const std::vector<const Fragility*>& curves) {
   for (std::size_t i = 0; i < curves.size(); ++i) draw_curve(drawing, plot, cut_to(*curves[i], plot.x), i);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     draw_entry(drawing, 18.0 + kEntry * double(i), i, entry_words(*curves[i]));
+    if (!curves[i]->levels.empty())
+      drawing.marker(case_marker(i), kLeft + 17.0, 13.5 + kEntry * double(i), case_colour(i));
     if (curves[i]->levels.empty())
       draw_rug(drawing, plot, *curves[i], i);
     else

@@ -13,8 +13,21 @@ namespace {
 constexpr std::size_t few_records = 10;
 
 std::string spaced(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
   return text;
+}
+
+std::string one_mixed_words(const Estimate& e, const std::string& column) {
+  std::string where = std::isnan(e.above)   ? "θ lies above it"
+                      : std::isnan(e.below) ? "θ lies below it"
+                      : e.below == e.above
+                          ? "θ is there"
+                          : fmt::format("θ lies from {:.4g} to {:.4g} {}", e.below, e.above, measure_unit(column));
+  return fmt::format(
+      "runs differ at one intensity alone, {}, where {:.0f} of {:.0f} go beyond: {}, β is not known; run "
+      "intensities beside it",
+      with_unit(e.mixed.im, column), e.mixed.beyond, e.mixed.runs, where);
 }
 
 /// The smallest and the largest intensity of the runs.
@@ -43,6 +56,9 @@ void remark_on_method(const Fragility& f, std::vector<std::string>& remarks) {
     remarks.push_back("No run goes beyond the limit: the line is extrapolated to it.");
   if (f.chosen.method == Method::cloud && f.selection.beyond == f.selection.trials.size())
     remarks.push_back("Every run goes beyond the limit: the line is extrapolated to it.");
+  if (f.chosen.method == Method::cloud && f.cloud.collapse.identified == Identified::separated)
+    remarks.push_back(fmt::format("All that collapse lie above all that stand: collapse is a step at {}.",
+                                  with_unit(f.cloud.collapse.theta, f.im)));
   if (f.chosen.method == Method::cloud && f.cloud.curvature_p < 0.05)
     remarks.push_back(fmt::format(
         "The demands bend off a straight line (p = {:.2g}): compare with the curve by counts.", f.cloud.curvature_p));
@@ -65,8 +81,9 @@ void remark_on_data(const Fragility& f, std::vector<std::string>& remarks) {
     remarks.push_back(fmt::format("{} record{}: the bands are rough{}.", s.records.size(),
                                   s.records.size() == 1 ? "" : "s", s.records.size() == 1 ? ", or none" : ""));
   if (20 * f.bootstrap.unidentified > f.bootstrap.replicates)
-    remarks.push_back(fmt::format("{} of {} resamples determine no curve and are left out: the bands are too narrow.",
-                                  f.bootstrap.unidentified, f.bootstrap.replicates));
+    remarks.push_back(
+        fmt::format("{} of {} resamples determine no curve and are left out: the bands may be too narrow.",
+                    f.bootstrap.unidentified, f.bootstrap.replicates));
   if (s.zero_demands > 0)
     remarks.push_back(
         fmt::format("{} runs have a demand of 0: they are counted, but no line goes through them.", s.zero_demands));
@@ -140,6 +157,8 @@ std::string unknown_words(const Estimate& e, const std::string& column) {
           "is "
           "smaller than these runs can tell; run intensities in between",
           e.below, e.above, measure_unit(column));
+    case Identified::one_mixed:
+      return one_mixed_words(e, column);
     case Identified::falling:
       return "the share that goes beyond does not grow with the intensity: this measure does not foretell it";
     case Identified::few_demands:
