@@ -59,6 +59,7 @@ TEST(Counts, WhatDeterminesNoCurveIsSaid) {
   EXPECT_DOUBLE_EQ(mixed.below, 2.0);
   EXPECT_DOUBLE_EQ(mixed.above, 3.0);
   EXPECT_EQ(mixed.mixed.beyond, 2.0);
+  EXPECT_NEAR(mixed.log_likelihood, 2.0 * std::log(0.4) + 3.0 * std::log(0.6), 1e-14);
   const LognormalFit top = fit_counts({{1.0, 5.0, 0.0}, {2.0, 5.0, 2.0}});
   EXPECT_EQ(top.identified, Identified::one_mixed);
   EXPECT_DOUBLE_EQ(top.below, 2.0);

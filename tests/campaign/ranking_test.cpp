@@ -107,6 +107,14 @@ TEST(Ranking, TheBestIntensityForCollapse) {
     if (table.column("im.sa_0.30").values[i] > std::exp(0.2 * random.normal()))
       table.runs[i].status = RunStatus::collapsed;
   EXPECT_EQ(best_intensity(table, {"bridge"}, "collapse", 0.0), "im.sa_0.30");
+  // Another bridge under the same motions, which never falls, has no say.
+  const CampaignTable one = table;
+  for (std::size_t i = 0; i < one.runs.size(); ++i) {
+    table.runs.push_back(one.runs[i]);
+    table.runs.back().case_name = "another", table.runs.back().status = RunStatus::done;
+    for (NumberColumn& c : table.columns) c.values.push_back(c.values[i]);
+  }
+  EXPECT_EQ(best_intensity(table, {"bridge", "another"}, "collapse", 0.0), "im.sa_0.30");
 }
 
 TEST(Ranking, ATableWithoutIntensitiesIsRefused) {

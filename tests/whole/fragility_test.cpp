@@ -137,6 +137,27 @@ TEST(Fragility, IsTheSameAgainAndQuiet) {
   EXPECT_EQ(contents(folder / "one"), contents(folder / "two"));
 }
 
+TEST(Fragility, ALimitMayHaveAThresholdABridge) {
+  const Campaign folder(cloud_table());
+  folder.write("campaign/campaign.json",
+               R"({"limit_states": [{"name": "damage", "demand": "edp.spandrel_y", "threshold": 0.03, "case": "a"},
+                                    {"name": "damage", "demand": "edp.spandrel_y", "threshold": 0.01, "case": "b"}]})");
+  const Outcome outcome = fragility(folder, {"--bootstrap", "0"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("limit damage: spandrel y reaches 0.03 m"), std::string::npos);
+  EXPECT_NE(outcome.out.find("limit damage: spandrel y reaches 0.01 m"), std::string::npos);
+  const nlohmann::json json = fragility_json(folder / "campaign");
+  ASSERT_EQ(json["curves"].size(), 2u);
+  // The same curve twice: three times the threshold for a bridge that moves three times as far.
+  for (const auto& curve : json["curves"]) {
+    EXPECT_NEAR(std::log(curve["theta"].get<double>() / std::pow(3.0, 2.0 / 3.0)), 0.0,
+                3.0 * curve["ln_theta_std"].get<double>());
+    EXPECT_EQ(curve["theta_band"][0], nullptr);  // without resamples
+  }
+  EXPECT_EQ(names_in(folder / "campaign/images"),
+            (std::vector<std::string>{"fragility_damage.svg", "fragility_damage_2.svg"}));
+}
+
 TEST(Fragility, WithoutALimitItRanksAndSaysHowToGiveOne) {
   const Campaign folder(cloud_table());
   const Outcome outcome = fragility(folder, {});

@@ -37,6 +37,7 @@ void bound_by_one_level(const std::vector<Count>& counts, double x, LognormalFit
     if (here < x) last = std::max(last, here);
   }
   const double share = fit.mixed.beyond / fit.mixed.runs;
+  fit.log_likelihood = fit.mixed.beyond * std::log(share) + (fit.mixed.runs - fit.mixed.beyond) * std::log(1.0 - share);
   if (share <= 0.5) fit.below = fit.mixed.im;
   if (share >= 0.5) fit.above = fit.mixed.im;
   if (share < 0.5 && std::isfinite(next)) fit.above = std::exp(next);
@@ -51,16 +52,16 @@ bool overlapping(const std::vector<Count>& counts, LognormalFit& fit) {
   if (!any_within && !any_beyond)
     fit.identified = Identified::no_runs;
   else if (!any_beyond)
-    fit.identified = Identified::none_beyond, fit.below = std::exp(r.within_high);
+    fit.identified = Identified::none_beyond, fit.below = std::exp(r.within_high), fit.log_likelihood = 0.0;
   else if (!any_within)
-    fit.identified = Identified::all_beyond, fit.above = std::exp(r.beyond_low);
+    fit.identified = Identified::all_beyond, fit.above = std::exp(r.beyond_low), fit.log_likelihood = 0.0;
   else if (std::min(r.within_low, r.beyond_low) == std::max(r.within_high, r.beyond_high))
     fit.identified = Identified::one_level;
   else if (r.within_high == r.beyond_low)
     bound_by_one_level(counts, r.within_high, fit);
   else if (r.within_high < r.beyond_low) {
     fit.identified = Identified::separated;
-    fit.below = std::exp(r.within_high), fit.above = std::exp(r.beyond_low);
+    fit.below = std::exp(r.within_high), fit.above = std::exp(r.beyond_low), fit.log_likelihood = 0.0;
   } else if (r.beyond_high <= r.within_low)
     fit.identified = Identified::falling;
   return fit.identified == Identified::yes;

@@ -33,6 +33,7 @@ struct LognormalFit {
   double ln_theta_std = nan, beta_std = nan;  // standard errors, of runs that are independent of each other
   double below = nan, above = nan;            // bounds of the median where it is not identified; NaN: none
   Count mixed;                                // that level
+  /// The largest; where there is none, what it grows towards. NaN: falling, no runs, or one level.
   double log_likelihood = nan;
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };

@@ -65,19 +65,20 @@ Pairing pairing_of(const CampaignTable& table, const std::string& case_name, con
   return p;
 }
 
-/// ln L of the counts, summed over the cases; −∞ where a case has no curve or lacks runs that another intensity has.
+/// ln L of the counts, summed over the cases; −∞ where in one the counts fall with the intensity, or where runs are
+/// lacking that another intensity has.
 double plausibility(const CampaignTable& table, const std::vector<std::string>& cases, const LimitState& limit,
                     const std::string& im, std::size_t most_runs) {
   double sum = 0.0;
   std::size_t runs = 0;
   for (const std::string& name : cases) {
     const Selection s = select(table, name, limit, im);
-    const LognormalFit fit = fit_counts(counts_of(s.trials, {}));
+    std::vector<double> im_of;
+    for (const Trial& t : s.trials) im_of.push_back(t.im);
+    const LognormalFit fit = fit_counts(counts_of(s.trials, levels_of(im_of)));
     runs += s.trials.size();
-    if (fit.identified == Identified::yes)
-      sum += fit.log_likelihood;
-    else if (fit.identified != Identified::separated)
-      return -INFINITY;  // that leaves nothing to chance: ln L = 0
+    if (std::isnan(fit.log_likelihood)) return -INFINITY;
+    sum += fit.log_likelihood;
   }
   return runs == most_runs ? sum : -INFINITY;
 }

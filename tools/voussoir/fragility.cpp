@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <map>
 
 #include "io/hdf5/atomic_file.h"
 #include "io/measured/csv.h"
@@ -170,10 +171,14 @@ void write_report(const std::string& out, const std::string& title, const Fragil
   write_atomically(out + "/fragility.json", report_json(report).dump(2) + "\n");
   write_atomically(out + "/fragility.csv", report_csv(report));
   write_atomically(out + "/fragility.html", fragility_page(title, report));
+  std::map<std::string, int> written;  // a name may have other thresholds for other bridges
   for (const auto& group : by_limit(report.curves)) {
     const std::string svg = curves_chart(group);
     if (svg.empty()) continue;
-    const std::string file = fmt::format("{}/images/fragility_{}.svg", out, plain(group.front()->limit.name));
+    const std::string name = plain(group.front()->limit.name);
+    const int number = ++written[name];
+    const std::string file =
+        fmt::format("{}/images/fragility_{}{}.svg", out, name, number > 1 ? fmt::format("_{}", number) : std::string());
     make_folder_of(file);
     write_atomically(file, svg);
   }

@@ -143,23 +143,6 @@ std::string damage_section(const FragilityReport& report) {
 
 }  // namespace
 
-std::vector<std::vector<const Fragility*>> by_limit(const std::vector<Fragility>& curves) {
-  std::vector<std::vector<const Fragility*>> groups;
-  for (const Fragility& f : curves) {
-    const auto same = [&](const auto& group) {
-      const LimitState& l = group.front()->limit;
-      return l.name == f.limit.name && l.demand == f.limit.demand && l.threshold == f.limit.threshold &&
-             group.front()->im == f.im;
-    };
-    const auto at = std::find_if(groups.begin(), groups.end(), same);
-    if (at == groups.end())
-      groups.push_back({&f});
-    else
-      at->push_back(&f);
-  }
-  return groups;
-}
-
 std::string fragility_page(const std::string& title, const FragilityReport& report) {
   std::string page = paragraph(runs_words(report) + ".");
   for (const std::string& remark : report.remarks) page += paragraph(remark);

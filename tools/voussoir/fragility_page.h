@@ -8,7 +8,4 @@ namespace voussoir {
 
 std::string fragility_page(const std::string& title, const FragilityReport& report);
 
-/// The curves of each limit, in the report's order.
-std::vector<std::vector<const Fragility*>> by_limit(const std::vector<Fragility>& curves);
-
 }  // namespace voussoir

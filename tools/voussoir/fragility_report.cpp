@@ -130,14 +130,13 @@ std::string curve_rows(const Fragility& f, std::size_t width) {
 
 std::string curves_text(const FragilityReport& report) {
   const std::size_t width = case_width(report);
-  std::string text, last;
-  for (const Fragility& f : report.curves) {
-    if (f.limit.name != last)
-      text += fmt::format("\nlimit {}: {}; over {} ({})\n  {:<{}} {:>5} {:>6}  {:>8} {:>17}  {:>6} {:>17}\n",
-                          f.limit.name, limit_words(f.limit), f.im, measure_label(f.im), "case", width, "runs",
-                          "beyond", "θ", "5 – 95 %", "β", "5 – 95 %");
-    last = f.limit.name;
-    text += curve_rows(f, width);
+  std::string text;
+  for (const auto& group : by_limit(report.curves)) {
+    const Fragility& first = *group.front();
+    text += fmt::format("\nlimit {}: {}; over {} ({})\n  {:<{}} {:>5} {:>6}  {:>8} {:>17}  {:>6} {:>17}\n",
+                        first.limit.name, limit_words(first.limit), first.im, measure_label(first.im), "case", width,
+                        "runs", "beyond", "θ", "5 – 95 %", "β", "5 – 95 %");
+    for (const Fragility* f : group) text += curve_rows(*f, width);
   }
   return text;
 }
@@ -164,6 +163,23 @@ std::string csv_number(double value) {
 }
 
 }  // namespace
+
+std::vector<std::vector<const Fragility*>> by_limit(const std::vector<Fragility>& curves) {
+  std::vector<std::vector<const Fragility*>> groups;
+  for (const Fragility& f : curves) {
+    const auto same = [&](const auto& group) {
+      const LimitState& l = group.front()->limit;
+      return l.name == f.limit.name && l.demand == f.limit.demand && l.threshold == f.limit.threshold &&
+             group.front()->im == f.im;
+    };
+    const auto at = std::find_if(groups.begin(), groups.end(), same);
+    if (at == groups.end())
+      groups.push_back({&f});
+    else
+      at->push_back(&f);
+  }
+  return groups;
+}
 
 std::string runs_words(const FragilityReport& r) {
   std::string text = fmt::format("{} runs: {} done", r.done + r.collapsed + r.failed + r.missing, r.done);

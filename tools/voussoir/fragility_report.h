@@ -36,6 +36,10 @@ nlohmann::json report_json(const FragilityReport& report);
 /// A row a curve.
 std::string report_csv(const FragilityReport& report);
 
+/// The curves that belong in one chart: of one limit, which may have other thresholds for other bridges, over one
+/// intensity. In the report's order.
+std::vector<std::vector<const Fragility*>> by_limit(const std::vector<Fragility>& curves);
+
 /// The sentence on which demand follows a damage best.
 std::string damage_words(const DamageRanking& ranking);
 /// "240 runs: 231 done, 4 collapsed, 3 failed, 2 not run yet".
