@@ -120,7 +120,7 @@ std::string csv_cell(const std::string& text) {
   return out + '"';
 }
 
-CsvReader::CsvReader(const TextFile& file) : file_(file), rest_(file.text) {
+CsvReader::CsvReader(const TextFile& file, CsvQuotes quotes) : file_(file), quotes_(quotes), rest_(file.text) {
   if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);  // byte-order mark
   check_characters(file);
   read_heading();
@@ -173,15 +173,29 @@ bool CsvReader::next_cell(std::string_view& cell) {
   return true;
 }
 
+/// The line in hand goes on over the line break.
+bool CsvReader::take_next_line() {
+  if (quotes_ == CsvQuotes::within_line || rest_.empty()) return false;
+  ++row_;
+  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  line_ = {line_.data(), std::size_t(rest_.data() + end - line_.data())};
+  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  if (line_.ends_with('\r')) line_.remove_suffix(1);
+  return true;
+}
+
 bool CsvReader::quoted_cell(std::string_view& cell) {
   unquoted_.clear();
+  const int began = row_;
   std::size_t i = 1;
-  for (; i < line_.size(); ++i) {
+  for (; i < line_.size() || take_next_line(); ++i) {
     if (line_[i] == '"' && !line_.substr(i + 1).starts_with('"')) break;
     if (line_[i] == '"') ++i;  // a doubled quote is one within the text
     unquoted_ += line_[i];
   }
-  if (i >= line_.size()) fail("a quoted cell does not end on its line: close the quote");
+  if (i >= line_.size())
+    fail(began, quotes_ == CsvQuotes::within_line ? "a quoted cell does not end on its line: close the quote"
+                                                  : "a quoted cell does not end: close the quote");
   const std::size_t next = std::min(line_.find_first_not_of(blanks, i + 1), line_.size());
   line_done_ = next == line_.size();
   if (!line_done_ && line_[next] != separator_)

@@ -1,4 +1,4 @@
-// Comma-separated tables with errors a person can act on. Private to io/measured.
+// Comma-separated tables with errors a person can act on.
 #pragma once
 #include <optional>
 #include <string>
@@ -27,12 +27,16 @@ std::string short_suggestion(std::string_view word, const std::vector<std::strin
 /// A cell as it is written: quoted when it must be.
 std::string csv_cell(const std::string& text);
 
+/// Whether a quoted cell may hold line breaks, as RFC 4180 allows. People who forget to close a quote are better told
+/// so on its line.
+enum class CsvQuotes { within_line, over_lines };
+
 /// Goes through a CSV text cell by cell without copying it; the file must outlive the reader.
 class CsvReader {
  public:
   /// Reads the heading. Throws InputError when the text is not UTF-8, has no heading, or one with nameless or repeated
   /// columns.
-  explicit CsvReader(const TextFile& file);
+  explicit CsvReader(const TextFile& file, CsvQuotes quotes = CsvQuotes::within_line);
 
   const std::vector<std::string>& columns() const { return columns_; }
   int heading_row() const { return heading_row_; }
@@ -54,9 +58,11 @@ class CsvReader {
  private:
   void read_heading();
   bool quoted_cell(std::string_view& cell);
+  bool take_next_line();
   [[noreturn]] void wrong_count(std::size_t count) const;
 
   const TextFile& file_;
+  CsvQuotes quotes_;
   std::string_view rest_, line_;
   std::string unquoted_;
   bool line_done_ = true;

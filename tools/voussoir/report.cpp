@@ -1,6 +1,9 @@
 // voussoir report.
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "tools/voussoir/campaign_page.h"
 #include "tools/voussoir/run_page.h"
 #include "tools/voussoir/verb.h"
 
@@ -14,7 +17,11 @@ int report(const std::vector<std::string>& arguments) {
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::string directory = values["DIR"].as<std::string>();
-  write_run_page(directory);
+  std::error_code ignored;
+  if (std::filesystem::exists(directory + "/table.csv", ignored))
+    write_campaign_page(directory);
+  else
+    write_run_page(directory);
   if (!values.count("quiet")) fmt::print("{}/report.html\n", directory);
   return 0;
 }
@@ -22,7 +29,7 @@ int report(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb report_verb() {
-  return {"report", "the page of a run, made again from its files", report};
+  return {"report", "the page of a run or a campaign, made again from its files", report};
 }
 
 }  // namespace voussoir

@@ -31,6 +31,7 @@ Verb motion_verb();
 Verb report_verb();
 Verb campaign_verb();
 Verb campaign_run_verb();
+Verb fragility_verb();
 
 namespace options = boost::program_options;
 

@@ -1,0 +1,47 @@
+// The little statistics that fragility needs: the normal distribution, a straight line, ranks. Pairs with a value that
+// is not finite are never given to these.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace voussoir {
+
+double normal_cdf(double z);
+/// ln Φ(z), exact to 1e-9 for all z.
+double log_normal_cdf(double z);
+/// φ(z)/Φ(z), the inverse of Mills' ratio.
+double inverse_mills(double z);
+
+/// What a standard normal number, or Student's t of so many degrees of freedom, is below with probability p (0 < p <
+/// 1).
+double normal_quantile(double p);
+double t_quantile(double p, double degrees);
+
+/// Probability that Student's t of so many degrees of freedom is farther from zero than t, on either side.
+double t_p_value(double t, double degrees);
+
+/// y = intercept + slope x + scatter, by least squares. NaN is what the data do not tell.
+struct Line {
+  std::size_t count = 0;
+  double intercept = 0.0, slope = 0.0;
+  double slope_std = 0.0;
+  double scatter = 0.0;                 // standard deviation of the residuals, count − 2 degrees of freedom
+  double r2 = 0.0;                      // share of the variance of y that the line explains
+  double mean_x = 0.0, spread_x = 0.0;  // Σ (x − mean)²
+  /// That the slope is zero.
+  double p_value() const;
+  bool known() const { return count >= 3 && spread_x > 0.0; }
+};
+Line fit_line(const std::vector<double>& x, const std::vector<double>& y);
+
+/// p-value of c in y = a + b x + c z by least squares (Student's t, n − 3 degrees of freedom). NaN when z says nothing
+/// that x does not (what is left of it is less than 1e-6 of its spread) or there are fewer than four values.
+double added_p_value(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z);
+
+/// Rank correlation (Spearman 1904), equal values sharing their mean rank. NaN when either does not vary.
+double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
+
+/// The value below which a share of the values lies, between neighbours in proportion. `sorted` is not empty.
+double quantile(const std::vector<double>& sorted, double share);
+
+}  // namespace voussoir

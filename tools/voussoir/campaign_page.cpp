@@ -1,0 +1,185 @@
+#include "tools/voussoir/campaign_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "io/hdf5/atomic_file.h"
+#include "tools/campaign/table.h"
+#include "tools/voussoir/damage_words.h"
+#include "tools/voussoir/html.h"
+#include "tools/voussoir/line_chart.h"
+#include "viz/palette.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double g = 9.80665;  // m/s2
+
+/// What a table has; NaN where it has no such column.
+double value_at(const CampaignTable& table, const char* column, std::size_t run) {
+  const NumberColumn* found = table.find(column);
+  return found ? found->values[run] : NAN;
+}
+
+bool has_result(const CampaignRun& run) {
+  return run.status == RunStatus::done || run.status == RunStatus::collapsed;
+}
+
+std::string facts(const CampaignTable& table) {
+  std::map<RunStatus, int> count;
+  double seconds = 0.0;
+  for (const CampaignRun& run : table.runs) {
+    ++count[run.status];
+    if (std::isfinite(run.seconds)) seconds += run.seconds;
+  }
+  std::string text = fmt::format("{} runs: {} done", table.runs.size(), count[RunStatus::done]);
+  for (const auto& [status, words] :
+       {std::pair{RunStatus::collapsed, "ended because the bridge fell"}, std::pair{RunStatus::failed, "failed"},
+        std::pair{RunStatus::missing, "not run yet"}})
+    if (count[status] > 0) text += fmt::format(", {} {}", count[status], words);
+  text = paragraph(text + fmt::format("; {:.0f} min of computing.", seconds / 60.0));
+  std::vector<std::string> failures;
+  for (const CampaignRun& run : table.runs)
+    if (run.status == RunStatus::failed) failures.push_back(fmt::format("{}: {}", run.run, run.reason));
+  return failures.empty() ? text : text + heading("What failed") + list(failures);
+}
+
+/// One demand over the peak ground acceleration: a series a case.
+std::string demand_figure(const CampaignTable& table, const char* column, const std::string& title) {
+  if (!table.find(column) || !table.find("im.pga")) return "";
+  const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  LineChart chart;
+  chart.title = title;
+  chart.x_label = "PGA of the scaled motion, geometric mean of the horizontal components (g)";
+  chart.y_label = "largest relative displacement, mean over places (mm)";
+  chart.width = 820.0, chart.height = 420.0, chart.y_low = 0.0, chart.x_low = 0.0;
+  const std::vector<std::string> cases = table.cases();
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    ChartDots dots{cases[c], {}, {}, {}, colour_code(line_colour(c)), markers[c % 4]};
+    for (std::size_t r = 0; r < table.runs.size(); ++r) {
+      const double pga = value_at(table, "im.pga", r) / g, demand = 1e3 * value_at(table, column, r);
+      if (table.runs[r].case_name != cases[c] || !has_result(table.runs[r]) || !std::isfinite(pga + demand)) continue;
+      dots.x.push_back(pga), dots.y.push_back(demand);
+      dots.hints.push_back(fmt::format("{}, {} × {:g}: {:.1f} mm at {:.3f} g", cases[c], table.runs[r].record,
+                                       table.runs[r].scale, demand, pga));
+    }
+    if (!dots.x.empty()) chart.dots.push_back(dots);
+  }
+  return figure(line_chart(chart));
+}
+
+/// Record and scale whose demands, as shares of the largest of each case, are the largest in the mean over the cases.
+std::pair<std::string, double> worst_shaking(const CampaignTable& table) {
+  std::map<std::string, double> largest;  // by case
+  const auto demand = [&](std::size_t r) {
+    const double y = value_at(table, "edp.spandrel_y", r), x = value_at(table, "edp.keystone_x", r);
+    return std::isfinite(y) ? y : x;
+  };
+  for (std::size_t r = 0; r < table.runs.size(); ++r)
+    if (has_result(table.runs[r]) && std::isfinite(demand(r)))
+      largest[table.runs[r].case_name] = std::max(largest[table.runs[r].case_name], demand(r));
+  std::map<std::pair<std::string, double>, double> sums;
+  for (std::size_t r = 0; r < table.runs.size(); ++r)
+    if (const double most = largest[table.runs[r].case_name]; most > 0.0 && std::isfinite(demand(r)))
+      sums[{table.runs[r].record, table.runs[r].scale}] += demand(r) / most;
+  const auto worst = std::ranges::max_element(sums, {}, [](const auto& entry) { return entry.second; });
+  return worst == sums.end() ? std::pair<std::string, double>() : worst->first;
+}
+
+std::string damage_pictures(const CampaignTable& table, const std::string& directory) {
+  const auto [record, scale] = worst_shaking(table);
+  std::vector<PagePicture> pictures;
+  std::error_code ignored;
+  for (const CampaignRun& run : table.runs) {
+    const std::string png = fmt::format("{}/runs/{}/images/opening_oblique.png", directory, run.run);
+    if (run.record == record && run.scale == scale && fs::exists(png, ignored))
+      pictures.push_back({run.case_name, "largest opening of joints; deformations twice, same scale of colours", png});
+  }
+  return pictures_section(pictures, fmt::format("Damage under the worst record, {} × {:g}", record, scale));
+}
+
+std::string number_text(double value, double factor, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", factor * value, digits) : "–";
+}
+
+std::string runs_section(const CampaignTable& table) {
+  std::string text = heading("Runs") + "<table>\n";
+  text += table_row({words_cell("case"),
+                     words_cell("record"),
+                     {"scale", true},
+                     {"PGA (g)", true},
+                     {"keystones x (mm)", true},
+                     {"at the end", true},
+                     {"spandrels y (mm)", true},
+                     {"at the end", true},
+                     words_cell("status")},
+                    "th");
+  for (std::size_t r = 0; r < table.runs.size(); ++r) {
+    const CampaignRun& run = table.runs[r];
+    const auto number = [&](const char* column, double factor, int digits) {
+      return Cell{number_text(value_at(table, column, r), factor, digits), true};
+    };
+    text += table_row({words_cell(run.case_name), words_cell(run.record), Cell{number_text(run.scale, 1.0, 3), true},
+                       number("im.pga", 1.0 / g, 3), number("edp.keystone_x", 1e3, 1),
+                       number("edp.keystone_x.residual", 1e3, 1), number("edp.spandrel_y", 1e3, 1),
+                       number("edp.spandrel_y.residual", 1e3, 1), words_cell(run_status_name(run.status))},
+                      "td");
+  }
+  return text + "</table>\n";
+}
+
+/// Means over the runs of a case; empty cells where a case has no such component.
+std::string damage_section(const CampaignTable& table) {
+  constexpr std::string_view ending = ".broken_share";
+  std::vector<std::string> components;
+  for (const std::string& name : table.names("damage."))
+    if (name.ends_with(ending)) components.push_back(name.substr(7, name.size() - 7 - ending.size()));
+  if (components.empty()) return "";
+  std::vector<Cell> top = {words_cell("component")};
+  const std::vector<std::string> cases = table.cases();
+  for (const std::string& name : cases) top.push_back(words_cell(name));
+  std::string text = heading("Damage by component") + "<table>\n" + table_row(top, "th");
+  for (const std::string& component : components) {
+    std::vector<Cell> row = {words_cell(component)};
+    for (const std::string& name : cases) {
+      double share = 0.0, opening = 0.0;
+      int runs = 0;
+      for (std::size_t r = 0; r < table.runs.size(); ++r) {
+        if (table.runs[r].case_name != name || !has_result(table.runs[r])) continue;
+        const double s = value_at(table, ("damage." + component + ".broken_share").c_str(), r),
+                     o = value_at(table, ("damage." + component + ".largest_opening").c_str(), r);
+        if (std::isfinite(s)) share += s, opening += std::isfinite(o) ? o : 0.0, ++runs;
+      }
+      row.push_back(words_cell(runs == 0 ? "–"
+                                         : fmt::format("{:.1f} %, {:.1f} mm, {}", 100.0 * share / runs,
+                                                       1e3 * opening / runs, damage_word(opening / runs))));
+    }
+    text += table_row(row, "td");
+  }
+  return text + "</table>\n" +
+         note(
+             "Means over the runs: share of the bonded joint area broken, largest opening of a joint, and its word "
+             "after "
+             "Burland, Broms & de Mello (1977).");
+}
+
+}  // namespace
+
+void write_campaign_page(const std::string& directory) {
+  const CampaignTable table = read_table(directory + "/table.csv");
+  std::string body = facts(table);
+  body += demand_figure(table, "edp.keystone_x", "Keystones, longitudinal");
+  body += demand_figure(table, "edp.spandrel_y", "Spandrel walls, transverse");
+  body += damage_pictures(table, directory) + damage_section(table) + runs_section(table);
+  write_atomically(directory + "/report.html",
+                   html_page("Campaign " + fs::weakly_canonical(directory).filename().string(), body));
+}
+
+}  // namespace voussoir
