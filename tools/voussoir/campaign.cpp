@@ -8,6 +8,7 @@
 #include "tools/campaign/engine.h"
 #include "tools/campaign/process.h"
 #include "tools/campaign/write_table.h"
+#include "tools/voussoir/campaign_page.h"
 #include "tools/voussoir/directory_lock.h"
 #include "tools/voussoir/terminal.h"
 #include "tools/voussoir/verb.h"
@@ -160,6 +161,10 @@ int finish(const Plan& plan, const Request& wanted, WorkEnd end) {
   const Tally t = tally(directory, plan);
   if (!wanted.quiet) fmt::print(stderr, "{}; table in {}/table.csv and table.h5\n", counts_text(t), directory);
   list_failures(plan, directory);
+  if (t.done + t.collapsed > 0) {
+    write_campaign_page(directory);
+    if (!wanted.quiet) fmt::print(stderr, "page in {}/report.html\n", directory);
+  }
   if (end == WorkEnd::left) return 0;
   if (end == WorkEnd::stopped || t.missing > 0)
     fmt::print(stderr, "{} runs have not ended; go on with: voussoir campaign {}\n", t.missing, directory);

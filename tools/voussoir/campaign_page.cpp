@@ -8,11 +8,14 @@
 #include <map>
 
 #include "io/hdf5/atomic_file.h"
+#include "io/vtk/series.h"
+#include "solver/base/error.h"
 #include "tools/campaign/table.h"
 #include "tools/voussoir/damage_words.h"
 #include "tools/voussoir/html.h"
 #include "tools/voussoir/line_chart.h"
 #include "viz/palette.h"
+#include "viz/render.h"
 
 namespace voussoir {
 
@@ -93,16 +96,54 @@ std::pair<std::string, double> worst_shaking(const CampaignTable& table) {
   return worst == sums.end() ? std::pair<std::string, double>() : worst->first;
 }
 
+/// Top of a scale of openings (mm) that tells these runs apart: 1, 2 or 5 times a power of ten near the geometric mean
+/// of their largest openings.
+double common_range(const CampaignTable& table, const std::vector<std::size_t>& runs) {
+  double sum = 0.0;
+  int count = 0;
+  for (const std::size_t r : runs) {
+    double most = 0.0;
+    for (const char* component : {"arch", "spandrel", "pier"})
+      if (const double o = value_at(table, fmt::format("damage.{}.largest_opening", component).c_str(), r); o > most)
+        most = o;
+    if (most > 0.0) sum += std::log(1e3 * most), ++count;
+  }
+  if (count == 0) return 10.0;
+  const double mean = std::clamp(std::exp(sum / count), 1.0, 1000.0),
+               decade = std::pow(10.0, std::floor(std::log10(mean)));
+  return decade * (mean < 1.5 * decade ? 1.0 : mean < 3.5 * decade ? 2.0 : mean < 7.5 * decade ? 5.0 : 10.0);
+}
+
+/// Of each case, the last frame of the run with the worst shaking, all on the same scale.
 std::string damage_pictures(const CampaignTable& table, const std::string& directory) {
   const auto [record, scale] = worst_shaking(table);
+  std::vector<std::size_t> runs;
+  for (std::size_t r = 0; r < table.runs.size(); ++r)
+    if (table.runs[r].record == record && table.runs[r].scale == scale && has_result(table.runs[r])) runs.push_back(r);
+  RenderOptions o;
+  o.range = common_range(table, runs);
   std::vector<PagePicture> pictures;
-  std::error_code ignored;
-  for (const CampaignRun& run : table.runs) {
-    const std::string png = fmt::format("{}/runs/{}/images/opening_oblique.png", directory, run.run);
-    if (run.record == record && run.scale == scale && fs::exists(png, ignored))
-      pictures.push_back({run.case_name, "largest opening of joints; deformations twice, same scale of colours", png});
+  std::string without;
+  for (const std::size_t r : runs) {
+    const CampaignRun& run = table.runs[r];
+    const std::string folder = directory + "/runs/" + run.run,
+                      png = fmt::format("{}/images/{}.png", directory, run.run);
+    try {
+      const VtkSeries series(folder);
+      const auto& frames = series.blocks().frames();
+      if (frames.empty()) throw RunError("{} has no frames", folder);
+      render_picture(PictureFiles{series.blocks().file_path(frames.back()), series.joints().file_at(frames.back().time),
+                                  series.fill().file_at(frames.back().time)},
+                     o, png);
+      pictures.push_back({run.case_name,
+                          fmt::format("{}largest opening of joints, deformations twice",
+                                      run.status == RunStatus::collapsed ? "fell; " : ""),
+                          png});
+    } catch (const std::exception& error) {  // a page without pictures is better than none
+      without += note(fmt::format("No picture of {}: {}", run.run, error.what()));
+    }
   }
-  return pictures_section(pictures, fmt::format("Damage under the worst record, {} × {:g}", record, scale));
+  return pictures_section(pictures, fmt::format("Damage under the worst record, {} × {:g}", record, scale)) + without;
 }
 
 std::string number_text(double value, double factor, int digits) {

@@ -242,6 +242,7 @@ RunEnd RunSession::simulate() {
     fallen_ = simulation_->state().time() > 0.0 && has_fallen();  // resumed from its last moment
     const RunEnd end = fallen_ ? RunEnd::interrupted : simulation_->run(request_.until);
     progress_.end();
+    if (fallen_) vtk_.write(assembly_, make_snapshot(simulation_->model(), simulation_->state()));
     history_.flush();
     const bool stopped = end == RunEnd::interrupted && stop_flag.load() && !fallen_;
     if (end == RunEnd::interrupted && !stopped && !fallen_) write_checkpoint(false);  // --until
