@@ -55,6 +55,19 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
+/// Of each tie: the stones it holds, its force at the end and at most (N), and how far it has yielded (m).
+nlohmann::json ties_json(const Snapshot& snapshot) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const PatchSnapshot& p : snapshot.patches)
+    if (p.tie)
+      json.push_back({{"a", p.a},
+                      {"b", p.b},
+                      {"force", p.normal_traction * p.area},
+                      {"largest_force", p.largest_tension * p.area},
+                      {"yielded", p.yielded}});
+  return json;
+}
+
 /// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
 /// 1e-5 of the largest; first_zero (s): when it first changed sign after having grown beyond that (linear between rows,
 /// 0 when it never did). Of its block: largest rotation (rad), and whether that was ever more than 45°.
@@ -172,6 +185,7 @@ nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot,
                          {"damage", damage_json(run.assembly(), snapshot)},
                          {"hinges", hinges_json(run.assembly(), snapshot)}};
   if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
+  if (nlohmann::json ties = ties_json(snapshot); !ties.empty()) json["ties"] = std::move(ties);
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
   return json;
 }
