@@ -55,17 +55,29 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
-/// Of each tie: the stones it holds, its force at the end and at most (N), and how far it has yielded (m).
+/// Of ties: how many there are and have yielded, the largest force of any (N), the farthest that one has yielded (m);
+/// and of each the stones it holds, its force at the end and at most (N), and how far it has yielded (m).
 nlohmann::json ties_json(const Snapshot& snapshot) {
-  nlohmann::json json = nlohmann::json::array();
-  for (const PatchSnapshot& p : snapshot.patches)
-    if (p.tie)
-      json.push_back({{"a", p.a},
-                      {"b", p.b},
-                      {"force", p.normal_traction * p.area},
-                      {"largest_force", p.largest_tension * p.area},
-                      {"yielded", p.yielded}});
-  return json;
+  nlohmann::json each = nlohmann::json::array();
+  double force = 0.0, farthest = 0.0;
+  int yielded = 0;
+  for (const PatchSnapshot& p : snapshot.patches) {
+    if (!p.tie) continue;
+    const double most = p.largest_tension * p.area;
+    force = std::max(force, most), farthest = std::max(farthest, p.yielded);
+    yielded += p.yielded > 1e-9;  // m: more than rounding
+    each.push_back({{"a", p.a},
+                    {"b", p.b},
+                    {"force", p.normal_traction * p.area},
+                    {"largest_force", most},
+                    {"yielded", p.yielded}});
+  }
+  if (each.empty()) return each;
+  return {{"count", each.size()},
+          {"have_yielded", yielded},
+          {"largest_force", force},
+          {"farthest_yielded", farthest},
+          {"each", each}};
 }
 
 /// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
