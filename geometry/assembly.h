@@ -53,9 +53,11 @@ struct Material {
   double dilation_angle = 0.0;    // rad, of a deformable fill
 };
 
-/// Strength of a joint (SI; angles in radians). Stiffness is per joint, see Joint.
+/// Strength of a joint (SI; angles in radians). Stiffness is per joint, see Joint. A `tie` is no joint but a bar from
+/// one stone to another that only pulls: kn, tension (where it yields) and prestress times the area of its polygon are
+/// its axial stiffness, yield force and pretension; the other strengths are not used.
 struct JointLaw {
-  enum class Kind : std::int32_t { brittle, softening, elastic };
+  enum class Kind : std::int32_t { brittle, softening, elastic, tie };
   Kind kind = Kind::brittle;
   double tension = 0.0;                                // Pa
   double cohesion = 0.0;                               // Pa
@@ -64,11 +66,13 @@ struct JointLaw {
   double residual_friction_angle = 0.0;                // rad, once the bond is lost
   double dilation_angle = 0.0;                         // rad
   std::array<double, 2> fracture_energy = {0.0, 0.0};  // GI, GII, J/m2; softening only
+  double prestress = 0.0;                              // Pa, in the placement as built; tie only
   bool operator==(const JointLaw&) const = default;
 };
 const std::vector<std::string>& joint_law_kinds();  // names in the order of JointLaw::Kind
 
-/// A joint patch: the overlap polygon of two opposed faces of two stones.
+/// A joint patch: the overlap polygon of two opposed faces of two stones. Of a tie it is a strip that stands for the
+/// bar: from the middle of its first side, where the bar is anchored in a, to that of its third, the anchor in b.
 struct Joint {
   std::int64_t a = 0, b = 0;            // blocks, a < b
   std::int32_t cell_a = 0, cell_b = 0;  // convex cell within each block

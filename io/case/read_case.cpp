@@ -96,8 +96,10 @@ JointLaw read_law(TableReader& table, const Material* a, const Material* b) {
   law.residual_friction_angle = angle("residual_friction_angle", law.friction_angle);
   law.dilation_angle = angle("dilation_angle", 0.0);
   const bool softens = table.has("fracture_energy");
-  law.kind = JointLaw::Kind(table.word("kind", joint_law_kinds(),
-                                       std::size_t(softens ? JointLaw::Kind::softening : JointLaw::Kind::brittle)));
+  std::vector<std::string> kinds = joint_law_kinds();
+  kinds.pop_back();  // a tie is no joint
+  law.kind = JointLaw::Kind(
+      table.word("kind", kinds, std::size_t(softens ? JointLaw::Kind::softening : JointLaw::Kind::brittle)));
   if (softens) {
     const auto energy = table.numbers("fracture_energy", 2, {0.0, 1e9, "J/m2"});
     law.fracture_energy = {energy[0], energy[1]};

@@ -175,6 +175,8 @@ void add_laws(Tables& tables, const Assembly& assembly) {
   tables.push_back({"laws/dilation_angle", "rad", 1, gather(laws, &JointLaw::dilation_angle)});
   tables.push_back({"laws/fracture_energy", "J/m2", 2, std::move(energy)});
   tables.push_back({"laws/kind", "", 1, std::move(kind)});
+  if (std::any_of(laws.begin(), laws.end(), [](const JointLaw& law) { return law.prestress != 0.0; }))
+    tables.push_back({"laws/prestress", "Pa", 1, gather(laws, &JointLaw::prestress)});
 }
 
 void add_materials(Tables& tables, const Assembly& assembly) {

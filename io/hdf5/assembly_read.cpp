@@ -214,6 +214,7 @@ void AssemblyReader::read_laws() {
              residual_friction = read_column("laws/residual_friction_angle", n),
              dilation = read_column("laws/dilation_angle", n);
   const auto energy = read_finite(file_, "laws/fracture_energy", {n, 2});
+  const auto prestress = file_.has("laws/prestress") ? read_column("laws/prestress", n) : std::vector<double>(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     assembly_.laws.push_back({JointLaw::Kind(kind[i]),
                               tension[i],
@@ -222,7 +223,8 @@ void AssemblyReader::read_laws() {
                               residual_cohesion[i],
                               residual_friction[i],
                               dilation[i],
-                              {energy[2 * i], energy[2 * i + 1]}});
+                              {energy[2 * i], energy[2 * i + 1]},
+                              prestress[i]});
     if (tension[i] < 0.0) file_.fail("laws/tension", fmt::format("row {}: {} Pa, expected 0 or more", i, tension[i]));
     if (cohesion[i] < 0.0)
       file_.fail("laws/cohesion", fmt::format("row {}: {} Pa, expected 0 or more", i, cohesion[i]));

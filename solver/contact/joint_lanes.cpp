@@ -39,6 +39,7 @@ namespace {
   s.residual_tangent = splat(law.residual_tan_friction);
   s.dilation = splat(law.tan_dilation);
   s.brittle = LaneMask::first(law.kind == JointLaw::Kind::brittle ? lane_count : 0);
+  s.tie = LaneMask::first(law.kind == JointLaw::Kind::tie ? lane_count : 0);
   return s;
 }
 
@@ -53,6 +54,7 @@ namespace {
     take(s.residual_cohesion, one.residual_cohesion), take(s.residual_tangent, one.residual_tangent);
     take(s.dilation, one.dilation);
     s.brittle = without(s.brittle, only) | (one.brittle & only);
+    s.tie = without(s.tie, only) | (one.tie & only);
   }
   return s;
 }
@@ -303,7 +305,7 @@ struct BatchPass {
       mixed(intact, points, findings);
     }
     add_up();
-    findings.reclip |= live & past_limits(*pass.model, batch, jump);
+    findings.reclip |= without(live, strength.tie) & past_limits(*pass.model, batch, jump);
     findings.intact += count_of(intact.stays);
     findings.points += count_of(points);
   }

@@ -28,6 +28,7 @@ struct LanePoses {
 struct LaneStrength {
   Lanes tension, cohesion, tangent, residual_cohesion, residual_tangent, dilation;
   LaneMask brittle;
+  LaneMask tie;
 };
 
 /// What the point path found of its lanes.

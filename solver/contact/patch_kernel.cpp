@@ -98,7 +98,8 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
     store_memory(patch, i, pm, memory);
     double damping = 0.0;
     Triple<double> viscous = {0.0, 0.0, 0.0};
-    if (branches.count) viscous = advance_branches(branches, patch, i, r, before, point.weight, memory, damping);
+    if (branches.count && patch.length == 0.0)  // ties are not damped: they pull no more than they yield at
+      viscous = advance_branches(branches, patch, i, r, before, point.weight, memory, damping);
     const double sigma = point.weight * patch.kn * (r.n + viscous.x);
     const double ts = point.weight * patch.ks * (r.s + viscous.y), tt = point.weight * patch.ks * (r.t + viscous.z);
     q.n += sigma, q.s += ts, q.t += tt;
@@ -147,8 +148,9 @@ void point_patch(const Model& model, std::size_t index, const Branches& branches
   double* energy = &memory.energy[3 * index];
   energy[0] += sums.friction, energy[1] += sums.fracture, energy[2] += sums.damping;
   double* largest = &memory.largest[2 * index];
-  largest[0] = std::max(largest[0], sums.opening);
-  largest[1] = std::max(largest[1], std::sqrt(sums.slip2));
+  const bool tie = patch.length > 0.0;
+  largest[0] = std::max(largest[0], tie ? -j.n : sums.opening);
+  largest[1] = std::max(largest[1], tie ? -sums.resultant.n / patch.area : std::sqrt(sums.slip2));
   if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
 }
 

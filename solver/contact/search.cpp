@@ -118,7 +118,7 @@ class Search {
     std::vector<char> goes(model_.joints.size());
     for_each(goes.size(), threads_, 2000, [&](std::size_t i) {
       const Patch& p = model_.joints[i];
-      goes[i] = !(state_.joint.mode[i] & mode_gone) && past(p) && !is_elastic(p);
+      goes[i] = !(state_.joint.mode[i] & mode_gone) && past(p) && !stays(p);
     });
     for (std::size_t i = 0; i < goes.size(); ++i) {
       if (!goes[i]) continue;
@@ -133,8 +133,10 @@ class Search {
     }
   }
 
-  /// A joint without limits never leaves its place.
-  bool is_elastic(const Patch& p) const { return model_.laws[std::size_t(p.law)].kind == JointLaw::Kind::elastic; }
+  /// A joint without limits never leaves its place, nor does a tie.
+  bool stays(const Patch& p) const {
+    return model_.laws[std::size_t(p.law)].kind == JointLaw::Kind::elastic || p.length > 0.0;
+  }
 
   /// Contacts past their limits are clipped anew, parted ones dropped.
   void look_at_contacts(bool clips) {

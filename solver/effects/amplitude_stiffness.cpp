@@ -10,7 +10,8 @@ namespace {
 template <class Patch>  // a Joint or a FillJoint
 bool bonded(const Assembly& assembly, const Patch& patch) {
   const JointLaw& law = assembly.laws[std::size_t(patch.law)];
-  return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > 0.0;
+  return law.kind == JointLaw::Kind::elastic || law.kind == JointLaw::Kind::tie || law.tension > 0.0 ||
+         law.cohesion > 0.0;
 }
 
 void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {

@@ -31,7 +31,7 @@ void apply(Assembly& assembly, const std::string& where, const std::vector<doubl
   const auto kind = Kind(std::find(std::begin(kind_names), std::end(kind_names), where) - std::begin(kind_names));
   for (Joint& joint : assembly.joints) {
     const Kind a = kind_of(assembly.blocks[std::size_t(joint.a)]), b = kind_of(assembly.blocks[std::size_t(joint.b)]);
-    if (std::max(a, b) != kind) continue;
+    if (std::max(a, b) != kind || is_tie(assembly, joint)) continue;
     joint.kn *= values[0];
     joint.ks *= values[0];
   }

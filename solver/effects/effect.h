@@ -79,5 +79,8 @@ Effect damping_ratio();
 Effect support_motion();
 Effect sensor_fault();
 Effect calibration();
+Effect retrofit_ties();
+Effect grouted_infill();
+Effect bonded_joints();
 
 }  // namespace voussoir

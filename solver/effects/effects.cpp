@@ -29,7 +29,10 @@ const std::vector<Effect>& effects() {
       damping_ratio(),           //
       support_motion(),          //
       sensor_fault(),            //
-      calibration(),
+      calibration(),             //
+      retrofit_ties(),           //
+      grouted_infill(),          //
+      bonded_joints(),
   };
   return list;
 }

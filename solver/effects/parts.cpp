@@ -142,7 +142,20 @@ void scale_inside(Assembly& assembly, const BlockSet& part, double factor) {
 void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor) {
   for (Joint& joint : assembly.joints) {
     const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
-    if (!(one[a] && other[b]) && !(one[b] && other[a])) continue;
+    if ((!(one[a] && other[b]) && !(one[b] && other[a])) || is_tie(assembly, joint)) continue;
+    joint.kn *= factor;
+    joint.ks *= factor;
+  }
+}
+
+void strengthen(Assembly& assembly, const std::function<bool(const Joint&)>& chosen, double tension, double cohesion,
+                double factor) {
+  for (Joint& joint : assembly.joints) {
+    JointLaw law = assembly.laws[std::size_t(joint.law)];
+    if (law.kind == JointLaw::Kind::elastic || law.kind == JointLaw::Kind::tie || !chosen(joint)) continue;
+    law.tension = std::max(law.tension, tension);
+    law.cohesion = std::max(law.cohesion, cohesion);
+    joint.law = law_index(assembly.laws, law);
     joint.kn *= factor;
     joint.ks *= factor;
   }

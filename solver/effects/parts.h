@@ -47,9 +47,19 @@ inline bool acts_at(const std::string& where, bool left) {
 /// {"all"} where the assembly has such blocks, else nothing.
 std::vector<std::string> all_if_any(const Assembly& assembly, Component c);
 
+/// Whether it is a bar, not a joint of masonry.
+inline bool is_tie(const Assembly& assembly, const Joint& joint) {
+  return assembly.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie;
+}
+
 /// Multiplies kn and ks of the joints inside a set of blocks, or between two.
 void scale_inside(Assembly& assembly, const BlockSet& part, double factor);
 void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor);
+/// Joints that are `chosen` become at least as strong as this (Pa) and stiffer by a factor; those without limits, and
+/// ties, stay as they are.
+void strengthen(Assembly& assembly, const std::function<bool(const Joint&)>& chosen, double tension, double cohesion,
+                double factor);
+
 /// Multiplies the density of blocks. Materials that others have too are split.
 void scale_density(Assembly& assembly, const BlockSet& part, double factor);
 /// Whether there is backfill, of blocks or as a continuum: {"all"}, else nothing.

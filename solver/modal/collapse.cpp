@@ -94,7 +94,7 @@ std::vector<MechanismJoint> find_mechanism(const Model& model, const State& befo
     largest = std::max({largest, all.back().movement.opening, all.back().movement.slip});
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (!(before.joint.mode[i] & mode_gone)) look(model.joints[i], model.corners);
+    if (!(before.joint.mode[i] & mode_gone) && model.joints[i].length == 0.0) look(model.joints[i], model.corners);
   for (std::size_t i = 0; i < before.contacts.size(); ++i)
     if (before.has_contact(i)) look(before.contacts[i], before.contact_corners);
   const double moved = largest_displacement(model, before.pose, after.pose);

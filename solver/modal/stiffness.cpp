@@ -77,6 +77,15 @@ bool is_open(const Model& model, const State& state, std::size_t index) {
   return true;
 }
 
+/// A tie resists along its axis alone; slack it does so only in a structure that counts as intact.
+Matrix6 tie_stiffness(const Model& model, const State& state, const Patch& tie, PatchTangent kind) {
+  const Jump<double> j = patch_jump(tie, pose_of(state, tie.a), pose_of(state, tie.b));
+  const double stretch = -elastic_jump(tie, j, patch_point(tie, model.points, 0), state.joint, 0).x;
+  Matrix6 k = Matrix6::Zero();
+  if (kind == PatchTangent::intact || stretch > 0.0) k(0, 0) = tie.kn * tie.area;
+  return k;
+}
+
 /// From a body's centroid, where it is now, to the middle of the patch (m).
 Vec3 arm_to(const Model& model, const double* pose, std::int32_t body, const Vec3& place) {
   return place - model.bodies[std::size_t(body)].centroid - Vec3(pose[0], pose[1], pose[2]);
@@ -127,6 +136,23 @@ Matrix12 geometric_stiffness(const Model& model, const State& state, const Patch
   return k;
 }
 
+/// The same of a tie with force f on body a: f turns with the way from anchor to anchor, and each anchor with its body.
+Matrix12 geometric_stiffness_of_tie(const State& state, const Patch& tie, const double* wrench) {
+  const double *pa = pose_of(state, tie.a), *pb = pose_of(state, tie.b);
+  const Vec3 ra = rotation_of(state, std::size_t(tie.a)) * Vec3(tie.arm_a);
+  const Vec3 rb = rotation_of(state, std::size_t(tie.b)) * Vec3(tie.arm_b);
+  const Jump<double> j = patch_jump(tie, pa, pb);
+  const Vec3 force(wrench[0], wrench[1], wrench[2]), axis = force.normalized();
+  Eigen::Matrix<double, 3, 12> way;
+  way << -Mat3::Identity(), skew(ra), Mat3::Identity(), -skew(rb);
+  const double over_length = force.norm() / (tie.length - j.n);
+  Matrix12 k = way.transpose() * (over_length * (Mat3::Identity() - axis * axis.transpose())) * way;
+  const Mat3 a = skew(force) * skew(ra), b = skew(-force) * skew(rb);
+  k.block<3, 3>(3, 3) -= 0.5 * (a + a.transpose());
+  k.block<3, 3>(9, 9) -= 0.5 * (b + b.transpose());
+  return k;
+}
+
 void add_pair(BlockMatrix& k, const Patch& patch, const Matrix12& pair) {
   k.add(patch.a, patch.a, pair.topLeftCorner<6, 6>());
   k.add(patch.b, patch.b, pair.bottomRightCorner<6, 6>());
@@ -161,6 +187,7 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
     return closed_stiffness(patch, state.contact_points);
   }
   if (state.joint.mode[index] & mode_gone) return Matrix6::Zero();
+  if (patch.length > 0.0) return tie_stiffness(model, state, patch, kind);
   if (kind == PatchTangent::intact) return intact_stiffness(patch);
   if (state.joint.mode[index] & mode_points) return points_stiffness(model, state, patch, model.points, state.joint);
   return is_open(model, state, index) ? Matrix6(Matrix6::Zero()) : intact_stiffness(patch);
@@ -190,8 +217,11 @@ BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangen
 void add_geometric_stiffness(BlockMatrix& k, const Model& model, const State& state, const Array<double>& wrenches) {
   for (std::size_t i = 0; i < model.joints.size() + state.contacts.size(); ++i) {
     const Patch& patch = patch_at(model, state, i);
-    if (is_there(model, state, i))
-      add_pair(k, patch, geometric_stiffness(model, state, patch, &wrenches[wrench_width * i]));
+    if (!is_there(model, state, i)) continue;
+    const double* wrench = &wrenches[wrench_width * i];
+    add_pair(k, patch,
+             patch.length > 0.0 ? geometric_stiffness_of_tie(state, patch, wrench)
+                                : geometric_stiffness(model, state, patch, wrench));
   }
 }
 

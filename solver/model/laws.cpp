@@ -13,6 +13,7 @@ LawConstants law_constants(const JointLaw& law) {
   c.tan_dilation = std::tan(law.dilation_angle);
   c.mode_1 = law.fracture_energy[0];
   c.mode_2 = law.fracture_energy[1];
+  c.prestress = law.prestress;
   return c;
 }
 

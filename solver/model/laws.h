@@ -17,6 +17,7 @@ struct LawConstants {
   double residual_cohesion = 0.0, residual_tan_friction = 0.0;  // Pa, –: bond lost
   double tan_dilation = 0.0;
   double mode_1 = 0.0, mode_2 = 0.0;  // J/m2, softening
+  double prestress = 0.0;             // Pa, tie
 };
 LawConstants law_constants(const JointLaw& law);
 
@@ -185,6 +186,26 @@ struct ElasticLaw {
   }
 };
 
+/// A bar that only pulls and yields without hardening. Its jump is negative when it is stretched (tie_jump()), so that
+/// it is pressed when taut and open when slack, like a dry contact; what it has yielded is its plastic jump, which
+/// stays when it goes slack.
+struct TieLaw {
+  static PointResult update(const LawConstants& law, double kn, double, double un, double, double,
+                            PointMemory& memory) {
+    PointResult r;
+    memory.broken = true;  // there is no bond to lose
+    const double most = law.tension / kn;
+    r.n = un - memory.n;
+    r.open = r.n >= 0.0;
+    r.elastic = !r.open && r.n >= -most;
+    if (r.open) r.n = 0.0;
+    if (r.n >= -most) return r;
+    memory.n += r.n + most;
+    r.n = -most;
+    return r;
+  }
+};
+
 /// Calls `use` with the law of that kind.
 template <class F>
 auto with_law(JointLaw::Kind kind, F&& use) {
@@ -193,6 +214,8 @@ auto with_law(JointLaw::Kind kind, F&& use) {
       return use(SofteningLaw{});
     case JointLaw::Kind::elastic:
       return use(ElasticLaw{});
+    case JointLaw::Kind::tie:
+      return use(TieLaw{});
     default:
       return use(BrittleLaw{});
   }

@@ -75,7 +75,36 @@ PatchShape joint_shape(const Joint& joint, std::size_t index, const Model& model
   if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
     throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index,
                      joint.a, joint.b, joint.kn, joint.ks);
+  if (model.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie && joint.polygon.size() != 4)
+    throw InputError(
+        "joint {} between blocks {} and {} is a tie with a polygon of {} corners; it must have 4, two at "
+        "each anchor",
+        index, joint.a, joint.b, joint.polygon.size());
   return patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
+}
+
+/// Local axes (columns n, s, t) as a quaternion of a patch.
+void store_axes(double* to, const Mat3& axes) {
+  const Eigen::Quaterniond e(axes);
+  const double q[4] = {e.w(), e.x(), e.y(), e.z()};
+  std::copy(q, q + 4, to);
+}
+
+/// The bar between its anchors instead of the strip that stands for it: n from b to a, s across the strip.
+void make_tie(const Assembly& assembly, const Joint& joint, Patch& patch) {
+  const Vec3 from = 0.5 * (joint.polygon[0] + joint.polygon[1]), to = 0.5 * (joint.polygon[2] + joint.polygon[3]);
+  Mat3 axes;
+  axes.col(0) = (from - to).normalized();
+  axes.col(2) = axes.col(0).cross(joint.polygon[1] - joint.polygon[0]).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  store_axes(patch.e_a, axes);
+  store_axes(patch.e_b, axes);
+  store(patch.place, from);
+  store(patch.shift, to - from);
+  store(patch.arm_a, from - assembly.blocks[std::size_t(joint.a)].centroid);
+  store(patch.arm_b, to - assembly.blocks[std::size_t(joint.b)].centroid);
+  patch.length = (to - from).norm();
+  patch.ss = patch.tt = 0.0;
 }
 
 /// Everything of a joint's patch but its points and corners.
@@ -89,15 +118,14 @@ Patch joint_patch(const Assembly& assembly, const Joint& joint, const PatchShape
   store(patch.place, shape.centroid);
   store(patch.arm_a, shape.centroid - assembly.blocks[joint.a].centroid);
   store(patch.arm_b, shape.centroid - assembly.blocks[joint.b].centroid);
-  const Eigen::Quaterniond e(shape.frame);
-  const double q[4] = {e.w(), e.x(), e.y(), e.z()};
-  std::copy(q, q + 4, patch.e_a);
-  std::copy(q, q + 4, patch.e_b);
+  store_axes(patch.e_a, shape.frame);
+  store_axes(patch.e_b, shape.frame);
   patch.kn = joint.kn;
   patch.ks = joint.ks;
   patch.area = shape.area;
   patch.ss = shape.ss;
   patch.tt = shape.tt;
+  if (model.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie) make_tie(assembly, joint, patch);
   return patch;
 }
 
@@ -323,7 +351,8 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   model.rule = lobatto_rule(model.contact.points_per_side);
   make_tiles(model, add_joints(assembly, model));
   for (std::size_t i = 0; i < model.joints.size(); ++i)
-    model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(model.joint_of_patch[i]));
+    if (model.joints[i].length == 0.0)  // stones that a tie holds may still touch
+      model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(model.joint_of_patch[i]));
   std::sort(model.joint_by_cells.begin(), model.joint_by_cells.end());
   model.interface = interface_patches(assembly, model);
   return model;

@@ -52,6 +52,9 @@ struct Patch {
   double gap[3] = {};                     // un (m), θs, θt (rad) when the bodies are where they were when it was made
   double kn = 0.0, ks = 0.0;              // Pa/m
   double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
+  // Above 0 (m): no patch but a tie of this length as built. arm_a and arm_b then end in its anchors, `shift` is the
+  // way from one to the other and ss = tt = 0; see tie_jump().
+  double length = 0.0;
 };
 
 /// Where point `i` of a patch keeps number `c` of `columns` in a table of points.

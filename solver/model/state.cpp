@@ -197,6 +197,15 @@ void note_bonds(const Model& model, State& state) {
   }
 }
 
+/// Ties go point by point from the beginning, stretched to their prestress (Pa).
+void stretch(const Patch& tie, double prestress, std::size_t joint, State& state) {
+  state.joint.mode[joint] = mode_points;
+  for (int i = 0; i < tie.point_count; ++i) {
+    state.joint.point_rest[point_index(tie, i, 2, 0)] = prestress / tie.kn;
+    state.joint.broken[point_index(tie, i, 1, 0)] = 1;
+  }
+}
+
 }  // namespace
 
 State initial_state(const Model& model) {
@@ -220,6 +229,7 @@ State initial_state(const Model& model) {
     const bool bondless =
         law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
     if (bondless) state.joint.mode[i] |= mode_broken;
+    if (law.kind == JointLaw::Kind::tie) stretch(model.joints[i], law.prestress, i, state);
   }
   state.fill = initial_fill(model.fill);
   state.interface = make_interface(model.interface, model);

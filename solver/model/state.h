@@ -28,7 +28,7 @@ struct PatchMemory {
   Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and open
   Array<float> point_branch;   // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
-  Array<double> largest;       // 2 a patch: opening, slip (m)
+  Array<double> largest;       // 2 a patch: opening, slip (m); of a tie its stretch (m) and tension (Pa)
   Array<float> last;           // 6 a patch: jump at the last pass (m, rad); eight patches side by side
   Array<double> energy;        // 3 a patch: friction, fracture, work done on the branches point by point (J)
   void resize(std::size_t patches, std::size_t points);

@@ -89,9 +89,36 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
   return s;
 }
 
+/// The strip between the anchors of a tie, as wide as it was.
+Polygon strip_of(const Patch& p, const Jump<double>& j) {
+  const auto axis = [&](double n, double s) { return vector(turn(j.frame, Triple<double>{n, s, 0.0})); };
+  const Vec3 half = axis(-0.5 * (p.length - j.n), 0.0), side = axis(0.0, 0.5 * p.area / p.length);
+  const Vec3 from = vector(j.place) - half, to = vector(j.place) + half;
+  return {from - side, from + side, to + side, to - side};
+}
+
+PatchSnapshot tie_snapshot(const Model& model, const State& state, std::size_t i, const Jump<double>& j) {
+  const Patch& p = model.joints[i];
+  const Triple<double> u = elastic_jump(p, j, patch_point(p, model.points, 0), state.joint, 0);
+  const double set = u.x - j.n;  // what it was stretched to at first, less what has yielded
+  PatchSnapshot s;
+  s.a = model.block_of_body[std::size_t(p.a)];
+  s.b = model.block_of_body[std::size_t(p.b)];
+  s.polygon = strip_of(p, j);
+  s.normal = polygon_normal(s.polygon);
+  s.area = p.area;
+  s.normal_traction = p.kn * std::max(0.0, -u.x);
+  s.bonded = 0.0;
+  s.tie = true;
+  s.yielded = set + model.laws[std::size_t(p.law)].prestress / p.kn;
+  s.largest_tension = state.joint.largest[2 * i + 1];
+  return s;
+}
+
 PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t i) {
   const Patch& p = model.joints[i];
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
+  if (p.length > 0.0) return tie_snapshot(model, state, i, j);
   Tractions sum;
   const bool replaced = state.joint.mode[i] & mode_gone;
   if (replaced) {  // what it was lives on in its largest opening and slip

@@ -22,6 +22,8 @@ struct PatchSnapshot {
   double normal_traction = 0.0, shear_traction = 0.0;  // Pa, mean over the patch; tension positive
   double bonded = 1.0;    // share of the patch's area whose bond holds (0 for joints that never had one)
   bool had_bond = false;  // the joint started with tensile strength or cohesion
+  bool tie = false;       // a bar: its strip from anchor to anchor; neither opens nor slips
+  double yielded = 0.0, largest_tension = 0.0;  // of a tie: plastic stretch (m); Pa, since the start
   bool replaced =
       false;  // a joint that has slid or turned so far that a contact took its place, if the blocks still meet
 };

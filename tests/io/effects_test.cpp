@@ -68,6 +68,22 @@ TEST(EffectCase, FaultsOfSensorsActOnTheSensors) {
   EXPECT_THROW(fault("channel c"), InputError);
 }
 
+/// Ties live in an assembly file, prestress included; without them a file is what it was.
+TEST(EffectCase, TiesSurviveTheAssemblyFile) {
+  const Folder folder;
+  const std::string ties = "[[effect]]\nname = \"retrofit_ties\"\nwhere = \"all\"\npretension = 5e4\n";
+  const Case c = parse_case(plain + ties, "c.toml", CaseUse::geometry);
+  EXPECT_EQ(parse_case(resolved_text(c), "c.toml", CaseUse::geometry).hash, c.hash);
+  const Assembly tied = make_assembly(c);
+  write_assembly(folder / "tied.h5", tied);
+  const Assembly read = read_assembly(folder / "tied.h5");
+  EXPECT_EQ(assembly_hash(read), assembly_hash(tied));
+  ASSERT_EQ(read.laws.size(), tied.laws.size());
+  for (std::size_t k = 0; k < read.laws.size(); ++k) EXPECT_EQ(read.laws[k], tied.laws[k]);
+  EXPECT_EQ(read.laws.back().kind, JointLaw::Kind::tie);
+  EXPECT_GT(read.laws.back().prestress, 0.0);
+}
+
 /// It acts through the drives of the motion stages; the resolved case has both and means the same.
 TEST(EffectCase, SupportMotionBecomesADrive) {
   const std::string motion =
@@ -106,6 +122,9 @@ TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   holds("[[effect]]\nname = \"support_motion\"\nwhere = \"pier 9\"\n",
         {"c.toml", "its places here are: abutment left"});
   holds("[[effect]]\nname = \"parapet_not_structural\"\n", {"c.toml", "no place"});
+  holds("[[effect]]\nname = \"grouted_infill\"\n", {"c.toml", "no place", "infill"});
+  holds("[[effect]]\nname = \"retrofit_ties\"\n", {"c.toml", "its places here are: abutment left"});
+  holds("[joints.masonry-masonry]\nkind = \"tie\"\n", {"c.toml:5:", "brittle", "elastic"});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Effects: each acts where it says, does nothing at its neutral value, and leaves a model that can be analysed.
 #include "solver/base/error.h"
 #include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
 #include "solver/motion/ground_path.h"
 #include "solver/motion/pulse.h"
 #include "solver/step/simulation.h"
@@ -274,6 +275,115 @@ TEST(Effects, SupportMotionKeepsTheCasesOwnDrives) {
   EXPECT_THROW(apply_effect(settings, {"support_motion", "", setting.values}), InputError);
 }
 
+/// Bars of 7.1 m over the width of the bridge, so many at each support, between stones of the two walls.
+TEST(Effects, RetrofitTiesStandWhereTheyShould) {
+  const Assembly plain = bridge();
+  const auto ties_of = [&](const std::string& where, const std::map<std::string, double>& values) {
+    std::vector<Joint> ties;
+    const Assembly tied = with(plain, "retrofit_ties", where, values);
+    for (const Joint& joint : tied.joints) {
+      const JointLaw& law = tied.laws[std::size_t(joint.law)];
+      if (law.kind != JointLaw::Kind::tie) continue;
+      ties.push_back(joint);
+      EXPECT_EQ(tied.blocks[std::size_t(joint.a)].component, Component::spandrel);
+      EXPECT_EQ(tied.blocks[std::size_t(joint.a)].part + tied.blocks[std::size_t(joint.b)].part, 1);
+      EXPECT_NEAR(joint.kn * joint.area, 1e8 / 7.1, 1.0);
+      EXPECT_NEAR(law.tension * joint.area, 3e5, 1e-6);
+      EXPECT_NEAR(law.prestress * joint.area, 1e4, 1e-6);
+      EXPECT_NEAR(joint.polygon[0].z(), block_box(tied.blocks[std::size_t(joint.a)]).high.z() - 0.7, 1e-9);
+    }
+    return ties;
+  };
+  const std::map<std::string, double> bar = {
+      {"axial_stiffness", 1e8}, {"yield_force", 3e5}, {"pretension", 1e4}, {"depth", 0.7}};
+  EXPECT_EQ(ties_of("abutment left", bar).size(), 3u) << "every 1.5 m of 4.8 m";
+  EXPECT_EQ(ties_of("pier 1", bar).size(), 1u);
+  EXPECT_EQ(ties_of("all", bar).size(), 36u) << "of 54.4 m";
+  EXPECT_NEAR(ties_of("pier 1", bar)[0].polygon[0].x(), 27.2, 0.06) << "the middle of the bridge";
+}
+
+/// They are bars, not masonry: what softens or stiffens masonry passes them by.
+TEST(Effects, OnMasonryLeaveTiesAlone) {
+  const Assembly tied = with(bridge(), "retrofit_ties", "all"), soft = with(tied, "joint_softening", "spandrels"),
+                 open = with(tied, "amplitude_stiffness", "all"),
+                 heavy = with(tied, "calibration", "masonry", {{"stiffness", 2.0}}),
+                 strong = with(tied, "bonded_joints", "spandrels");
+  for (const Assembly* changed : {&soft, &open, &heavy, &strong}) {
+    ASSERT_EQ(changed->joints.size(), tied.joints.size());
+    for (std::size_t i = 0; i < tied.joints.size(); ++i)
+      if (is_tie(tied, tied.joints[i])) {
+        EXPECT_EQ(changed->joints[i].kn, tied.joints[i].kn);
+        EXPECT_EQ(changed->joints[i].law, tied.joints[i].law);
+      }
+  }
+}
+
+TEST(Effects, GroutActsOnTheInfillAlone) {
+  const Assembly plain = bridge();
+  const Assembly all =
+      with(plain, "grouted_infill", "all",
+           {{"tensile_strength", 1e5}, {"cohesion", 2e5}, {"stiffness_factor", 3.0}, {"density_factor", 1.1}});
+  const Assembly pier = with(plain, "grouted_infill", "pier 0", {{"stiffness_factor", 3.0}});
+  std::size_t changed_all = 0, changed_pier = 0;
+  for (std::size_t i = 0; i < plain.joints.size(); ++i) {
+    const Joint &was = plain.joints[i], &is = all.joints[i];
+    const bool infill = plain.blocks[std::size_t(was.a)].component == Component::infill ||
+                        plain.blocks[std::size_t(was.b)].component == Component::infill;
+    const JointLaw &before = plain.laws[std::size_t(was.law)], &after = all.laws[std::size_t(is.law)];
+    EXPECT_DOUBLE_EQ(is.kn, (infill ? 3.0 : 1.0) * was.kn);
+    EXPECT_DOUBLE_EQ(is.ks, (infill ? 3.0 : 1.0) * was.ks);
+    EXPECT_EQ(after.tension, infill ? 1e5 : before.tension);
+    EXPECT_EQ(after.cohesion, infill ? 2e5 : before.cohesion);
+    EXPECT_EQ(after.friction_angle, before.friction_angle);
+    changed_all += infill, changed_pier += pier.joints[i].kn != was.kn;
+  }
+  EXPECT_GT(changed_pier, 10u);
+  EXPECT_GT(changed_all, 3 * changed_pier) << "three piers and two abutments have infill";
+  for (std::size_t i = 0; i < plain.blocks.size(); ++i)
+    EXPECT_DOUBLE_EQ(all.blocks[i].mass / plain.blocks[i].mass,
+                     plain.blocks[i].component == Component::infill ? 1.1 : 1.0);
+  const Effect& effect = find_effect("grouted_infill");
+  EXPECT_EQ(effect.places(plain).size(), 8u) << "each pier, each abutment, piers, abutments, all";
+  EXPECT_TRUE(effect.places(generated("cs2", {{"block_scale", 4.0}})).empty()) << "solid piers";
+}
+
+/// Two blocks pulled apart: the joint holds ft A, before and after.
+TEST(Effects, BondedJointsHoldWhatTheyShould) {
+  Assembly column = generated("column", {{"blocks", 1}, {"kn", 1e9}, {"ks", 4e8}});
+  for (Block& block : column.blocks) block.component = Component::pier;
+  column.blocks[0].part = column.blocks[1].part = 0;
+  JointLaw weak = dry_law(0.6);
+  weak.tension = 2e4, weak.cohesion = 3e4;
+  set_law(column, weak);
+  const auto strongest = [](const Assembly& assembly) {
+    Bench bench(assembly);
+    bench.begin();
+    const std::int64_t top = bench.assembly.blocks[0].fixed ? 1 : 0;
+    double most = 0.0;
+    for (double u = 0.0; u < 1e-3; u += 1e-6) {
+      bench.place(top, {0, 0, u}, Eigen::Quaterniond::Identity());
+      bench.stepper.patches_only();
+      most = std::max(most, -bench.wrench_on(top, 0, Vec3::Zero()).first.z());
+    }
+    return most;
+  };
+  const double area = column.joints[0].area;
+  EXPECT_NEAR(strongest(column), 2e4 * area, 0.06 * 2e4 * area);
+  const Assembly bonded = with(column, "bonded_joints", "pier 0",
+                               {{"tensile_strength", 3e5}, {"cohesion", 5e5}, {"stiffness_factor", 1.5}});
+  EXPECT_NEAR(strongest(bonded), 3e5 * area, 0.006 * 3e5 * area);
+  EXPECT_DOUBLE_EQ(bonded.joints[0].kn, 1.5 * column.joints[0].kn);
+  EXPECT_EQ(bonded.laws[std::size_t(bonded.joints[0].law)].cohesion, 5e5);
+  const Assembly weaker = with(column, "bonded_joints", "pier 0", {{"tensile_strength", 1e3}, {"cohesion", 1e3}});
+  EXPECT_EQ(weaker.laws[std::size_t(weaker.joints[0].law)].tension, 2e4) << "never weaker than it was";
+}
+
+/// Retrofit is nothing that a model lacks by mistake.
+TEST(Effects, OfRetrofitAreNoCandidates) {
+  for (const char* name : {"retrofit_ties", "grouted_infill", "bonded_joints"})
+    EXPECT_EQ(find_effect(name).weight, 0.0) << name;
+}
+
 TEST(Effects, AskedWronglySayWhatIsRight) {
   const auto message = [](const std::string& name, const std::string& where,
                           const std::map<std::string, double>& values) {
@@ -292,6 +402,12 @@ TEST(Effects, AskedWronglySayWhatIsRight) {
   holds(message("scour", "pier 1 x-", {{"lost_share", 1.5}}), "lost_share is 1.5; it must be from 0 to 0.9");
   holds(message("scour", "pier 1 x-", {{"lost", 0.5}}), "has no parameter 'lost'");
   holds(message("joint_softening", "arch 9", {}), "arch 0");
+  holds(message("grouted_infill", "arch 0", {}), "its places here are: pier 0");
+  holds(message("bonded_joints", "infill", {}), "its places here are: arch 0");
+  holds(message("bonded_joints", "all", {{"tensile_strength", -1.0}}), "must be from 0 to 1e+07 Pa");
+  holds(message("retrofit_ties", "pier 7", {}), "its places here are: abutment left");
+  holds(message("retrofit_ties", "all", {{"pretension", 3e5}}), "more than yield_force, 200000 N");
+  holds(message("retrofit_ties", "pier 0", {{"depth", 30.0}}), "at 30 m below their top; choose another depth");
 }
 
 }  // namespace

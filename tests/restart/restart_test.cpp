@@ -5,6 +5,7 @@
 
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/motion/synthesis.h"
+#include "solver/step/make_snapshot.h"
 #include "solver/step/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
@@ -95,6 +96,28 @@ TEST(Restart, GivesTheSameBitsWithOtherThreads) {
   EXPECT_EQ(pieces, hash);
   measured("Wall of 24 x 24, stopped twice and resumed with 1 to 3 threads: equal state_hash", 1, pieces == hash,
            "runs");
+}
+
+/// What ties have yielded is in the state.
+TEST(Restart, GivesTheSameBitsWithTies) {
+  Assembly assembly = weak_wall(4, 5);
+  const std::int64_t base = assembly.groups.at("base")[0];
+  for (const std::int64_t top : assembly.groups.at("top")) {
+    const Vec3 head = assembly.blocks[std::size_t(top)].centroid;
+    add_tie(assembly, base, {head.x(), -0.5, 0.0}, top, head, 1e7, 4e3, 1e3);
+  }
+  sort_joints(assembly);
+  const SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  Simulation whole(assembly, settings, 1, {});
+  ASSERT_EQ(whole.run(), RunEnd::finished) << whole.failure();
+  std::int64_t yielded = 0, taut = 0;
+  for (const PatchSnapshot& patch : make_snapshot(whole.model(), whole.state()).patches)
+    if (patch.tie) yielded += patch.yielded > 0.0, taut += patch.normal_traction > 0.0;
+  EXPECT_GT(yielded, 0);
+  EXPECT_LT(taut, 4) << "some are slack in the end";
+  const std::uint64_t hash = hash_arrays(whole.state().arrays());
+  EXPECT_EQ(in_one_go(assembly, settings, 2), hash);
+  EXPECT_EQ(in_pieces(assembly, settings, {0.1, 0.55, 0.85, 1.0}), hash);
 }
 
 /// Mass scaling is not in the state: it must come out the same again.

@@ -2,11 +2,27 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include "geometry/stiffness.h"
+#include "solver/effects/parts.h"
 #include "tools/ladder/models.h"
 
 namespace voussoir::test {
 
 using namespace ladder;
+
+/// Adds a bar from a point of block a to one of block b, not along z: E A, yield force and pretension in N.
+inline void add_tie(Assembly& assembly, std::int64_t a, const Vec3& from, std::int64_t b, const Vec3& to, double axial,
+                    double yield_force, double pretension) {
+  const Vec3 side = 0.02 * (to - from).cross(Vec3::UnitZ()).normalized();
+  const Polygon strip = {from - side, from + side, to + side, to - side};
+  const double area = polygon_area(strip);
+  JointLaw law;
+  law.kind = JointLaw::Kind::tie;
+  law.tension = yield_force / area;
+  law.prestress = pretension / area;
+  const double kn = axial / (to - from).norm() / area;
+  add_joint(assembly, a, b, strip, polygon_normal(strip), kn, kn, law_index(assembly.laws, law));
+}
 
 /// Dense K and M over the unknowns (present placement).
 struct DenseSystem {

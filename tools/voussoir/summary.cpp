@@ -63,6 +63,31 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
+/// Of ties: how many there are and have yielded, the largest force of any (N), the farthest that one has yielded (m);
+/// and of each the stones it holds, its force at the end and at most (N), and how far it has yielded (m).
+nlohmann::json ties_json(const Snapshot& snapshot) {
+  nlohmann::json each = nlohmann::json::array();
+  double force = 0.0, farthest = 0.0;
+  int yielded = 0;
+  for (const PatchSnapshot& p : snapshot.patches) {
+    if (!p.tie) continue;
+    const double most = p.largest_tension * p.area;
+    force = std::max(force, most), farthest = std::max(farthest, p.yielded);
+    yielded += p.yielded > 1e-9;  // m: more than rounding
+    each.push_back({{"a", p.a},
+                    {"b", p.b},
+                    {"force", p.normal_traction * p.area},
+                    {"largest_force", most},
+                    {"yielded", p.yielded}});
+  }
+  if (each.empty()) return each;
+  return {{"count", each.size()},
+          {"have_yielded", yielded},
+          {"largest_force", force},
+          {"farthest_yielded", farthest},
+          {"each", each}};
+}
+
 /// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
 /// 1e-5 of the largest; first_zero (s): when it first changed sign after having grown beyond that (linear between rows,
 /// 0 when it never did). Of its block: largest rotation (rad), and whether that was ever more than 45°.
@@ -180,6 +205,7 @@ nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot,
                          {"damage", damage_json(run.assembly(), snapshot)},
                          {"hinges", hinges_json(run.assembly(), snapshot)}};
   if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
+  if (nlohmann::json ties = ties_json(snapshot); !ties.empty()) json["ties"] = std::move(ties);
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
   return json;
 }

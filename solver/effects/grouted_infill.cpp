@@ -1,0 +1,55 @@
+// Grout in the loose infill of piers and abutments: it gains tensile strength, cohesion, stiffness and weight.
+#include <algorithm>
+
+#include "solver/effects/effect.h"
+#include "solver/effects/parts.h"
+
+namespace voussoir {
+
+namespace {
+
+BlockSet infill_of(const Assembly& assembly, const std::string& where) {
+  BlockSet set = component(assembly, Component::infill);
+  if (where == "all") return set;
+  const BlockSet part = masonry_part(assembly, where);
+  for (std::size_t i = 0; i < set.size(); ++i) set[i] = set[i] && part[i];
+  return set;
+}
+
+bool any(const BlockSet& set) {
+  return std::find(set.begin(), set.end(), true) != set.end();
+}
+
+/// Masonry parts with infill in them.
+std::vector<std::string> places(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const std::string& name : masonry_parts(assembly))
+    if (any(infill_of(assembly, name))) names.push_back(name);
+  return names;
+}
+
+/// The infill's own joints and those with what surrounds it.
+void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+  const BlockSet infill = infill_of(assembly, where);
+  const auto grouted = [&](const Joint& joint) { return infill[std::size_t(joint.a)] || infill[std::size_t(joint.b)]; };
+  strengthen(assembly, grouted, values[0], values[1], values[2]);
+  if (values[3] != 1.0) scale_density(assembly, infill, values[3]);
+}
+
+}  // namespace
+
+Effect grouted_infill() {
+  return {"grouted_infill",
+          "grout in the infill of piers and abutments",
+          {{"tensile_strength", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1e5, 1e5},
+           {"cohesion", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1.5e5, 1e5},
+           {"stiffness_factor", "-", "on the stiffness of its joints", 1.0, 20.0, 1.0, 2.0, 0.5, true},
+           {"density_factor", "-", "on its density", 1.0, 1.5, 1.0, 1.05, 0.05, true}},
+          places,
+          apply,
+          nullptr,
+          nullptr,
+          0.0};
+}
+
+}  // namespace voussoir
