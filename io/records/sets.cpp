@@ -163,10 +163,10 @@ const std::vector<std::string>& acceleration_units() {
 
 int component_axis(const std::string& name) {
   const std::string word = upper(name);
-  static const std::map<std::string, int> known = {{"EW", 0},   {"WE", 0},   {"E", 0},        {"W", 0},  {"NS", 1},
-                                                   {"SN", 1},   {"N", 1},    {"S", 1},        {"UD", 2}, {"UP", 2},
-                                                   {"Z", 2},    {"V", 2},    {"DN", 2},       {"DU", 2}, {"DWN", 2},
-                                                   {"DOWN", 2}, {"VERT", 2}, {"VERTICAL", 2}, {"VER", 2}};
+  static const std::map<std::string, int> known = {
+      {"X", 0},  {"Y", 1},  {"EW", 0},  {"WE", 0},   {"E", 0},    {"W", 0},        {"NS", 1},
+      {"SN", 1}, {"N", 1},  {"S", 1},   {"UD", 2},   {"UP", 2},   {"Z", 2},        {"V", 2},
+      {"DN", 2}, {"DU", 2}, {"DWN", 2}, {"DOWN", 2}, {"VERT", 2}, {"VERTICAL", 2}, {"VER", 2}};
   if (const auto at = known.find(word); at != known.end()) return at->second;
   // SEED channels: band, instrument, direction.
   if (word.size() == 3 && (word[1] == 'N' || word[1] == 'G' || word[1] == 'L')) {

@@ -95,8 +95,8 @@ TEST(RecordSets, WhatDoesNotFitIsLeftOutAndSaid) {
 }
 
 TEST(RecordSets, Directions) {
-  const std::vector<std::pair<const char*, int>> known = {{"EW", 0},  {"we", 0},  {"NS", 1},  {"UD", 2},  {"UP", 2},
-                                                          {"HNE", 0}, {"HGZ", 2}, {"H1", -1}, {"140", -1}};
+  const std::vector<std::pair<const char*, int>> known = {{"EW", 0}, {"we", 0},  {"NS", 1},  {"UD", 2},  {"UP", 2},
+                                                          {"x", 0},  {"HNE", 0}, {"HGZ", 2}, {"H1", -1}, {"140", -1}};
   for (const auto& [name, axis] : known) EXPECT_EQ(component_axis(name), axis) << name;
 }
 
