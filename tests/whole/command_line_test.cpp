@@ -6,8 +6,8 @@
 namespace voussoir::test {
 namespace {
 
-const std::vector<std::string> verb_names = {"generate", "import", "info", "run",     "resume",   "modal",
-                                             "render",   "check",  "step", "effects", "diagnose", "hide"};
+const std::vector<std::string> verb_names = {"generate", "import", "info",    "run",      "resume", "modal",   "render",
+                                             "check",    "step",   "effects", "diagnose", "hide",   "campaign"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

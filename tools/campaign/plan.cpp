@@ -150,6 +150,28 @@ std::string run_id(const Plan& plan, const PlannedRun& run) {
   return id;
 }
 
+void plan_runs(const Settings& s, Draft& draft) {
+  Plan& plan = draft.plan;
+  const std::size_t samples = std::size_t(std::max(1, s.samples));
+  if (const std::size_t all = s.cases.size() * s.records.size() * s.scales.size() * samples; all > most_runs)
+    throw InputError(
+        "{}: {} cases × {} records × {} scales × {} samples are {} runs, expected at most {}: make several "
+        "campaigns of it",
+        s.path, s.cases.size(), s.records.size(), s.scales.size(), samples, all, most_runs);
+  for (std::size_t c = 0; c < s.cases.size(); ++c) {
+    const std::vector<std::vector<double>> values = draw_samples(s, draft.cases[c]);
+    check_samples(s, plan, draft.cases[c], values);
+    for (std::size_t r = 0; r < s.records.size(); ++r)
+      for (const double scale : s.scales)
+        for (std::size_t i = 0; i < samples; ++i) {
+          PlannedRun run{"", c, r, scale, s.samples > 0 ? int(i) + 1 : 0, values[i], 0};
+          run.id = run_id(plan, run);
+          run.hash = run_hash(plan, run);
+          plan.runs.push_back(run);
+        }
+  }
+}
+
 }  // namespace
 
 std::string slug(const std::string& name, const std::string& fallback, std::vector<std::string>& taken) {
@@ -187,24 +209,7 @@ Draft make_draft(const Settings& s) {
   plan_cases(s, draft);
   std::vector<std::string> taken;
   for (const Shaking& shaking : s.records) plan.records.push_back(plan_record(s, shaking, taken));
-  const std::size_t samples = std::size_t(std::max(1, s.samples));
-  if (const std::size_t all = s.cases.size() * s.records.size() * s.scales.size() * samples; all > most_runs)
-    throw InputError(
-        "{}: {} cases × {} records × {} scales × {} samples are {} runs, expected at most {}: make several "
-        "campaigns of it",
-        s.path, s.cases.size(), s.records.size(), s.scales.size(), samples, all, most_runs);
-  for (std::size_t c = 0; c < s.cases.size(); ++c) {
-    const std::vector<std::vector<double>> values = draw_samples(s, draft.cases[c]);
-    check_samples(s, plan, draft.cases[c], values);
-    for (std::size_t r = 0; r < s.records.size(); ++r)
-      for (const double scale : s.scales)
-        for (std::size_t i = 0; i < samples; ++i) {
-          PlannedRun run{"", c, r, scale, s.samples > 0 ? int(i) + 1 : 0, values[i], 0};
-          run.id = run_id(plan, run);
-          run.hash = run_hash(plan, run);
-          plan.runs.push_back(run);
-        }
-  }
+  plan_runs(s, draft);
   return draft;
 }
 

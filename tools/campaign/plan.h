@@ -1,7 +1,5 @@
 // The plan of a campaign: which runs there are, in which order, under which names, and what makes each of them.
 #pragma once
-#include <map>
-
 #include "tools/campaign/settings.h"
 
 namespace voussoir::campaign {
@@ -65,9 +63,8 @@ bool holds_plan(const std::string& directory);
 /// one. Throws InputError naming the first run that would be another.
 void write_draft(const Draft& draft, const std::string& directory);
 
-/// Index of a run. Throws InputError.
+/// Throws InputError when there is none of that name.
 const PlannedRun& find_run(const Plan& plan, const std::string& id);
-/// Names of the table's columns for what is sampled, with their values.
 std::string folder_of(const std::string& directory, const PlannedRun& run);
 
 }  // namespace voussoir::campaign

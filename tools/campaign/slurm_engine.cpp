@@ -25,6 +25,7 @@ constexpr double grace = 120.0;  // s between the limit at which a run ends itse
 
 constexpr const char* script = R"(#!/bin/sh
 # One run of a voussoir campaign. Arguments: program, campaign's folder, list of runs, threads.
+exec >>"$2/slurm/output_${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID.txt" 2>&1
 exec "$1" campaign-run "$2" --batch "$3" --task "$SLURM_ARRAY_TASK_ID" --threads "$4"
 )";
 
@@ -76,7 +77,14 @@ class Slurm {
     while (true) {
       const bool alive = look();
       work_.progress(tally_, tally_.all() - tally_.missing - settled_before());
-      if (!alive) return WorkEnd::ended;
+      if (!alive) {
+        if (tally_.missing > 0)
+          work_.say(
+              fmt::format("{} runs have left Slurm without a result: cancelled, or their node could not run them; "
+                          "what they said is in {}/slurm",
+                          tally_.missing, work_.directory));
+        return WorkEnd::ended;
+      }
       if (stop_signal() != 0) {
         work_.say(
             fmt::format("the jobs go on without this program; start the campaign again to wait for them and to "
@@ -163,16 +171,11 @@ class Slurm {
     const int threads = std::max(1, e.threads);
     std::string array = fmt::format("--array=0-{}", batch.runs.size() - 1);
     if (e.runs_at_once > 0) array += fmt::format("%{}", e.runs_at_once);
-    // No name with a % in it: Slurm would put something else there. The folder comes as --chdir, which it leaves alone.
-    std::vector<std::string> list = {"sbatch",
-                                     "--parsable",
-                                     "--job-name=voussoir",
-                                     array,
-                                     "--ntasks=1",
-                                     fmt::format("--cpus-per-task={}", threads),
-                                     "--chdir=" + work_.directory,
-                                     "--output=slurm/%A_%a.txt",
-                                     "--open-mode=append"};
+    // Slurm would put something else in place of a % or a backslash in the name of an output file, so it opens none:
+    // the script does.
+    std::vector<std::string> list = {"sbatch",    "--parsable",        "--job-name=voussoir",
+                                     array,       "--ntasks=1",        fmt::format("--cpus-per-task={}", threads),
+                                     "--chdir=/", "--output=/dev/null"};
     if (e.time_limit > 0.0) list.push_back(fmt::format("--time={}", int(std::ceil((e.time_limit + grace) / 60.0))));
     if (e.memory > 0.0) list.push_back(fmt::format("--mem={}M", int(std::ceil(e.memory))));
     for (const auto& [option, value] : {std::pair{"partition", e.partition}, {"account", e.account}, {"qos", e.qos}})

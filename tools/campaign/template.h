@@ -2,7 +2,6 @@
 #pragma once
 #include <toml++/toml.h>
 
-#include <map>
 #include <string>
 
 #include "io/case/case.h"

@@ -80,6 +80,15 @@ void print_status(const Plan& plan, const std::string& directory) {
   fmt::print("{}\n", counts_text(tally(directory, plan)));
 }
 
+/// A word that a shell takes as it is: what is said to be typed must do no harm.
+std::string for_shell(const std::string& word) {
+  const std::string plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-/+,@:=";
+  if (word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted;
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return fmt::format("'{}'", quoted);
+}
+
 /// What went wrong, after everything else.
 void list_failures(const Plan& plan, const std::string& directory) {
   std::size_t listed = 0;
@@ -167,7 +176,7 @@ int finish(const Plan& plan, const Request& wanted, WorkEnd end) {
   }
   if (end == WorkEnd::left) return 0;
   if (end == WorkEnd::stopped || t.missing > 0)
-    fmt::print(stderr, "{} runs have not ended; go on with: voussoir campaign {}\n", t.missing, directory);
+    fmt::print(stderr, "{} runs have not ended; go on with: voussoir campaign {}\n", t.missing, for_shell(directory));
   return t.failed + t.missing > 0 || end == WorkEnd::stopped ? 1 : 0;
 }
 

@@ -1,0 +1,92 @@
+// The table: every run has a row, every number of its summary a column.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/hdf5/h5.h"
+#include "tests/campaign/campaign_folder.h"
+#include "tools/campaign/outcome.h"
+#include "tools/campaign/write_table.h"
+
+namespace voussoir::campaign {
+namespace {
+
+using test::CampaignFolder;
+
+const std::string summary = R"({"demand": {"places": {"keystone 0": {"axis": "x", "largest": 0.25, "residual": -0.1}},
+  "keystone_x": {"largest_mean": 0.25, "residual_mean": 0.1}},
+  "sensors": {"top, left": {"largest": 0.5, "residual": 0.125}},
+  "damage": {"arch": {"broken_share": 0.75, "largest_opening": 0.001, "largest_slip": 0.002}}})";
+
+/// Two runs of a record whose name asks for quotes: one done, one failed.
+struct Campaign {
+  CampaignFolder folder;
+  Plan plan;
+  Campaign() {
+    const Draft draft = make_draft(read_settings(
+        folder.campaign("scales = [1.0, 2.0, 4.0]",
+                        "[[record]]\nname = \"L'Aquila, \\\"AQK\\\"\\nNS\"\nevent = \"2009\"\n"
+                        "pulse = { kind = \"sine\", axis = \"x\", amplitude = 2.0, frequency = 5.0 }\n")));
+    plan = draft.plan;
+    write_draft(draft, folder / "out");
+    folder.write("out/runs/" + plan.runs[0].id + "/summary.json", summary);
+    write_outcome(folder / "out", plan.runs[0], {Status::done, "", 12.5, true, false});
+    folder.write("out/runs/" + plan.runs[1].id + "/summary.json", summary);  // of a run that failed: not to be trusted
+    write_outcome(folder / "out", plan.runs[1], {Status::failed, "block 3, it \"fell\"", 1.0, true, false});
+  }
+};
+
+TEST(CampaignTable, HasARowForEveryRun) {
+  Campaign c;
+  const Table table = gather(c.plan, c.folder / "out");
+  const auto value = [&](const std::string& name, std::size_t row) {
+    for (const ValueColumn& column : table.values)
+      if (column.name == name) return column.cells.at(row);
+    ADD_FAILURE() << "no column " << name;
+    return 0.0;
+  };
+  EXPECT_EQ(value("edp.keystone_x", 0), 0.25);
+  EXPECT_EQ(value("edp.keystone_x.residual", 0), 0.1);
+  EXPECT_EQ(value("edp.place.keystone 0", 0), 0.25);
+  EXPECT_EQ(value("edp.sensor.top, left.residual", 0), 0.125);
+  EXPECT_EQ(value("damage.arch.broken_share", 0), 0.75);
+  EXPECT_EQ(value("seconds", 0), 12.5);
+  EXPECT_TRUE(std::isnan(value("edp.keystone_x", 1)));
+  EXPECT_TRUE(std::isnan(value("seconds", 2)));
+  EXPECT_NEAR(value("im.pga", 2), 8.0, 1e-2);
+  EXPECT_NEAR(value("im.arias", 1), 4.0 * value("im.arias", 0), 1e-12);
+}
+
+TEST(CampaignTable, QuotesWhatRfc4180Quotes) {
+  Campaign c;
+  const std::string csv = csv_of(gather(c.plan, c.folder / "out"));
+  EXPECT_TRUE(
+      csv.starts_with("run,case,record,event,scale,sample,status,reason,seconds,im.pga,im.pgv,im.arias,im.cav,"
+                      "im.d595,im.pga_x,im.pga_y,im.pga_z,im.sa_0.10,"))
+      << csv;
+  EXPECT_NE(csv.find("x1,column,\"L'Aquila, \"\"AQK\"\"\nNS\",2009,1,,done,,12.5,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",failed,\"block 3, it \"\"fell\"\"\",1,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",missing,not begun,,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",\"edp.sensor.top, left\","), std::string::npos) << csv;
+}
+
+TEST(CampaignTable, TheHdf5FileHoldsTheSame) {
+  Campaign c;
+  write_table(c.plan, c.folder / "out");
+  const Table table = gather(c.plan, c.folder / "out");
+  EXPECT_EQ(c.folder.read("out/table.csv"), csv_of(table));
+  const h5::File file = h5::File::open(c.folder / "out/table.h5");
+  EXPECT_EQ(h5::check_format(file, "voussoir-campaign-table", 1), 1);
+  EXPECT_EQ(file.texts("/", "columns"), table.order);
+  for (const TextColumn& column : table.texts) EXPECT_EQ(file.read_texts("columns/" + column.name), column.cells);
+  for (const ValueColumn& column : table.values) {
+    const std::vector<double> read = file.read<double>("columns/" + column.name);
+    ASSERT_EQ(read.size(), column.cells.size());
+    EXPECT_EQ(file.unit("columns/" + column.name), column.unit);
+    for (std::size_t i = 0; i < read.size(); ++i)
+      EXPECT_TRUE(read[i] == column.cells[i] || (std::isnan(read[i]) && std::isnan(column.cells[i]))) << column.name;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir::campaign
