@@ -46,7 +46,7 @@ LimitState limit_from_words(const std::string& words) {
 LimitState limit_from_json(const nlohmann::json& json, const std::string& path) {
   LimitState limit;
   const auto text = [&](const char* key) {
-    if (!json.is_object() || !json.contains(key)) return std::string();
+    if (!json.is_object() || !json.contains(key) || json[key].is_null()) return std::string();
     if (!json[key].is_string()) throw InputError("{}: limit_states: '{}' is no text", path, key);
     return json[key].get<std::string>();
   };
