@@ -108,8 +108,9 @@ GroundMotion motion_of_records(const MotionSource& source) {
   GroundMotion motion = join_components(along, acceleration_unit(source.units));
   const auto left_out = std::size_t(std::llround(source.begin / motion.dt));
   if (left_out + 2 > motion.acceleration.size())
-    throw InputError("'begin' is {} s, and the record {} ends at {} s: let it begin sooner", source.begin,
-                     *std::ranges::find_if(source.files, [](const auto& f) { return !f.empty(); }), motion.duration());
+    throw InputError("{}: ends at {} s, and 'begin' is {} s: let it begin sooner",
+                     *std::ranges::find_if(source.files, [](const auto& f) { return !f.empty(); }), motion.duration(),
+                     source.begin);
   motion.acceleration.erase(motion.acceleration.begin(), motion.acceleration.begin() + std::ptrdiff_t(left_out));
   return source.correct ? correct_baseline(motion) : motion;
 }

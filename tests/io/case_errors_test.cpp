@@ -227,7 +227,7 @@ const std::vector<Wrong> table = {
      {"c.toml:7: 'units'", "expected one of: m/s2, g, cm/s2"}},
     {"RecordBegin",
      head + motion + "record = \"good.txt\"\nbegin = 9.0\n",
-     {"'begin' is 9 s", "good.txt ends at"}},
+     {"good.txt: ends at", "'begin' is 9 s"}},
     {"RecordRow", head + motion + "record = \"bad.txt\"\n", {"bad.txt:3: 'oops' is not a number"}},
     {"PulseUnits",
      head + motion + "units = \"g\"\npulse = { kind = \"sine\" }\n",

@@ -6,8 +6,9 @@
 namespace voussoir::test {
 namespace {
 
-const std::vector<std::string> verb_names = {"generate", "import", "info",    "run",      "resume", "modal",   "render",
-                                             "check",    "step",   "effects", "diagnose", "hide",   "campaign"};
+const std::vector<std::string> verb_names = {"generate", "import", "info",     "run",      "resume",   "modal",
+                                             "render",   "check",  "step",     "effects",  "diagnose", "hide",
+                                             "motion",   "report", "campaign", "fragility"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

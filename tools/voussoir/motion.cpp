@@ -41,7 +41,9 @@ int motion(const std::vector<std::string>& arguments) {
   if (asked == "--help" || asked == "-h") {
     fmt::print("Usage: voussoir motion PART …\n\n");
     for (const Part& part : parts) fmt::print("  {:<12}{}\n", part.name, part.summary);
-    fmt::print("\nvoussoir motion PART --help says more.\n");
+    fmt::print(
+        "\nvoussoir motion PART --help says more; all take --help, --threads N, --quiet.\n\nExample: voussoir motion "
+        "info records -o measures\n");
     return 0;
   }
   std::vector<std::string> names;
@@ -129,7 +131,7 @@ std::vector<double> target_values(const TargetSpectrum& target, const std::vecto
 std::vector<RecordSet> records_asked(const std::vector<std::string>& paths, const ColumnsMeaning& meaning, bool quiet) {
   std::vector<RecordSet> sets;
   std::error_code ignored;
-  if (paths.size() == 1 && fs::is_directory(paths[0], ignored)) {
+  if (paths.size() == 1 && !fs::is_regular_file(paths[0], ignored)) {
     RecordFolder folder = read_record_folder(paths[0], meaning);
     if (!quiet)
       for (const std::string& text : folder.left_out) fmt::print(stderr, "left out: {}\n", text);
