@@ -186,7 +186,8 @@ TEST(Campaign, WhatIsWrongIsSaid) {
   const Outcome absent = voussoir({"campaign", "long.toml", "--engine", "slurm"},
                                   {.folder = folder.path(), .environment = {{"PATH", "/nowhere"}}});
   expect_error(absent, 2, {"there is no sbatch here", "--engine local"});
-  EXPECT_EQ(campaign(folder, {"long.toml"}).status, 0) << "nothing of that is in the way";
+  const Outcome good = campaign(folder, {"long.toml"});
+  EXPECT_EQ(good.status, 0) << "nothing of that is in the way\n" << good.err;
   folder.write("long/campaign.json", "{");
   expect_error(campaign(folder, {"long"}), 2, {"campaign.json is no valid JSON"});
 }

@@ -176,6 +176,14 @@ std::string runs_section(const CampaignTable& table) {
   return text + "</table>\n";
 }
 
+/// "18 mm, severe".
+std::string median_text(std::vector<double> openings) {
+  std::ranges::sort(openings);
+  const double median = 0.5 * (openings[(openings.size() - 1) / 2] + openings[openings.size() / 2]);
+  return median >= 1.0 ? fmt::format("more than 1 m, {}", damage_word(median))
+                       : fmt::format("{:.1f} mm, {}", 1e3 * median, damage_word(median));
+}
+
 /// Means over the runs of a case; empty cells where a case has no such component.
 std::string damage_section(const CampaignTable& table) {
   constexpr std::string_view ending = ".broken_share";
@@ -190,25 +198,24 @@ std::string damage_section(const CampaignTable& table) {
   for (const std::string& component : components) {
     std::vector<Cell> row = {words_cell(component)};
     for (const std::string& name : cases) {
-      double share = 0.0, opening = 0.0;
+      double share = 0.0;
+      std::vector<double> openings;
       int runs = 0;
       for (std::size_t r = 0; r < table.runs.size(); ++r) {
         if (table.runs[r].case_name != name || !has_result(table.runs[r])) continue;
         const double s = value_at(table, ("damage." + component + ".broken_share").c_str(), r),
                      o = value_at(table, ("damage." + component + ".largest_opening").c_str(), r);
-        if (std::isfinite(s)) share += s, opening += std::isfinite(o) ? o : 0.0, ++runs;
+        if (std::isfinite(s)) share += s, openings.push_back(std::isfinite(o) ? o : 0.0), ++runs;
       }
-      row.push_back(words_cell(runs == 0 ? "–"
-                                         : fmt::format("{:.1f} %, {:.1f} mm, {}", 100.0 * share / runs,
-                                                       1e3 * opening / runs, damage_word(opening / runs))));
+      row.push_back(
+          words_cell(runs == 0 ? "–" : fmt::format("{:.1f} %, {}", 100.0 * share / runs, median_text(openings))));
     }
     text += table_row(row, "td");
   }
   return text + "</table>\n" +
          note(
-             "Means over the runs: share of the bonded joint area broken, largest opening of a joint, and its word "
-             "after "
-             "Burland, Broms & de Mello (1977).");
+             "Over the runs of a case: mean share of the bonded joint area broken; median of the largest openings of a "
+             "joint, and its word after Burland, Broms & de Mello (1977).");
 }
 
 }  // namespace

@@ -8,9 +8,10 @@ namespace voussoir {
 
 namespace {
 
-/// "0.04 mm", "18 mm", "1.2 m".
+constexpr double fallen = 1.0;  // m: how far a stone goes on falling says nothing
+
+/// "0.04 mm", "18 mm".
 std::string length_text(double metres) {
-  if (metres >= 1.0) return fmt::format("{:.1f} m", metres);
   const double mm = 1e3 * metres;
   return fmt::format("{:.{}f} mm", mm, mm < 0.1 ? 2 : mm < 10.0 ? 1 : 0);
 }
@@ -34,10 +35,14 @@ std::string damage_sentence(const nlohmann::json& damage) {
   const double opening = damage.value("largest_opening", 0.0), slip = damage.value("largest_slip", 0.0),
                broken = damage.value("broken_share", 0.0);
   std::string text = damage_word(opening);
-  text += ": joints opened by up to " + length_text(opening);
-  if (damage.contains("residual_opening"))
-    text += fmt::format(" ({} still open)", length_text(damage.value("residual_opening", 0.0)));
-  text += ", slid by up to " + length_text(slip);
+  if (opening >= fallen) {
+    text += fmt::format(": joints opened by more than {:g} m: stones fell", fallen);
+  } else {
+    text += ": joints opened by up to " + length_text(opening);
+    if (damage.contains("residual_opening"))
+      text += fmt::format(" ({} still open)", length_text(damage.value("residual_opening", 0.0)));
+    text += ", slid by up to " + length_text(slip);
+  }
   if (!damage.value("bonded", true)) return text + "; joints without bond";
   return text + fmt::format("; {} of the bonded joint area broken",
                             broken == 0.0    ? "nothing"
