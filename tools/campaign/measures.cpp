@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/motion/filter.h"
 #include "solver/motion/intensity.h"
 
 namespace voussoir::campaign {
@@ -13,13 +14,6 @@ namespace voussoir::campaign {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<double> component(const GroundMotion& motion, int axis) {
-  std::vector<double> values;
-  values.reserve(motion.acceleration.size());
-  for (const Vec3& a : motion.acceleration) values.push_back(a[axis]);
-  return values;
-}
 
 bool moves(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double a) { return a != 0.0; });
