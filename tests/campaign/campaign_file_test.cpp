@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{std::string("samples = 3"), one_record, {"'samples'", "[[campaign.sample]]"}},
         Bad{ratio + "distribution = \"gauss\"\ncov = 0.1", one_record, {"\"gauss\"", "lognormal, normal, uniform"}},
         Bad{ratio + "distribution = \"normal\"", one_record, {"needs 'cov'"}},
-        Bad{ratio + "distribution = \"normal\"\ncov = 5e3", one_record, {"sample", "'low'", "damping"}},
+        Bad{ratio + "distribution = \"normal\"\ndeviation = 1e3", one_record, {"sample", "'low'", "damping"}},
         Bad{ratio + "distribution = \"uniform\"\nlow = 2.0\nhigh = 1.0", one_record, {"must be below 'high'"}},
         Bad{std::string("samples = 1\n[[campaign.sample]]\nkey = \"materials.masonry.densty\"\ndistribution = "
                         "\"normal\"\ncov = 0.1"),
