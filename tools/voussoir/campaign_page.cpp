@@ -55,14 +55,14 @@ std::string facts(const CampaignTable& table) {
 }
 
 /// One demand over the peak ground acceleration: a series a case.
-std::string demand_figure(const CampaignTable& table, const char* column, const std::string& title) {
+std::string demand_chart(const CampaignTable& table, const char* column, const std::string& title) {
   if (!table.find(column) || !table.find("im.pga")) return "";
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   LineChart chart;
   chart.title = title;
   chart.x_label = "PGA of the scaled motion, geometric mean of the horizontal components (g)";
   chart.y_label = "largest relative displacement, mean over places (mm)";
-  chart.width = 820.0, chart.height = 420.0, chart.y_low = 0.0, chart.x_low = 0.0;
+  chart.width = 820.0, chart.height = 420.0, chart.x_low = 0.0;
   const std::vector<std::string> cases = table.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
     ChartDots dots{cases[c], {}, {}, {}, colour_code(line_colour(c)), markers[c % 4]};
@@ -75,7 +75,12 @@ std::string demand_figure(const CampaignTable& table, const char* column, const 
     }
     if (!dots.x.empty()) chart.dots.push_back(dots);
   }
-  return figure(line_chart(chart));
+  double least = INFINITY, most = 0.0;
+  for (const ChartDots& dots : chart.dots)
+    for (const double y : dots.y) least = std::min(least, y), most = std::max(most, y);
+  chart.log_y = least > 0.0 && most > 30.0 * least;  // a bridge that falls beside one that stands
+  if (!chart.log_y) chart.y_low = 0.0;
+  return line_chart(chart);
 }
 
 /// Record and scale whose demands, as shares of the largest of each case, are the largest in the mean over the cases.
@@ -223,8 +228,14 @@ std::string damage_section(const CampaignTable& table) {
 void write_campaign_page(const std::string& directory) {
   const CampaignTable table = read_table(directory + "/table.csv");
   std::string body = facts(table);
-  body += demand_figure(table, "edp.keystone_x", "Keystones, longitudinal");
-  body += demand_figure(table, "edp.spandrel_y", "Spandrel walls, transverse");
+  std::error_code ignored;  // writing says what is wrong
+  fs::create_directories(directory + "/images", ignored);
+  for (const auto& [column, name, title] : {std::tuple{"edp.keystone_x", "keystones", "Keystones, longitudinal"},
+                                            std::tuple{"edp.spandrel_y", "spandrels", "Spandrel walls, transverse"}})
+    if (const std::string svg = demand_chart(table, column, title); !svg.empty()) {
+      body += figure(svg);
+      write_atomically(fmt::format("{}/images/{}.svg", directory, name), svg);
+    }
   body += damage_pictures(table, directory) + damage_section(table) + runs_section(table);
   write_atomically(directory + "/report.html",
                    html_page("Campaign " + fs::weakly_canonical(directory).filename().string(), body));

@@ -133,7 +133,7 @@ std::string spectra_figure(const Selected& s) {
   }
   chart.curves.push_back({"target", periods, target, "#1f1f24", 2.4, "8 4"});
   chart.curves.push_back({"mean", periods, mean, "#1f1f24", 3.0, ""});
-  return figure(line_chart(chart));
+  return line_chart(chart);
 }
 
 std::string ratio_figure(const Selected& s) {
@@ -183,7 +183,7 @@ std::string measures_figure(const Selected& s) {
   return "<div class=\"many\">" + text + "</div>\n";
 }
 
-std::string selection_page(const Selected& s) {
+std::string selection_page(const Selected& s, const std::string& spectra) {
   const SelectionProblem& p = s.request.problem;
   const auto [low, high] = std::ranges::minmax(s.selection.mean);
   std::string body = paragraph("Target: " + target_text(s.request.target) + ".");
@@ -193,7 +193,7 @@ std::string selection_page(const Selected& s) {
       p.count, s.sets.size(), p.per_event, p.least, p.most, low, high, s.request.range[0], s.request.range[1], p.low,
       p.high, s.selection.tried, s.selection.all_tried ? ", all that there are" : ""));
   if (!s.selection.found) body += paragraph("No set keeps all bounds: this one comes closest.");
-  body += spectra_figure(s) + ratio_figure(s) + heading("Measures at the factors") + measures_figure(s);
+  body += figure(spectra) + ratio_figure(s) + heading("Measures at the factors") + measures_figure(s);
   body += measures_table(s.names, s.measures, s.selection.factors) + heading("Histories, as recorded");
   for (const std::size_t r : s.selection.records) body += histories_figure(s.sets[r].name, s.sets[r].motion);
   return html_page("Selection of ground motions", body);
@@ -263,9 +263,11 @@ int select(SelectRequest& request) {
   }
   make_folder_of(request.out + "/selection.json");
   write_atomically(request.out + "/selection.json", selection_json(selected).dump(2) + "\n");
-  write_atomically(request.out + "/selection.html", selection_page(selected));
+  const std::string spectra = spectra_figure(selected);
+  write_atomically(request.out + "/selection.html", selection_page(selected, spectra));
+  write_atomically(request.out + "/spectra.svg", spectra);
   if (!request.quiet)
-    fmt::print("{}\n{}/selection.json, selection.html\n", selection_text(selected, seconds), request.out);
+    fmt::print("{}\n{}/selection.json, selection.html, spectra.svg\n", selection_text(selected, seconds), request.out);
   if (selection.found) return 0;
   const auto [low, high] = std::ranges::minmax(selection.mean);
   throw RunError(
