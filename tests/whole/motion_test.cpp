@@ -87,6 +87,26 @@ TEST(Motion, InfoSpectraAndProcessing) {
   EXPECT_TRUE(has(bytes_of(folder / "clean/synthetic_0001_y.txt"), "\n0.01 "));
 }
 
+TEST(Motion, RoundedStepsOfAt2AndComponentsOfUnequalLength) {
+  const Folder folder;
+  const auto at2 = [](int samples, const char* component) {
+    std::string text = "PEER\nNowhere, 1/2/2003, Mill, " + std::string(component) +
+                       "\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= " + std::to_string(samples) +
+                       ", DT= .0024 SEC\n";
+    for (int k = 0; k < samples; ++k) text += k % 2 ? " -.1000000E-01" : "  .1000000E-01";
+    return text + "\n";
+  };
+  folder.write("RSN1_MILL000.AT2", at2(30, "000"));
+  folder.write("RSN1_MILL090.AT2", at2(28, "090"));
+  folder.write("RSN1_MILL-UP.AT2", at2(25, "UP"));
+  const Outcome outcome = voussoir({"motion", "info", "."}, {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "RSN1_MILL: PEER AT2")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "x = 000, y = 090, z = UP")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "0.0696 s at 0.0024 s")) << outcome.out;  // the longest
+  EXPECT_TRUE(has(outcome.out, "right within 2.1 %")) << outcome.out;
+}
+
 TEST(Motion, WrongWordsAreExplained) {
   const Folder folder;
   folder.write("a_EW.txt", "1\n2\n3\n");

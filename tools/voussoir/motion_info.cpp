@@ -1,6 +1,7 @@
 // voussoir motion info, spectrum, process.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "io/hdf5/atomic_file.h"
@@ -29,15 +30,25 @@ void take_paths(CommandLine& line) {
   add_columns_options(line);
 }
 
+/// What to mind of a step that its file gives with few digits: 1/409.6 s reads .0024 in some AT2 files.
+std::string step_remark(const RecordSet& set) {
+  const double rate = 1.0 / set.motion.dt;
+  if (set.format != "PEER AT2" || std::abs(rate - std::round(rate)) < 1e-6 * rate) return "";
+  return fmt::format(
+      "\n  its step may be rounded: times are right within {:.1f} %; in a case 'dt' replaces it, where the rate is "
+      "known",
+      100.0 * 0.5e-4 / set.motion.dt);
+}
+
 std::string set_text(const RecordSet& set) {
   std::string components;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!set.files[axis].empty())
       components += fmt::format("{}{} = {}", components.empty() ? "" : ", ", axis_word[axis],
                                 set.components[axis].empty() ? "?" : set.components[axis]);
-  return fmt::format("{}: {}, event {}{}, {:.6g} s at {:.6g} s, {}", set.name, set.format, set.event,
+  return fmt::format("{}: {}, event {}{}, {:.6g} s at {:.6g} s, {}{}", set.name, set.format, set.event,
                      set.station.empty() ? "" : ", station " + set.station, set.motion.duration(), set.motion.dt,
-                     components);
+                     components, step_remark(set));
 }
 
 LineChart spectra_chart(const RecordSet& set, const std::optional<TargetSpectrum>& target,
