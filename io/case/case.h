@@ -59,6 +59,12 @@ struct ExpectedPeriod {
   std::string source;
 };
 
+/// A threshold of a demand or of damage that a campaign's fragility counts passings of.
+struct DemandLimit {
+  std::string name, demand;  // demand: a column of a campaign's table, "edp.keystone_x"
+  double threshold = 0.0;    // in the column's unit
+};
+
 struct Case {
   std::string path, text;          // the file and its contents
   std::string generator;           // name, or empty when the assembly comes from a file
@@ -70,6 +76,7 @@ struct Case {
   std::vector<EffectSetting> effects;
   std::vector<PlotSpec> plots;
   std::vector<ExpectedPeriod> expected_periods;
+  std::vector<DemandLimit> limits;
   std::uint64_t hash =
       0;  // of the resolved text without modes and plots, and the records: equal for a case and its resolved copy
 };

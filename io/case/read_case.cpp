@@ -195,9 +195,10 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   read_sensors(root, c);
   read_effects(root, c);
   read_checks(root);                     // of no concern to a run, but a wrong one is said
-  c.hash = hash_text(resolved_text(c));  // before modes and plots, which change nothing in a run
+  c.hash = hash_text(resolved_text(c));  // before modes, plots and limits, which change nothing in a run
   read_modal(root, c);
   read_plots(root, c);
+  read_limits(root, c);
   root.finish();
   for (const MotionSource& motion : c.motions)
     for (const std::string& record : motion.texts) c.hash = hash_bytes(record.data(), record.size(), c.hash);

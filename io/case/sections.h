@@ -14,6 +14,7 @@ void read_sensors(TableReader& root, Case& c);
 void read_effects(TableReader& root, Case& c);
 void read_modal(TableReader& root, Case& c);
 void read_plots(TableReader& root, Case& c);
+void read_limits(TableReader& root, Case& c);
 
 /// `name` as seen from the folder of the file `beside`, unless it is absolute.
 std::string relative_to(const std::string& beside, const std::string& name);

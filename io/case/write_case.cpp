@@ -282,6 +282,12 @@ std::string resolved_text(const Case& c) {
   write_effects(out, c.effects);
   write_modal(out, c);
   write_plots(out, c.plots);
+  for (const DemandLimit& limit : c.limits) {
+    out.heading("[[limit_state]]");
+    out.set("name", limit.name);
+    out.set("demand", limit.demand);
+    out.set("threshold", limit.threshold);
+  }
   return out.text_;
 }
 

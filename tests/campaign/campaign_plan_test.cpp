@@ -34,6 +34,23 @@ TEST(CampaignPlan, SlugsAreTameAndDifferent) {
   EXPECT_EQ(std::set<std::string>(taken.begin(), taken.end()).size(), taken.size());
 }
 
+TEST(CampaignPlan, LimitStatesOfCasesHoldForThemAndChangeNoRun) {
+  CampaignFolder folder;
+  const std::string limit = "[[limit_state]]\nname = \"out\"\ndemand = \"edp.sensor.top\"\nthreshold = 0.01\n";
+  const std::string campaign = "[campaign]\ncases = [\"column.toml\", \"own.toml\"]\n" + one_record +
+                               "[[limit_state]]\nname = \"all\"\ndemand = \"edp.keystone_x\"\nthreshold = 0.02\n";
+  folder.write("own.toml", test::column_case);
+  const Plan before = make_draft(read_settings(folder.write("c.toml", campaign))).plan;
+  folder.write("own.toml", test::column_case + limit);
+  const Plan plan = make_draft(read_settings(folder / "c.toml")).plan;
+  ASSERT_EQ(plan.limit_states.size(), 2u);
+  EXPECT_EQ(plan.limit_states[0].only, "");
+  EXPECT_EQ(plan.limit_states[1].name, "out");
+  EXPECT_EQ(plan.limit_states[1].only, "own");
+  EXPECT_EQ(plan.limit_states[1].threshold, 0.01);
+  EXPECT_EQ(plan.runs[1].hash, before.runs[1].hash);
+}
+
 TEST(CampaignPlan, CasesTimesRecordsTimesScalesTimesSamples) {
   CampaignFolder folder;
   folder.write("sub/column.toml", test::column_case);

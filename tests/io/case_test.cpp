@@ -382,6 +382,13 @@ TEST_F(CaseFile, ResolvedCopiesKeepFormatsAndSpectra) {
       "tc = 0.35, soil = \"D\", axes = [\"x\", \"z\"], seed = 7 }\n";
   const Case c = parse_case(text, folder / "c.toml");
   EXPECT_DOUBLE_EQ(c.settings.stages[0].motion.acceleration[2].x(), -0.03);
+  const std::string limit = "[[limit_state]]\nname = \"out\"\ndemand = \"edp.keystone_x\"\nthreshold = 0.02\n";
+  EXPECT_EQ(parse_case(text + limit, folder / "c.toml").hash, c.hash);
+  const std::string small = "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"gravity\"\n" + limit;
+  const Case again = parse_case(resolved_text(parse_case(small, "c.toml")), "c.toml");
+  ASSERT_EQ(again.limits.size(), 1u);
+  EXPECT_EQ(again.limits[0].demand, "edp.keystone_x");
+  EXPECT_EQ(again.limits[0].threshold, 0.02);
   ASSERT_TRUE(c.motions[1].synthetic.spectrum);
   std::filesystem::create_directory(folder / "copy");
   write_resolved_case(c, folder / "copy");

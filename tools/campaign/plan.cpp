@@ -63,6 +63,7 @@ void plan_cases(const Settings& s, Draft& draft) {
     const Case c = read_case(s.cases[i]);
     motion_stage(c);
     draft.plan.cases.push_back({names[i], slug(names[i], "case", taken), case_hash(c)});
+    for (const DemandLimit& limit : c.limits) draft.plan.limit_states.push_back({limit, names[i]});
     draft.cases.push_back(c);
   }
   for (const LimitState& limit : s.limit_states)

@@ -267,8 +267,9 @@ Plan read_plan(const std::string& directory) {
         {need<std::string>(c, "name", path), slug_in(c, path), unhex(need<std::string>(c, "hash", path), path)});
   read_records(need<json>(j, "records", path), path, plan);
   for (const json& l : need<json>(j, "limit_states", path))
-    plan.limit_states.push_back({need<std::string>(l, "name", path), need<std::string>(l, "demand", path),
-                                 need<double>(l, "threshold", path), value_or<std::string>(l, "case", "", path)});
+    plan.limit_states.push_back(
+        {{need<std::string>(l, "name", path), need<std::string>(l, "demand", path), need<double>(l, "threshold", path)},
+         value_or<std::string>(l, "case", "", path)});
   read_runs(need<json>(j, "runs", path), path, plan);
   return plan;
 }

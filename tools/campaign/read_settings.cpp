@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/case/limits.h"
 #include "io/case/motion_source.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
@@ -199,13 +200,7 @@ void read_engine(TableReader& root, Settings& s) {
 void read_limit_states(TableReader& root, Settings& s) {
   for (TableReader& table : root.tables("limit_state")) {
     LimitState limit;
-    limit.name = table.required_text("name");
-    limit.demand = table.required_text("demand");
-    if (!limit.demand.starts_with("edp.") && !limit.demand.starts_with("damage."))
-      table.fail("demand", fmt::format("is \"{}\": expected a column of the table that begins with \"edp.\" or "
-                                       "\"damage.\", such as \"edp.keystone_x\"",
-                                       limit.demand));
-    limit.threshold = table.required_number("threshold", {0.0, 1e300, "(the column's unit)", true});
+    static_cast<DemandLimit&>(limit) = read_limit(table);
     limit.only = table.text("case", "");
     table.finish();
     s.limit_states.push_back(limit);

@@ -27,11 +27,8 @@ struct Sampled {
 };
 const std::vector<std::string>& distributions();  // in the order of the enumeration
 
-/// A threshold that `fragility` counts passings of.
-struct LimitState {
-  std::string name, demand;  // demand: a column of the table, "edp.keystone_x"
-  double threshold = 0.0;    // in the column's unit
-  std::string only;          // name of a case; empty: all
+struct LimitState : DemandLimit {
+  std::string only;  // name of a case; empty: all
 };
 
 struct EngineSettings {
