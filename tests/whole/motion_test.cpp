@@ -1,9 +1,11 @@
 // voussoir motion and voussoir report as a user calls them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "io/hdf5/history_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -142,6 +144,30 @@ TEST(Motion, SevenOfTheRealRecords) {
     EXPECT_LE(++events[record["event"]], 3);
     EXPECT_TRUE(record["factor"] >= 0.3 && record["factor"] <= 3.0);
   }
+}
+
+// What the history says of damage at the end is what the summary says.
+TEST(Report, HistoryAndSummaryAgreeOnDamage) {
+  const Folder folder;
+  folder.write("c.toml",
+               "[bridge]\ngenerator = \"column\"\nblocks = 4\n[materials.masonry]\ntensile_strength = 2e4\n"
+               "cohesion = 5e4\n[[stage]]\nkind = \"gravity\"\n[[stage]]\nkind = \"motion\"\nduration = 1.0\n"
+               "pulse = { kind = \"sine\", axis = \"x\", amplitude = 6.0, frequency = 2.0 }\n");
+  run_whole(folder, "c.toml", "run");
+  const nlohmann::json damage = summary(folder / "run")["damage"];
+  const History history = History::load(folder / "run/history.h5");
+  double most = 0.0;
+  for (const auto& [name, entry] : damage.items()) {
+    const std::string channel = "damage/" + name + "/broken_share";
+    ASSERT_EQ(history.has(channel), entry["bonded"].get<bool>()) << name;
+    if (!history.has(channel)) continue;
+    const std::vector<double>& share = history.values(channel);
+    EXPECT_EQ(share.front(), 0.0) << name;
+    EXPECT_TRUE(std::ranges::is_sorted(share)) << name;  // a bond does not come back
+    EXPECT_NEAR(share.back(), entry["broken_share"].get<double>(), 1e-12) << name;
+    most = std::max(most, share.back());
+  }
+  EXPECT_GT(most, 0.0);
 }
 
 TEST(Report, IsMadeFromARunsFilesAlone) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/step/damage.h"
 #include "solver/step/make_snapshot.h"
 
 namespace voussoir {
@@ -75,6 +76,8 @@ std::vector<Channel> history_channels(const Assembly& assembly, const std::vecto
   for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/acceleration_{}", axis), "m/s2"});
   channels.push_back({"contacts", "-"});
   for (const DemandPoint& point : demand_points(assembly)) channels.push_back({demand_channel(point), "m"});
+  for (const Component component : bonded_components(assembly))
+    channels.push_back({fmt::format("damage/{}/broken_share", component_names()[std::size_t(component)]), "-"});
   for (const Sensor& sensor : assembly.sensors) {
     channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
     channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
@@ -94,6 +97,9 @@ std::vector<double> history_row(const Simulation& run, const Sample& s) {
   for (int c = 0; c < 3; ++c) row.push_back(s.base_acceleration[c]);
   row.push_back(double(s.contacts));
   for (const DemandPoint& point : demand_points(run.assembly())) row.push_back(group_displacement(run, point));
+  const std::vector<double> broken =
+      broken_shares(run.assembly(), run.model(), run.state(), bonded_components(run.assembly()));
+  row.insert(row.end(), broken.begin(), broken.end());
   for (const Sensor& sensor : run.assembly().sensors) {
     const Vec3 u = relative_displacement(run.model(), run.state(), sensor.block, sensor.position);
     row.push_back(sensor.direction.dot(u));

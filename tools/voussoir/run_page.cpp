@@ -214,6 +214,11 @@ std::string histories_section(const RunFiles& run) {
     if (channel.path.starts_with("sensors/") && channel.path.ends_with("/displacement"))
       text += channels_chart(run, "Sensor " + channel.path.substr(8, channel.path.size() - 21), "displacement (mm)",
                              {{channel.path, ""}}, 1e3);
+  std::vector<std::pair<std::string, std::string>> damage;
+  for (const Channel& channel : run.history.channels())
+    if (channel.path.starts_with("damage/"))
+      damage.emplace_back(channel.path, channel.path.substr(7, channel.path.rfind('/') - 7));
+  text += channels_chart(run, "Lost bond by component", "share of the bonded joint area (%)", damage, 100.0);
   text += channels_chart(run, "Energy since the start", "energy (kJ)",
                          {{"energy/kinetic", "kinetic"},
                           {"energy/elastic", "elastic"},
