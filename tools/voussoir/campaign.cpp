@@ -114,7 +114,7 @@ const Engine& engine_named(const std::string& name) {
   throw InputError("--engine is '{}'{}", name, suggestion(name, names));
 }
 
-/// The progress line with what is left of the time, judged by the runs of this session.
+/// The progress line with what is left of the time, judged by the runs since it was started.
 class Watch {
  public:
   Watch(std::size_t todo, bool quiet) : todo_(todo), quiet_(quiet), line_(quiet) {}
