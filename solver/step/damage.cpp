@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t most_components = 32;
 
-bool has_bond(const LawConstants& law) {
-  return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
-}
-
 /// Share of a patch's area whose bond is lost.
 double broken_share(const Model& model, const State& state, std::size_t i) {
   const auto mode = state.joint.mode[i];
@@ -31,6 +27,10 @@ double broken_share(const Model& model, const State& state, std::size_t i) {
 }
 
 }  // namespace
+
+bool has_bond(const LawConstants& law) {
+  return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+}
 
 std::vector<Component> bonded_components(const Assembly& assembly) {
   std::array<bool, most_components> bonded = {};

@@ -7,6 +7,9 @@
 
 namespace voussoir {
 
+/// Whether a joint of this law begins with a bond that it can lose; elastic ones count, though they never do.
+bool has_bond(const LawConstants& law);
+
 /// Components with joints that began with tensile strength or cohesion, in the order of the enumeration.
 std::vector<Component> bonded_components(const Assembly& assembly);
 

@@ -5,6 +5,7 @@
 #include "solver/contact/jump.h"
 #include "solver/contact/make_contact.h"
 #include "solver/fill/tet_stress.h"
+#include "solver/step/damage.h"
 
 namespace voussoir {
 
@@ -84,8 +85,7 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
   s.normal_traction = sum.normal / sum.area;
   s.shear_traction = std::hypot(sum.s, sum.t) / sum.area;
   s.bonded = sum.bonded / sum.area;
-  const LawConstants& law = model.laws[p.law];
-  s.had_bond = law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+  s.had_bond = has_bond(model.laws[p.law]);
   return s;
 }
 

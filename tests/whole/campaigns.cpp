@@ -119,7 +119,7 @@ void expect_whole_campaign(const std::string& directory) {
   EXPECT_GE(collapsed, 1);
   EXPECT_EQ(table.at("column__touch-pwned-touch-pwned-touch-pwned__x1__s1").at("status"), "collapsed");
   EXPECT_EQ(table.at("column__rf-j-line__x0.1__s1").at("status"), "done");
-  EXPECT_EQ(table.at("column__rf-j-line__x0.1__s1").at("record"), "../-rf \\ %j\nline");
+  EXPECT_EQ(table.at("column__rf-j-line__x0.1__s1").at("record"), "../-rf \\ %j line");
 }
 
 std::string write_long_campaign(const Folder& folder, int records, const std::string& engine) {

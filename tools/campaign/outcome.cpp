@@ -41,10 +41,6 @@ std::string tidy(std::string text, const std::string& directory) {
 
 }  // namespace
 
-const char* status_name(Status status) {
-  return names[std::size_t(status)];
-}
-
 Outcome read_outcome(const std::string& directory, const PlannedRun& run) {
   Outcome outcome;
   std::error_code ignored;
@@ -69,7 +65,7 @@ void write_outcome(const std::string& directory, const PlannedRun& run, Outcome 
                   {"format_version", 1},
                   {"program_version", VOUSSOIR_VERSION},
                   {"hash", hash_of(run)},
-                  {"status", status_name(outcome.status)},
+                  {"status", run_status_name(outcome.status)},
                   {"reason", tidy(outcome.reason, directory)},
                   {"seconds", outcome.seconds},
                   {"goes_on", outcome.goes_on}};

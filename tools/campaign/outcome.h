@@ -2,16 +2,11 @@
 // run has not ended.
 #pragma once
 #include "tools/campaign/plan.h"
+#include "tools/campaign/table.h"
 
 namespace voussoir::campaign {
 
-enum class Status {
-  done,
-  collapsed,  // ended because the bridge fell
-  failed,     // its reason is kept
-  missing     // not begun, or not ended
-};
-const char* status_name(Status status);
+using Status = RunStatus;
 
 struct Outcome {
   Status status = Status::missing;

@@ -20,8 +20,6 @@ namespace {
 
 constexpr std::array<const char*, 4> status_names = {"done", "collapsed", "failed", "missing"};
 constexpr std::array<const char*, 4> prefixes = {"material.", "im.", "edp.", "damage."};
-const std::vector<std::string> fixed_columns = {"run",    "case",   "record", "event",  "scale",
-                                                "sample", "status", "reason", "seconds"};
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 bool is_number_column(const std::string& name) {
@@ -32,10 +30,11 @@ bool is_number_column(const std::string& name) {
 void check_columns(const CsvReader& reader) {
   const std::vector<std::string>& columns = reader.columns();
   for (const std::string& name : columns)
-    if (!is_number_column(name) && std::find(fixed_columns.begin(), fixed_columns.end(), name) == fixed_columns.end())
+    if (!is_number_column(name) &&
+        std::find(fixed_columns().begin(), fixed_columns().end(), name) == fixed_columns().end())
       reader.fail(reader.heading_row(),
                   fmt::format("unknown column '{}'{}; columns of numbers are called im.NAME, edp.NAME, damage.NAME",
-                              shown(name), short_suggestion(name, fixed_columns)));
+                              shown(name), short_suggestion(name, fixed_columns())));
   for (const char* name : {"run", "case", "record", "status"})
     if (std::find(columns.begin(), columns.end(), name) == columns.end())
       reader.fail(reader.heading_row(),
@@ -101,6 +100,12 @@ std::string number_cell(double value) {
 
 }  // namespace
 
+const std::vector<std::string>& fixed_columns() {
+  static const std::vector<std::string> names = {"run",    "case",   "record", "event",  "scale",
+                                                 "sample", "status", "reason", "seconds"};
+  return names;
+}
+
 const char* run_status_name(RunStatus status) {
   return status_names[std::size_t(status)];
 }
@@ -156,7 +161,7 @@ CampaignTable read_table(const std::string& path) {
 }
 
 std::string table_text(const CampaignTable& table) {
-  std::string text = fmt::format("{}", fmt::join(fixed_columns, ","));
+  std::string text = fmt::format("{}", fmt::join(fixed_columns(), ","));
   for (const NumberColumn& c : table.columns) text += fmt::format(",{}", text_cell(c.name));
   text += "\n";
   for (std::size_t i = 0; i < table.runs.size(); ++i) {

@@ -22,6 +22,8 @@ enum class RunStatus {
   missing     // not run yet
 };
 const char* run_status_name(RunStatus status);
+/// run, case, … seconds: those that every table has, in their order.
+const std::vector<std::string>& fixed_columns();
 
 struct CampaignRun {
   std::string run, case_name, record, event, sample, reason;

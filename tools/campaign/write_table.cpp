@@ -61,133 +61,115 @@ int rank(const std::string& column) {
   return i;
 }
 
-std::string unit_of(const std::string& column) {
-  return column.ends_with(".broken_share") ? "1" : "m";
-}
-
 Numbers numbers_in(const std::string& folder) {
   std::error_code ignored;
   const std::string file = folder + "/summary.json";
   return fs::exists(file, ignored) ? numbers_of(json::parse(read_text(file), nullptr, false)) : Numbers{};
 }
 
-void add_plan(const Plan& plan, Table& table) {
+void add_plan(const Plan& plan, CampaignTable& table) {
   for (std::size_t k = 0; k < plan.keys.size(); ++k) {
-    ValueColumn column{"material." + plan.keys[k], "", {}};
-    for (const PlannedRun& run : plan.runs) column.cells.push_back(run.values[k]);
-    table.values.push_back(column);
+    NumberColumn column{"material." + plan.keys[k], {}};
+    for (const PlannedRun& run : plan.runs) column.values.push_back(run.values[k]);
+    table.columns.push_back(column);
   }
   const std::vector<Measure> list = measures(plan.periods);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    ValueColumn column{"im." + list[i].name, list[i].unit, {}};
+    NumberColumn column{"im." + list[i].name, {}};
     for (const PlannedRun& run : plan.runs)
-      column.cells.push_back(plan.records[run.record].measures[i] * std::pow(run.scale, double(list[i].power)));
-    table.values.push_back(column);
+      column.values.push_back(plan.records[run.record].measures[i] * std::pow(run.scale, double(list[i].power)));
+    table.columns.push_back(column);
   }
 }
 
-void add_results(const std::vector<Numbers>& results, Table& table) {
+void add_results(const std::vector<Numbers>& results, CampaignTable& table) {
   std::set<std::pair<int, std::string>> names;
   for (const Numbers& numbers : results)
     for (const auto& [name, value] : numbers) names.insert({rank(name), name});
   for (const auto& [place, name] : names) {
-    ValueColumn column{name, unit_of(name), {}};
+    NumberColumn column{name, {}};
     for (const Numbers& numbers : results) {
       const auto found = numbers.find(name);
-      column.cells.push_back(found == numbers.end() ? none : found->second);
+      column.values.push_back(found == numbers.end() ? none : found->second);
     }
-    table.values.push_back(column);
+    table.columns.push_back(column);
   }
 }
 
-/// As RFC 4180 has it: quoted where a comma, a quote or a line break asks for it.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",;\"\r\n") == std::string::npos && !text.starts_with('#') && !text.starts_with(' ') &&
-      !text.ends_with(' '))
-    return text;
-  std::string quoted;
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return fmt::format("\"{}\"", quoted);
+/// The nine columns of every run, by name.
+void write_runs(h5::File& file, const std::vector<CampaignRun>& runs) {
+  const auto texts = [&](const char* name, const auto& of) {
+    std::vector<std::string> cells;
+    for (const CampaignRun& run : runs) cells.push_back(of(run));
+    file.write_texts(std::string("columns/") + name, cells);
+  };
+  texts("run", [](const CampaignRun& r) { return r.run; });
+  texts("case", [](const CampaignRun& r) { return r.case_name; });
+  texts("record", [](const CampaignRun& r) { return r.record; });
+  texts("event", [](const CampaignRun& r) { return r.event; });
+  texts("sample", [](const CampaignRun& r) { return r.sample; });
+  texts("status", [](const CampaignRun& r) { return std::string(run_status_name(r.status)); });
+  texts("reason", [](const CampaignRun& r) { return r.reason; });
+  std::vector<double> scales, seconds;
+  for (const CampaignRun& run : runs) scales.push_back(run.scale), seconds.push_back(run.seconds);
+  file.write("columns/scale", scales, {}, "1");
+  file.write("columns/seconds", seconds, {}, "s");
 }
 
-std::string cell(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
-}
-
-template <class List>
-auto find_column(const List& list, const std::string& name) {
-  return std::find_if(list.begin(), list.end(), [&](const auto& column) { return column.name == name; });
-}
-
-std::string cell(const Table& table, const std::string& name, std::size_t row) {
-  if (const auto text = find_column(table.texts, name); text != table.texts.end()) return cell(text->cells[row]);
-  return cell(find_column(table.values, name)->cells[row]);
-}
-
-void write_h5(const Table& table, const std::string& path) {
+void write_h5(const Plan& plan, const CampaignTable& table, const std::string& path) {
   h5::File file = h5::File::create(path);
   file.set_text("/", "format", "voussoir-campaign-table");
   file.set_integer("/", "format_version", 1);
   file.set_text("/", "units", "SI");
   file.set_text("/", "program_version", VOUSSOIR_VERSION);
-  file.set_texts("/", "columns", table.order);
-  const auto place = [](std::string name) {
+  std::vector<std::string> order = fixed_columns();
+  for (const NumberColumn& column : table.columns) order.push_back(column.name);
+  file.set_texts("/", "columns", order);
+  write_runs(file, table.runs);
+  for (const NumberColumn& column : table.columns) {
+    std::string name = column.name;
     std::ranges::replace(name, '/', ':');  // which would be a group
-    return "columns/" + name;
-  };
-  for (const TextColumn& column : table.texts) file.write_texts(place(column.name), column.cells);
-  for (const ValueColumn& column : table.values) file.write(place(column.name), column.cells, {}, column.unit);
+    file.write("columns/" + name, column.values, {}, unit_of(plan, column.name));
+  }
   file.save();
 }
 
 }  // namespace
 
-Table gather(const Plan& plan, const std::string& directory) {
-  Table table;
-  for (const char* name : {"run", "case", "record", "event", "sample", "status", "reason"})
-    table.texts.push_back({name, {}});
-  ValueColumn scale{"scale", "1", {}}, seconds{"seconds", "s", {}};
+std::string unit_of(const Plan& plan, const std::string& column) {
+  for (const Measure& measure : measures(plan.periods))
+    if (column == "im." + measure.name) return measure.unit;
+  if (column.starts_with("material.")) return "";
+  return column.ends_with(".broken_share") ? "1" : "m";
+}
+
+CampaignTable gather(const Plan& plan, const std::string& directory) {
+  CampaignTable table;
   std::vector<Numbers> results;
-  for (const PlannedRun& run : plan.runs) {
-    const Outcome outcome = read_outcome(directory, run);
-    const PlannedRecord& record = plan.records[run.record];
-    const std::string cells[] = {run.id,
-                                 plan.cases[run.case_number].name,
-                                 record.name,
-                                 record.event,
-                                 run.sample > 0 ? std::to_string(run.sample) : "",
-                                 status_name(outcome.status),
-                                 outcome.reason};
-    for (std::size_t i = 0; i < table.texts.size(); ++i) table.texts[i].cells.push_back(cells[i]);
-    scale.cells.push_back(run.scale);
+  for (const PlannedRun& planned : plan.runs) {
+    const Outcome outcome = read_outcome(directory, planned);
+    const PlannedRecord& record = plan.records[planned.record];
+    CampaignRun run;
+    run.run = planned.id;
+    run.case_name = plan.cases[planned.case_number].name;
+    run.record = record.name, run.event = record.event;
+    run.sample = planned.sample > 0 ? std::to_string(planned.sample) : "";
+    run.reason = outcome.reason, run.status = outcome.status;
+    run.scale = planned.scale;
+    run.seconds = outcome.status == Status::missing ? none : outcome.seconds;
     const bool ended = outcome.status == Status::done || outcome.status == Status::collapsed;
-    seconds.cells.push_back(outcome.status == Status::missing ? none : outcome.seconds);
-    results.push_back(ended ? numbers_in(folder_of(directory, run)) : Numbers{});
+    results.push_back(ended ? numbers_in(folder_of(directory, planned)) : Numbers{});
+    table.runs.push_back(run);
   }
-  table.values = {scale, seconds};
   add_plan(plan, table);
   add_results(results, table);
-  table.order = {"run", "case", "record", "event", "scale", "sample", "status", "reason", "seconds"};
-  for (std::size_t i = 2; i < table.values.size(); ++i) table.order.push_back(table.values[i].name);
   return table;
 }
 
-std::string csv_of(const Table& table) {
-  const auto line = [&](const auto& cell_of) {
-    std::vector<std::string> cells;
-    for (const std::string& name : table.order) cells.push_back(cell_of(name));
-    return fmt::format("{}\n", fmt::join(cells, ","));
-  };
-  std::string text = line([](const std::string& name) { return cell(name); });
-  for (std::size_t row = 0; row < table.texts.front().cells.size(); ++row)
-    text += line([&](const std::string& name) { return cell(table, name, row); });
-  return text;
-}
-
 void write_table(const Plan& plan, const std::string& directory) {
-  const Table table = gather(plan, directory);
-  write_atomically(directory + "/table.csv", csv_of(table));
-  write_h5(table, directory + "/table.h5");
+  const CampaignTable table = gather(plan, directory);
+  voussoir::write_table(directory + "/table.csv", table);
+  write_h5(plan, table, directory + "/table.h5");
 }
 
 }  // namespace voussoir::campaign

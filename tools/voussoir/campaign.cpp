@@ -75,7 +75,7 @@ void print_plan(const Plan& plan) {
 void print_status(const Plan& plan, const std::string& directory) {
   for (const PlannedRun& run : plan.runs) {
     const Outcome o = read_outcome(directory, run);
-    fmt::print("{:<10} {}{}{}\n", status_name(o.status), run.id, o.reason.empty() ? "" : ": ", o.reason);
+    fmt::print("{:<10} {}{}{}\n", run_status_name(o.status), run.id, o.reason.empty() ? "" : ": ", o.reason);
   }
   fmt::print("{}\n", counts_text(tally(directory, plan)));
 }
@@ -170,10 +170,12 @@ int finish(const Plan& plan, const Request& wanted, WorkEnd end) {
   const Tally t = tally(directory, plan);
   if (!wanted.quiet) fmt::print(stderr, "{}; table in {}/table.csv and table.h5\n", counts_text(t), directory);
   list_failures(plan, directory);
-  if (t.done + t.collapsed > 0) {
-    write_campaign_page(directory);
-    if (!wanted.quiet) fmt::print(stderr, "page in {}/report.html\n", directory);
-  }
+  if (t.done + t.collapsed > 0) try {
+      write_campaign_page(directory);
+      if (!wanted.quiet) fmt::print(stderr, "page in {}/report.html\n", directory);
+    } catch (const std::exception& error) {  // the table is there
+      fmt::print(stderr, "no page: {}\n", error.what());
+    }
   if (end == WorkEnd::left) return 0;
   if (end == WorkEnd::stopped || t.missing > 0)
     fmt::print(stderr, "{} runs have not ended; go on with: voussoir campaign {}\n", t.missing, for_shell(directory));

@@ -262,8 +262,12 @@ void RunSession::draw_pictures() {
   const std::string missing = make_pictures(request_.directory, case_, *simulation_,
                                             make_snapshot(simulation_->model(), simulation_->state()), history_);
   log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
-  write_run_page(request_.directory);
-  log(fmt::format("page in {}", path("report.html")));
+  try {
+    write_run_page(request_.directory);
+    log(fmt::format("page in {}", path("report.html")));
+  } catch (const std::exception& error) {  // nor because of its page
+    log(fmt::format("no page: {}", error.what()));
+  }
 }
 
 int RunSession::run() {
