@@ -38,9 +38,9 @@ Function* look_up(const char* name) {
 
 }  // namespace
 
-MeshedFill mesh_fill(const FillSpace& space, const FillMeshing& meshing) {
-  MeshedFill out;
-  look_up<void(const FillSpace&, const FillMeshing&, MeshedFill&)>("voussoir_mesh_fill")(space, meshing, out);
+FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing) {
+  FillMesh out;
+  look_up<void(const FillSpace&, const FillMeshing&, FillMesh&)>("voussoir_mesh_fill")(space, meshing, out);
   return out;
 }
 

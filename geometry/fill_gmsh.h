@@ -15,26 +15,17 @@ struct FillSpace {
   std::vector<Ring> rings;
 };
 
-/// How the space is meshed. The defaults are what gave the largest smallest height: docs/theory/geometry.md.
+/// How the space is meshed. The defaults are what gave the fewest tetrahedra: docs/theory/geometry.md.
 struct FillMeshing {
   double edge = 0.5;          // m, bound of the longest edge
-  double layer_share = 0.55;  // of the bound: thickness of a layer, at most; the section gets what it leaves
-  double first_share = 0.90;  // of the section's bound: size that Gmsh is asked for in the first round
-  int rounds = 12;            // at most; each asks for a smaller size than the last
-  int algorithm = 6;          // Gmsh's Mesh.Algorithm: 5 Delaunay, 6 frontal-Delaunay
-  int smoothing = 10;         // steps of Gmsh's smoother
+  double layer_share = 0.65;  // of the bound: thickness of a layer, at most; the section gets what it leaves
+  double rim_share = 0.85;    // of the section's bound: size that Gmsh is asked for between the lattice and the rim
 };
 
-struct MeshedFill {
-  FillMesh mesh;         // oriented, with its surface; every tetrahedron of material 0
-  int rounds = 0;        // that were needed, or all when the bound was not reached
-  double size = 0.0;     // m, asked for in the last
-  double longest = 0.0;  // m, edge: above the bound when that was not reached
-};
-
-/// Meshes the section of the space with triangles and sweeps them across: the same bits for the same input. Throws
-/// RunError when Gmsh fails.
-MeshedFill mesh_fill(const FillSpace& space, const FillMeshing& meshing = {});
+/// Meshes the section of the space with triangles and sweeps them across: oriented, with its surface, every tetrahedron
+/// of material 0; the same bits for the same input. Where the bound of the edges cannot be kept they are as long as
+/// fill_quality() says. Throws RunError when Gmsh fails.
+FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing = {});
 
 /// Reads the 4-node tetrahedra of a Gmsh file (.msh, version 2.2 or 4.1) with `scale` m per unit; points, lines and
 /// surfaces are passed over. Nodes in the order of the file, oriented, with the surface; every tetrahedron of material

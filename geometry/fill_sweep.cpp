@@ -19,21 +19,26 @@ struct Layers {
 };
 
 std::vector<double> ends_of(const FillSection& section) {
-  std::vector<double> ends, distinct;
+  std::vector<double> ends;
   for (const auto& triangle : section.triangles) {
     ends.push_back(triangle.y0);
     ends.push_back(triangle.y1);
   }
-  std::sort(ends.begin(), ends.end());
-  for (const double y : ends) {
-    if (distinct.empty() || y - distinct.back() > kSame) distinct.push_back(y);
-  }
-  return distinct;
+  return ends;
 }
 
-Layers layers_of(const FillSection& section, double thickness) {
+std::vector<double> distinct(std::vector<double> ends) {
+  std::vector<double> out;
+  std::sort(ends.begin(), ends.end());
+  for (const double y : ends) {
+    if (out.empty() || y - out.back() > kSame) out.push_back(y);
+  }
+  return out;
+}
+
+Layers layers_of(const std::vector<double>& all_ends, double thickness) {
   Layers layers;
-  const std::vector<double> ends = ends_of(section);
+  const std::vector<double> ends = distinct(all_ends);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double from = ends[i], to = ends[i + 1];
     int n = std::max(1, int(std::ceil((to - from) / thickness - 1e-9)));
@@ -86,20 +91,15 @@ std::pair<std::size_t, std::size_t> levels(const Layers& layers, const FillSecti
 
 }  // namespace
 
-double longest_edge(const FillSection& section) {
-  double longest = 0.0;
-  for (const auto& triangle : section.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 &p = section.nodes[std::size_t(triangle.nodes[i])],
-                 &q = section.nodes[std::size_t(triangle.nodes[(i + 1) % 3])];
-      longest = std::max(longest, (q - p).norm());
-    }
-  }
-  return longest;
+double thickest_layer(const std::vector<double>& ends, double layer) {
+  const std::vector<double> y = layers_of(ends, layer).y;
+  double thickest = 0.0;
+  for (std::size_t k = 0; k + 1 < y.size(); ++k) thickest = std::max(thickest, y[k + 1] - y[k]);
+  return thickest;
 }
 
 FillMesh sweep(const FillSection& section, double layer) {
-  const Layers layers = layers_of(section, layer);
+  const Layers layers = layers_of(ends_of(section), layer);
   Nodes nodes(section, layers);
   for (const auto& triangle : section.triangles) {
     const auto [first, last] = levels(layers, triangle);

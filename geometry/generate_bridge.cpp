@@ -173,7 +173,7 @@ void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const 
   space.rings = vault_rings(bridge);
   FillMeshing meshing;
   meshing.edge = bridge.fill_edge;
-  assembly.fill = mesh_fill(space, meshing).mesh;
+  assembly.fill = mesh_fill(space, meshing);
   assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
   check_fill(assembly.fill, "the mesh of the fill");
   check_volume(assembly.fill, fill_space(bridge));

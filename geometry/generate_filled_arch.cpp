@@ -129,7 +129,7 @@ void add_fill(Assembly& assembly, const Strip& s, const Material& soil, const Ge
   space.rings = {s.ring};
   FillMeshing meshing;
   meshing.edge = s.edge;
-  assembly.fill = mesh_fill(space, meshing).mesh;
+  assembly.fill = mesh_fill(space, meshing);
   assembly.fill.material.assign(assembly.fill.tets.size(), backfill);
   check_fill(assembly.fill, "the mesh of the fill");
   check_volume(assembly.fill, 2.0 * s.half * section_area(s));

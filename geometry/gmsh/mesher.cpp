@@ -206,14 +206,56 @@ FillMesh take_mesh(double scale) {
   return mesh;
 }
 
-void ask_for(const FillMeshing& meshing, double size) {
+std::vector<Side> outline_of(const std::pair<int, int>& face) {
+  DimTags curves;
+  gmsh::model::getBoundary({face}, curves, false, false);
+  std::vector<Side> outline;
+  for (const auto& curve : curves) {
+    DimTags ends;
+    gmsh::model::getBoundary({curve}, ends, false, false);
+    Side side;
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::vector<double> x;
+      gmsh::model::getValue(0, ends.at(i).second, {}, x);
+      side[i] = Vec3(x.at(0), 0.0, x.at(1));
+    }
+    outline.push_back(side);
+  }
+  return outline;
+}
+
+/// Puts nodes of equal triangles into the faces.
+void add_lattice(const std::vector<Part>& parts, double edge) {
+  std::vector<std::pair<int, std::vector<int>>> points;  // of each face
+  for (const Part& part : parts) {
+    for (const auto& face : part.faces) {
+      std::vector<int>& own = points.emplace_back(face.second, std::vector<int>{}).second;
+      for (const Vec3& p : lattice_inside(outline_of(face), edge))
+        own.push_back(gmsh::model::occ::addPoint(p.x(), p.z(), 0.0));
+    }
+  }
+  gmsh::model::occ::synchronize();
+  for (const auto& [face, own] : points) gmsh::model::mesh::embed(0, own, 2, face);
+}
+
+/// Divides every line of the section into as few equal edges as keep the bound.
+void divide_lines(double bound) {
+  DimTags curves;
+  gmsh::model::getEntities(curves, 1);
+  for (const auto& [dimension, curve] : curves) {
+    double length = 0.0;
+    gmsh::model::occ::getMass(dimension, curve, length);
+    gmsh::model::mesh::setTransfiniteCurve(curve, std::max(1, int(std::ceil(length / bound - 1e-9))) + 1);
+  }
+}
+
+void ask_for(double size) {
   GmshLibrary::set("Mesh.MeshSizeMin", size);
   GmshLibrary::set("Mesh.MeshSizeMax", size);
   GmshLibrary::set("Mesh.MeshSizeFromPoints", 0);
   GmshLibrary::set("Mesh.MeshSizeFromCurvature", 0);
   GmshLibrary::set("Mesh.MeshSizeExtendFromBoundary", 0);
-  GmshLibrary::set("Mesh.Algorithm", meshing.algorithm);
-  GmshLibrary::set("Mesh.Smoothing", meshing.smoothing);
+  GmshLibrary::set("Mesh.Algorithm", 6);  // frontal-Delaunay
 }
 
 /// Whether the text at the beginning of the file is that of a Gmsh mesh. Anything else Gmsh might take for a script.
@@ -257,31 +299,23 @@ void check_elements(const std::string& path) {
   }
 }
 
-MeshedFill mesh(const FillSpace& space, const FillMeshing& meshing) {
-  const double layer = meshing.layer_share * meshing.edge;
-  const double bound = std::sqrt(meshing.edge * meshing.edge - layer * layer);
-  MeshedFill out;
+FillMesh mesh(const FillSpace& space, const FillMeshing& meshing) {
+  std::vector<double> ends;
+  for (const Box& box : space.boxes) ends.push_back(box.low.y()), ends.push_back(box.high.y());
+  const double layer = meshing.layer_share * meshing.edge, thickest = thickest_layer(ends, layer);
+  const double bound = std::sqrt(meshing.edge * meshing.edge - thickest * thickest);
   FillSection section;
   with_gmsh<RunError>("the fill could not be meshed by Gmsh",
                       "try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
                         const std::vector<Part> parts = add_section(space);
-                        for (out.size = meshing.first_share * bound;;) {
-                          ++out.rounds;
-                          gmsh::model::mesh::clear();
-                          ask_for(meshing, out.size);
-                          gmsh::model::mesh::generate(2);
-                          section = take_section(parts);
-                          const double longest = longest_edge(section);
-                          if (longest <= bound || out.rounds == meshing.rounds) break;
-                          out.size *= 0.97;
-                        }
+                        add_lattice(parts, bound);
+                        divide_lines(bound);
+                        ask_for(meshing.rim_share * bound);
+                        gmsh::model::mesh::generate(2);
+                        section = take_section(parts);
                       });
-  // What the section leaves of the bound, the layers take.
-  const double longest = longest_edge(section);
-  const double rest = std::sqrt(std::max(meshing.edge * meshing.edge - longest * longest, 0.0));
-  out.mesh = sweep(section, std::max(rest, layer));
-  out.longest = fill_quality(out.mesh).longest_edge;
-  return out;
+  shorten_edges(section, (1.0 + 1e-12) * bound);
+  return sweep(section, layer);
 }
 
 FillMesh read(const std::string& path, double scale) {
@@ -303,8 +337,7 @@ FillMesh read(const std::string& path, double scale) {
 // What the program looks up: all else is hidden, Eigen above all, which Gmsh has too, compiled otherwise.
 extern "C" {
 [[gnu::visibility("default")]] void voussoir_mesh_fill(const voussoir::FillSpace& space,
-                                                       const voussoir::FillMeshing& meshing,
-                                                       voussoir::MeshedFill& out) {
+                                                       const voussoir::FillMeshing& meshing, voussoir::FillMesh& out) {
   out = voussoir::mesh(space, meshing);
 }
 [[gnu::visibility("default")]] void voussoir_read_gmsh(const std::string& path, double scale, voussoir::FillMesh& out) {
