@@ -156,6 +156,7 @@ class Search {
   /// Outline, points and place of a patch whose axes are these now.
   void set_outline(const Polygon& polygon, const Mat3& axes, const Vec3& centroid, InterfacePatch& patch) const {
     PatchShape shape = patch_shape(polygon, axes.col(0), model_.contact.points_per_side);
+    shape.points = moment_points(shape);
     turn_into(axes, shape);
     const Vec3 arm = rotation_of(state_, std::size_t(patch.body)).conjugate() * (shape.centroid - centroid);
     for (int c = 0; c < 3; ++c) patch.arm[c] = arm[c];

@@ -29,40 +29,6 @@ namespace {
   return local_jump(move_a, move_b, load(batch.place), Triple<Lanes>{zero, zero, zero}, relative, norm, frame);
 }
 
-[[gnu::always_inline]] inline LaneStrength strength_of(const LawConstants& law) {
-  const bool elastic = law.kind == JointLaw::Kind::elastic;
-  LaneStrength s;
-  s.tension = splat(elastic ? 1e300 : law.tension);
-  s.cohesion = splat(elastic ? 1e300 : law.cohesion);
-  s.tangent = splat(elastic ? 0.0 : law.tan_friction);
-  s.residual_cohesion = splat(law.residual_cohesion);
-  s.residual_tangent = splat(law.residual_tan_friction);
-  s.dilation = splat(law.tan_dilation);
-  s.brittle = LaneMask::first(law.kind == JointLaw::Kind::brittle ? lane_count : 0);
-  s.tie = LaneMask::first(law.kind == JointLaw::Kind::tie ? lane_count : 0);
-  return s;
-}
-
-[[gnu::noinline]] LaneStrength mixed_strengths(const Model& model, const JointBatch& batch) {
-  LaneStrength s = strength_of(model.laws[std::size_t(batch.law_of[0])]);
-  for (int lane = 1; lane < lane_count; ++lane) {
-    if (batch.law_of[lane] == batch.law_of[lane - 1]) continue;  // laws come in runs: take this one to the end
-    const LaneMask only = ~LaneMask::first(lane);
-    const LaneStrength one = strength_of(model.laws[std::size_t(batch.law_of[lane])]);
-    const auto take = [&](Lanes& to, Lanes from) { to = select(only, from, to); };
-    take(s.tension, one.tension), take(s.cohesion, one.cohesion), take(s.tangent, one.tangent);
-    take(s.residual_cohesion, one.residual_cohesion), take(s.residual_tangent, one.residual_tangent);
-    take(s.dilation, one.dilation);
-    s.brittle = without(s.brittle, only) | (one.brittle & only);
-    s.tie = without(s.tie, only) | (one.tie & only);
-  }
-  return s;
-}
-
-[[gnu::always_inline]] inline LaneStrength strengths(const Model& model, const JointBatch& batch) {
-  return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)]) : mixed_strengths(model, batch);
-}
-
 /// The elastic generalised jump of the intact path.
 struct LaneElastic {
   Lanes u[6];  // n, s, t, θn, θs, θt

@@ -36,7 +36,7 @@ struct PatchPass {
   double* sums = nullptr;                // wrench_width × the sums of Model::tiles
   double* contact_wrenches = nullptr;    // wrench_width × slots of contacts
   double* interface_wrenches = nullptr;  // wrench_width × slots of the interface
-  double* interface_forces = nullptr;    // 3 × node_width × slots of the interface: on the corners of its triangles
+  double* interface_forces = nullptr;    // node_width × Interface::sum_count(): on the nodes of the fill
   double* wrenches = nullptr;            // wrench_width × joints, or not wanted
   bool shortcut = true;                  // false: every patch point by point, for verification
   TileEnergy* energies = nullptr;        // of each tile, or not wanted

@@ -29,7 +29,7 @@ InterfacePatch make_patch(const Assembly& assembly, const FillJoint& joint, cons
     patch.node[k] = model.fill.node_of[std::size_t(assembly.fill.triangles[std::size_t(joint.triangle)][k])];
     store(patch.rest[k], shape.frame.transpose() * (model.fill.nodes[std::size_t(patch.node[k])] - shape.centroid));
   }
-  patch.points = shape.points, patch.corners = shape.corners;
+  patch.points = moment_points(shape), patch.corners = shape.corners;
   return patch;
 }
 
@@ -78,6 +78,42 @@ void index_nodes(std::size_t nodes, Interface& interface) {
   interface.of_node.resize(std::size_t(interface.first_of_node.back()));
   std::vector<std::int32_t> next(interface.first_of_node.begin(), interface.first_of_node.end() - 1);
   each([&](std::size_t node, std::int32_t entry) { interface.of_node[std::size_t(next[node]++)] = entry; });
+}
+
+/// The nodes that the batches from `first` to `end` touch, each once and in order.
+std::vector<std::int32_t> nodes_of(const Interface& interface, std::int32_t first, std::int32_t end) {
+  std::vector<std::int32_t> nodes;
+  for (auto k = std::size_t(first); k < std::size_t(end); ++k)
+    for (const auto& corner : interface.batches[k].node) nodes.insert(nodes.end(), corner, corner + lane_count);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// Gives every tile of bodies a sum for each node it touches.
+void place_sums(std::size_t nodes, Interface& interface) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> sums;  // node, sum
+  interface.first_sum.assign(1, 0);
+  for (std::size_t tile = 0; tile + 1 < interface.first_batch.size(); ++tile) {
+    const std::int32_t first = interface.first_batch[tile], end = interface.first_batch[tile + 1];
+    const std::vector<std::int32_t> touched = nodes_of(interface, first, end);
+    for (auto k = std::size_t(first); k < std::size_t(end); ++k)
+      for (int i = 0; i < 3; ++i)
+        for (int lane = 0; lane < lane_count; ++lane) {
+          const auto at = std::lower_bound(touched.begin(), touched.end(), interface.batches[k].node[i][lane]);
+          interface.batches[k].sum[i][lane] = interface.first_sum.back() + std::int32_t(at - touched.begin());
+        }
+    for (const std::int32_t node : touched) sums.emplace_back(node, std::int32_t(sums.size()));
+    interface.first_sum.push_back(std::int32_t(sums.size()));
+  }
+  std::sort(sums.begin(), sums.end());
+  interface.first_sum_of_node.assign(nodes + 1, 0), interface.sum_of_node.clear();
+  for (const auto& [node, sum] : sums) {
+    ++interface.first_sum_of_node[std::size_t(node) + 1];
+    interface.sum_of_node.push_back(sum);
+  }
+  std::partial_sum(interface.first_sum_of_node.begin(), interface.first_sum_of_node.end(),
+                   interface.first_sum_of_node.begin());
 }
 
 }  // namespace
@@ -147,15 +183,31 @@ std::vector<InterfacePatch> unflatten(const Array<double>& rows, const Array<dou
   return patches;
 }
 
-Interface make_interface(std::vector<InterfacePatch> patches, const Model& model) {
-  Interface interface;
+namespace {
+
+/// Tile by tile those that are computed alike side by side.
+std::vector<InterfacePatch> sorted(std::vector<InterfacePatch> patches) {
   const auto key = [](const InterfacePatch& p) {
     int facing = 0;
     const Eigen::Quaterniond q(p.frame[0], p.frame[1], p.frame[2], p.frame[3]);
     (q * Vec3::UnitX()).cwiseAbs().maxCoeff(&facing);
     return std::tuple(tile_of(p.body), p.points.size(), p.law, facing, p.body, p.cell, p.face, p.triangle);
   };
-  std::sort(patches.begin(), patches.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
+  std::vector<std::pair<decltype(key(patches[0])), std::size_t>> order;
+  order.reserve(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i) order.emplace_back(key(patches[i]), i);
+  std::sort(order.begin(), order.end());
+  std::vector<InterfacePatch> out;
+  out.reserve(patches.size());
+  for (const auto& [of, i] : order) out.push_back(std::move(patches[i]));
+  return out;
+}
+
+}  // namespace
+
+Interface make_interface(std::vector<InterfacePatch> patches, const Model& model) {
+  Interface interface;
+  patches = sorted(std::move(patches));
   interface.first_batch.assign(model.tiles.size() + 1, 0);
   for (std::size_t i = 0; i < patches.size();) {
     const InterfacePatch& head = patches[i];
@@ -182,6 +234,7 @@ Interface make_interface(std::vector<InterfacePatch> patches, const Model& model
   }
   std::partial_sum(interface.first_batch.begin(), interface.first_batch.end(), interface.first_batch.begin());
   index_nodes(model.fill.nodes.size(), interface);
+  place_sums(model.fill.nodes.size(), interface);
   return interface;
 }
 

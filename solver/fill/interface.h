@@ -19,6 +19,7 @@ struct alignas(64) InterfaceBatch {
   Lanes rest[3][3];   // as InterfacePatch
   Lanes shape[3][3];  // N_k = shape[k][0] + shape[k][1] s + shape[k][2] t
   std::int32_t node[3][lane_count];
+  std::int32_t sum[3][lane_count];  // where the tile adds up the forces on them
   std::int32_t tile = 0;
 };
 
@@ -30,7 +31,11 @@ struct Interface {
   Array<double> points;                              // s, t, weight, eight patches side by side
   std::vector<std::int32_t> first_batch;             // of each tile of bodies, and one past the end
   std::vector<std::int32_t> first_of_node, of_node;  // patches of each node: 3 × slot + corner
+  // Each tile of bodies adds up the forces of its patches on each node they touch: first sum of each tile, and one past
+  // the end; the sums of each node.
+  std::vector<std::int32_t> first_sum, first_sum_of_node, sum_of_node;
   bool empty() const { return batches.empty(); }
+  std::size_t sum_count() const { return first_sum.empty() ? 0 : std::size_t(first_sum.back()); }
   bool used(std::size_t slot) const { return patches[slot].area > 0.0; }
   /// Where point `i` of a patch keeps number `c` of `columns`.
   std::size_t point_index(std::size_t slot, std::size_t i, std::size_t columns, std::size_t c) const {

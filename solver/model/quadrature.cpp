@@ -87,6 +87,11 @@ LineRule lobatto_rule(int n) {
   throw InputError("points_per_side is {}; it must be 3, 4 or 5", n);
 }
 
+std::vector<PatchPoint> moment_points(const PatchShape& shape) {
+  const double s = std::sqrt(shape.ss / shape.area), t = std::sqrt(shape.tt / shape.area), w = 0.25 * shape.area;
+  return {{s, t, w}, {-s, t, w}, {-s, -t, w}, {s, -t, w}};
+}
+
 PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side) {
   PatchShape shape;
   Vec3 mean = Vec3::Zero();

@@ -88,7 +88,7 @@ void Stepper::prepare_contacts() {
   incidence = find_incidence(*model, *state);
   order = order_of_tiles(*model, *state);
   contact_wrenches.assign(wrench_width * (state->contacts.size() + state->interface.patches.size()), 0.0);
-  interface_forces.assign(3 * node_width * state->interface.patches.size(), 0.0);
+  interface_forces.assign(node_width * state->interface.sum_count(), 0.0);
   first_contact_batch.assign(model->tiles.size() + 1, 0);
   for (const ContactBatch& batch : state->contact_batches) ++first_contact_batch[std::size_t(batch.tile) + 1];
   std::partial_sum(first_contact_batch.begin(), first_contact_batch.end(), first_contact_batch.begin());
@@ -141,8 +141,8 @@ FillPass Stepper::fill_pass() const {
   pass.sums = fill_sums.data();
   pass.volume_sums = fill_volumes.data();
   if (!state->interface.empty()) {
-    pass.first_of_node = &state->interface.first_of_node;
-    pass.of_node = &state->interface.of_node;
+    pass.first_of_node = &state->interface.first_sum_of_node;
+    pass.of_node = &state->interface.sum_of_node;
     pass.outside = interface_forces.data();
   }
   pass.gravity = model->gravity;

@@ -29,9 +29,8 @@ Exact exact_moments(const Polygon& p) {
   return e;
 }
 
-void check(const Polygon& polygon, int per_side) {
+void check(const Polygon& polygon, const PatchShape& shape) {
   const Vec3 normal = polygon_normal(polygon);
-  const PatchShape shape = patch_shape(polygon, normal, per_side);
   const Exact exact = exact_moments(polygon);
   double size = 0.0, area = 0.0, product = 0.0, ss = 0.0, tt = 0.0;
   for (const Vec3& p : polygon) size = std::max(size, p.norm());
@@ -56,6 +55,26 @@ void check(const Polygon& polygon, int per_side) {
   EXPECT_LT((shape.frame.transpose() * shape.frame - Mat3::Identity()).norm(), 1e-14);
   EXPECT_GT(shape.frame.determinant(), 0.0);
   EXPECT_LT((shape.frame.col(0) - normal).norm(), 1e-14);
+}
+
+void check(const Polygon& polygon, int per_side) {
+  check(polygon, patch_shape(polygon, polygon_normal(polygon), per_side));
+}
+
+/// How far the four points of equal weight stay inside the polygon, m.
+double check_moment_points(const Polygon& polygon) {
+  PatchShape shape = patch_shape(polygon, polygon_normal(polygon), 3);
+  shape.points = moment_points(shape);
+  EXPECT_EQ(shape.points.size(), 4u);
+  check(polygon, shape);
+  double least = 1e300;
+  for (std::size_t i = 0; i < shape.corners.size(); ++i)
+    for (const PatchPoint& q : shape.points) {
+      const PatchPoint &a = shape.corners[i], &b = shape.corners[(i + 1) % shape.corners.size()];
+      const double twice_area = (b.s - a.s) * (q.t - a.t) - (b.t - a.t) * (q.s - a.s);
+      least = std::min(least, twice_area / std::hypot(b.s - a.s, b.t - a.t));
+    }
+  return least;
 }
 
 /// Every corner of the polygon is a corner of the shape and a point of the rule, so that a joint can hinge there.
@@ -106,6 +125,17 @@ TEST(Quadrature, IsExactOnRandomConvexPolygonsInAnyPlane) {
       for (int per_side : {3, 4, 5}) check(polygon, per_side);
       check_corners(polygon, 3);
     }
+}
+
+TEST(Quadrature, FourPointsDoForAnyConvexPolygon) {
+  EXPECT_NEAR(check_moment_points(square), 0.5 - std::sqrt(1.0 / 12), 1e-14);  // Gauss's
+  const double side = std::sqrt(0.75);
+  EXPECT_GT(check_moment_points({{0, 0, 0}, {1, 0, 0}, {0.5, side, 0}}), 0.0);
+  EXPECT_GT(check_moment_points(triangle), 0.0);
+  std::mt19937 random(12);
+  for (int corners = 3; corners <= 9; ++corners)
+    for (int repeat = 0; repeat < 200; ++repeat)
+      EXPECT_GT(check_moment_points(random_polygon(corners, random)), -1e-12);
 }
 
 TEST(Quadrature, RefusesOtherNumbersOfPoints) {
