@@ -32,7 +32,7 @@ struct FillTile {
   std::int32_t first_sum = 0, end_sum = 0;  // its nodes in order, then nodes of later tiles that its tetrahedra touch
   std::vector<std::int32_t> followers;      // those later tiles
 };
-constexpr std::int32_t tile_nodes = 64;
+constexpr std::int32_t tile_nodes = 128;
 
 struct FillModel {
   std::vector<FillLaw> laws;       // of the assembly's materials that the fill is made of

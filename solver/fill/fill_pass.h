@@ -59,7 +59,7 @@ struct FillPass {
   NodeUpdate update(std::size_t node) const;
 
  private:
-  void fetch_outside(std::size_t node) const;
+  void fetch_forces(std::size_t node) const;
 };
 
 }  // namespace voussoir

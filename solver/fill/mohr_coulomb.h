@@ -25,6 +25,14 @@ template <class T>
          at_most((2.0 / 3.0) * two_j2, below * below);
 }
 
+/// Whether a stress with these greatest and least principal values may be past the cone or the cut-off, where they are
+/// known to 1e-7 of their difference.
+template <class T>
+[[gnu::always_inline]] inline auto near_surface(const FillLaw& law, T high, T low) {
+  const T margin = 2e-7 * (high - low);
+  return less(law.strength - margin, law.major * high - law.minor * low) | less(law.tension - margin, high);
+}
+
 /// The admissible stress that a trial stress (sorted, Pa) returns to; `region`, where wanted, says which planes. What
 /// few need is computed only if some lane is left for it.
 template <class T>

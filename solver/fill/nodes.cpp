@@ -74,9 +74,12 @@ void count_losses(const FillPass& pass, std::size_t node, const NodeUpdate& next
 
 }  // namespace
 
-/// Forces from outside lie apart: those on a node to come are asked for before it is.
-void FillPass::fetch_outside(std::size_t node) const {
+/// The sums of a node lie apart, and so do forces from outside: those on a node to come are asked for before it is.
+void FillPass::fetch_forces(std::size_t node) const {
   if (node >= fill->nodes.size()) return;
+  for (std::int32_t i = fill->first_sum[node]; i < fill->first_sum[node + 1]; ++i)
+    __builtin_prefetch(sums + node_width * std::size_t(fill->sums[std::size_t(i)]));
+  if (!outside) return;
   for (std::int32_t i = (*first_of_node)[node]; i < (*first_of_node)[node + 1]; ++i)
     __builtin_prefetch(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
 }
@@ -90,7 +93,7 @@ FillReport FillPass::nodes(std::size_t tile) const {
   FillReport report;
   for (std::int32_t i = t.first_node; i < t.end_node; ++i) {
     const auto node = std::size_t(i);
-    if (outside) fetch_outside(node + 4);
+    fetch_forces(node + 4);
     const NodeUpdate next = update(node);
     if (damped || fill->held[node]) count_losses(*this, node, next, &memory->lost[4 * tile]);
     double* u = &memory->pose[node_width * node];

@@ -48,6 +48,43 @@ template <class T>
 
 }  // namespace detail
 
+/// The principal value of the deviator that is apart from both others by at least its own size: `value` of the tensor
+/// scaled by `scale` to have the roots of x³ − 3 x = 2 r, and turned over where r is below zero (Smith 1961).
+template <class T>
+struct ApartValue {
+  T value, scale, size;  // size = 1/|scale|
+  decltype(less(T{}, T{})) over;
+};
+template <class T>
+[[gnu::always_inline]] inline ApartValue<T> apart_value(const Symmetric<T>& s) {
+  const T mean = (1.0 / 3.0) * trace(s);
+  const Symmetric<T> d = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.xz, s.yz};
+  ApartValue<T> a;
+  a.size = larger(square_root((1.0 / 6.0) * inner(d, d)), all_lanes<T>(1e-100));
+  a.scale = 1.0 / a.size;
+  const T r =
+      0.5 * a.scale * a.scale * a.scale *
+      (d.xx * (d.yy * d.zz - d.yz * d.yz) - d.xy * (d.xy * d.zz - d.yz * d.xz) + d.xz * (d.xy * d.yz - d.yy * d.xz));
+  a.over = less(r, all_lanes<T>(0.0));
+  a.scale = select(a.over, -a.scale, a.scale);
+  const T most = -larger(-magnitude(r), all_lanes<T>(-1.0));
+  a.value = detail::greatest_root(most);
+  return a;
+}
+
+/// Greatest and least principal value of the deviator, without axes: to rounding, but where two are nearly equal to the
+/// root of that.
+template <class T>
+struct Extremes {
+  T high, low;
+};
+template <class T>
+[[gnu::always_inline]] inline Extremes<T> extremes(const ApartValue<T>& a) {
+  // The two other roots are −x/2 ± √(3 − ¾ x²).
+  const T across = 0.5 * a.value + square_root(larger(3.0 - 0.75 * a.value * a.value, all_lanes<T>(0.0)));
+  return {a.size * select(a.over, across, a.value), -(a.size * select(a.over, a.value, across))};
+}
+
 /// Of the deviator one principal value is apart from both others by at least
 /// its own size; it comes from the cubic in closed form (Smith 1961), its axis
 /// from the adjugate (Scherzinger & Dohrmann 2008). What is left is a tensor in
@@ -55,19 +92,12 @@ template <class T>
 /// by one Jacobi rotation (Golub & Van Loan 2013, 8.5.2). All to rounding of
 /// the deviator's norm; so is their order.
 template <class T>
-inline Principal<T> principal_axes(const Symmetric<T>& s) {
+inline Principal<T> principal_axes(const Symmetric<T>& s, const ApartValue<T>& single) {
   const T zero = all_lanes<T>(0.0), one = all_lanes<T>(1.0);
   const T mean = (1.0 / 3.0) * trace(s);
   const Symmetric<T> d = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.xz, s.yz};
-  // Scaled to roots of x³ − 3 x = 2 r, turned over where r is below zero.
-  T scale = 1.0 / larger(square_root((1.0 / 6.0) * inner(d, d)), all_lanes<T>(1e-100));
-  const T r =
-      0.5 * scale * scale * scale *
-      (d.xx * (d.yy * d.zz - d.yz * d.yz) - d.xy * (d.xy * d.zz - d.yz * d.xz) + d.xz * (d.xy * d.yz - d.yy * d.xz));
-  const auto over = less(r, zero);
-  scale = select(over, -scale, scale);
-  const T most = -larger(-magnitude(r), -one);
-  const Triple<T> n = detail::axis_of(scale * d, detail::greatest_root(most));
+  const auto over = single.over;
+  const Triple<T> n = detail::axis_of(single.scale * d, single.value);
   // Two axes across it.
   const T sign = select(less(n.z, zero), -one, one), turn = -1.0 / (sign + n.z), both = n.x * n.y * turn;
   const Triple<T> u = {one + sign * n.x * n.x * turn, sign * both, -sign * n.x};
@@ -88,6 +118,10 @@ inline Principal<T> principal_axes(const Symmetric<T>& s) {
   x.value[0] = select(over, high, alone), x.value[1] = select(over, low, high), x.value[2] = select(over, alone, low);
   x.axes = {{{first.x, second.x, third.x}, {first.y, second.y, third.y}, {first.z, second.z, third.z}}};
   return x;
+}
+template <class T>
+inline Principal<T> principal_axes(const Symmetric<T>& s) {
+  return principal_axes(s, apart_value(s));
 }
 
 }  // namespace voussoir

@@ -6,14 +6,19 @@ namespace voussoir {
 
 namespace tet {
 
-Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
-           Symmetric<Lanes>& e, Lanes& p) {
-  const Principal<Lanes> x = principal_axes(e);
+LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
+              Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated) {
+  // The circular cone was on the safe side: most of what is past it needs no axes.
+  const ApartValue<Lanes> single = apart_value(e);
+  const auto [high, low] = extremes(single);
+  lanes &= near_surface(law, 2.0 * law.shear * high + p, 2.0 * law.shear * low + p);
+  if (!any(lanes)) return lanes;
+  const Principal<Lanes> x = principal_axes(e, single);
   Lanes trial[3], stress[3], region;
   for (int i = 0; i < 3; ++i) trial[i] = 2.0 * law.shear * x.value[i] + p;
   return_to_surface(law, trial, stress, &region);
-  lanes &= less(splat(0.5), region);  // the circular cone was on the safe side
-  if (!any(lanes)) return splat(0.0);
+  lanes &= less(splat(0.5), region);
+  if (!any(lanes)) return lanes;
   for (int lane = 0; lane < lane_count; ++lane) {
     if (!lanes[lane]) continue;
     constexpr std::uint8_t shear = yields_in_shear | has_yielded_in_shear,
@@ -48,7 +53,8 @@ Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes
        select(lanes, left.xy, e.xy), select(lanes, left.xz, e.xz), select(lanes, left.yz, e.yz)};
   work += p * dilates + law.bulk * (own - plastic[row_tension]) * opens;
   p = select(lanes, mean, p);
-  return select(lanes, work, splat(0.0));
+  dissipated = select(lanes, work, splat(0.0));
+  return lanes;
 }
 
 }  // namespace tet

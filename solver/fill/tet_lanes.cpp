@@ -100,10 +100,10 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
 
   // 2. plastic flow
   const LaneMask yields = may_flow(law, s.e, p);
-  const bool flows = any(yields);
   if (flowed) begin_yield(yield);
+  Lanes lost;
+  const bool flows = any(yields) && any(flow(law, s, yields, own, plastic, yield, s.e, p, lost));
   if (flows) {
-    const Lanes lost = flow(law, s, yields, own, plastic, yield, s.e, p);
     tile.dissipated += volume * lost;
     tile.report.yielding += count_yielding(yield, batch.count);
     strain = {s.e, p / law.bulk, own - (plastic[row_dilation] - dilated) - plastic[row_tension]};

@@ -146,10 +146,10 @@ struct Strain {
   return ~surely_elastic(law, shear2 * inner(e, e), p);
 }
 
-/// Plastic flow of the lanes that need it: changes the plastic memory, the yield bits, the elastic deviator and the
-/// mean stress. Returns what it dissipates, J/m3.
-Lanes flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
-           Symmetric<Lanes>& e, Lanes& p);
+/// Plastic flow of the lanes that need it, which it returns: changes the plastic memory, the yield bits, the elastic
+/// deviator and the mean stress. `dissipated`, J/m3, is set if any flows.
+LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
+              Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated);
 
 /// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa, and 1/J.
 struct Kirchhoff {

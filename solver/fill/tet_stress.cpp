@@ -17,7 +17,8 @@ Symmetric<Lanes> batch_cauchy(const FillModel& fill, FillMemory& memory, std::si
   const Lanes mean = 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]);
   Lanes p = law.bulk * (mean - plastic[row_tension]);
   const LaneMask yields = tet::may_flow(law, s.e, p);
-  if (any(yields)) tet::flow(law, s, yields, own, plastic, &memory.yield[lane_count * index], s.e, p);
+  Lanes dissipated;
+  if (any(yields)) tet::flow(law, s, yields, own, plastic, &memory.yield[lane_count * index], s.e, p, dissipated);
   const auto [tau, by] = tet::kirchhoff(law, s, p);
   return by * tau;
 }

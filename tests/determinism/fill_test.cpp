@@ -16,7 +16,7 @@ Assembly trough() {
   for (int i = 0; i < 4; ++i) ladder::add_box(assembly, {1.0 * i, 0, 1.5}, {1.0 * i + 1, 2, 2}, false);
   Material soil = ladder::elastic_fill(1500.0, 80e6, 50e6);
   soil.cohesion = 3e3, soil.friction_angle = ladder::radians(35.0), soil.dilation_angle = ladder::radians(5.0);
-  return ladder::filled(std::move(assembly), ladder::box_mesh({0, 0, 0}, {4, 2, 1.5}, 9, 5, 4), soil, 5e8, 2e8,
+  return ladder::filled(std::move(assembly), ladder::box_mesh({0, 0, 0}, {4, 2, 1.5}, 9, 6, 5), soil, 5e8, 2e8,
                         ladder::dry_law(0.7));
 }
 

@@ -250,6 +250,11 @@ TEST(FillLaw, PrincipalAxes) {
       ASSERT_GE(values[0], values[1] - 1e-15 * s.norm());
       ASSERT_GE(values[1], values[2] - 1e-15 * s.norm());
     }
+    const Symmetric<double> shape = deviator(tensor);
+    const Principal<double> x = principal_axes(shape);
+    const auto [high, low] = extremes(apart_value(shape));
+    ASSERT_NEAR(high, x.value[0], 1e-7 * (x.value[0] - x.value[2]) + 1e-15 * s.norm());
+    ASSERT_NEAR(low, x.value[2], 1e-7 * (x.value[0] - x.value[2]) + 1e-15 * s.norm());
   }
   const Principal<double> nothing = principal_axes(Symmetric<double>{});
   for (const double value : nothing.value) EXPECT_EQ(value, 0.0);
