@@ -185,11 +185,10 @@ class Shortening {
     std::size_t most = 1 + edges.size() / 10;
     std::vector<bool> taken(section_.nodes.size(), false);
     for (const Edge& edge : edges) {
-      const auto found = sides_.find(edge);
       if (most == 0) return;
       if (taken[std::size_t(edge.first)] || taken[std::size_t(edge.second)]) continue;
       --most;
-      const std::vector<std::int32_t> halved = found->second;
+      const std::vector<std::int32_t> halved = sides_.at(edge);
       for (const std::int32_t t : halved)
         for (const std::int32_t k : nodes(t))
           for (const std::int32_t other : around_[std::size_t(k)])

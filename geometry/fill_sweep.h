@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-/// Thickness of the layers (m) in which a fill is swept whose parts end at these places across (m): at most `layer`.
-/// One number, the greatest of them.
+/// Thickness (m) of the thickest layer of a fill whose parts end at these places across (m), in layers of at most
+/// `layer` m.
 double thickest_layer(const std::vector<double>& ends, double layer);
 
 /// Sweeps a section in layers of at most `layer` m. A layer ends wherever a part of the fill does; one that spans y = 0

@@ -8,7 +8,7 @@ namespace tet {
 
 LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
               Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated) {
-  // The circular cone was on the safe side: most of what is past it needs no axes.
+  // The circular cone was on the safe side; only what is past the surface itself needs axes.
   const ApartValue<Lanes> single = apart_value(e);
   const auto [high, low] = extremes(single);
   lanes &= near_surface(law, 2.0 * law.shear * high + p, 2.0 * law.shear * low + p);
