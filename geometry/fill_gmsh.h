@@ -17,9 +17,9 @@ struct FillSpace {
 
 /// How the space is meshed. The defaults are what gave the fewest tetrahedra: docs/theory/geometry.md.
 struct FillMeshing {
-  double edge = 0.5;          // m, bound of the longest edge
-  double layer_share = 0.65;  // of the bound: thickness of a layer, at most; the section gets what it leaves
-  double rim_share = 0.85;    // of the section's bound: size that Gmsh is asked for between the lattice and the rim
+  double edge = 0.5;         // m, bound of the longest edge
+  double layer_share = 0.8;  // of the bound: thickness of a layer, at most; the section gets what it leaves
+  double rim_share = 0.85;   // of the section's bound: size that Gmsh is asked for between the lattice and the rim
 };
 
 /// Meshes the section of the space with triangles and sweeps them across: oriented, with its surface, every tetrahedron

@@ -10,122 +10,90 @@ namespace voussoir {
 
 namespace {
 
-constexpr double kSame = 1e-6;  // m: ends of parts of the fill that are nearer are one
+/// The order in which columns step up, from the lowest step to the highest: by where the middle of a step lies. So the
+/// shorter diagonal is taken between two columns, and triangles side by side agree on it. Steps at one height go by the
+/// number of the column, by turns up and down from y = 0 outwards, on one side the mirror image of the other.
+class Order {
+ public:
+  explicit Order(const FillColumns& columns) {
+    for (const auto& y : columns)
+      for (std::size_t k = 0; k + 1 < y.size(); ++k) middles_.push_back(std::abs(middle(y, k)));
+    std::sort(middles_.begin(), middles_.end());
+    const auto same = [](double a, double b) { return b - a < same_end; };
+    middles_.erase(std::unique(middles_.begin(), middles_.end(), same), middles_.end());
+  }
+  using Key = std::pair<std::ptrdiff_t, std::int32_t>;
+  Key key(const std::vector<double>& y, std::size_t step, std::int32_t node) const {
+    const double at = middle(y, step);
+    const auto rank = std::upper_bound(middles_.begin(), middles_.end(), std::abs(at) + same_end) - middles_.begin();
+    const bool above = at > 0.0, turned = (rank % 2 == 1) == above;
+    return {above ? rank : -rank, turned ? -node : node};
+  }
 
-/// Where layers end, from low to high, and which way their diagonals lean.
-struct Layers {
-  std::vector<double> y;
-  std::vector<char> up;  // of the layer above each y: diagonals rise from the lower to the higher node of the section
+ private:
+  std::vector<double> middles_;
+  static double middle(const std::vector<double>& y, std::size_t step) { return 0.5 * (y[step] + y[step + 1]); }
 };
 
-std::vector<double> ends_of(const FillSection& section) {
-  std::vector<double> ends;
-  for (const auto& triangle : section.triangles) {
-    ends.push_back(triangle.y0);
-    ends.push_back(triangle.y1);
-  }
-  return ends;
-}
-
-std::vector<double> distinct(std::vector<double> ends) {
-  std::vector<double> out;
-  std::sort(ends.begin(), ends.end());
-  for (const double y : ends) {
-    if (out.empty() || y - out.back() > kSame) out.push_back(y);
-  }
-  return out;
-}
-
-Layers layers_of(const std::vector<double>& all_ends, double thickness) {
-  Layers layers;
-  const std::vector<double> ends = distinct(all_ends);
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const double from = ends[i], to = ends[i + 1];
-    int n = std::max(1, int(std::ceil((to - from) / thickness - 1e-9)));
-    const bool spans_middle = from < -kSame && to > kSame;
-    if (spans_middle) n += n % 2;
-    const auto at = [&](int k) { return from + k * (to - from) / n; };
-    for (int k = 0; k < n; ++k) {
-      // Of two levels that mirror one another the second is the first one's, bit for bit.
-      const bool mirrors = spans_middle && from == -to && 2 * k >= n;
-      layers.y.push_back(!mirrors ? at(k) : 2 * k == n ? 0.0 : -at(n - k));
-    }
-  }
-  layers.y.push_back(ends.back());
-  // From the middle outwards the diagonals lean by turns, on one side the mirror image of the other.
-  const auto middle = std::lower_bound(layers.y.begin(), layers.y.end(), -kSame) - layers.y.begin();
-  for (std::ptrdiff_t k = 0; k + 1 < std::ptrdiff_t(layers.y.size()); ++k) {
-    layers.up.push_back(k >= middle ? (k - middle) % 2 == 0 : (middle - 1 - k) % 2 == 1);
-  }
-  return layers;
-}
-
-/// The nodes of the section on each end of a layer, numbered as they are first asked for in order.
+/// The nodes of the columns that tetrahedra use, numbered column by column.
 class Nodes {
  public:
-  Nodes(const FillSection& section, const Layers& layers) : section_(section), layers_(layers) {}
-
-  void need(std::int32_t node, std::size_t level) { number_[{node, level}] = 0; }
-  void make(FillMesh& mesh) {
-    for (auto& [key, number] : number_) {
-      number = std::int32_t(mesh.nodes.size());
-      const Vec3& p = section_.nodes[std::size_t(key.first)];
-      mesh.nodes.emplace_back(p.x(), layers_.y[key.second], p.z());
-    }
+  Nodes(const FillSection& section, const FillColumns& columns) : section_(section), columns_(columns) {
+    for (const auto& y : columns) number_.emplace_back(y.size(), -1);
   }
-  std::int32_t at(std::int32_t node, std::size_t level) const { return number_.at({node, level}); }
+  void need(std::int32_t node, std::size_t level) { number_[std::size_t(node)][level] = 0; }
+  void make(FillMesh& mesh) {
+    for (std::size_t node = 0; node < number_.size(); ++node)
+      for (std::size_t level = 0; level < number_[node].size(); ++level) {
+        if (number_[node][level] < 0) continue;
+        number_[node][level] = std::int32_t(mesh.nodes.size());
+        mesh.nodes.emplace_back(section_.nodes[node].x(), columns_[node][level], section_.nodes[node].z());
+      }
+  }
+  std::int32_t at(std::int32_t node, std::size_t level) const { return number_[std::size_t(node)][level]; }
 
  private:
   const FillSection& section_;
-  const Layers& layers_;
-  std::map<std::pair<std::int32_t, std::size_t>, std::int32_t> number_;
+  const FillColumns& columns_;
+  std::vector<std::vector<std::int32_t>> number_;
 };
 
-/// First and last level of a triangle's part of the fill.
-std::pair<std::size_t, std::size_t> levels(const Layers& layers, const FillSection::Triangle& triangle) {
-  const auto level = [&](double y) {
-    return std::size_t(std::lower_bound(layers.y.begin(), layers.y.end(), y - kSame) - layers.y.begin());
+/// Each step of one of the three columns is a tetrahedron with where the others stand.
+void sweep_triangle(const FillSection::Triangle& triangle, const FillColumns& columns, const Order& order,
+                    const Nodes& nodes, FillMesh& mesh) {
+  std::array<std::size_t, 3> level, last;
+  const auto column = [&](std::size_t i) -> const std::vector<double>& {
+    return columns[std::size_t(triangle.nodes[i])];
   };
-  return {level(triangle.y0), level(triangle.y1)};
+  for (std::size_t i = 0; i < 3; ++i)
+    level[i] = level_at(column(i), triangle.y0), last[i] = level_at(column(i), triangle.y1);
+  while (level != last) {
+    std::size_t next = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto key = [&](std::size_t k) { return order.key(column(k), level[k], triangle.nodes[k]); };
+      if (level[i] < last[i] && (next == 3 || key(i) < key(next))) next = i;
+    }
+    std::array<std::int32_t, 4> tet;
+    for (std::size_t i = 0; i < 3; ++i) tet[i] = nodes.at(triangle.nodes[i], level[i]);
+    tet[3] = nodes.at(triangle.nodes[next], ++level[next]);
+    mesh.tets.push_back(tet);
+  }
 }
 
 }  // namespace
 
-double thickest_layer(const std::vector<double>& ends, double layer) {
-  const std::vector<double> y = layers_of(ends, layer).y;
-  double thickest = 0.0;
-  for (std::size_t k = 0; k + 1 < y.size(); ++k) thickest = std::max(thickest, y[k + 1] - y[k]);
-  return thickest;
-}
-
-FillMesh sweep(const FillSection& section, double layer) {
-  const Layers layers = layers_of(ends_of(section), layer);
-  Nodes nodes(section, layers);
-  for (const auto& triangle : section.triangles) {
-    const auto [first, last] = levels(layers, triangle);
-    for (std::size_t k = first; k <= last; ++k) {
-      for (const std::int32_t node : triangle.nodes) nodes.need(node, k);
+FillMesh sweep(const FillSection& section, double edge, double layer) {
+  const FillColumns columns = make_columns(section, edge, layer);
+  Nodes nodes(section, columns);
+  for (const auto& triangle : section.triangles)
+    for (const std::int32_t node : triangle.nodes) {
+      const std::vector<double>& column = columns[std::size_t(node)];
+      for (std::size_t k = level_at(column, triangle.y0); k <= level_at(column, triangle.y1); ++k) nodes.need(node, k);
     }
-  }
   FillMesh mesh;
   nodes.make(mesh);
-  for (const auto& triangle : section.triangles) {
-    // A diagonal goes from the lower node of an edge to the higher one, whichever triangle looks at it, so that prisms
-    // side by side agree (Dompierre, Labbé, Vallet & Camarero 1999).
-    auto [a, b, c] = triangle.nodes;
-    if (a > b) std::swap(a, b);
-    if (b > c) std::swap(b, c);
-    if (a > b) std::swap(a, b);
-    const auto [first, last] = levels(layers, triangle);
-    for (std::size_t k = first; k < last; ++k) {
-      const std::size_t low = layers.up[k] ? k : k + 1, high = layers.up[k] ? k + 1 : k;
-      const std::int32_t a0 = nodes.at(a, low), b0 = nodes.at(b, low), c0 = nodes.at(c, low);
-      const std::int32_t a1 = nodes.at(a, high), b1 = nodes.at(b, high), c1 = nodes.at(c, high);
-      mesh.tets.push_back({a0, b0, c0, c1});
-      mesh.tets.push_back({a0, b0, b1, c1});
-      mesh.tets.push_back({a0, a1, b1, c1});
-    }
-  }
+  const Order order(columns);
+  for (const auto& triangle : section.triangles) sweep_triangle(triangle, columns, order, nodes, mesh);
   mesh.material.assign(mesh.tets.size(), 0);
   orient_tets(mesh);
   find_surface(mesh);

@@ -302,8 +302,8 @@ void check_elements(const std::string& path) {
 FillMesh mesh(const FillSpace& space, const FillMeshing& meshing) {
   std::vector<double> ends;
   for (const Box& box : space.boxes) ends.push_back(box.low.y()), ends.push_back(box.high.y());
-  const double layer = meshing.layer_share * meshing.edge, thickest = thickest_layer(ends, layer);
-  const double bound = std::sqrt(meshing.edge * meshing.edge - thickest * thickest);
+  const double layer = meshing.layer_share * meshing.edge;
+  const double bound = section_bound(ends, meshing.edge, layer);
   FillSection section;
   with_gmsh<RunError>("the fill could not be meshed by Gmsh",
                       "try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
@@ -315,7 +315,7 @@ FillMesh mesh(const FillSpace& space, const FillMeshing& meshing) {
                         section = take_section(parts);
                       });
   shorten_edges(section, (1.0 + 1e-12) * bound);
-  return sweep(section, layer);
+  return sweep(section, meshing.edge, layer);
 }
 
 FillMesh read(const std::string& path, double scale) {

@@ -245,10 +245,11 @@ FillSection square(double y0, double y1, double other0, double other1) {
 }
 
 TEST(Sweep, IsItsOwnMirrorImage) {
-  const FillMesh mesh = sweep(square(-1.0, 1.0, -1.0, 1.0), 0.4);
+  const FillMesh mesh = sweep(square(-1.0, 1.0, -1.0, 1.0), 2.0, 0.4);
   EXPECT_NO_THROW(check_fill(mesh, "the swept square"));
   EXPECT_NEAR(fill_volume(mesh), 2.0, 1e-15);
-  EXPECT_EQ(mesh.tets.size(), 2u * 6u * 3u);  // five layers would do; six have a middle
+  // Six layers, as there is a middle: three steps in half a column of the first colour, four in the others.
+  EXPECT_EQ(mesh.tets.size(), 2u * 2u * (3u + 4u + 4u));
   const auto corners = [&](bool mirrored) {
     std::vector<std::vector<std::array<double, 3>>> all;
     for (const auto& tet : mesh.tets) {
@@ -271,8 +272,8 @@ TEST(Sweep, IsItsOwnMirrorImage) {
   }
 }
 
-TEST(Sweep, PartsOfDifferentWidthShareTheirLayers) {
-  const FillMesh mesh = sweep(square(-1.0, 1.0, -0.7, 0.7), 0.5);
+TEST(Sweep, PartsOfDifferentWidthShareTheirFaces) {
+  const FillMesh mesh = sweep(square(-1.0, 1.0, -0.7, 0.7), 2.0, 0.5);
   EXPECT_NO_THROW(check_fill(mesh, "the stepped square"));
   EXPECT_NEAR(fill_volume(mesh), 0.5 * 2.0 + 0.5 * 1.4, 1e-15);
   double surface = 0.0;
