@@ -10,17 +10,20 @@ namespace voussoir {
 
 namespace {
 
+constexpr std::size_t worth_a_large_page = large_page / 4;
+
 std::align_val_t alignment_of(std::size_t bytes) {
-  return std::align_val_t{bytes >= 2 * large_page ? large_page : cache_line};
+  return std::align_val_t{bytes >= worth_a_large_page ? large_page : cache_line};
 }
 
 }  // namespace
 
 void* allocate_aligned(std::size_t bytes) {
-  void* memory = ::operator new(bytes, alignment_of(bytes));
+  if (bytes < worth_a_large_page) return ::operator new(bytes, alignment_of(bytes));
+  const std::size_t whole = (bytes + large_page - 1) / large_page * large_page;
+  void* memory = ::operator new(whole, alignment_of(bytes));
 #if defined(__linux__)
-  // A wish: where the system grants no large pages, small ones do.
-  if (bytes >= 2 * large_page) madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE);
+  madvise(memory, whole, MADV_HUGEPAGE);  // a wish: where the system grants no large pages, small ones do
 #endif
   return memory;
 }
