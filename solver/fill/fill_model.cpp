@@ -70,7 +70,9 @@ void fill_lane(const FillModel& fill, const Element& element, int lane, TetBatch
 }
 
 /// A lane takes elements one after the other from its own part of the list: those side by side seldom share nodes, and
-/// additions to one node do not wait for each other.
+/// additions to one node do not wait for each other. Lists are short, so that elements near each other share batches
+/// that follow each other: their nodes are in the cache, and they often flow together.
+constexpr std::size_t longest_list = 64;
 void add_batches(const std::vector<Element>& elements, std::size_t first, std::size_t end, FillModel& fill) {
   const std::size_t all = end - first, batches = (all + lane_count - 1) / lane_count;
   const std::size_t longer = all - lane_count * (batches - 1);  // lanes that are at work in the last batch, too
@@ -126,8 +128,8 @@ void make_tiles(const std::vector<Element>& elements, FillModel& fill) {
       while (end < elements.size() && elements[end].tile() == elements[element].tile() &&
              elements[end].law == elements[element].law)
         ++end;
-      add_batches(elements, element, end, fill);
-      element = end;
+      for (; element < end; element = std::min(end, element + longest_list))
+        add_batches(elements, element, std::min(end, element + longest_list), fill);
     }
     tile.end_batch = std::int32_t(fill.batches.size());
     const std::vector<std::int32_t> beyond = nodes_beyond(fill, tile);
