@@ -80,7 +80,7 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   State& state = *pass.state;
   const InterfaceBatch& b = state.interface.batches[k];
   PatchMemory& memory = state.interface_memory;
-  const LaneMask used = LaneMask::first(b.patch.count);
+  const LaneMask used = LaneMask::first(b.patch.count) & less(splat(0.0), b.patch.area);
 
   // 1. what the corners have moved in the stone's axes
   const LanePoses stone = gather(state.pose.data(), b.patch.a);

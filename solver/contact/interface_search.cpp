@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "geometry/neighbours.h"
+#include "solver/base/parallel.h"
 #include "solver/contact/interface_jump.h"
 #include "solver/contact/make_contact.h"
 #include "solver/contact/search.h"
@@ -20,7 +22,6 @@ constexpr double least_share = 0.01;  // of a block's face: overlaps that carry 
 struct Sheet {
   Polygon corners;
   Vec3 normal = Vec3::Zero();  // out of the fill
-  Box box;
 };
 
 struct Overlap {
@@ -57,16 +58,20 @@ using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // body, cell
 
 class Search {
  public:
-  Search(const Model& model, State& state, const Branches& branches)
-      : model_(model), state_(state), branches_(branches), gone_(state.interface.patches.size(), 0) {}
+  Search(const Model& model, State& state, const Branches& branches, int threads)
+      : model_(model),
+        state_(state),
+        branches_(branches),
+        threads_(threads),
+        gone_(state.interface.patches.size(), 0) {}
 
   InterfaceUpdate run(bool clip) {
-    place_surface();
-    if (clip)
-      for (std::size_t slot = 0; slot < gone_.size(); ++slot)
-        if (state_.interface.used(slot)) look_at(slot);
-    if (model_.contact.search) look_around();
-    if (update_.changed()) rebuild();
+    if (clip) look_at_those_past();
+    if (model_.contact.search && is_due()) look_around();
+    if (update_.made > 0)
+      rebuild();
+    else if (update_.changed())
+      put_in_place();
     return update_;
   }
 
@@ -75,32 +80,46 @@ class Search {
     return model_.fill.nodes[std::size_t(node)] + Vec3(&state_.fill.pose[node_width * std::size_t(node)]);
   }
 
-  void place_surface() {
-    for (const auto& nodes : model_.fill.triangles) {
-      Sheet sheet;
-      for (const std::int32_t node : nodes) sheet.corners.push_back(node_at(node));
-      sheet.normal = polygon_normal(sheet.corners);
-      sheet.box = bounding_box(sheet.corners);
-      sheets_.push_back(std::move(sheet));
-    }
+  Sheet sheet_of(std::int32_t triangle) const {
+    Sheet sheet;
+    for (const std::int32_t node : model_.fill.triangles[std::size_t(triangle)]) sheet.corners.push_back(node_at(node));
+    sheet.normal = polygon_normal(sheet.corners);
+    return sheet;
+  }
+
+  Box box_of(std::size_t triangle) const {
+    const auto& nodes = model_.fill.triangles[triangle];
+    Box box = {node_at(nodes[0]), node_at(nodes[0])};
+    for (std::size_t k = 1; k < 3; ++k) join(box, {node_at(nodes[k]), node_at(nodes[k])});
+    return box;
   }
 
   /// Whether the middle of a patch has slid past the limit since it was clipped.
-  bool past(const InterfacePatch& patch, const InterfaceJump& j) const {
-    const Vec3 u = j.point(shape_functions(patch), 0.0, 0.0);
+  bool past(std::size_t slot) const {
+    const InterfacePatch& patch = state_.interface.patches[slot];
+    if (!state_.interface.used(slot) || model_.laws[std::size_t(patch.law)].kind == JointLaw::Kind::elastic)
+      return false;
+    const InterfaceJump j = interface_jump(model_, state_, patch);
+    const InterfaceBatch& batch = state_.interface.batches[slot / lane_count];
+    Vec3 u = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) u += batch.shape[k][0][slot % lane_count] * j.moved[k];
     return u[1] * u[1] + u[2] * u[2] > model_.slip_limit2(patch.area);
+  }
+
+  void look_at_those_past() {
+    std::vector<char> is_past(gone_.size(), 0);
+    for_each(gone_.size(), threads_, 1000, [&](std::size_t slot) { is_past[slot] = past(slot); });
+    for (std::size_t slot = 0; slot < gone_.size(); ++slot)
+      if (is_past[slot]) look_at(slot);
   }
 
   /// Clips a patch that has slid past the limit anew, or drops it.
   void look_at(std::size_t slot) {
     const InterfacePatch& old = state_.interface.patches[slot];
-    if (model_.laws[std::size_t(old.law)].kind == JointLaw::Kind::elastic) return;
     const InterfaceJump j = interface_jump(model_, state_, old);
-    if (!past(old, j)) return;
     energy_before_ += interface_energy(model_, state_, slot);
     gone_[slot] = 1;
-    const Overlap now =
-        overlap(placed_cell(model_, state_, old.body, old.cell), old.face, sheets_[std::size_t(old.triangle)]);
+    const Overlap now = overlap(placed_cell(model_, state_, old.body, old.cell), old.face, sheet_of(old.triangle));
     if (now.area >= least_area()) {
       fresh_.push_back(moved_patch(slot, j, now));
       note(fresh_.back());
@@ -193,13 +212,37 @@ class Search {
     }
   }
 
+  /// Whether some stone or node has gone so far since it was last noted that what is about it must be looked at.
+  bool is_due() const {
+    const double far = search_distance(model_);
+    const Vec3 base = state_.base_displacement();
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i)
+      if (moved_since(model_, state_, state_.interface_seen, i, base) > far) return true;
+    for (std::size_t i = 0; i < model_.fill.nodes.size(); ++i)
+      if (node_moved2(i) > far * far) return true;
+    return false;
+  }
+
+  /// How far a node has moved relative to the base since it was noted, squared, m2.
+  double node_moved2(std::size_t node) const {
+    double d2 = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double now = state_.fill.pose[node_width * node + c] - state_.base_displacement()[Eigen::Index(c)];
+      const double far = now - double(state_.fill.searched[node_width * node + c]);
+      d2 += far * far;
+    }
+    return d2;
+  }
+
   /// Pairs of cell and triangle that have come near each other without a patch between them.
   void look_around() {
     const std::vector<char> bodies = moved_bodies(), triangles = moved_triangles();
     Box surface, moved;
-    for (std::size_t i = 0; i < sheets_.size(); ++i) {
-      join(surface, sheets_[i].box);
-      if (triangles[i]) join(moved, sheets_[i].box);
+    std::vector<Box> sheets;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      sheets.push_back(box_of(i));
+      join(surface, sheets.back());
+      if (triangles[i]) join(moved, sheets.back());
     }
     const double within = skin(model_);
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -207,7 +250,7 @@ class Search {
     if (cells_.empty()) return;
     std::vector<Box> boxes;
     for (const Convex& cell : placed_) boxes.push_back(bounding_box(cell.vertices));
-    for (const Sheet& sheet : sheets_) boxes.push_back(sheet.box);
+    boxes.insert(boxes.end(), sheets.begin(), sheets.end());
     const auto first = int(cells_.size());
     index_patches();
     for (const auto& [i, j] : neighbours(boxes, within)) {
@@ -260,13 +303,7 @@ class Search {
     std::vector<char> nodes(model_.fill.nodes.size(), 0), moved;
     const double near = moved_share * skin(model_);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      double d2 = 0.0;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double now = state_.fill.pose[node_width * i + c] - state_.base_displacement()[Eigen::Index(c)];
-        const double far = now - double(state_.fill.searched[node_width * i + c]);
-        d2 += far * far;
-      }
-      if (d2 <= near * near) continue;
+      if (node_moved2(i) <= near * near) continue;
       nodes[i] = 1;
       for (std::size_t c = 0; c < 3; ++c)
         state_.fill.searched[node_width * i + c] =
@@ -283,7 +320,7 @@ class Search {
   void examine(const Key& key, const Convex& placed) {
     InterfacePatch patch;
     std::tie(patch.body, patch.cell, patch.triangle) = key;
-    const Sheet& sheet = sheets_[std::size_t(patch.triangle)];
+    const Sheet sheet = sheet_of(patch.triangle);
     const Overlap best = best_overlap(placed, sheet);
     if (best.face < 0) return;
     patch.face = best.face;
@@ -342,12 +379,13 @@ class Search {
   }
 
   void rebuild();
+  void put_in_place();
 
   const Model& model_;
   State& state_;
   const Branches& branches_;
+  int threads_;
   InterfaceUpdate update_;
-  std::vector<Sheet> sheets_;
   std::vector<char> gone_;             // of each slot: dropped, or clipped anew
   std::vector<InterfacePatch> fresh_;  // clipped anew, then made
   std::vector<std::pair<std::int32_t, std::int32_t>> cells_;
@@ -357,8 +395,57 @@ class Search {
   double energy_before_ = 0.0;
 };
 
-/// What a slot's points remember, from another interface; a patch that was clipped anew keeps bonds and, in its
-/// branches, the means.
+/// What a patch that is clipped anew keeps: bonds, and in its branches the means.
+struct Kept {
+  std::uint8_t broken = 0;
+  std::vector<double> means;
+};
+
+Kept kept_of(const Interface& interface, const PatchMemory& memory, std::size_t slot, int branches) {
+  const std::size_t columns = 3 * std::size_t(branches);
+  Kept kept;
+  kept.means.assign(columns, 0.0);
+  double area = 0.0;
+  const std::vector<PatchPoint>& points = interface.patches[slot].points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    area += points[i].weight;
+    kept.broken |= std::uint8_t(memory.broken[interface.point_index(slot, i, 1, 0)] & 1);
+    for (std::size_t c = 0; c < columns; ++c)
+      kept.means[c] += points[i].weight * double(memory.point_branch[interface.point_index(slot, i, columns, c)]);
+  }
+  for (double& mean : kept.means) mean /= area;
+  return kept;
+}
+
+void begin_again(const Interface& interface, std::size_t slot, const Kept& kept, PatchMemory& memory) {
+  for (std::size_t i = 0; i < interface.patches[slot].points.size(); ++i) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      memory.point[interface.point_index(slot, i, 2, c)] = 0.0;
+      memory.point_rest[interface.point_index(slot, i, 2, c)] = 0.0;
+    }
+    memory.broken[interface.point_index(slot, i, 1, 0)] = kept.broken;
+    for (std::size_t c = 0; c < kept.means.size(); ++c)
+      memory.point_branch[interface.point_index(slot, i, kept.means.size(), c)] = float(kept.means[c]);
+  }
+  const double* slid = interface.patches[slot].slid;
+  memory.largest[2 * slot + 1] = std::max(memory.largest[2 * slot + 1], Vec3(slid).norm());
+}
+
+/// A patch that was clipped anew begins with the same shear at all points: where friction does not bear it, the rest of
+/// it has slipped already. Else it would slip in the next pass and be counted as friction, which nobody had worked for.
+void begin_within_friction(const Model& model, State& state, std::size_t slot) {
+  const InterfacePatch& patch = state.interface.patches[slot];
+  const Mat3 shape = shape_functions(patch);
+  const InterfaceJump j = interface_jump(model, state, patch);
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const Vec3 slips =
+        j.point(shape, patch.points[i].s, patch.points[i].t) - elastic_point(model, state, slot, j, shape, i);
+    for (std::size_t c = 0; c < 2; ++c)
+      state.interface_memory.point[state.interface.point_index(slot, i, 2, c)] = slips[Eigen::Index(c) + 1];
+  }
+}
+
+/// What a slot's points remember, from another interface.
 void carry_memory(const Interface& from, const PatchMemory& old, const Interface& to, std::size_t slot, int branches,
                   PatchMemory& memory) {
   const InterfacePatch& patch = to.patches[slot];
@@ -366,26 +453,12 @@ void carry_memory(const Interface& from, const PatchMemory& old, const Interface
   for (std::size_t c = 0; c < 2; ++c) memory.largest[2 * slot + c] = old.largest[2 * before + c];
   for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = old.energy[3 * before + c];
   memory.mode[slot] = old.mode[before];
-  const std::size_t rows = from.patches[before].points.size(), columns = 3 * std::size_t(branches);
-  std::vector<double> means(columns, 0.0);
-  double area = 0.0;
-  std::uint8_t bond = 0;
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double weight = from.patches[before].points[i].weight;
-    area += weight, bond |= std::uint8_t(old.broken[from.point_index(before, i, 1, 0)] & 1);
-    for (std::size_t c = 0; c < columns; ++c)
-      means[c] += weight * double(old.point_branch[from.point_index(before, i, columns, c)]);
-  }
+  if (patch.again) return begin_again(to, slot, kept_of(from, old, before, branches), memory);
+  const std::size_t columns = 3 * std::size_t(branches);
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
     const auto copy = [&](auto& now, const auto& was, std::size_t width, std::size_t c) {
       now[to.point_index(slot, i, width, c)] = was[from.point_index(before, i, width, c)];
     };
-    if (patch.again) {
-      memory.broken[to.point_index(slot, i, 1, 0)] = bond;
-      for (std::size_t c = 0; c < columns; ++c)
-        memory.point_branch[to.point_index(slot, i, columns, c)] = float(means[c] / area);
-      continue;
-    }
     for (std::size_t c = 0; c < 2; ++c)
       copy(memory.point, old.point, 2, c), copy(memory.point_rest, old.point_rest, 2, c);
     copy(memory.broken, old.broken, 1, 0);
@@ -432,8 +505,6 @@ void Search::rebuild() {
     carry_memory(before, old, now, slot, branches_.count, memory);
     if (now.patches[slot].again) {
       note_jump(model_, state_, slot, memory);
-      const double* slid = now.patches[slot].slid;
-      memory.largest[2 * slot + 1] = std::max(memory.largest[2 * slot + 1], Vec3(slid).norm());
       continue;
     }
     const auto lane_of = [](std::size_t s) { return 9 * lane_count * (s / lane_count) + s % lane_count; };
@@ -444,17 +515,41 @@ void Search::rebuild() {
   double energy_after = 0.0;
   for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
     InterfacePatch& patch = now.patches[slot];
+    if (patch.again) begin_within_friction(model_, state_, slot);
     if (now.used(slot) && (patch.again || patch.from < 0)) energy_after += interface_energy(model_, state_, slot);
     patch.from = -1, patch.again = false;
   }
   state_.clipped_energy() += energy_before_ - energy_after;
 }
 
+/// Nothing has come: clipped patches take the places of those they come from, dropped ones leave theirs empty.
+void Search::put_in_place() {
+  Interface& interface = state_.interface;
+  PatchMemory& memory = state_.interface_memory;
+  double energy_after = 0.0;
+  for (InterfacePatch& patch : fresh_) {
+    const auto slot = std::size_t(std::exchange(patch.from, -1));
+    patch.again = false, gone_[slot] = 0;
+    const Kept kept = kept_of(interface, memory, slot, branches_.count);
+    replace_patch(slot, patch, model_, interface);
+    begin_again(interface, slot, kept, memory);
+    note_jump(model_, state_, slot, memory);
+    begin_within_friction(model_, state_, slot);
+    energy_after += interface_energy(model_, state_, slot);
+  }
+  for (std::size_t slot = 0; slot < gone_.size(); ++slot) {
+    if (!gone_[slot]) continue;
+    empty_patch(slot, model_, interface);
+    for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = 0.0;  // it has been retired
+  }
+  state_.clipped_energy() += energy_before_ - energy_after;
+}
+
 }  // namespace
 
-InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip) {
+InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip, int threads) {
   if (model.fill.empty()) return {};
-  return Search(model, state, branches).run(clip);
+  return Search(model, state, branches, threads).run(clip);
 }
 
 }  // namespace voussoir

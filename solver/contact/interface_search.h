@@ -13,7 +13,9 @@ struct InterfaceUpdate {
 /// Looks for stones' faces that triangles of the fill's surface have come near, around what has moved since it was last
 /// looked at, and drops patches whose overlap is gone; with `clip`, patches that have slid past the model's limit are
 /// clipped anew: tractions are carried over, elastic energy that is lost or won with area is put to
-/// State::clipped_energy(). Decided by the state alone. Afterwards Stepper::prepare_contacts() must be called.
-InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip);
+/// State::clipped_energy(). Decided by the state alone, whatever the number of threads. Afterwards
+/// Stepper::prepare_contacts() must be called.
+InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip,
+                                 int threads = 1);
 
 }  // namespace voussoir

@@ -52,17 +52,14 @@ void fill_lane(const InterfacePatch& patch, const Model& model, int lane, Interf
   }
 }
 
-void add_points(const std::vector<InterfacePatch>& patches, std::size_t first, int count, InterfaceBatch& batch,
-                Interface& interface) {
-  JointBatch& b = batch.patch;
-  b.first_point = std::int32_t(interface.points.size() / (3 * lane_count));
-  b.points = std::int32_t(patches[first].points.size());
-  for (std::int32_t row = 0; row < b.points; ++row)
-    for (int column = 0; column < 3; ++column)
-      for (int lane = 0; lane < lane_count; ++lane) {
-        const PatchPoint& p = patches[first + std::size_t(std::min(lane, count - 1))].points[std::size_t(row)];
-        interface.points.push_back(column == 0 ? p.s : column == 1 ? p.t : lane < count ? p.weight : 0.0);
-      }
+/// Spare lanes repeat a patch's points without their weight.
+void put_points(const InterfacePatch& patch, std::size_t slot, Interface& interface) {
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const PatchPoint& p = patch.points[i];
+    interface.points[interface.point_index(slot, i, 3, 0)] = p.s;
+    interface.points[interface.point_index(slot, i, 3, 1)] = p.t;
+    interface.points[interface.point_index(slot, i, 3, 2)] = interface.spare(slot) ? 0.0 : p.weight;
+  }
 }
 
 /// The patches of each node, in ascending order.
@@ -156,7 +153,7 @@ void each_number(Patch& p, const Use& use) {
 void flatten(const Interface& interface, Array<double>& rows, Array<double>& points, Array<double>& corners) {
   rows.clear(), points.clear(), corners.clear();
   for (std::size_t slot = 0; slot < interface.patches.size(); ++slot) {
-    if (!interface.used(slot)) continue;
+    if (interface.spare(slot)) continue;
     const InterfacePatch& p = interface.patches[slot];
     each_number(p, [&](auto x) { rows.push_back(double(x)); });
     rows.insert(rows.end(), {double(p.points.size()), double(p.corners.size())});
@@ -227,8 +224,12 @@ Interface make_interface(std::vector<InterfacePatch> patches, const Model& model
       if (lane >= count) interface.patches.back().area = 0.0;
     }
     batch.patch.law = common_law(batch.patch);
-    add_points(patches, i, count, batch, interface);
+    batch.patch.first_point = std::int32_t(interface.points.size() / (3 * lane_count));
+    batch.patch.points = std::int32_t(head.points.size());
+    interface.points.resize(interface.points.size() + 3 * lane_count * head.points.size());
     interface.batches.push_back(batch);
+    for (std::size_t slot = interface.patches.size() - lane_count; slot < interface.patches.size(); ++slot)
+      put_points(interface.patches[slot], slot, interface);
     ++interface.first_batch[std::size_t(batch.tile) + 1];
     i += std::size_t(count);
   }
@@ -236,6 +237,26 @@ Interface make_interface(std::vector<InterfacePatch> patches, const Model& model
   index_nodes(model.fill.nodes.size(), interface);
   place_sums(model.fill.nodes.size(), interface);
   return interface;
+}
+
+void replace_patch(std::size_t slot, const InterfacePatch& patch, const Model& model, Interface& interface) {
+  InterfaceBatch& batch = interface.batches[slot / lane_count];
+  const std::size_t first = slot - slot % lane_count;
+  const bool repeated = slot - first + 1 == std::size_t(batch.patch.count);  // by spare lanes
+  for (std::size_t s = slot; s < first + lane_count; ++s) {
+    if (s != slot && !(repeated && interface.spare(s))) continue;
+    fill_lane(patch, model, int(s - first), batch);
+    put_points(patch, s, interface);
+    interface.patches[s] = patch;
+    if (s != slot) interface.patches[s].area = 0.0;
+  }
+}
+
+void empty_patch(std::size_t slot, const Model& model, Interface& interface) {
+  InterfacePatch patch = interface.patches[slot];
+  patch.area = 0.0;
+  for (PatchPoint& point : patch.points) point.weight = 0.0;
+  replace_patch(slot, patch, model, interface);
 }
 
 }  // namespace voussoir

@@ -24,7 +24,7 @@ struct alignas(64) InterfaceBatch {
 };
 
 /// All patches in the order of their batches: lane i % lane_count of batch i / lane_count, spare lanes included (area
-/// zero).
+/// zero). A patch that has been dropped keeps its lane, without area, until an interface is made anew.
 struct Interface {
   std::vector<InterfacePatch> patches;
   Array<InterfaceBatch> batches;
@@ -37,6 +37,9 @@ struct Interface {
   bool empty() const { return batches.empty(); }
   std::size_t sum_count() const { return first_sum.empty() ? 0 : std::size_t(first_sum.back()); }
   bool used(std::size_t slot) const { return patches[slot].area > 0.0; }
+  bool spare(std::size_t slot) const {
+    return std::int32_t(slot % lane_count) >= batches[slot / lane_count].patch.count;
+  }
   /// Where point `i` of a patch keeps number `c` of `columns`.
   std::size_t point_index(std::size_t slot, std::size_t i, std::size_t columns, std::size_t c) const {
     const auto row = std::size_t(batches[slot / lane_count].patch.first_point) + i;
@@ -56,5 +59,9 @@ std::vector<InterfacePatch> unflatten(const Array<double>& rows, const Array<dou
                                       const Array<double>& corners, const FillModel& fill);
 /// Puts patches into batches.
 Interface make_interface(std::vector<InterfacePatch> patches, const Model& model);
+/// Puts a patch between the same stone and triangle, with as many points, into the place of another.
+void replace_patch(std::size_t slot, const InterfacePatch& patch, const Model& model, Interface& interface);
+/// Leaves a patch without area.
+void empty_patch(std::size_t slot, const Model& model, Interface& interface);
 
 }  // namespace voussoir

@@ -1,5 +1,7 @@
 // Fill between stones: the same bits for any number of threads, as the plain serial loop, and when its arrays are
 // carried over to another run.
+#include <optional>
+
 #include "solver/contact/search.h"
 #include "tests/solver/models.h"
 #include "tools/ladder/fill_models.h"
@@ -89,6 +91,10 @@ TEST(FillThreads, GiveTheSameBitsWithNewPatches) {
   ASSERT_TRUE(two->run(6000));
   EXPECT_EQ(two->hash(), one->hash());
   ASSERT_TRUE(first->run(3500));
+  std::size_t empty = 0;  // lanes of patches that have been dropped, which must be carried over as well
+  for (std::size_t slot = 0; slot < first->state.interface.patches.size(); ++slot)
+    empty += !first->state.interface.used(slot) && !first->state.interface.spare(slot);
+  EXPECT_GT(empty, 0u);
   std::vector<NamedArray> from = first->state.arrays(), to = second->state.arrays();
   for (std::size_t i = 0; i < from.size(); ++i)
     std::visit([&](auto* array) { *array = *std::get<decltype(array)>(from[i].data); }, to[i].data);
@@ -122,26 +128,42 @@ TEST(FillThreads, GoOnFromTheirArrays) {
   EXPECT_EQ(second.hash(), whole.hash());
 }
 
-/// What was put in is stored or lost: with friction, plastic flow and damping branches.
+struct Ledger {
+  double worst = 0.0, largest = 0.0;  // J: what does not add up; of all that does
+  Energies end;
+};
+
+/// Shaken for 0.2 s.
+Ledger ledger(DampingSettings::Kind kind, int steps) {
+  Shaken bench(2, kind, 0.2 / steps);
+  Ledger l;
+  std::optional<double> first;
+  EXPECT_TRUE(bench.run(steps, 10, [&](const BodyPass& pass) {
+    const Energies e = l.end = compute_energies(bench.stepper, pass);
+    if (!first) first = e.total();
+    l.largest =
+        std::max({l.largest, e.kinetic, e.elastic, std::abs(e.gravitational), std::abs(e.external_work), e.plastic});
+    l.worst = std::max(l.worst, std::abs(e.total() - *first));
+  }));
+  EXPECT_GT(l.end.plastic + l.end.friction, 0.05 * l.largest);
+  return l;
+}
+
+/// What was put in is stored or lost: with friction, plastic flow and patches clipped anew, to the order of the step.
 TEST(FillThreads, KeepTheLedger) {
-  double error[2];
-  for (const int half : {0, 1}) {
-    Shaken bench(2, DampingSettings::Kind::maxwell, half ? 2.5e-5 : 5e-5);
-    double first = 0.0, worst = 0.0, largest = 0.0, lost = 0.0;
-    bool begun = false;
-    ASSERT_TRUE(bench.run(half ? 8000 : 4000, 10, [&](const BodyPass& pass) {
-      const Energies e = compute_energies(bench.stepper, pass);
-      if (!begun) first = e.total(), begun = true;
-      largest =
-          std::max({largest, e.kinetic, e.elastic, std::abs(e.gravitational), std::abs(e.external_work), e.plastic});
-      worst = std::max(worst, std::abs(e.total() - first));
-      lost = e.plastic + e.friction;
-    }));
-    EXPECT_GT(lost, 0.05 * largest);
-    error[half] = worst / largest;
-  }
-  EXPECT_LT(error[0], 0.01);
-  EXPECT_LT(error[1], 0.6 * error[0]);
+  const Ledger whole = ledger(DampingSettings::Kind::none, 4000), half = ledger(DampingSettings::Kind::none, 8000);
+  EXPECT_LT(whole.worst, 1e-3 * whole.largest);
+  EXPECT_LT(half.worst, 0.52 * whole.worst);
+}
+
+/// Branches know the work done on them to the first order of the elastic strain (docs/theory/fill.md): a part of what
+/// they lose is left over however short the step.
+TEST(FillThreads, KeepTheLedgerOfBranches) {
+  const Ledger whole = ledger(DampingSettings::Kind::maxwell, 4000),
+               half = ledger(DampingSettings::Kind::maxwell, 8000);
+  EXPECT_LT(whole.worst, 1e-3 * whole.largest);
+  EXPECT_GT(half.end.joint_damping, 0.01 * half.largest);
+  EXPECT_LT(2.0 * half.worst - whole.worst, 0.01 * half.end.joint_damping);
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(FillColumns, KeepTheBoundWhereThreeColoursDoNotDo) {
 TEST(FillColumns, WhatNoStepsWouldShortenIsLeft) {
   const FillMesh mesh = sweep(fan(5, 0.6, 2.0), 0.5, 0.4);
   EXPECT_GT(fill_quality(mesh).longest_edge, 0.7);
-  EXPECT_LT(mesh.nodes.size(), 6u * 12u);
+  EXPECT_LT(mesh.nodes.size(), 6u * 14u);  // 11 or 13 of each column, where nothing is halved
 }
 
 TEST(FillColumns, AFillBesideTheMiddleNeedsNone) {
