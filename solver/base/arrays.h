@@ -11,8 +11,8 @@ namespace voussoir {
 
 constexpr std::size_t cache_line = 64, large_page = std::size_t(2) << 20;
 
-/// Memory on a cache line's boundary, or on a large page's where several fit: a step over a large bridge goes through
-/// tens of thousands of pages of 4 kB.
+/// Memory on a cache line's boundary; from a quarter of a large page on, whole large pages: a step over a large bridge
+/// goes through tens of thousands of pages of 4 kB.
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* memory, std::size_t bytes);
 

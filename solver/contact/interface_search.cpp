@@ -1,12 +1,12 @@
 #include "solver/contact/interface_search.h"
 
 #include <algorithm>
-#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "geometry/neighbours.h"
 #include "solver/base/parallel.h"
+#include "solver/contact/interface_change.h"
 #include "solver/contact/interface_jump.h"
 #include "solver/contact/make_contact.h"
 #include "solver/contact/search.h"
@@ -59,19 +59,14 @@ using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // body, cell
 class Search {
  public:
   Search(const Model& model, State& state, const Branches& branches, int threads)
-      : model_(model),
-        state_(state),
-        branches_(branches),
-        threads_(threads),
-        gone_(state.interface.patches.size(), 0) {}
+      : model_(model), state_(state), branches_(branches), threads_(threads) {
+    change_.gone.assign(state.interface.patches.size(), 0);
+  }
 
   InterfaceUpdate run(bool clip) {
     if (clip) look_at_those_past();
     if (model_.contact.search && is_due()) look_around();
-    if (update_.made > 0)
-      rebuild();
-    else if (update_.changed())
-      put_in_place();
+    if (update_.changed()) change_interface(model_, state_, branches_.count, std::move(change_));
     return update_;
   }
 
@@ -107,9 +102,9 @@ class Search {
   }
 
   void look_at_those_past() {
-    std::vector<char> is_past(gone_.size(), 0);
-    for_each(gone_.size(), threads_, 1000, [&](std::size_t slot) { is_past[slot] = past(slot); });
-    for (std::size_t slot = 0; slot < gone_.size(); ++slot)
+    std::vector<char> is_past(change_.gone.size(), 0);
+    for_each(change_.gone.size(), threads_, 1000, [&](std::size_t slot) { is_past[slot] = past(slot); });
+    for (std::size_t slot = 0; slot < change_.gone.size(); ++slot)
       if (is_past[slot]) look_at(slot);
   }
 
@@ -117,12 +112,12 @@ class Search {
   void look_at(std::size_t slot) {
     const InterfacePatch& old = state_.interface.patches[slot];
     const InterfaceJump j = interface_jump(model_, state_, old);
-    energy_before_ += interface_energy(model_, state_, slot);
-    gone_[slot] = 1;
+    change_.energy_before += interface_energy(model_, state_, slot);
+    change_.gone[slot] = 1;
     const Overlap now = overlap(placed_cell(model_, state_, old.body, old.cell), old.face, sheet_of(old.triangle));
     if (now.area >= least_area()) {
-      fresh_.push_back(moved_patch(slot, j, now));
-      note(fresh_.back());
+      change_.fresh.push_back(moved_patch(slot, j, now));
+      note(change_.fresh.back());
       ++update_.clipped;
       return;
     }
@@ -274,9 +269,9 @@ class Search {
       if (!interface.used(slot)) continue;
       of_triangle_.emplace_back(patch.triangle, slot);
       of_body_.emplace_back(patch.body, slot);
-      if (!gone_[slot]) known_.emplace_back(patch.body, patch.cell, patch.triangle);
+      if (!change_.gone[slot]) known_.emplace_back(patch.body, patch.cell, patch.triangle);
     }
-    for (const InterfacePatch& patch : fresh_) known_.emplace_back(patch.body, patch.cell, patch.triangle);
+    for (const InterfacePatch& patch : change_.fresh) known_.emplace_back(patch.body, patch.cell, patch.triangle);
     std::sort(known_.begin(), known_.end());
     std::sort(of_triangle_.begin(), of_triangle_.end());
     std::sort(of_body_.begin(), of_body_.end());
@@ -338,7 +333,7 @@ class Search {
     for (std::size_t k = 0; k < 3; ++k)
       set_rest(axes, patch, k, Vec3(normal.dot(sheet.corners[k] - best.polygon[0]) + lift, 0.0, 0.0));
     note(patch);
-    fresh_.push_back(std::move(patch));
+    change_.fresh.push_back(std::move(patch));
     ++update_.made;
   }
 
@@ -378,172 +373,17 @@ class Search {
     patch.law = like.law, patch.kn = like.kn, patch.ks = like.ks;
   }
 
-  void rebuild();
-  void put_in_place();
-
   const Model& model_;
   State& state_;
   const Branches& branches_;
   int threads_;
   InterfaceUpdate update_;
-  std::vector<char> gone_;             // of each slot: dropped, or clipped anew
-  std::vector<InterfacePatch> fresh_;  // clipped anew, then made
+  InterfaceChange change_;
   std::vector<std::pair<std::int32_t, std::int32_t>> cells_;
   std::vector<Convex> placed_;  // where they are
   std::vector<Key> known_;
   Slots of_triangle_, of_body_;
-  double energy_before_ = 0.0;
 };
-
-/// What a patch that is clipped anew keeps: bonds, and in its branches the means.
-struct Kept {
-  std::uint8_t broken = 0;
-  std::vector<double> means;
-};
-
-Kept kept_of(const Interface& interface, const PatchMemory& memory, std::size_t slot, int branches) {
-  const std::size_t columns = 3 * std::size_t(branches);
-  Kept kept;
-  kept.means.assign(columns, 0.0);
-  double area = 0.0;
-  const std::vector<PatchPoint>& points = interface.patches[slot].points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    area += points[i].weight;
-    kept.broken |= std::uint8_t(memory.broken[interface.point_index(slot, i, 1, 0)] & 1);
-    for (std::size_t c = 0; c < columns; ++c)
-      kept.means[c] += points[i].weight * double(memory.point_branch[interface.point_index(slot, i, columns, c)]);
-  }
-  for (double& mean : kept.means) mean /= area;
-  return kept;
-}
-
-void begin_again(const Interface& interface, std::size_t slot, const Kept& kept, PatchMemory& memory) {
-  for (std::size_t i = 0; i < interface.patches[slot].points.size(); ++i) {
-    for (std::size_t c = 0; c < 2; ++c) {
-      memory.point[interface.point_index(slot, i, 2, c)] = 0.0;
-      memory.point_rest[interface.point_index(slot, i, 2, c)] = 0.0;
-    }
-    memory.broken[interface.point_index(slot, i, 1, 0)] = kept.broken;
-    for (std::size_t c = 0; c < kept.means.size(); ++c)
-      memory.point_branch[interface.point_index(slot, i, kept.means.size(), c)] = float(kept.means[c]);
-  }
-  const double* slid = interface.patches[slot].slid;
-  memory.largest[2 * slot + 1] = std::max(memory.largest[2 * slot + 1], Vec3(slid).norm());
-}
-
-/// A patch that was clipped anew begins with the same shear at all points: where friction does not bear it, the rest of
-/// it has slipped already. Else it would slip in the next pass and be counted as friction, which nobody had worked for.
-void begin_within_friction(const Model& model, State& state, std::size_t slot) {
-  const InterfacePatch& patch = state.interface.patches[slot];
-  const Mat3 shape = shape_functions(patch);
-  const InterfaceJump j = interface_jump(model, state, patch);
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const Vec3 slips =
-        j.point(shape, patch.points[i].s, patch.points[i].t) - elastic_point(model, state, slot, j, shape, i);
-    for (std::size_t c = 0; c < 2; ++c)
-      state.interface_memory.point[state.interface.point_index(slot, i, 2, c)] = slips[Eigen::Index(c) + 1];
-  }
-}
-
-/// What a slot's points remember, from another interface.
-void carry_memory(const Interface& from, const PatchMemory& old, const Interface& to, std::size_t slot, int branches,
-                  PatchMemory& memory) {
-  const InterfacePatch& patch = to.patches[slot];
-  const auto before = std::size_t(patch.from);
-  for (std::size_t c = 0; c < 2; ++c) memory.largest[2 * slot + c] = old.largest[2 * before + c];
-  for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = old.energy[3 * before + c];
-  memory.mode[slot] = old.mode[before];
-  if (patch.again) return begin_again(to, slot, kept_of(from, old, before, branches), memory);
-  const std::size_t columns = 3 * std::size_t(branches);
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const auto copy = [&](auto& now, const auto& was, std::size_t width, std::size_t c) {
-      now[to.point_index(slot, i, width, c)] = was[from.point_index(before, i, width, c)];
-    };
-    for (std::size_t c = 0; c < 2; ++c)
-      copy(memory.point, old.point, 2, c), copy(memory.point_rest, old.point_rest, 2, c);
-    copy(memory.broken, old.broken, 1, 0);
-    for (std::size_t c = 0; c < columns; ++c) copy(memory.point_branch, old.point_branch, columns, c);
-  }
-}
-
-/// The jump of a slot as it is now, rounded as the passes round it: what the branches have seen.
-void note_jump(const Model& model, const State& state, std::size_t slot, PatchMemory& memory) {
-  const InterfacePatch& patch = state.interface.patches[slot];
-  const Mat3 shape = shape_functions(patch);
-  const InterfaceJump j = interface_jump(model, state, patch);
-  const std::size_t first = 9 * lane_count * (slot / lane_count) + slot % lane_count;
-  for (std::size_t part = 0; part < 3; ++part)
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 3; ++k)
-        sum += shape(Eigen::Index(k), Eigen::Index(part)) * j.moved[k][Eigen::Index(c)];
-      memory.last[first + lane_count * (3 * part + c)] = float(sum);
-    }
-}
-
-void Search::rebuild() {
-  const Interface before = std::move(state_.interface);
-  const PatchMemory old = std::move(state_.interface_memory);
-  for (std::size_t slot = 0; slot < gone_.size(); ++slot) {
-    if (!before.used(slot) || gone_[slot]) continue;
-    fresh_.push_back(before.patches[slot]);
-    fresh_.back().from = std::int32_t(slot);
-  }
-  state_.interface = make_interface(std::move(fresh_), model_);
-  Interface& now = state_.interface;
-  PatchMemory memory;
-  memory.resize(now.patches.size(), now.points.size() / 3);
-  memory.point_branch.assign(std::size_t(branches_.count) * now.points.size(), 0.0f);
-  memory.last.assign(9 * lane_count * now.batches.size(), 0.0f);
-  std::fill(memory.broken.begin(), memory.broken.end(), std::uint8_t(1));
-  for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
-    const std::int32_t from = now.patches[slot].from;
-    if (from < 0 || !now.used(slot)) {
-      note_jump(model_, state_, slot, memory);
-      continue;
-    }
-    carry_memory(before, old, now, slot, branches_.count, memory);
-    if (now.patches[slot].again) {
-      note_jump(model_, state_, slot, memory);
-      continue;
-    }
-    const auto lane_of = [](std::size_t s) { return 9 * lane_count * (s / lane_count) + s % lane_count; };
-    for (std::size_t c = 0; c < 9; ++c)
-      memory.last[lane_of(slot) + lane_count * c] = old.last[lane_of(std::size_t(from)) + lane_count * c];
-  }
-  state_.interface_memory = std::move(memory);
-  double energy_after = 0.0;
-  for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
-    InterfacePatch& patch = now.patches[slot];
-    if (patch.again) begin_within_friction(model_, state_, slot);
-    if (now.used(slot) && (patch.again || patch.from < 0)) energy_after += interface_energy(model_, state_, slot);
-    patch.from = -1, patch.again = false;
-  }
-  state_.clipped_energy() += energy_before_ - energy_after;
-}
-
-/// Nothing has come: clipped patches take the places of those they come from, dropped ones leave theirs empty.
-void Search::put_in_place() {
-  Interface& interface = state_.interface;
-  PatchMemory& memory = state_.interface_memory;
-  double energy_after = 0.0;
-  for (InterfacePatch& patch : fresh_) {
-    const auto slot = std::size_t(std::exchange(patch.from, -1));
-    patch.again = false, gone_[slot] = 0;
-    const Kept kept = kept_of(interface, memory, slot, branches_.count);
-    replace_patch(slot, patch, model_, interface);
-    begin_again(interface, slot, kept, memory);
-    note_jump(model_, state_, slot, memory);
-    begin_within_friction(model_, state_, slot);
-    energy_after += interface_energy(model_, state_, slot);
-  }
-  for (std::size_t slot = 0; slot < gone_.size(); ++slot) {
-    if (!gone_[slot]) continue;
-    empty_patch(slot, model_, interface);
-    for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = 0.0;  // it has been retired
-  }
-  state_.clipped_energy() += energy_before_ - energy_after;
-}
 
 }  // namespace
 
