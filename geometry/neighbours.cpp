@@ -65,16 +65,35 @@ class Columns {
   }
   std::size_t at(double y, double z) const { return std::size_t(y_.at(y) * z_.count() + z_.at(z)); }
 
- private:
+  /// Every column that a box stands in.
   template <class F>
   void each(const Box& box, F f) const {
     for (int i = y_.first(box); i <= y_.last(box); ++i)
       for (int j = z_.first(box); j <= z_.last(box); ++j) f(std::size_t(i * z_.count() + j));
   }
+
+ private:
   Strips y_, z_;
   std::vector<std::size_t> first_;
   std::vector<int> members_;
 };
+
+/// Boxes in the order in which they begin along x.
+struct Sweep {
+  std::vector<int> order;  // numbers of the boxes
+  std::vector<Box> boxes;
+};
+Sweep sweep_along(int x, const std::vector<Box>& boxes) {
+  Sweep sweep;
+  sweep.order.resize(boxes.size());
+  std::iota(sweep.order.begin(), sweep.order.end(), 0);
+  std::sort(sweep.order.begin(), sweep.order.end(), [&](int i, int j) {
+    return std::pair(boxes[std::size_t(i)].low[x], i) < std::pair(boxes[std::size_t(j)].low[x], j);
+  });
+  sweep.boxes.reserve(boxes.size());
+  for (const int i : sweep.order) sweep.boxes.push_back(boxes[std::size_t(i)]);
+  return sweep;
+}
 
 }  // namespace
 
@@ -82,13 +101,7 @@ std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, doubl
   std::vector<std::pair<int, int>> out;
   if (boxes.size() < 2) return out;
   const int x = longest_axis(boxes), y = (x + 1) % 3, z = (x + 2) % 3;
-  std::vector<int> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return std::pair(boxes[i].low[x], i) < std::pair(boxes[j].low[x], j); });
-  std::vector<Box> sorted;
-  sorted.reserve(boxes.size());
-  for (int i : order) sorted.push_back(boxes[i]);
+  const auto [order, sorted] = sweep_along(x, boxes);
   const Columns columns(sorted, y, z, distance);
   std::vector<Box> column;  // in the order of the sweep, so that the inner loop reads straight on
   for (std::size_t c = 0; c < columns.count(); ++c) {
@@ -111,6 +124,45 @@ std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, doubl
   }
   std::sort(out.begin(), out.end());
   return out;
+}
+
+struct BoxIndex::Content {
+  Content(const std::vector<Box>& of, double within)
+      : x(longest_axis(of)),
+        distance(within),
+        sweep(sweep_along(x, of)),
+        columns(sweep.boxes, (x + 1) % 3, (x + 2) % 3, within) {
+    for (const Box& box : of) longest = std::max(longest, box.high[x] - box.low[x]);
+  }
+  int x;
+  double distance, longest = 0.0;  // m
+  Sweep sweep;
+  Columns columns;
+};
+
+BoxIndex::BoxIndex(const std::vector<Box>& boxes, double distance)
+    : content_(std::make_unique<Content>(boxes, distance)) {}
+BoxIndex::BoxIndex(BoxIndex&&) noexcept = default;
+BoxIndex::~BoxIndex() = default;
+
+void BoxIndex::near(const Box& box, std::vector<int>& found) const {
+  const Content& c = *content_;
+  const int x = c.x, y = (x + 1) % 3, z = (x + 2) % 3;
+  const Vec3 low = box.low.array() - c.distance, high = box.high.array() + c.distance;
+  found.clear();
+  c.columns.each(box, [&](std::size_t column) {
+    const std::span<const int> members = c.columns.members(column);
+    const auto begins = [&](int i, double at) { return c.sweep.boxes[std::size_t(i)].low[x] < at; };
+    for (auto at = std::lower_bound(members.begin(), members.end(), low[x] - c.longest, begins); at != members.end();
+         ++at) {
+      const Box& b = c.sweep.boxes[std::size_t(*at)];
+      if (b.low[x] > high[x]) break;
+      if ((b.low.array() > high.array()).any() || (b.high.array() < low.array()).any()) continue;
+      if (c.columns.at(std::max(box.low[y], b.low[y]), std::max(box.low[z], b.low[z])) != column) continue;
+      found.push_back(c.sweep.order[std::size_t(*at)]);
+    }
+  });
+  std::sort(found.begin(), found.end());
 }
 
 }  // namespace voussoir

@@ -1,6 +1,9 @@
 #include "solver/contact/interface_search.h"
 
 #include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -101,23 +104,41 @@ class Search {
     return u[1] * u[1] + u[2] * u[2] > model_.slip_limit2(patch.area);
   }
 
+  /// What becomes of a patch that has slid past the limit: one that is clipped anew, or none.
+  struct Clipped {
+    double energy = 0.0;  // J, of the old one
+    bool stays = false;
+    InterfacePatch patch;
+  };
+
   void look_at_those_past() {
     std::vector<char> is_past(change_.gone.size(), 0);
-    for_each(change_.gone.size(), threads_, 1000, [&](std::size_t slot) { is_past[slot] = past(slot); });
-    for (std::size_t slot = 0; slot < change_.gone.size(); ++slot)
-      if (is_past[slot]) look_at(slot);
+    for_each(is_past.size(), threads_, 1000, [&](std::size_t slot) { is_past[slot] = past(slot); });
+    std::vector<std::size_t> slots;
+    for (std::size_t slot = 0; slot < is_past.size(); ++slot)
+      if (is_past[slot]) slots.push_back(slot);
+    std::vector<Clipped> clipped(slots.size());
+    for_each(slots.size(), threads_, 20, [&](std::size_t i) { clipped[i] = look_at(slots[i]); });
+    for (std::size_t i = 0; i < slots.size(); ++i) enter(slots[i], std::move(clipped[i]));
   }
 
-  /// Clips a patch that has slid past the limit anew, or drops it.
-  void look_at(std::size_t slot) {
+  Clipped look_at(std::size_t slot) const {
     const InterfacePatch& old = state_.interface.patches[slot];
     const InterfaceJump j = interface_jump(model_, state_, old);
-    change_.energy_before += interface_energy(model_, state_, slot);
-    change_.gone[slot] = 1;
+    Clipped clipped;
+    clipped.energy = interface_energy(model_, state_, slot);
     const Overlap now = overlap(placed_cell(model_, state_, old.body, old.cell), old.face, sheet_of(old.triangle));
-    if (now.area >= least_area()) {
-      change_.fresh.push_back(moved_patch(slot, j, now));
-      note(change_.fresh.back());
+    clipped.stays = now.area >= least_area();
+    if (clipped.stays) clipped.patch = moved_patch(slot, j, now);
+    return clipped;
+  }
+
+  void enter(std::size_t slot, Clipped clipped) {
+    change_.energy_before += clipped.energy;
+    change_.gone[slot] = 1;
+    if (clipped.stays) {
+      note(clipped.patch);
+      change_.fresh.push_back(std::move(clipped.patch));
       ++update_.clipped;
       return;
     }
@@ -136,7 +157,7 @@ class Search {
 
   /// The old patch with another outline. It keeps what its corners have moved across the face, and, along the face, the
   /// mean elastic part of that: no plastic slip is left, and the tractions are as before.
-  InterfacePatch moved_patch(std::size_t slot, const InterfaceJump& j, const Overlap& now) {
+  InterfacePatch moved_patch(std::size_t slot, const InterfaceJump& j, const Overlap& now) const {
     const InterfacePatch& old = state_.interface.patches[slot];
     InterfacePatch patch = old;
     patch.from = std::int32_t(slot);
@@ -196,26 +217,18 @@ class Search {
     for (int c = 0; c < 3; ++c) patch.rest[k][c] = rest[c];
   }
 
-  /// Cells of a body that stand near a box.
-  void add_near(std::size_t body, const Box& box, double within) {
-    const Vec3 at = model_.bodies[body].centroid + Vec3(&state_.pose[pose_width * body]);
-    const double reach = model_.bodies[body].radius + within;
-    if (((box.low - at).array() > reach).any() || ((at - box.high).array() > reach).any()) return;
-    for (std::size_t c = 0; c < model_.cells[body].size(); ++c) {
-      cells_.emplace_back(std::int32_t(body), std::int32_t(c));
-      placed_.push_back(placed_cell(model_, state_, std::int32_t(body), std::int32_t(c)));
-    }
-  }
-
   /// Whether some stone or node has gone so far since it was last noted that what is about it must be looked at.
   bool is_due() const {
     const double far = search_distance(model_);
     const Vec3 base = state_.base_displacement();
-    for (std::size_t i = 0; i < model_.bodies.size(); ++i)
-      if (moved_since(model_, state_, state_.interface_seen, i, base) > far) return true;
-    for (std::size_t i = 0; i < model_.fill.nodes.size(); ++i)
-      if (node_moved2(i) > far * far) return true;
-    return false;
+    std::atomic<bool> due = false;
+    for_each(model_.bodies.size(), threads_, 5000, [&](std::size_t i) {
+      if (moved_since(model_, state_, state_.interface_seen, i, base) > far) due.store(true, std::memory_order_relaxed);
+    });
+    for_each(model_.fill.nodes.size(), threads_, 10000, [&](std::size_t i) {
+      if (node_moved2(i) > far * far) due.store(true, std::memory_order_relaxed);
+    });
+    return due;
   }
 
   /// How far a node has moved relative to the base since it was noted, squared, m2.
@@ -229,101 +242,146 @@ class Search {
     return d2;
   }
 
-  /// Pairs of cell and triangle that have come near each other without a patch between them.
+  /// A face of a cell and a triangle that have come near each other without a patch between them.
+  struct Found {
+    Key key;
+    Overlap overlap;
+    Vec3 normal;
+  };
+
+  /// What has moved meets what it may have come near.
   void look_around() {
     const std::vector<char> bodies = moved_bodies(), triangles = moved_triangles();
+    std::vector<Box> sheets(triangles.size());
+    for_each(sheets.size(), threads_, 2000, [&](std::size_t i) { sheets[i] = box_of(i); });
     Box surface, moved;
-    std::vector<Box> sheets;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      sheets.push_back(box_of(i));
-      join(surface, sheets.back());
-      if (triangles[i]) join(moved, sheets.back());
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+      join(surface, sheets[i]);
+      if (triangles[i]) join(moved, sheets[i]);
     }
-    const double within = skin(model_);
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (!state_.lost(b)) add_near(b, bodies[b] ? surface : moved, within);
-    if (cells_.empty()) return;
-    std::vector<Box> boxes;
-    for (const Convex& cell : placed_) boxes.push_back(bounding_box(cell.vertices));
-    boxes.insert(boxes.end(), sheets.begin(), sheets.end());
-    const auto first = int(cells_.size());
     index_patches();
-    for (const auto& [i, j] : neighbours(boxes, within)) {
-      if (i >= first || j < first) continue;
-      const auto [body, cell] = cells_[std::size_t(i)];
-      const auto triangle = std::int32_t(j - first);
-      if (!bodies[std::size_t(body)] && !triangles[std::size_t(triangle)]) continue;
-      const Key key(body, cell, triangle);
-      if (!std::binary_search(known_.begin(), known_.end(), key)) examine(key, placed_[std::size_t(i)]);
+    const BoxIndex index(sheets, skin(model_));
+    std::vector<std::vector<Found>> found(bodies.size());
+    for_each(bodies.size(), threads_, 200, [&](std::size_t b) {
+      if (is_near(b, bodies[b] ? surface : moved)) found[b] = look_about(b, bodies[b], triangles, index);
+    });
+    for (const std::vector<Found>& of_body : found)
+      for (const Found& f : of_body) add(f);
+  }
+
+  bool is_near(std::size_t body, const Box& box) const {
+    const Vec3 at = model_.bodies[body].centroid + Vec3(&state_.pose[pose_width * body]);
+    const double reach = model_.bodies[body].radius + skin(model_);
+    return !state_.lost(body) && ((box.low - at).array() <= reach).all() && ((at - box.high).array() <= reach).all();
+  }
+
+  /// Between the cells of a body, which `moves` or not, and triangles: in the order of cells, then of triangles.
+  std::vector<Found> look_about(std::size_t body, bool moves, const std::vector<char>& triangles,
+                                const BoxIndex& index) const {
+    std::vector<Found> found;
+    std::vector<int> near;
+    for (std::size_t cell = 0; cell < model_.cells[body].size(); ++cell) {
+      const Key key(std::int32_t(body), std::int32_t(cell), 0);
+      index.near(cell_box(body, cell), near);
+      std::erase_if(near, [&](int t) { return !(moves || triangles[std::size_t(t)]) || is_known(key, t); });
+      if (near.empty()) continue;
+      const Convex placed = placed_cell(model_, state_, std::get<0>(key), std::get<1>(key));
+      for (const int t : near) {
+        Overlap best = best_overlap(placed, sheet_of(t));
+        if (best.face < 0) continue;
+        const Vec3 normal = placed.planes[std::size_t(best.face)].normal;
+        found.push_back({{std::get<0>(key), std::get<1>(key), t}, std::move(best), normal});
+      }
     }
+    return found;
+  }
+
+  Box cell_box(std::size_t body, std::size_t cell) const {
+    const Vec3 centroid = model_.bodies[body].centroid, at = centroid + Vec3(&state_.pose[pose_width * body]);
+    const Mat3 turn = rotation_of(state_, body).toRotationMatrix();
+    Box box;
+    for (const Vec3& v : model_.cells[body][cell].vertices) {
+      const Vec3 p = at + turn * (v - centroid);
+      join(box, {p, p});
+    }
+    return box;
   }
 
   static void join(Box& box, const Box& other) {
     box.low = box.low.cwiseMin(other.low), box.high = box.high.cwiseMax(other.high);
   }
 
+  /// The patches of each triangle, and whether they stay, anew or as they are.
   void index_patches() {
     const Interface& interface = state_.interface;
-    for (std::size_t slot = 0; slot < interface.patches.size(); ++slot) {
-      const InterfacePatch& patch = interface.patches[slot];
+    stays_.assign(interface.patches.size(), 0);
+    first_slot_.assign(model_.fill.triangles.size() + 1, 0);
+    for (std::size_t slot = 0; slot < stays_.size(); ++slot) {
       if (!interface.used(slot)) continue;
-      of_triangle_.emplace_back(patch.triangle, slot);
-      of_body_.emplace_back(patch.body, slot);
-      if (!change_.gone[slot]) known_.emplace_back(patch.body, patch.cell, patch.triangle);
+      stays_[slot] = !change_.gone[slot];
+      ++first_slot_[std::size_t(interface.patches[slot].triangle) + 1];
     }
-    for (const InterfacePatch& patch : change_.fresh) known_.emplace_back(patch.body, patch.cell, patch.triangle);
-    std::sort(known_.begin(), known_.end());
-    std::sort(of_triangle_.begin(), of_triangle_.end());
-    std::sort(of_body_.begin(), of_body_.end());
+    for (const InterfacePatch& patch : change_.fresh) stays_[std::size_t(patch.from)] = 1;
+    std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
+    slots_.resize(first_slot_.back());
+    std::vector<std::size_t> next(first_slot_.begin(), first_slot_.end() - 1);
+    for (std::size_t slot = 0; slot < stays_.size(); ++slot)
+      if (interface.used(slot)) slots_[next[std::size_t(interface.patches[slot].triangle)]++] = slot;
   }
 
-  using Slots = std::vector<std::pair<std::int32_t, std::size_t>>;
-  static Slots::const_iterator first_of(const Slots& slots, std::int32_t of) {
-    return std::lower_bound(slots.begin(), slots.end(), std::pair(of, std::size_t(0)));
+  /// Slots of a triangle's patches, as they were before the search; lowest first.
+  std::span<const std::size_t> slots_of(std::int32_t triangle) const {
+    const std::size_t first = first_slot_[std::size_t(triangle)];
+    return std::span(slots_).subspan(first, first_slot_[std::size_t(triangle) + 1] - first);
+  }
+
+  bool is_known(const Key& key, std::int32_t triangle) const {
+    for (const std::size_t slot : slots_of(triangle)) {
+      const InterfacePatch& patch = state_.interface.patches[slot];
+      if (patch.body == std::get<0>(key) && patch.cell == std::get<1>(key) && stays_[slot]) return true;
+    }
+    return false;
   }
 
   std::vector<char> moved_bodies() {
     std::vector<char> moved(model_.bodies.size(), 0);
     const double near = moved_share * skin(model_);
     const Vec3 base = state_.base_displacement();
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      if (moved_since(model_, state_, state_.interface_seen, i, base) <= near) continue;
+    for_each(moved.size(), threads_, 5000, [&](std::size_t i) {
+      if (moved_since(model_, state_, state_.interface_seen, i, base) <= near) return;
       moved[i] = 1;
       note_place(state_, i, state_.interface_seen);
-    }
+    });
     return moved;
   }
 
   std::vector<char> moved_triangles() {
-    std::vector<char> nodes(model_.fill.nodes.size(), 0), moved;
+    std::vector<char> nodes(model_.fill.nodes.size(), 0), moved(model_.fill.triangles.size(), 0);
     const double near = moved_share * skin(model_);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (node_moved2(i) <= near * near) continue;
+    for_each(nodes.size(), threads_, 10000, [&](std::size_t i) {
+      if (node_moved2(i) <= near * near) return;
       nodes[i] = 1;
       for (std::size_t c = 0; c < 3; ++c)
         state_.fill.searched[node_width * i + c] =
             float(state_.fill.pose[node_width * i + c] - state_.base_displacement()[Eigen::Index(c)]);
-    }
-    for (const auto& corners : model_.fill.triangles)
-      moved.push_back(nodes[std::size_t(corners[0])] || nodes[std::size_t(corners[1])] ||
-                      nodes[std::size_t(corners[2])]);
+    });
+    for_each(moved.size(), threads_, 10000, [&](std::size_t i) {
+      for (const std::int32_t node : model_.fill.triangles[i]) moved[i] |= nodes[std::size_t(node)];
+    });
     return moved;
   }
 
   /// A patch where a face that looks at the triangle is within the skin. It has no bond; where it is found inside, it
   /// begins with no more force than the triangle's other patches have.
-  void examine(const Key& key, const Convex& placed) {
+  void add(const Found& found) {
+    const Overlap& best = found.overlap;
     InterfacePatch patch;
-    std::tie(patch.body, patch.cell, patch.triangle) = key;
-    const Sheet sheet = sheet_of(patch.triangle);
-    const Overlap best = best_overlap(placed, sheet);
-    if (best.face < 0) return;
+    std::tie(patch.body, patch.cell, patch.triangle) = found.key;
     patch.face = best.face;
     const auto& corners = model_.fill.triangles[std::size_t(patch.triangle)];
     std::copy(corners.begin(), corners.end(), patch.node);
     set_law(patch);
-    const Vec3 normal = placed.planes[std::size_t(best.face)].normal;
-    const Mat3 axes = patch_shape(best.polygon, normal, model_.contact.points_per_side).frame;
+    const Mat3 axes = patch_shape(best.polygon, found.normal, model_.contact.points_per_side).frame;
     const auto body = std::size_t(patch.body);
     const Eigen::Quaterniond own = rotation_of(state_, body).conjugate() * Eigen::Quaterniond(axes);
     const double frame[4] = {own.w(), own.x(), own.y(), own.z()};
@@ -331,7 +389,7 @@ class Search {
     set_outline(best.polygon, axes, model_.bodies[body].centroid + Vec3(&state_.pose[pose_width * body]), patch);
     const double lift = std::max(0.0, -best.nearest - deepest_beside(patch.triangle));
     for (std::size_t k = 0; k < 3; ++k)
-      set_rest(axes, patch, k, Vec3(normal.dot(sheet.corners[k] - best.polygon[0]) + lift, 0.0, 0.0));
+      set_rest(axes, patch, k, Vec3(found.normal.dot(node_at(corners[k]) - best.polygon[0]) + lift, 0.0, 0.0));
     note(patch);
     change_.fresh.push_back(std::move(patch));
     ++update_.made;
@@ -352,8 +410,8 @@ class Search {
   /// m: how far the triangle's other patches are pressed in.
   double deepest_beside(std::int32_t triangle) const {
     double deepest = 0.0;
-    for (auto it = first_of(of_triangle_, triangle); it != of_triangle_.end() && it->first == triangle; ++it) {
-      const InterfacePatch& other = state_.interface.patches[it->second];
+    for (const std::size_t slot : slots_of(triangle)) {
+      const InterfacePatch& other = state_.interface.patches[slot];
       const InterfaceJump j = interface_jump(model_, state_, other);
       const Mat3 shape = shape_functions(other);
       for (const PatchPoint& p : other.points) deepest = std::max(deepest, -j.point(shape, p.s, p.t)[0]);
@@ -362,15 +420,23 @@ class Search {
   }
 
   /// As the stone's other patches, or the triangle's, or the first there is.
-  void set_law(InterfacePatch& patch) const {
-    const auto same = first_of(of_body_, patch.body), beside = first_of(of_triangle_, patch.triangle);
-    std::size_t slot = 0;
-    if (same != of_body_.end() && same->first == patch.body)
-      slot = same->second;
-    else if (beside != of_triangle_.end() && beside->first == patch.triangle)
-      slot = beside->second;
+  void set_law(InterfacePatch& patch) {
+    const std::span<const std::size_t> beside = slots_of(patch.triangle);
+    const std::int64_t same = first_slot_of_body(patch.body);
+    const std::size_t slot = same >= 0 ? std::size_t(same) : beside.empty() ? 0 : beside.front();
     const InterfacePatch& like = state_.interface.patches[slot];
     patch.law = like.law, patch.kn = like.kn, patch.ks = like.ks;
+  }
+
+  /// The lowest slot with a patch of the body, −1: none.
+  std::int64_t first_slot_of_body(std::int32_t body) {
+    if (of_body_.empty()) {  // most searches find nothing that asks
+      of_body_.assign(model_.bodies.size(), -1);
+      for (std::size_t slot = stays_.size(); slot-- > 0;)
+        if (state_.interface.used(slot))
+          of_body_[std::size_t(state_.interface.patches[slot].body)] = std::int64_t(slot);
+    }
+    return of_body_[std::size_t(body)];
   }
 
   const Model& model_;
@@ -379,10 +445,9 @@ class Search {
   int threads_;
   InterfaceUpdate update_;
   InterfaceChange change_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> cells_;
-  std::vector<Convex> placed_;  // where they are
-  std::vector<Key> known_;
-  Slots of_triangle_, of_body_;
+  std::vector<char> stays_;                      // of each slot
+  std::vector<std::size_t> first_slot_, slots_;  // of each triangle, and one past the end
+  std::vector<std::int64_t> of_body_;
 };
 
 }  // namespace

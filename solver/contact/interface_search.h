@@ -14,7 +14,7 @@ struct InterfaceUpdate {
 /// looked at, and drops patches whose overlap is gone; with `clip`, patches that have slid past the model's limit are
 /// clipped anew: tractions are carried over, elastic energy that is lost or won with area is put to
 /// State::clipped_energy(). Decided by the state alone, whatever the number of threads. Afterwards
-/// Stepper::prepare_contacts() must be called.
+/// Stepper::prepare_contacts() must be called if some were made or dropped: those that are clipped keep their places.
 InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip,
                                  int threads = 1);
 

@@ -195,36 +195,41 @@ bool past_list(const Model& model, const State& state, std::size_t body) {
 
 namespace {
 
+void put_pair(State& state, std::size_t to, const CellPair& cells, const float* seen) {
+  std::copy(cells.begin(), cells.end(), &state.pair_cells[4 * to]);
+  std::copy(seen, seen + searched_width, &state.pair_seen[searched_width * to]);
+}
+void move_pair(State& state, std::size_t from, std::size_t to) {
+  if (from == to) return;
+  put_pair(state, to, cells_at(state, from), &state.pair_seen[searched_width * from]);
+}
+
 /// The list without the pairs of stale bodies, and with fresh ones, sorted like it, in their places; what is known of a
-/// fresh pair is kept.
+/// fresh pair is kept. In place: the list has megabytes, and few pairs change.
 void merge_pairs(State& state, const std::vector<char>& stale, const std::vector<CellPair>& fresh) {
-  Array<std::int32_t> cells;
-  Array<float> seen;
-  const std::size_t n = pair_count(state);
-  cells.reserve(4 * (n + fresh.size())), seen.reserve(searched_width * (n + fresh.size()));
-  const auto keep = [&](std::size_t begin, std::size_t end) {
-    cells.insert(cells.end(), &state.pair_cells[0] + 4 * begin, &state.pair_cells[0] + 4 * end);
-    seen.insert(seen.end(), &state.pair_seen[0] + searched_width * begin, &state.pair_seen[0] + searched_width * end);
-  };
-  const auto add = [&](const CellPair& pair) {
-    cells.insert(cells.end(), pair.begin(), pair.end());
-    seen.insert(seen.end(), {0, 0, 0, 1, 0, 0, 0, pair_is_new});
-  };
+  std::vector<CellPair> added;
+  std::size_t kept = 0;
   auto next = fresh.begin();
-  std::size_t kept = 0;  // where the run of pairs that stay begins
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < pair_count(state); ++i) {
     const CellPair here = cells_at(state, i);
-    const bool goes = stale[std::size_t(here[0])] || stale[std::size_t(here[1])];
-    if (!goes && (next == fresh.end() || here < *next)) continue;
-    keep(kept, i);
-    for (; next != fresh.end() && *next < here; ++next) add(*next);
+    for (; next != fresh.end() && *next < here; ++next) added.push_back(*next);
     const bool known = next != fresh.end() && *next == here;
     if (known) ++next;
-    kept = goes && !known ? i + 1 : i;
+    if (known || !(stale[std::size_t(here[0])] || stale[std::size_t(here[1])])) move_pair(state, i, kept++);
   }
-  keep(kept, n);
-  for (; next != fresh.end(); ++next) add(*next);
-  state.pair_cells = std::move(cells), state.pair_seen = std::move(seen);
+  added.insert(added.end(), next, fresh.end());
+  constexpr float unseen[searched_width] = {0, 0, 0, 1, 0, 0, 0, pair_is_new};
+  std::size_t to = kept + added.size();
+  state.pair_cells.resize(4 * to), state.pair_seen.resize(searched_width * to);
+  while (!added.empty()) {  // from the end
+    --to;
+    if (kept > 0 && added.back() < cells_at(state, kept - 1)) {
+      move_pair(state, --kept, to);
+    } else {
+      put_pair(state, to, added.back(), unseen);
+      added.pop_back();
+    }
+  }
 }
 
 }  // namespace

@@ -266,6 +266,7 @@ class Search {
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip, int threads) {
   ContactUpdate update = Search(model, state, branches, threads).run(clip);
   const InterfaceUpdate fill = update_interface(model, state, branches, clip, threads);
+  update.moved = update.changed() || fill.made + fill.dropped > 0;
   update.made += fill.made, update.clipped += fill.clipped, update.dropped += fill.dropped;
   update.bodies.insert(update.bodies.end(), fill.bodies.begin(), fill.bodies.end());
   update.nodes = fill.nodes;

@@ -12,6 +12,8 @@ struct ContactUpdate {
   std::vector<std::int32_t> bodies;  // that have got a contact, some more than once
   std::vector<std::int32_t> nodes;   // of the fill's model that have got a patch, some more than once
   bool changed() const { return made + clipped + dropped > 0; }
+  /// Whether a patch has another place, or its place another patch: else Stepper::prepare_contacts() has nothing to do.
+  bool moved = false;
 };
 
 /// The distance within which a contact is made before two cells touch, m.
@@ -58,7 +60,7 @@ inline bool may_clip_at(std::int64_t step) {
 /// Looks for new contacts around the bodies that have moved since they were last looked at, and drops contacts of
 /// theirs that have parted; with `clip` all patches that have slid or turned past their limits are clipped anew (force
 /// and moment carried over). Decided by the state alone, whatever the number of threads. Afterwards
-/// Stepper::prepare_contacts() must be called.
+/// Stepper::prepare_contacts() must be called where patches have moved.
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip = true,
                               int threads = 1);
 

@@ -18,8 +18,14 @@ Incidence find_incidence(const Model& model, const State& state) {
   };
   incidence.first.assign(model.bodies.size() + 1, 0);
   const Interface& interface = state.interface;
-  for (std::size_t i = 0; i < interface.patches.size(); ++i)
-    if (interface.used(i)) ++incidence.first[std::size_t(interface.patches[i].body) + 1];
+  const auto each_of_fill = [&](const auto& visit) {  // from the batches, too
+    for (std::size_t i = 0; i < interface.patches.size(); ++i) {
+      const JointBatch& batch = interface.batches[i / lane_count].patch;
+      if (std::int32_t(i % lane_count) < batch.count && batch.area[i % lane_count] > 0.0)
+        visit(i, std::size_t(batch.a[i % lane_count]));
+    }
+  };
+  each_of_fill([&](std::size_t, std::size_t body) { ++incidence.first[body + 1]; });
   for (std::size_t i = 0; i < state.contacts.size(); ++i)
     if (state.has_contact(i)) ++incidence.first[bodies_of(i).a + 1], ++incidence.first[bodies_of(i).b + 1];
   for (std::size_t i = 1; i < incidence.first.size(); ++i) incidence.first[i] += incidence.first[i - 1];
@@ -30,10 +36,9 @@ Incidence find_incidence(const Model& model, const State& state) {
     incidence.contacts[next[bodies_of(i).a]++] = std::int32_t(2 * i);
     incidence.contacts[next[bodies_of(i).b]++] = std::int32_t(2 * i + 1);
   }
-  for (std::size_t i = 0; i < interface.patches.size(); ++i)
-    if (interface.used(i))
-      incidence.contacts[next[std::size_t(interface.patches[i].body)]++] =
-          std::int32_t(2 * (state.contacts.size() + i));
+  each_of_fill([&](std::size_t i, std::size_t body) {
+    incidence.contacts[next[body]++] = std::int32_t(2 * (state.contacts.size() + i));
+  });
   return incidence;
 }
 

@@ -309,8 +309,7 @@ void Simulation::change_contacts() {
       update_contacts(model_, state_, stepper_.damping.branches, last_.reclip, stepper_.threads);
   const bool groups = state_.step() - state_.grouped_at() >= grouping_interval;
   if (groups) group_patches(model_, state_, stepper_.threads);
-  if (!update.changed() && !groups) return;
-  stepper_.prepare_contacts();
+  if (update.moved || groups) stepper_.prepare_contacts();
   if (update.made + update.clipped == 0) return;
   const double bound = bound_.of(stepper_, update.bodies), of_nodes = bound_.of(model_, state_, update.nodes);
   constexpr double rounding = 1.0 + 1e-9;

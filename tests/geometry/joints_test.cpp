@@ -44,6 +44,22 @@ TEST(Neighbours, AreThoseFoundByLookingAtEveryPair) {
   }
   for (double distance : {0.0, 1e-3, 0.4, -1e-3, -0.3})
     EXPECT_EQ(neighbours(boxes, distance), all_neighbours(boxes, distance)) << distance;
+  for (double distance : {0.0, 1e-3, 0.4}) {  // each of them, and one outside, asks the rest
+    const BoxIndex index(std::vector<Box>(boxes.begin() + 200, boxes.end()), distance);
+    std::vector<std::pair<int, int>> found, expected;
+    for (const auto& [i, j] : all_neighbours(boxes, distance))
+      if (i < 200 && j >= 200) expected.emplace_back(i, j);
+    std::vector<int> near;
+    for (int i = 0; i < 200; ++i) {
+      index.near(boxes[i], near);
+      for (const int j : near) found.emplace_back(i, j + 200);
+    }
+    EXPECT_EQ(found, expected) << distance;
+    index.near({Vec3(-9.0, -9.0, -9.0), Vec3(-8.0, 90.0, 90.0)}, near);
+    EXPECT_TRUE(near.empty());
+    BoxIndex({}, distance).near(boxes[0], near);
+    EXPECT_TRUE(near.empty());
+  }
 }
 
 TEST(FindJoints, OfTwoStackedBoxesOffset) {
