@@ -44,24 +44,39 @@ std::vector<Component> bonded_components(const Assembly& assembly) {
   return components;
 }
 
-std::vector<double> broken_shares(const Assembly& assembly, const Model& model, const State& state,
-                                  const std::vector<Component>& components) {
-  std::vector<double> lost(assembly.joints.size(), 0.0);
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (has_bond(model.laws[std::size_t(model.joints[i].law)]))
-      lost[std::size_t(model.joint_of_patch[i])] = broken_share(model, state, i);
-  std::array<double, most_components> bonded = {}, broken = {};
-  for (std::size_t j = 0; j < lost.size(); ++j) {
+LostBonds::LostBonds(const Assembly& assembly, const Model& model) : bonds_(assembly.joints.size()) {
+  const std::vector<Component> components = bonded_components(assembly);
+  bonded_.assign(components.size(), 0.0);
+  lost_.assign(model.tiles.size(), bonded_);
+  const auto number = [&](std::int64_t block) {
+    const Component component = assembly.blocks[std::size_t(block)].component;
+    return std::uint8_t(std::find(components.begin(), components.end(), component) - components.begin());
+  };
+  for (std::size_t j = 0; j < bonds_.size(); ++j) {
     const Joint& joint = assembly.joints[j];
     if (!has_bond(model.laws[std::size_t(joint.law)])) continue;
-    for (const std::int64_t block : {joint.a, joint.b}) {
-      const auto c = std::size_t(assembly.blocks[std::size_t(block)].component);
-      bonded[c] += joint.area, broken[c] += joint.area * lost[j];
-    }
+    bonds_[j] = {joint.area, {number(joint.a), number(joint.b)}};
+    for (const std::uint8_t c : bonds_[j].of) bonded_[c] += joint.area;
   }
-  std::vector<double> shares;
-  for (const Component c : components)
-    shares.push_back(bonded[std::size_t(c)] > 0.0 ? broken[std::size_t(c)] / bonded[std::size_t(c)] : 0.0);
+}
+
+void LostBonds::count(const Model& model, const State& state, std::size_t tile) {
+  std::vector<double>& lost = lost_[tile];
+  std::fill(lost.begin(), lost.end(), 0.0);
+  for (auto i = std::size_t(model.tiles[tile].first_joint); i < std::size_t(model.tiles[tile].end_joint); ++i) {
+    if (!(state.joint.mode[i] & (mode_gone | mode_points | mode_broken))) continue;
+    const Bond& bond = bonds_[std::size_t(model.joint_of_patch[i])];
+    if (bond.area == 0.0) continue;
+    const double area = bond.area * broken_share(model, state, i);
+    for (const std::uint8_t c : bond.of) lost[c] += area;
+  }
+}
+
+std::vector<double> LostBonds::shares() const {
+  std::vector<double> shares(bonded_.size(), 0.0);
+  for (const std::vector<double>& lost : lost_)
+    for (std::size_t c = 0; c < shares.size(); ++c) shares[c] += lost[c];
+  for (std::size_t c = 0; c < shares.size(); ++c) shares[c] /= bonded_[c];
   return shares;
 }
 

@@ -55,7 +55,8 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
       settings_(settings),
       observers_(std::move(observers)),
       model_(build_model(assembly, settings)),
-      state_(initial_state(model_)) {
+      state_(initial_state(model_)),
+      lost_bonds_(assembly, model_) {
   apply_guides(assembly, settings_.guides, model_);
   check_drives(assembly, settings_.stages, settings_.guides);
   check_placements(assembly, settings_.stages);
@@ -67,6 +68,7 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
   stepper_.shortcut = settings.step.intact_shortcut;
   stepper_.threads = useful_threads(threads, model_);
   stepper_.search_distance = search_distance(model_);
+  stepper_.before_sample = [this](std::size_t tile) { lost_bonds_.count(model_, state_, tile); };
   stepper_.prepare();
 }
 
@@ -356,6 +358,7 @@ void Simulation::sample(const BodyPass& pass) {
   s.base_displacement = state_.base_displacement();
   s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.stage_start);
   s.contacts = state_.contact_count();
+  s.broken_shares = lost_bonds_.shares();
   for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
   if (observers_.history) observers_.history(*this, s);
 }

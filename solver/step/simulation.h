@@ -8,6 +8,7 @@
 
 #include "solver/modal/collapse.h"
 #include "solver/step/contact_bound.h"
+#include "solver/step/damage.h"
 #include "solver/step/energy.h"
 #include "solver/step/mass_scaling.h"
 #include "solver/step/stepper.h"
@@ -34,7 +35,8 @@ struct Sample {
   double balance_error = 0.0;  // of the energy balance, over the largest term so far
   Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
   std::int64_t contacts = 0;
-  std::vector<Vec3> reactions;  // N, of held_groups(): what holds or drives them
+  std::vector<double> broken_shares;  // of the bonds of bonded_components()
+  std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
 };
 
 struct Observers {
@@ -132,6 +134,7 @@ class Simulation {
   Advance last_;
   RunCosts costs_;
   ContactBound bound_;
+  LostBonds lost_bonds_;
   double worst_balance_ = 0.0;
   bool exploded_ = false;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;

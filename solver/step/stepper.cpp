@@ -314,7 +314,10 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
   RoundWork work;
   work.first = [&](std::size_t tile) { found[tile].patches = tile_patches(patches, tile); };
   work.second = [&](std::size_t tile) { found[tile].bodies = move_tile(tile); };
-  work.between = [&](std::size_t tile) { energies[tile] = energies_of_tile(*this, bodies, tile); };
+  work.between = [&](std::size_t tile) {
+    energies[tile] = energies_of_tile(*this, bodies, tile);
+    if (before_sample) before_sample(tile);
+  };
   if (costs) {
     costs->resize(all_tiles);
     work.first = [&](std::size_t tile) {

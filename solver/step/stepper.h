@@ -45,14 +45,16 @@ struct Stepper {
   double dt = 0.0;  // s
   int threads = 1;
   bool shortcut = true;
-  const GroundMotion* motion = nullptr;    // none: the base keeps its velocity
-  double stage_start = 0.0;                // s, time of the motion's first sample
-  double stage_duration = 0.0;             // s
-  std::vector<Drive> drives;               // of the stage
-  Array<std::int32_t> drive;               // of each body, see BodyPass
-  GroundPath ground;                       // of the motion, for drives that depart from it; else empty
-  LoadsAtWork loads;                       // of the stage, eased over its duration; at once in equilibrium
-  double search_distance = 1e300;          // m, see BodyPass
+  const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
+  double stage_start = 0.0;              // s, time of the motion's first sample
+  double stage_duration = 0.0;           // s
+  std::vector<Drive> drives;             // of the stage
+  Array<std::int32_t> drive;             // of each body, see BodyPass
+  GroundPath ground;                     // of the motion, for drives that depart from it; else empty
+  LoadsAtWork loads;                     // of the stage, eased over its duration; at once in equilibrium
+  double search_distance = 1e300;        // m, see BodyPass
+  // Called for each tile of bodies, by any thread, before a sample is; none: nothing.
+  std::function<void(std::size_t tile)> before_sample;
   std::vector<TileCost>* costs = nullptr;  // of each tile, added to at every step; none: nothing is timed
 
   Array<double> wrenches;  // wrench_width × (joints, then contacts), of the last patches_only()

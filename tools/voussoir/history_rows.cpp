@@ -97,9 +97,7 @@ std::vector<double> history_row(const Simulation& run, const Sample& s) {
   for (int c = 0; c < 3; ++c) row.push_back(s.base_acceleration[c]);
   row.push_back(double(s.contacts));
   for (const DemandPoint& point : demand_points(run.assembly())) row.push_back(group_displacement(run, point));
-  const std::vector<double> broken =
-      broken_shares(run.assembly(), run.model(), run.state(), bonded_components(run.assembly()));
-  row.insert(row.end(), broken.begin(), broken.end());
+  row.insert(row.end(), s.broken_shares.begin(), s.broken_shares.end());
   for (const Sensor& sensor : run.assembly().sensors) {
     const Vec3 u = relative_displacement(run.model(), run.state(), sensor.block, sensor.position);
     row.push_back(sensor.direction.dot(u));
