@@ -64,18 +64,7 @@ inline Quat<double> conjugate(const Quat<double>& q) {
 
 /// The jump of a tie: a bar of length L, hinged at its anchors a and b, with s, t and rotations zero and n the negative
 /// of its stretch, n = L − |x_b − x_a|, along the axis from b to a. So it is pressed when it pulls.
-inline Jump<double> tie_jump(const Patch& patch, const Triple<double>& move_a, const Triple<double>& move_b) {
-  const Vec3 from = Vec3(patch.place) + Vec3(move_a.x, move_a.y, move_a.z);
-  const Vec3 way = Vec3(patch.shift) + Vec3(move_b.x - move_a.x, move_b.y - move_a.y, move_b.z - move_a.z);
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3(patch.shift), way);
-  Jump<double> j{};
-  j.n = patch.length - way.norm();
-  j.cosine = 1.0;
-  j.share = 0.125;
-  j.frame = Quat<double>{turn.w(), {turn.x(), turn.y(), turn.z()}} * quat(patch.e_a);
-  j.place = {from.x() + 0.5 * way.x(), from.y() + 0.5 * way.y(), from.z() + 0.5 * way.z()};
-  return j;
-}
+Jump<double> tie_jump(const Patch& patch, const Triple<double>& move_a, const Triple<double>& move_b);
 
 /// The jump of any patch, from its bodies' poses.
 inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const double* pose_b) {
