@@ -213,7 +213,7 @@ void merge_pairs(State& state, const std::vector<char>& stale, const std::vector
   for (std::size_t i = 0; i < pair_count(state); ++i) {
     const CellPair here = cells_at(state, i);
     for (; next != fresh.end() && *next < here; ++next) added.push_back(*next);
-    const bool known = next != fresh.end() && *next == here;
+    const bool known = next != fresh.end() && !(here < *next);
     if (known) ++next;
     if (known || !(stale[std::size_t(here[0])] || stale[std::size_t(here[1])])) move_pair(state, i, kept++);
   }
