@@ -13,11 +13,12 @@ namespace voussoir {
 /// One patch: polygon and tractions at present. Patches 0 … joints−1 are the assembly's joints in their order; contacts
 /// found during the run follow.
 struct PatchSnapshot {
-  std::int64_t a = 0, b = 0;         // blocks
-  Polygon polygon;                   // m, present position (midway between the two blocks' faces)
-  Vec3 normal = Vec3::Zero();        // unit, present, from a to b
-  double area = 0.0;                 // m2
-  double opening = 0.0, slip = 0.0;  // m, largest over the patch's points now (opening >= 0, of joints; slip is plastic)
+  std::int64_t a = 0, b = 0;   // blocks
+  Polygon polygon;             // m, present position (midway between the two blocks' faces)
+  Vec3 normal = Vec3::Zero();  // unit, present, from a to b
+  double area = 0.0;           // m2
+  // m, largest over the patch's points now (opening >= 0, of joints; slip is plastic).
+  double opening = 0.0, slip = 0.0;
   double largest_opening = 0.0, largest_slip = 0.0;    // m, since the start
   double normal_traction = 0.0, shear_traction = 0.0;  // Pa, mean over the patch; tension positive
   double bonded = 1.0;    // share of the patch's area whose bond holds (0 for joints that never had one)
