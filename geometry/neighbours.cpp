@@ -142,7 +142,6 @@ struct BoxIndex::Content {
 
 BoxIndex::BoxIndex(const std::vector<Box>& boxes, double distance)
     : content_(std::make_unique<Content>(boxes, distance)) {}
-BoxIndex::BoxIndex(BoxIndex&&) noexcept = default;
 BoxIndex::~BoxIndex() = default;
 
 void BoxIndex::near(const Box& box, std::vector<int>& found) const {

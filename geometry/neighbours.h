@@ -19,7 +19,6 @@ class BoxIndex {
  public:
   /// `distance` as above, not negative.
   BoxIndex(const std::vector<Box>& boxes, double distance);
-  BoxIndex(BoxIndex&&) noexcept;
   ~BoxIndex();
   /// Puts the numbers of the boxes that come within the distance of `box` into `found`, lowest first.
   void near(const Box& box, std::vector<int>& found) const;

@@ -1,7 +1,6 @@
 #include "solver/contact/pairs.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "geometry/neighbours.h"
 #include "solver/base/parallel.h"
@@ -81,27 +80,11 @@ bool has_live_joint(const Model& model, const State& state, const CellPair& cell
   return false;
 }
 
-/// Boxes along x, to be asked which of them a stretch of it may meet.
-class BoxesAlong {
- public:
-  explicit BoxesAlong(std::vector<CellBox> boxes) : boxes_(std::move(boxes)) {
-    std::sort(boxes_.begin(), boxes_.end(), [](const CellBox& p, const CellBox& q) {
-      return std::tuple(p.box.low.x(), p.body, p.cell) < std::tuple(q.box.low.x(), q.body, q.cell);
-    });
-    for (const CellBox& c : boxes_) longest_ = std::max(longest_, c.box.high.x() - c.box.low.x());
-  }
-  template <class F>
-  void each(double low, double high, const F& visit) const {
-    const auto before = [](const CellBox& c, double x) { return c.box.low.x() < x; };
-    for (auto at = std::lower_bound(boxes_.begin(), boxes_.end(), low - longest_, before);
-         at != boxes_.end() && at->box.low.x() <= high; ++at)
-      visit(*at);
-  }
-
- private:
-  std::vector<CellBox> boxes_;
-  double longest_ = 0.0;
-};
+std::vector<Box> boxes_of(const std::vector<CellBox>& cells) {
+  std::vector<Box> boxes;
+  for (const CellBox& c : cells) boxes.push_back(c.box);
+  return boxes;
+}
 
 /// Pairs of cells of different bodies, one of them stale and one of them free, whose boxes come near; sorted.
 std::vector<CellPair> near_pairs(const Model& model, const State& state, const std::vector<char>& stale, int threads) {
@@ -120,27 +103,28 @@ std::vector<CellPair> near_pairs(const Model& model, const State& state, const s
   if (std::count(stale.begin(), stale.end(), 1) < bodies / 4) {
     for (std::int32_t i = 0; i < bodies; ++i)
       if (stale[std::size_t(i)] && !state.lost(std::size_t(i))) place_cells(model, state, i, cells);
-    const BoxesAlong from(std::move(cells));
+    const BoxIndex index(boxes_of(cells), distance);
     share_out(std::size_t(bodies), threads, 2000, [&](int thread, Range range) {
       std::vector<CellBox> own;
+      std::vector<int> near;
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const float* p = &state.listed[searched_width * i];
         const Vec3 centre = model.bodies[i].centroid + Vec3(p[0], p[1], p[2]);
-        const double reach = 1.000001 * model.bodies[i].radius + distance;
+        const double radius = 1.000001 * model.bodies[i].radius, reach = radius + distance;
         own.clear();
-        from.each(centre.x() - reach, centre.x() + reach, [&](const CellBox& c) {
-          if ((centre.cwiseMax(c.box.low).cwiseMin(c.box.high) - centre).squaredNorm() > reach * reach) return;
+        index.near({centre.array() - radius, centre.array() + radius}, near);
+        for (const int k : near) {
+          const CellBox& c = cells[std::size_t(k)];
+          if ((centre.cwiseMax(c.box.low).cwiseMin(c.box.high) - centre).squaredNorm() > reach * reach) continue;
           if (own.empty()) place_cells(model, state, std::int32_t(i), own);
           for (const CellBox& q : own)
             if (boxes_meet(c.box, q.box, distance)) consider(c, q, found[std::size_t(thread)]);
-        });
+        }
       }
     });
   } else {
     for (std::int32_t i = 0; i < bodies; ++i) place_cells(model, state, i, cells);
-    std::vector<Box> boxes;
-    for (const CellBox& c : cells) boxes.push_back(c.box);
-    for (const auto& [i, j] : neighbours(boxes, distance))
+    for (const auto& [i, j] : neighbours(boxes_of(cells), distance))
       consider(cells[std::size_t(i)], cells[std::size_t(j)], found.front());
   }
   std::vector<CellPair> pairs;
