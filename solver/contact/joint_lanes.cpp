@@ -293,6 +293,26 @@ struct BatchPass {
   }
 };
 
+/// A batch lies in several arrays, which together do not fit in a cache: what those after batch k have there is asked
+/// for while it is computed. The poses can be once it is known whose they are; points are asked for row by row.
+template <int count>
+[[gnu::always_inline]] inline void fetch_ahead(const PatchPass& pass, std::size_t k) {
+  const Array<JointBatch>& batches = pass.model->batches;
+  const State& state = *pass.state;
+  if (const std::size_t next = k + 2; next < batches.size()) {
+    fetch(&batches[next], sizeof(JointBatch));
+    fetch(&state.joint.last[last_index(next, 0)], 6 * sizeof(Singles));
+    fetch(&state.slip[3 * lane_count * next], 3 * sizeof(Lanes));
+    fetch(state.joint.mode.data() + batches[k].first_joint + 2 * lane_count, 1);
+    if constexpr (count > 0) fetch(&state.branch[branch_index(count, next, 0, 0)], 6 * count * sizeof(Singles));
+  }
+  if (k + 1 < batches.size())
+    for (int lane = 0; lane < lane_count; ++lane) {
+      fetch(&state.pose[pose_width * std::size_t(batches[k + 1].a[lane])], pose_width * sizeof(double));
+      fetch(&state.pose[pose_width * std::size_t(batches[k + 1].b[lane])], pose_width * sizeof(double));
+    }
+}
+
 /// Whether nothing is left of a batch; its wrenches are then none.
 bool all_gone(const PatchPass& pass, const JointBatch& batch) {
   const auto first = std::size_t(batch.first_joint);
@@ -308,8 +328,10 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
   TileFindings found;
-  for (std::int32_t k = tile.first_batch; k < tile.end_batch; ++k)
-    if (!all_gone(pass, pass.model->batches[std::size_t(k)])) BatchPass<count>(pass, std::size_t(k)).run(found);
+  for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k) {
+    fetch_ahead<count>(pass, k);
+    if (!all_gone(pass, pass.model->batches[k])) BatchPass<count>(pass, k).run(found);
+  }
   if constexpr (count > 0) *reinterpret_cast<Lanes*>(&pass.state->branch_work[lane_count * index]) += found.work;
   if (pass.energies) pass.energies[index] = {sum_of(found.elastic), sum_of(found.stored)};
   PassReport report;

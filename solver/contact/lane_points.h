@@ -166,6 +166,7 @@ struct PointsPass {
     LanePoints sum;
     sum.all_open = sum.all_broken = active;
     for (int i = 0; at.next(); ++i) {
+      fetch_row(i + 2);
       const LaneTrial trial = try_point(i, at.s, at.t);
       if (any(trial.yields))
         yield(i, at, trial, sum);
@@ -176,6 +177,13 @@ struct PointsPass {
   }
 
  private:
+  /// Asks for what is kept of a row to come, of this batch or of the next.
+  [[gnu::always_inline]] void fetch_row(int i) const {
+    fetch(plastic + 2 * i, 2 * sizeof(Lanes));
+    fetch(kept + 3 * count * i, 3 * count * sizeof(Singles));
+    fetch(broken + lane_count * i, lane_count);
+  }
+
   [[gnu::always_inline]] LaneTrial try_point(int i, Lanes s, Lanes t) const {
     const Lanes zero = splat(0.0);
     LaneTrial e;
