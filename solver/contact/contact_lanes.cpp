@@ -27,18 +27,43 @@ namespace {
   return less(splat(0.0), gaps.n) & less(closes, gaps.n * gaps.n);
 }
 
+/// What a tile's next batches need, asked for while the first is computed, a part at a time (see fetch()).
+struct ContactsAhead {
+  const State& state;
+  const std::int32_t *batch, *end;
+
+  /// Of the batch after the next, in three parts.
+  [[gnu::always_inline]] void constants(std::size_t part) const {
+    constexpr std::size_t third = (sizeof(ContactBatch) / cache_line + 2) / 3 * cache_line;
+    if (end - batch <= 2) return;
+    fetch(reinterpret_cast<const char*>(&state.contact_batches[std::size_t(batch[2])]) + part * third, third);
+    if (part == 2) fetch(&state.contact.last[last_index(std::size_t(batch[2]), 0)], 6 * sizeof(Singles));
+  }
+  /// Of the next, which by then has been asked for itself.
+  [[gnu::always_inline]] void poses() const {
+    if (end - batch <= 1) return;
+    const JointBatch& next = state.contact_batches[std::size_t(batch[1])].patch;
+    for (int lane = 0; lane < lane_count; ++lane) {
+      fetch(&state.pose[pose_width * std::size_t(next.a[lane])], pose_width * sizeof(double));
+      fetch(&state.pose[pose_width * std::size_t(next.b[lane])], pose_width * sizeof(double));
+    }
+  }
+};
+
 template <int count>
 struct ContactPass {
   const PatchPass& pass;
   std::size_t k;
+  const ContactsAhead& ahead;
   const ContactBatch& batch;
   PatchMemory& memory;
   std::uint8_t* mode;
   Lanes change[6];
 
-  ContactPass(const PatchPass& p, std::size_t index)
+  ContactPass(const PatchPass& p, std::size_t index, const ContactsAhead& next)
       : pass(p),
         k(index),
+        ahead(next),
         batch(p.state->contact_batches[index]),
         memory(p.state->contact),
         mode(&memory.mode[lane_count * index]) {}
@@ -46,8 +71,10 @@ struct ContactPass {
   void run(PassReport& report, TileEnergy* energy) {
     const LaneBytes modes = load_bytes(mode);
     const LaneMask live = ~bytes_with(modes, mode_gone);
+    ahead.poses();
     if (!any(live)) return;
     const Jump<Lanes> j = contact_jump(batch, pass.state->pose.data());
+    ahead.constants(0);
     Jump<Lanes> gaps = j;
     gaps.n += batch.gap[0], gaps.rs += batch.gap[1], gaps.rt += batch.gap[2];
     const LaneMask was_open = live & bytes_with(modes, mode_open);
@@ -56,11 +83,13 @@ struct ContactPass {
     for (int lane = 0; any(leaving) && lane < lane_count; ++lane)
       if (leaving[lane]) mode[lane] &= std::uint8_t(~mode_open);
     note_change(j, LaneMask{}, reinterpret_cast<Singles*>(&memory.last[last_index(k, 0)]), change);
+    ahead.constants(1);
     Triple<Lanes> force{}, moment{};
     if (any(active)) {
       const Resultant<Lanes> nothing{};
       world_wrench(select(active, points(gaps, active, leaving, energy), nothing), j, force, moment);
     }
+    ahead.constants(2);
     store_wrenches(force, moment, pass.contact_wrenches + wrench_width * lane_count * k);
     report.reclip |= any(live & past_limits(*pass.model, batch.patch, j));
     report.contacts += count_of(live);
@@ -74,7 +103,7 @@ struct ContactPass {
                                 RigidField(change), energy != nullptr, memory);
     LanePoints found = all.run(rows);
     found.opening = splat(0.0);  // the gap of a contact that was found apart is no opening: it keeps what it was handed
-    note_points(found, active, lane_count, lane_count * k, memory);
+    note_points(found, active, k, memory);
     note_open(active & found.all_open & found.all_broken);
     if (energy) {
       energy->elastic += sum_of(select(active, found.elastic, splat(0.0)));
@@ -104,7 +133,10 @@ struct ContactPass {
 template <int count>
 PassReport contacts_of(const PatchPass& pass, const std::int32_t* begin, const std::int32_t* end, TileEnergy* energy) {
   PassReport report;
-  for (; begin != end; ++begin) ContactPass<count>(pass, std::size_t(*begin)).run(report, energy);
+  for (; begin != end; ++begin) {
+    const ContactsAhead ahead{*pass.state, begin, end};
+    ContactPass<count>(pass, std::size_t(*begin), ahead).run(report, energy);
+  }
   return report;
 }
 

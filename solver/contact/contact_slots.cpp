@@ -1,6 +1,7 @@
 #include "solver/contact/contact_slots.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voussoir {
 
@@ -100,8 +101,9 @@ std::size_t ContactSlots::add(const NewContact& c) {
   fill_points(state_, branches_, c, p, rows);
   PatchMemory& m = state_.contact;
   m.mode[slot] = mode_points;
-  m.largest[2 * slot] = c.carried_opening, m.largest[2 * slot + 1] = 0.0;
-  std::fill_n(&m.energy[3 * slot], 3, 0.0);
+  const BatchPlace at = place_of_slot(slot);
+  m.largest[largest_index(at, 0)] = c.carried_opening, m.largest[largest_index(at, 1)] = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) m.energy[energy_index(at, k)] = 0.0;
   for (int k = 0; k < 6; ++k) m.last[last_index(index, k) + lane] = 0.0f;  // zero where it is made
   std::copy(c.slid, c.slid + 4, &state_.contact_slid[4 * slot]);
   fill_contact_lane(state_, slot);
@@ -109,11 +111,11 @@ std::size_t ContactSlots::add(const NewContact& c) {
 }
 
 void ContactSlots::remove(std::size_t slot) {
-  for (std::size_t c = 0; c < 3; ++c) state_.retired_energy()[c] += state_.contact.energy[3 * slot + c];
+  for (std::size_t c = 0; c < 3; ++c)
+    state_.retired_energy()[c] += std::exchange(state_.contact.energy[energy_index(place_of_slot(slot), c)], 0.0);
   const ContactBatch& batch = state_.contact_batches[slot / lane_count];
   state_.contact.mode[slot] = mode_gone;
   state_.contacts[slot] = no_contact(batch.tile);
-  std::fill_n(&state_.contact.energy[3 * slot], 3, 0.0);
   fill_contact_lane(state_, slot);
   const auto known = free_.find({batch.tile, batch.patch.points});
   if (known == free_.end()) return;

@@ -85,10 +85,10 @@ void move_memory(const std::vector<LaneMove>& moves, const RowsOf& rows_of, std:
   move_rows(moves, 2, rows_of, memory.point_rest.data());
   move_rows(moves, 1, rows_of, memory.broken.data());
   move_rows(moves, 3 * branches, rows_of, memory.point_branch.data());
+  move_rows(moves, 2, one_each, memory.largest.data());
+  move_rows(moves, 3, one_each, memory.energy.data());
   move_rows(moves, 6, one_each, memory.last.data());
   move_each(moves, 1, memory.mode.data());
-  move_each(moves, 2, memory.largest.data());
-  move_each(moves, 3, memory.energy.data());
 }
 
 /// The joints of one tile in another order.
@@ -154,8 +154,9 @@ class Joints {
     };
     move(from.arm_a, to.arm_a, 3), move(from.arm_b, to.arm_b, 3), move(from.place, to.place, 3);
     move(from.frame, to.frame, 4);
-    for (const auto field : {&JointBatch::kn, &JointBatch::ks, &JointBatch::area, &JointBatch::ss, &JointBatch::tt,
-                             &JointBatch::half_s, &JointBatch::half_t})
+    for (const auto field : {&PatchBatch::kn, &PatchBatch::ks, &PatchBatch::area})
+      move(&(from.*field), &(to.*field), 1);
+    for (const auto field : {&JointBatch::ss, &JointBatch::tt, &JointBatch::half_s, &JointBatch::half_t})
       move(&(from.*field), &(to.*field), 1);
     to.a[b] = from.a[a], to.b[b] = from.b[a], to.law_of[b] = from.law_of[a];
     to.sum_a[b] = from.sum_a[a], to.sum_b[b] = from.sum_b[a];

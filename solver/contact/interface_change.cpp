@@ -42,7 +42,8 @@ void begin_again(const Interface& interface, std::size_t slot, const Kept& kept,
       memory.point_branch[interface.point_index(slot, i, kept.means.size(), c)] = float(kept.means[c]);
   }
   const double* slid = interface.patches[slot].slid;
-  memory.largest[2 * slot + 1] = std::max(memory.largest[2 * slot + 1], Vec3(slid).norm());
+  double& most = memory.largest[largest_index(place_of_slot(slot), 1)];
+  most = std::max(most, Vec3(slid).norm());
 }
 
 /// A patch that was clipped anew begins with the same shear at all points: where friction does not bear it, the rest of
@@ -64,8 +65,9 @@ void carry_memory(const Interface& from, const PatchMemory& old, const Interface
                   PatchMemory& memory) {
   const InterfacePatch& patch = to.patches[slot];
   const auto before = std::size_t(patch.from);
-  for (std::size_t c = 0; c < 2; ++c) memory.largest[2 * slot + c] = old.largest[2 * before + c];
-  for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = old.energy[3 * before + c];
+  const BatchPlace at = place_of_slot(slot), was_at = place_of_slot(before);
+  for (std::size_t c = 0; c < 2; ++c) memory.largest[largest_index(at, c)] = old.largest[largest_index(was_at, c)];
+  for (std::size_t c = 0; c < 3; ++c) memory.energy[energy_index(at, c)] = old.energy[energy_index(was_at, c)];
   memory.mode[slot] = old.mode[before];
   if (patch.again) return begin_again(to, slot, kept_of(from, old, before, branches), memory);
   const std::size_t columns = 3 * std::size_t(branches);
@@ -107,8 +109,8 @@ void rebuild(const Model& model, State& state, int branches, InterfaceChange& ch
   state.interface = make_interface(std::move(change.fresh), model);
   Interface& now = state.interface;
   PatchMemory memory;
-  memory.resize(now.patches.size(), now.points.size() / 3);
-  memory.point_branch.assign(std::size_t(branches) * now.points.size(), 0.0f);
+  memory.resize(now.patches.size(), now.batches.size(), lane_count * now.point_rows);
+  memory.point_branch.assign(3 * std::size_t(branches) * lane_count * now.point_rows, 0.0f);
   memory.last.assign(9 * lane_count * now.batches.size(), 0.0f);
   std::fill(memory.broken.begin(), memory.broken.end(), std::uint8_t(1));
   for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
@@ -155,7 +157,8 @@ void put_in_place(const Model& model, State& state, int branches, InterfaceChang
   for (std::size_t slot = 0; slot < change.gone.size(); ++slot) {
     if (!change.gone[slot]) continue;
     empty_patch(slot, model, interface);
-    for (std::size_t c = 0; c < 3; ++c) memory.energy[3 * slot + c] = 0.0;  // it has been retired
+    for (std::size_t c = 0; c < 3; ++c)
+      memory.energy[energy_index(place_of_slot(slot), c)] = 0.0;  // it has been retired
   }
   state.clipped_energy() += change.energy_before - energy_after;
 }

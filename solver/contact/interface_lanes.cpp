@@ -55,24 +55,66 @@ struct AffineField {
   }
 }
 
-/// Σ shape[k][c] d_k: the jump in the middle (c = 0), and its slopes.
-[[gnu::always_inline]] inline Vector combine(const InterfaceBatch& b, const Vector (&d)[3], int c) {
-  return b.shape[0][c] * d[0] + b.shape[1][c] * d[1] + b.shape[2][c] * d[2];
-}
+/// N_k = n[k][0] + n[k][1] s + n[k][2] t over the triangles, see shape_functions().
+struct ShapeFunctions {
+  Lanes n[3][3];
+  [[gnu::always_inline]] explicit ShapeFunctions(const InterfaceBatch& b) {
+    const Lanes *o = b.rest[0], *p = b.rest[1], *q = b.rest[2];
+    const Lanes ps = p[1] - o[1], pt = p[2] - o[2], qs = q[1] - o[1], qt = q[2] - o[2];
+    const Lanes by = 1.0 / (ps * qt - pt * qs);
+    n[1][1] = by * qt, n[1][2] = -by * qs;
+    n[2][1] = -by * pt, n[2][2] = by * ps;
+    for (int k = 1; k < 3; ++k) n[k][0] = -(n[k][1] * o[1] + n[k][2] * o[2]);
+    n[0][0] = 1.0 - n[1][0] - n[2][0];
+    for (int c = 1; c < 3; ++c) n[0][c] = -n[1][c] - n[2][c];
+  }
+  /// Σ n[k][c] d_k: what is displaced in the middle (c = 0), and its slopes.
+  [[gnu::always_inline]] Vector combine(const Vector (&d)[3], int c) const {
+    return n[0][c] * d[0] + n[1][c] * d[1] + n[2][c] * d[2];
+  }
+};
 
-/// A batch lies in several arrays: what the next one has there is asked for before it is needed.
-template <int count>
-void fetch_next(const State& state, std::size_t k) {
-  const InterfaceBatch* b = &state.interface.batches[k];
-  const PatchMemory& memory = state.interface_memory;
-  const auto row = std::size_t(b->patch.first_point + b->patch.points), rows = std::size_t(b->patch.points);
-  fetch(b + 1, sizeof(InterfaceBatch));
-  fetch(&state.interface.points[3 * lane_count * row], 3 * rows * sizeof(Lanes));
-  fetch(&memory.point[2 * lane_count * row], 2 * rows * sizeof(Lanes));
-  fetch(&memory.last[9 * lane_count * (k + 1)], 9 * sizeof(Singles));
-  if constexpr (count > 0)
-    fetch(&memory.point_branch[3 * count * lane_count * row], 3 * count * rows * sizeof(Singles));
-}
+/// The four points of moment_points(): two, and two opposite.
+struct MomentRows : RowPlace {
+  const InterfaceBatch& batch;
+  int i = 0;
+  explicit MomentRows(const InterfaceBatch& b) : RowPlace{{}, {}, 0.25 * b.patch.area}, batch(b) {}
+  bool next() {
+    if (i == batch.patch.points) return false;
+    const Lanes* p = batch.point[i % 2];
+    s = i < 2 ? p[0] : -p[0], t = i < 2 ? p[1] : -p[1];
+    ++i;
+    return true;
+  }
+};
+
+/// A batch lies in several arrays: what those after batch k have there is asked for while it is computed, a part at a
+/// time (see fetch()); points are asked for row by row.
+struct InterfaceAhead {
+  const State& state;
+  std::size_t k;
+
+  [[gnu::always_inline]] bool any() const { return k + 2 < state.interface.batches.size(); }
+  /// Of the batch after the next, in three parts.
+  [[gnu::always_inline]] void constants(std::size_t part) const {
+    constexpr std::size_t third = (sizeof(InterfaceBatch) / cache_line + 2) / 3 * cache_line;
+    if (any()) fetch(reinterpret_cast<const char*>(&state.interface.batches[k + 2]) + part * third, third);
+  }
+  [[gnu::always_inline]] void last_jumps() const {
+    if (any()) fetch(&state.interface_memory.last[9 * lane_count * (k + 2)], 9 * sizeof(Singles));
+  }
+  /// Of the next batch, which by then has been asked for itself.
+  [[gnu::always_inline]] void stones() const {
+    if (!any()) return;
+    for (const std::int32_t body : state.interface.batches[k + 1].patch.a)
+      fetch(&state.pose[pose_width * std::size_t(body)], pose_width * sizeof(double));
+  }
+  [[gnu::always_inline]] void nodes() const {
+    if (!any()) return;
+    for (const auto& corner : state.interface.batches[k + 1].node)
+      for (const std::int32_t node : corner) fetch(&state.fill.pose[node_width * std::size_t(node)], sizeof(Quad));
+  }
+};
 
 /// True where a patch has slid past the limit at which it is clipped anew.
 template <int count>
@@ -82,6 +124,8 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   PatchMemory& memory = state.interface_memory;
   const LaneMask used = LaneMask::first(b.patch.count) & less(splat(0.0), b.patch.area);
 
+  const InterfaceAhead ahead{state, k};
+  ahead.nodes();
   // 1. what the corners have moved in the stone's axes
   const LanePoses stone = gather(state.pose.data(), b.patch.a);
   const Quat<Lanes> frame = stone.q * Quat<Lanes>{b.patch.frame[0], load(b.patch.frame + 1)};
@@ -93,7 +137,9 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
     reach[i] = load(b.lever[i]) + u[i];
     moved[i] = turn_back(frame, reach[i] - origin) - load(b.rest[i]);
   }
-  const AffineField jump = {combine(b, moved, 0), combine(b, moved, 1), combine(b, moved, 2)};
+  ahead.constants(0);
+  const ShapeFunctions shape(b);
+  const AffineField jump = {shape.combine(moved, 0), shape.combine(moved, 1), shape.combine(moved, 2)};
   AffineField change = jump;
   auto* last = reinterpret_cast<Singles*>(&memory.last[9 * lane_count * k]);
   for (Vector* part : {&change.middle, &change.along_s, &change.along_t}) {
@@ -105,12 +151,13 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
     }
   }
 
+  ahead.constants(1);
   // 2. tractions
-  const PointRows rows(pass.model->rule, state.interface.points, b.patch);
   PointsPass<count, false, AffineField> points(b.patch, strengths(*pass.model, b.patch), jump, pass.branches, used,
                                                LaneMask{}, change, energy != nullptr, memory);
-  const LanePoints found = points.run(rows);
-  note_points(found, used, b.patch.count, lane_count * k, memory);
+  const LanePoints found = points.run(MomentRows(b));
+  ahead.constants(2);
+  note_points(found, used, k, memory);
   if (energy) {
     energy->elastic += sum_of(select(used, found.elastic, splat(0.0)));
     energy->branches += sum_of(select(used, found.stored, splat(0.0)));
@@ -122,11 +169,13 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   const Vector place = load(b.patch.place);
   Vector force = {Lanes{}, Lanes{}, Lanes{}}, moment = force, pushes[3];
   for (int i = 0; i < 3; ++i) {
-    const Vector pull = turn(frame, b.shape[i][0] * sum + b.shape[i][1] * first_s + b.shape[i][2] * first_t);
+    const Vector pull = turn(frame, shape.n[i][0] * sum + shape.n[i][1] * first_s + shape.n[i][2] * first_t);
     force = force + pull;
     moment = moment + cross(place + reach[i], pull);
     pushes[i] = {-pull.x, -pull.y, -pull.z};
   }
+  ahead.last_jumps();
+  ahead.stones();
   add_forces(pushes, b, pass.interface_forces);
   store_wrenches(force, moment, pass.interface_wrenches + wrench_width * lane_count * k);
 
@@ -146,7 +195,6 @@ bool PatchPass::interface(std::size_t tile) const {
     bool reclip = false;
     const auto end = std::size_t(first[tile + 1]);
     for (auto k = std::size_t(first[tile]); k < end; ++k) {
-      if (k + 1 < end) fetch_next<count>(*state, k);
       reclip |= batch_of<count>(*this, k, energy);
     }
     return reclip;

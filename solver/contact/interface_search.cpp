@@ -98,9 +98,7 @@ class Search {
     if (!state_.interface.used(slot) || model_.laws[std::size_t(patch.law)].kind == JointLaw::Kind::elastic)
       return false;
     const InterfaceJump j = interface_jump(model_, state_, patch);
-    const InterfaceBatch& batch = state_.interface.batches[slot / lane_count];
-    Vec3 u = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) u += batch.shape[k][0][slot % lane_count] * j.moved[k];
+    const Vec3 u = j.point(shape_functions(patch), 0.0, 0.0);
     return u[1] * u[1] + u[2] * u[2] > model_.slip_limit2(patch.area);
   }
 
@@ -142,8 +140,8 @@ class Search {
       ++update_.clipped;
       return;
     }
-    const double* energy = &state_.interface_memory.energy[3 * slot];
-    for (int c = 0; c < 3; ++c) state_.retired_energy()[c] += energy[c];
+    for (std::size_t c = 0; c < 3; ++c)
+      state_.retired_energy()[c] += state_.interface_memory.energy[energy_index(place_of_slot(slot), c)];
     ++update_.dropped;
   }
 

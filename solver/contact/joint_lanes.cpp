@@ -82,16 +82,20 @@ struct LaneCheck {
 
 /// Largest opening and the plastic slip field of patches that are wholly open.
 [[gnu::noinline]] void follow_open(const Model& model, const JointBatch& batch, const LaneElastic& e, LaneMask open,
-                                   Lanes* slip, std::uint8_t* mode, double* largest) {
+                                   Lanes* slip, std::uint8_t* mode, Lanes& largest) {
   for (int c = 0; c < 3; ++c) slip[c] = select(open, slip[c] + e.u[c + 1], slip[c]);
   Lanes most = splat(0.0);
-  const Lanes* corner = &model.batch_corners[std::size_t(batch.first_corner)];
-  for (int c = 0; c < batch.corners; ++c, corner += 2) most = larger(jump_at(e, corner[0], corner[1]).x, most);
+  const auto look_at = [&](Lanes s, Lanes t) { most = larger(jump_at(e, s, t).x, most); };
+  if (batch.rectangles) {
+    const Lanes a = batch.half_s, b = batch.half_t;
+    look_at(a, b), look_at(-a, b), look_at(-a, -b), look_at(a, -b);
+  } else {
+    const Lanes* corner = &model.batch_corners[std::size_t(batch.first_corner)];
+    for (int c = 0; c < batch.corners; ++c, corner += 2) look_at(corner[0], corner[1]);
+  }
+  store_lanes(open & less(largest, most), most, largest);
   for (int lane = 0; lane < batch.count; ++lane)
-    if (open[lane]) {
-      largest[2 * lane] = std::max(largest[2 * lane], most[lane]);
-      mode[lane] |= mode_slid;
-    }
+    if (open[lane]) mode[lane] |= mode_slid;
 }
 
 /// Elastic plus viscous generalised jump; the branches of open lanes relax, those of lanes that close start from
@@ -170,12 +174,53 @@ struct TileFindings {
   Lanes elastic = splat(0.0), stored = splat(0.0);  // J, where energies are wanted
 };
 
+/// A batch lies in several arrays, which together do not fit in a cache: what those after batch k have there is asked
+/// for while it is computed, a part at a time (see fetch()); points are asked for row by row.
+template <int count>
+struct BatchAhead {
+  const PatchPass& pass;
+  std::size_t k;
+
+  /// Of the next batch, which by then has been asked for itself.
+  [[gnu::always_inline]] void poses() const {
+    if (k + 1 == pass.model->batches.size()) return;
+    const JointBatch& next = pass.model->batches[k + 1];
+    const double* pose = pass.state->pose.data();
+    for (int lane = 0; lane < lane_count; ++lane) {
+      fetch(pose + pose_width * std::size_t(next.a[lane]), pose_width * sizeof(double));
+      fetch(pose + pose_width * std::size_t(next.b[lane]), pose_width * sizeof(double));
+    }
+  }
+  /// Of the one after it, in two parts.
+  [[gnu::always_inline]] void constants(std::size_t part) const {
+    constexpr std::size_t half = sizeof(JointBatch) / 2;
+    if (k + 2 < pass.model->batches.size())
+      fetch(reinterpret_cast<const char*>(&pass.model->batches[k + 2]) + part * half, half);
+  }
+  [[gnu::always_inline]] void memory() const {
+    const State& state = *pass.state;
+    const std::size_t next = k + 2;
+    if (next >= pass.model->batches.size()) return;
+    fetch(&state.joint.last[last_index(next, 0)], 6 * sizeof(Singles));
+    fetch(&state.slip[3 * lane_count * next], 3 * sizeof(Lanes));
+    fetch(state.joint.mode.data() + pass.model->batches[k].first_joint + 2 * lane_count, 1);
+    if constexpr (count > 0) fetch(&state.branch[branch_index(count, next, 0, 0)], 6 * count * sizeof(Singles));
+  }
+  /// Of patches that are likely to go point by point, too.
+  [[gnu::always_inline]] void notes() const {
+    if (k + 1 == pass.model->batches.size()) return;
+    fetch(&pass.state->joint.energy[energy_index({k + 1, 0}, 0)], 3 * sizeof(Lanes));
+    fetch(&pass.state->joint.largest[largest_index({k + 1, 0}, 0)], 2 * sizeof(Lanes));
+  }
+};
+
 /// One batch, from its pose to its wrenches, with `count` branches.
 template <int count>
 struct BatchPass {
   const PatchPass& pass;
   const JointBatch& batch;
   std::size_t k, first;
+  BatchAhead<count> ahead{pass, k};
   std::uint8_t* mode;
   LaneBytes modes;
   Jump<Lanes> jump;
@@ -209,7 +254,7 @@ struct BatchPass {
     const LaneMask broken = bytes_with(modes, mode_broken);
     const LaneCheck check = check_corners(*pass.model, batch, e, strength, broken, keep);
     const LaneMask open = broken & check.open, closed = without(check.admissible, open);
-    if (any(open)) follow_open(*pass.model, batch, e, open, slip, mode, &pass.state->joint.largest[2 * first]);
+    if (any(open)) follow_open(*pass.model, batch, e, open, slip, mode, largest_openings());
     const LaneMask was_open = keep & bytes_with(modes, mode_open);
     if (any(open ^ was_open))
       for (int lane = 0; lane < batch.count; ++lane)
@@ -225,16 +270,21 @@ struct BatchPass {
 
   /// Lanes point by point; the few whose law has no lane form are left to point_patch().
   Resultant<Lanes> point_lanes(LaneMask active, TileFindings& findings) {
+    ahead.notes();
     const PointRows rows_of_points(pass.model->rule, pass.model->points, batch);
     PointsPass<count, false> points(batch, strength, RigidField(jump), pass.branches, active, LaneMask{},
                                     RigidField(change), pass.energies != nullptr, pass.state->joint);
     const LanePoints found = points.run(rows_of_points);
-    note_points(found, active, batch.count, first, pass.state->joint);
+    note_points(found, active, k, pass.state->joint);
     findings.elastic += select(active, found.elastic, splat(0.0));
     findings.stored += select(active, found.stored, splat(0.0));
     const LaneMask back = active & found.all_open & found.all_broken;
     if (pass.shortcut && any(back)) to_intact(jump, pass.branches, back, batch.count, mode, slip, kept);
     return found.resultant;
+  }
+
+  Lanes& largest_openings() const {
+    return *reinterpret_cast<Lanes*>(&pass.state->joint.largest[largest_index({k, 0}, 0)]);
   }
 
   void leave_intact(LaneMask points) {
@@ -258,11 +308,14 @@ struct BatchPass {
     const LaneMask live = without(LaneMask::first(batch.count), bytes_with(modes, mode_gone));
     const LaneMask keep = pass.shortcut ? without(live, bytes_with(modes, mode_points)) : LaneMask{};
     // point_patch() keeps the last jump of its lanes itself.
+    ahead.poses();
     note_change(jump, without(live, keep | strength.brittle),
                 reinterpret_cast<Singles*>(&pass.state->joint.last[last_index(k, 0)]), change);
+    ahead.constants(0);
     Intact intact;
     if (any(keep)) intact = intact_lanes(keep, findings);
     const LaneMask points = without(live, intact.stays);
+    ahead.constants(1);
     Triple<Lanes> force, moment;
     if (all(intact.closed)) {
       world_wrench(intact.resultant, jump, force, moment);
@@ -270,6 +323,7 @@ struct BatchPass {
     } else {
       mixed(intact, points, findings);
     }
+    ahead.memory();
     add_up();
     findings.reclip |= without(live, strength.tie) & past_limits(*pass.model, batch, jump);
     findings.intact += count_of(intact.stays);
@@ -293,26 +347,6 @@ struct BatchPass {
   }
 };
 
-/// A batch lies in several arrays, which together do not fit in a cache: what those after batch k have there is asked
-/// for while it is computed. The poses can be once it is known whose they are; points are asked for row by row.
-template <int count>
-[[gnu::always_inline]] inline void fetch_ahead(const PatchPass& pass, std::size_t k) {
-  const Array<JointBatch>& batches = pass.model->batches;
-  const State& state = *pass.state;
-  if (const std::size_t next = k + 2; next < batches.size()) {
-    fetch(&batches[next], sizeof(JointBatch));
-    fetch(&state.joint.last[last_index(next, 0)], 6 * sizeof(Singles));
-    fetch(&state.slip[3 * lane_count * next], 3 * sizeof(Lanes));
-    fetch(state.joint.mode.data() + batches[k].first_joint + 2 * lane_count, 1);
-    if constexpr (count > 0) fetch(&state.branch[branch_index(count, next, 0, 0)], 6 * count * sizeof(Singles));
-  }
-  if (k + 1 < batches.size())
-    for (int lane = 0; lane < lane_count; ++lane) {
-      fetch(&state.pose[pose_width * std::size_t(batches[k + 1].a[lane])], pose_width * sizeof(double));
-      fetch(&state.pose[pose_width * std::size_t(batches[k + 1].b[lane])], pose_width * sizeof(double));
-    }
-}
-
 /// Whether nothing is left of a batch; its wrenches are then none.
 bool all_gone(const PatchPass& pass, const JointBatch& batch) {
   const auto first = std::size_t(batch.first_joint);
@@ -329,7 +363,6 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
   TileFindings found;
   for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k) {
-    fetch_ahead<count>(pass, k);
     if (!all_gone(pass, pass.model->batches[k])) BatchPass<count>(pass, k).run(found);
   }
   if constexpr (count > 0) *reinterpret_cast<Lanes*>(&pass.state->branch_work[lane_count * index]) += found.work;

@@ -45,7 +45,7 @@ struct LaneStrength {
   return s;
 }
 
-[[gnu::noinline]] inline LaneStrength mixed_strengths(const Model& model, const JointBatch& batch) {
+[[gnu::noinline]] inline LaneStrength mixed_strengths(const Model& model, const PatchBatch& batch) {
   LaneStrength s = strength_of(model.laws[std::size_t(batch.law_of[0])]);
   for (int lane = 1; lane < lane_count; ++lane) {
     if (batch.law_of[lane] == batch.law_of[lane - 1]) continue;  // laws come in runs: take this one to the end
@@ -61,7 +61,7 @@ struct LaneStrength {
   return s;
 }
 
-[[gnu::always_inline]] inline LaneStrength strengths(const Model& model, const JointBatch& batch) {
+[[gnu::always_inline]] inline LaneStrength strengths(const Model& model, const PatchBatch& batch) {
   return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)]) : mixed_strengths(model, batch);
 }
 
@@ -70,15 +70,20 @@ struct LanePoints {
   Resultant<Lanes> resultant{};
   Lanes friction{}, fracture{}, work{}, opening{}, slip2{}, elastic{}, stored{};
   LaneMask all_open, all_broken;
+  bool yields = false;  // some point of some lane: without it there is no friction, fracture or new slip
+};
+
+/// One point of eight patches.
+struct RowPlace {
+  Lanes s, t, weight;
 };
 
 /// Points of a batch: from its rectangles, or from the table.
-struct PointRows {
+struct PointRows : RowPlace {
   const JointBatch& batch;
   const LineRule& rule;
   const Lanes* table;
   int i = 0, along = 0, across = 0;
-  Lanes s, t, weight;
 
   PointRows(const LineRule& of_rectangles, const Array<double>& points, const JointBatch& b)
       : batch(b),
@@ -136,7 +141,7 @@ struct PointsPass {
   std::uint8_t* broken;
   Pairs fade[(3 * count + 2) / 2], gain[(3 * count + 2) / 2];  // of each two rows of the branches
 
-  [[gnu::always_inline]] PointsPass(const JointBatch& b, const LaneStrength& strength, const Field& now,
+  [[gnu::always_inline]] PointsPass(const PatchBatch& b, const LaneStrength& strength, const Field& now,
                                     const Branches& of, LaneMask which, LaneMask follow, const Field& since,
                                     bool with_energies, PatchMemory& memory)
       : branches(of),
@@ -162,14 +167,14 @@ struct PointsPass {
     }
   }
 
-  [[gnu::always_inline]] LanePoints run(PointRows at) const {
+  [[gnu::always_inline]] LanePoints run(auto at) const {
     LanePoints sum;
     sum.all_open = sum.all_broken = active;
     for (int i = 0; at.next(); ++i) {
-      fetch_row(i + 2);
+      fetch_row(i + 4);
       const LaneTrial trial = try_point(i, at.s, at.t);
       if (any(trial.yields))
-        yield(i, at, trial, sum);
+        sum.yields = true, yield(i, at, trial, sum);
       else
         stay(i, at, trial, sum);
     }
@@ -212,7 +217,7 @@ struct PointsPass {
   }
 
   /// Every lane goes on as it was.
-  [[gnu::always_inline]] void stay(int i, const PointRows& at, const LaneTrial& e, LanePoints& sum) const {
+  [[gnu::always_inline]] void stay(int i, const RowPlace& at, const LaneTrial& e, LanePoints& sum) const {
     if (any(active & e.open)) {
       store_lanes(active & e.open, e.u.y, plastic[2 * i]);
       store_lanes(active & e.open, e.u.z, plastic[2 * i + 1]);
@@ -224,7 +229,7 @@ struct PointsPass {
   }
 
   /// Some slide, break, open or close; every lane computes all it might need.
-  [[gnu::always_inline]] void yield(int i, const PointRows& at, const LaneTrial& e, LanePoints& sum) const {
+  [[gnu::always_inline]] void yield(int i, const RowPlace& at, const LaneTrial& e, LanePoints& sum) const {
     const Lanes zero = splat(0.0), w = at.weight;
     const auto [n0, s0, t0] = e.now;
     const LaneMask elastic = ~(e.open | e.slides | e.breaks);
@@ -254,7 +259,7 @@ struct PointsPass {
   }
 
   /// What points at an elastic jump of `now` do. The branches of lanes that are not `live` are emptied.
-  [[gnu::always_inline]] void act(int i, const PointRows& at, const LaneTrial& e, const Triple<Lanes>& now,
+  [[gnu::always_inline]] void act(int i, const RowPlace& at, const LaneTrial& e, const Triple<Lanes>& now,
                                   LaneMask live, LanePoints& sum) const {
     const Lanes s = at.s, t = at.t, wn = at.weight * kn, ws = at.weight * ks;
     Triple<Lanes> v = now;
@@ -342,16 +347,16 @@ struct PointsPass {
 };
 
 /// Energies, largest opening and slip of the lanes that went point by point.
-inline void note_points(const LanePoints& found, LaneMask active, int count, std::size_t first, PatchMemory& memory) {
-  const Lanes slip = square_root(found.slip2);
-  for (int lane = 0; lane < count; ++lane) {
-    if (!active[lane]) continue;
-    double* energy = &memory.energy[3 * (first + std::size_t(lane))];
-    energy[0] += found.friction[lane], energy[1] += found.fracture[lane], energy[2] += found.work[lane];
-    double* most = &memory.largest[2 * (first + std::size_t(lane))];
-    most[0] = std::max(most[0], found.opening[lane]);
-    most[1] = std::max(most[1], slip[lane]);
-  }
+[[gnu::always_inline]] inline void note_points(const LanePoints& found, LaneMask active, std::size_t batch,
+                                               PatchMemory& memory) {
+  auto* energy = reinterpret_cast<Lanes*>(&memory.energy[energy_index({batch, 0}, 0)]);
+  auto* largest = reinterpret_cast<Lanes*>(&memory.largest[largest_index({batch, 0}, 0)]);
+  store_lanes(active, energy[2] + found.work, energy[2]);
+  store_lanes(active & less(largest[0], found.opening), found.opening, largest[0]);
+  if (!found.yields) return;
+  store_lanes(active, energy[0] + found.friction, energy[0]);
+  store_lanes(active, energy[1] + found.fracture, energy[1]);
+  store_lanes(active, larger(largest[1], square_root(found.slip2)), largest[1]);
 }
 
 [[gnu::always_inline]] inline Resultant<Lanes> select(LaneMask m, const Resultant<Lanes>& a,

@@ -145,12 +145,15 @@ void point_patch(const Model& model, std::size_t index, const Branches& branches
   Triple<double> force, moment;
   world_wrench(sums.resultant, j, force, moment);
   store_wrench(force, moment, wrench);
-  double* energy = &memory.energy[3 * index];
-  energy[0] += sums.friction, energy[1] += sums.fracture, energy[2] += sums.damping;
-  double* largest = &memory.largest[2 * index];
+  const BatchPlace at = place_of(patch);
+  const double lost[3] = {sums.friction, sums.fracture, sums.damping};
+  for (std::size_t c = 0; c < 3; ++c) memory.energy[energy_index(at, c)] += lost[c];
   const bool tie = patch.length > 0.0;
-  largest[0] = std::max(largest[0], tie ? -j.n : sums.opening);
-  largest[1] = std::max(largest[1], tie ? -sums.resultant.n / patch.area : std::sqrt(sums.slip2));
+  const double reached[2] = {tie ? -j.n : sums.opening, tie ? -sums.resultant.n / patch.area : std::sqrt(sums.slip2)};
+  for (std::size_t c = 0; c < 2; ++c) {
+    double& most = memory.largest[largest_index(at, c)];
+    most = std::max(most, reached[c]);
+  }
   if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
 }
 

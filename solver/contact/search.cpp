@@ -126,7 +126,7 @@ class Search {
       if (!(state_.joint.mode[i] & mode_points)) joint_to_points(model_, state_, branches_, i);
       const double energy = patch_energy(model_, state_, branches_, i, true).elastic;
       energy_before_ += energy;
-      clip(old, model_.points, state_.joint, energy, &state_.joint.largest[2 * i], none);
+      clip(old, model_.points, state_.joint, energy, none);
       state_.joint.mode[i] |= mode_gone;
       part(old);
       list_anew(old.a), list_anew(old.b);  // the joint was not among the pairs
@@ -155,8 +155,7 @@ class Search {
       energy_before_ += energy;
       follow_open_contact(state_, slot);
       if (what[slot] == is_past)
-        clip(old, state_.contact_points, state_.contact, energy, &state_.contact.largest[2 * slot],
-             &state_.contact_slid[4 * slot]);
+        clip(old, state_.contact_points, state_.contact, energy, &state_.contact_slid[4 * slot]);
       else
         ++update_.dropped;
       slots_.remove(slot);
@@ -191,7 +190,7 @@ class Search {
   }
 
   void clip(const Patch& old, const Array<double>& points, const PatchMemory& memory, double energy,
-            const double* largest, const double* slid) {
+            const double* slid) {
     const CellPair cells = {old.a, old.b, old.cell_a, old.cell_b};
     std::optional<NewContact> fresh =
         make_contact(model_, state_, cells, placed_cell(model_, state_, old.a, old.cell_a),
@@ -204,10 +203,10 @@ class Search {
     // The same joint, elsewhere: what is left of its law is the unbonded part.
     fresh->patch.law = old.law;
     carry_over(model_, state_, old, points, memory, energy, *fresh);
-    fresh->carried_opening = largest[0];
+    fresh->carried_opening = memory.largest[largest_index(place_of(old), 0)];
     const Vec3 before(slid[0], slid[1], slid[2]), after = before + mean_slip(state_, old, points, memory);
     std::copy(after.begin(), after.end(), fresh->slid);
-    fresh->slid[3] = std::max(slid[3], before.norm() + largest[1]);
+    fresh->slid[3] = std::max(slid[3], before.norm() + memory.largest[largest_index(place_of(old), 1)]);
     clipped_.push_back(std::move(*fresh));
     ++update_.clipped;
   }

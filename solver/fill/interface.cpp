@@ -34,31 +34,21 @@ InterfacePatch make_patch(const Assembly& assembly, const FillJoint& joint, cons
 }
 
 void fill_lane(const InterfacePatch& patch, const Model& model, int lane, InterfaceBatch& batch) {
-  JointBatch& b = batch.patch;
-  b.a[lane] = b.b[lane] = patch.body;
+  PatchBatch& b = batch.patch;
+  b.a[lane] = patch.body;
   b.law_of[lane] = patch.law;
   b.kn[lane] = patch.kn, b.ks[lane] = patch.ks, b.area[lane] = patch.area;
   const Vec3 at = model.bodies[std::size_t(patch.body)].centroid + Vec3(patch.arm);
   for (int c = 0; c < 3; ++c) b.arm_a[c][lane] = patch.arm[c], b.place[c][lane] = at[c];
   for (int c = 0; c < 4; ++c) b.frame[c][lane] = patch.frame[c];
-  const Mat3 shape = shape_functions(patch);
+  for (std::size_t i = 0; i < 2; ++i)
+    batch.point[i][0][lane] = patch.points[i].s, batch.point[i][1][lane] = patch.points[i].t;
   for (int k = 0; k < 3; ++k) {
     batch.node[k][lane] = patch.node[k];
     for (int c = 0; c < 3; ++c) {
       batch.lever[k][c][lane] = model.fill.nodes[std::size_t(patch.node[k])][c] - at[c];
       batch.rest[k][c][lane] = patch.rest[k][c];
-      batch.shape[k][c][lane] = shape(k, c);
     }
-  }
-}
-
-/// Spare lanes repeat a patch's points without their weight.
-void put_points(const InterfacePatch& patch, std::size_t slot, Interface& interface) {
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const PatchPoint& p = patch.points[i];
-    interface.points[interface.point_index(slot, i, 3, 0)] = p.s;
-    interface.points[interface.point_index(slot, i, 3, 1)] = p.t;
-    interface.points[interface.point_index(slot, i, 3, 2)] = interface.spare(slot) ? 0.0 : p.weight;
   }
 }
 
@@ -224,12 +214,10 @@ Interface make_interface(std::vector<InterfacePatch> patches, const Model& model
       if (lane >= count) interface.patches.back().area = 0.0;
     }
     batch.patch.law = common_law(batch.patch);
-    batch.patch.first_point = std::int32_t(interface.points.size() / (3 * lane_count));
+    batch.patch.first_point = std::int32_t(interface.point_rows);
     batch.patch.points = std::int32_t(head.points.size());
-    interface.points.resize(interface.points.size() + 3 * lane_count * head.points.size());
+    interface.point_rows += head.points.size();
     interface.batches.push_back(batch);
-    for (std::size_t slot = interface.patches.size() - lane_count; slot < interface.patches.size(); ++slot)
-      put_points(interface.patches[slot], slot, interface);
     ++interface.first_batch[std::size_t(batch.tile) + 1];
     i += std::size_t(count);
   }
@@ -246,7 +234,6 @@ void replace_patch(std::size_t slot, const InterfacePatch& patch, const Model& m
   for (std::size_t s = slot; s < first + lane_count; ++s) {
     if (s != slot && !(repeated && interface.spare(s))) continue;
     fill_lane(patch, model, int(s - first), batch);
-    put_points(patch, s, interface);
     interface.patches[s] = patch;
     if (s != slot) interface.patches[s].area = 0.0;
   }

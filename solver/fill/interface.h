@@ -14,10 +14,10 @@ namespace voussoir {
 
 /// Eight patches of one tile of bodies, a lane each; further lanes repeat the last one.
 struct alignas(64) InterfaceBatch {
-  JointBatch patch;   // bodies, arm_a, place, frame, stiffness, laws; points from a table
+  PatchBatch patch;
   Lanes lever[3][3];  // m, of each corner from the patch's centroid, both in the reference placement
-  Lanes rest[3][3];   // as InterfacePatch
-  Lanes shape[3][3];  // N_k = shape[k][0] + shape[k][1] s + shape[k][2] t
+  Lanes rest[3][3];   // as InterfacePatch: its s, t give the shape functions, too
+  Lanes point[2][2];  // m: s, t of the first two points; the others lie opposite, see moment_points()
   std::int32_t node[3][lane_count];
   std::int32_t sum[3][lane_count];  // where the tile adds up the forces on them
   std::int32_t tile = 0;
@@ -28,7 +28,7 @@ struct alignas(64) InterfaceBatch {
 struct Interface {
   std::vector<InterfacePatch> patches;
   Array<InterfaceBatch> batches;
-  Array<double> points;                              // s, t, weight, eight patches side by side
+  std::size_t point_rows = 0;                        // of tables of points, eight patches side by side
   std::vector<std::int32_t> first_batch;             // of each tile of bodies, and one past the end
   std::vector<std::int32_t> first_of_node, of_node;  // patches of each node: 3 × slot + corner
   // Each tile of bodies adds up the forces of its patches on each node they touch: first sum of each tile, and one past

@@ -55,21 +55,30 @@ int count_yielding(const std::uint8_t* yield, int count) {
   return sum;
 }
 
-/// Batches are passed in order, but each in several arrays: what comes next is asked for before it is needed. Past the
-/// tile's `end` nothing is read, others may be at work there.
+/// Batches are passed in order, but each in several arrays: what comes next is asked for before it is needed, a part at
+/// a time (see fetch()). Past the tile's `end` nothing is read, others may be at work there.
 constexpr std::size_t ahead = 4;  // batches
 template <int count>
-void fetch_ahead(const FillModel& fill, const FillMemory& memory, std::size_t index, std::size_t end) {
-  const std::size_t next = index + ahead;
-  if (next >= fill.batches.size()) return;
-  fetch(&fill.batches[next], sizeof(TetBatch));
-  if (next < end && has_flowed(&memory.yield[lane_count * next]))
-    fetch(&memory.plastic[plastic_index(next, 0)], plastic_width * sizeof(Lanes));
-  if constexpr (count > 0) {
-    fetch(&memory.last[strain_rows * lane_count * next], strain_rows * sizeof(Singles));
-    fetch(&memory.branch[6 * lane_count * std::size_t(count) * next], 6 * count * sizeof(Singles));
+struct TetsAhead {
+  const FillModel& fill;
+  const FillMemory& memory;
+  std::size_t next, end;
+
+  [[gnu::always_inline]] bool any() const { return next < fill.batches.size(); }
+  [[gnu::always_inline]] void tetrahedra() const {
+    if (!any()) return;
+    fetch(&fill.batches[next], sizeof(TetBatch));
+    if constexpr (count > 0) fetch(&memory.last[strain_rows * lane_count * next], strain_rows * sizeof(Singles));
   }
-}
+  [[gnu::always_inline]] void branches() const {
+    if constexpr (count > 0)
+      if (any()) fetch(&memory.branch[6 * lane_count * std::size_t(count) * next], 6 * count * sizeof(Singles));
+  }
+  [[gnu::always_inline]] void plastic() const {
+    if (next < end && has_flowed(&memory.yield[lane_count * next]))
+      fetch(&memory.plastic[plastic_index(next, 0)], plastic_width * sizeof(Lanes));
+  }
+};
 
 template <int count>
 void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, TileSums& tile) {
@@ -82,7 +91,8 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
   std::uint8_t* yield = &memory.yield[lane_count * index];
   const bool flowed = has_flowed(yield);
-  fetch_ahead<count>(fill, memory, index, end);
+  const TetsAhead<count> coming{fill, memory, index + ahead, end};
+  coming.tetrahedra();
 
   // 1. strain, elastic trial stress
   const Nodes n = gather_nodes(memory.pose.data(), batch);
@@ -98,6 +108,8 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   const ElasticStrain trial = {s.e, mean - opened, own - opened};
   ElasticStrain strain = trial;
 
+  coming.branches();
+
   // 2. plastic flow
   const LaneMask yields = may_flow(law, s.e, p);
   if (flowed) begin_yield(yield);
@@ -108,6 +120,8 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
     tile.report.yielding += count_yielding(yield, batch.count);
     strain = {s.e, p / law.bulk, own - (plastic[row_dilation] - dilated) - plastic[row_tension]};
   }
+
+  coming.plastic();
 
   // 3. a sixth of the first Piola–Kirchhoff stress: τ F⁻ᵀ, and F S of the branches
   const auto [tau, by] = kirchhoff(law, s, p);

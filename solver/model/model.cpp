@@ -186,7 +186,7 @@ void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
   batch.tt[lane] = patch.tt;
 }
 
-std::int32_t common_law(const JointBatch& batch) {
+std::int32_t common_law(const PatchBatch& batch) {
   const bool same =
       std::all_of(batch.law_of, batch.law_of + lane_count, [&](auto law) { return law == *batch.law_of; });
   return same ? *batch.law_of : -1;

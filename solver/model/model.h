@@ -72,21 +72,28 @@ inline PatchPoint patch_corner(const Patch& p, const Array<double>& table, int i
   return {table[at], table[at + 1], 0.0};
 }
 
-/// Eight joints of the assembly, a lane each: all that the intact path reads of them.
-struct alignas(64) JointBatch {
-  Lanes arm_a[3], arm_b[3], place[3], frame[4];
-  Lanes kn, ks, area, ss, tt;
-  Lanes half_s, half_t;  // m: the polygon lies within ±half_s, ±half_t of its centroid; a rectangle fills that
-  std::int32_t a[lane_count], b[lane_count], law_of[lane_count];
+/// Eight patches, a lane each: what every kind of them has.
+struct alignas(64) PatchBatch {
+  Lanes arm_a[3], place[3], frame[4];
+  Lanes kn, ks, area;
+  std::int32_t a[lane_count], law_of[lane_count];
+  std::int32_t count = 0;        // patches in use; further lanes repeat the last one and are never written
+  std::int32_t law = 0;          // of all lanes; −1: they differ
+  std::int32_t first_point = 0;  // row of the tables of points
+  std::int32_t points = 9;       // most of any lane; missing ones repeat the last with no weight
+};
+
+/// Eight joints of the assembly: all that the intact path reads of them.
+struct alignas(64) JointBatch : PatchBatch {
+  std::int32_t b[lane_count];
   std::int32_t sum_a[lane_count], sum_b[lane_count];  // where the tile sums the wrenches of each
   std::int32_t first_joint = 0;
-  std::int32_t count = 0;         // joints in use; further lanes repeat the last one and are never written
-  std::int32_t law = 0;           // of all lanes; −1: they differ
   std::int32_t first_corner = 0;  // into Model::batch_corners
   std::int32_t corners = 4;       // most of any lane
-  std::int32_t first_point = 0;   // row of the tables of points
-  std::int32_t points = 9;        // most of any lane; missing ones repeat the last with no weight
   bool rectangles = false;        // all lanes: points and corners follow from half_s and half_t
+  Lanes arm_b[3];
+  Lanes ss, tt;
+  Lanes half_s, half_t;  // m: the polygon lies within ±half_s, ±half_t of its centroid; a rectangle fills that
 };
 
 /// Eight contacts of one tile, a lane each; free lanes are mode_gone. They differ from joints in that their bodies had
@@ -203,7 +210,7 @@ struct Model {
 /// Constants of one patch into its lane.
 void fill_lane(const Patch& patch, int lane, JointBatch& batch);
 /// The law that the lanes of a batch share, or −1.
-std::int32_t common_law(const JointBatch& batch);
+std::int32_t common_law(const PatchBatch& batch);
 
 /// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError when nothing can move or
 /// a joint has no stiffness.

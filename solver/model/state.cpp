@@ -5,14 +5,14 @@
 
 namespace voussoir {
 
-void PatchMemory::resize(std::size_t patches, std::size_t points) {
+void PatchMemory::resize(std::size_t patches, std::size_t batches, std::size_t points) {
   point.assign(2 * points, 0.0);
   point_rest.assign(2 * points, 0.0);
   broken.assign(points, 0);
   point_branch.clear();
   mode.assign(patches, 0);
-  largest.assign(2 * patches, 0.0);
-  energy.assign(3 * patches, 0.0);
+  largest.assign(2 * lane_count * batches, 0.0);
+  energy.assign(3 * lane_count * batches, 0.0);
 }
 
 namespace {
@@ -80,8 +80,8 @@ void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& 
   list.push_back({prefix + "/point_broken", 1, "-", &memory.broken});
   list.push_back({prefix + "/point_branch", 1, "m", &memory.point_branch});
   list.push_back({prefix + "/mode", 1, "-", &memory.mode});
-  list.push_back({prefix + "/largest", 2, "m", &memory.largest});
-  list.push_back({prefix + "/energy", 3, "J", &memory.energy});
+  list.push_back({prefix + "/largest", lane_count, "m", &memory.largest});
+  list.push_back({prefix + "/energy", lane_count, "J", &memory.energy});
   list.push_back({prefix + "/last_jump", 1, "m, rad", &memory.last});
 }
 
@@ -191,7 +191,7 @@ void note_bonds(const Model& model, State& state) {
   for (std::size_t i = 0; i < state.interface.patches.size(); ++i) {
     const LawConstants& law = model.laws[std::size_t(state.interface.patches[i].law)];
     const bool bond = law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
-    const JointBatch& batch = state.interface.batches[i / lane_count].patch;
+    const PatchBatch& batch = state.interface.batches[i / lane_count].patch;
     for (std::int32_t row = 0; row < batch.points; ++row)
       state.interface_memory.broken[lane_count * std::size_t(batch.first_point + row) + i % lane_count] = bond ? 0 : 1;
   }
@@ -221,7 +221,7 @@ State initial_state(const Model& model) {
   state.listed = state.searched;
   state.joint_order.assign(model.joint_of_patch.begin(), model.joint_of_patch.end());
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
-  state.joint.resize(model.joints.size(), lane_count * model.point_rows);
+  state.joint.resize(model.joints.size(), model.batches.size(), lane_count * model.point_rows);
   state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);
   state.branch_work.assign(lane_count * model.tiles.size(), 0.0);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
@@ -234,7 +234,8 @@ State initial_state(const Model& model) {
   state.fill = initial_fill(model.fill);
   state.interface = make_interface(model.interface, model);
   state.interface_seen = state.searched;
-  state.interface_memory.resize(state.interface.patches.size(), state.interface.points.size() / 3);
+  state.interface_memory.resize(state.interface.patches.size(), state.interface.batches.size(),
+                                lane_count * state.interface.point_rows);
   state.interface_memory.last.assign(9 * lane_count * state.interface.batches.size(), 0.0f);
   note_bonds(model, state);
   return state;
@@ -248,7 +249,7 @@ void set_branches(const Model& model, State& state, int count) {
   fit(state.branch, 6 * lane_count * n * model.batches.size());
   fit(state.joint.point_branch, n * model.points.size());
   fit(state.contact.point_branch, n * state.contact_points.size());
-  fit(state.interface_memory.point_branch, n * state.interface.points.size());
+  fit(state.interface_memory.point_branch, 3 * n * lane_count * state.interface.point_rows);
   set_fill_branches(model.fill, state.fill, count);
 }
 

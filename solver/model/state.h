@@ -28,10 +28,11 @@ struct PatchMemory {
   Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and open
   Array<float> point_branch;   // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
-  Array<double> largest;       // 2 a patch: opening, slip (m); of a tie its stretch (m) and tension (Pa)
-  Array<float> last;           // 6 a patch: jump at the last pass (m, rad); eight patches side by side
-  Array<double> energy;        // 3 a patch: friction, fracture, work done on the branches point by point (J)
-  void resize(std::size_t patches, std::size_t points);
+  // Eight patches side by side:
+  Array<double> largest;  // 2 a patch: opening, slip (m); of a tie its stretch (m) and tension (Pa)
+  Array<double> energy;   // 3 a patch: friction, fracture, work done on the branches point by point (J)
+  Array<float> last;      // 6 a patch: jump at the last pass (m, rad)
+  void resize(std::size_t patches, std::size_t batches, std::size_t points);
 };
 
 constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
@@ -121,6 +122,24 @@ inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {
 
 /// All bodies and the base at rest.
 void stop_motion(State& state);
+
+/// Where a patch is among batches of eight: contacts and patches with the fill by their slots.
+struct BatchPlace {
+  std::size_t batch = 0, lane = 0;
+};
+inline BatchPlace place_of(const Patch& patch) {
+  return {std::size_t(patch.batch), std::size_t(patch.lane)};
+}
+inline BatchPlace place_of_slot(std::size_t slot) {
+  return {slot / lane_count, slot % lane_count};
+}
+/// Number c of a patch in PatchMemory::largest and PatchMemory::energy.
+inline std::size_t largest_index(BatchPlace at, std::size_t c) {
+  return lane_count * (2 * at.batch + c) + at.lane;
+}
+inline std::size_t energy_index(BatchPlace at, std::size_t c) {
+  return lane_count * (3 * at.batch + c) + at.lane;
+}
 
 /// First of the eight lanes of jump c of a batch, in PatchMemory::last.
 inline std::size_t last_index(std::size_t batch, int c) {

@@ -20,7 +20,7 @@ Incidence find_incidence(const Model& model, const State& state) {
   const Interface& interface = state.interface;
   const auto each_of_fill = [&](const auto& visit) {  // from the batches, too
     for (std::size_t i = 0; i < interface.patches.size(); ++i) {
-      const JointBatch& batch = interface.batches[i / lane_count].patch;
+      const PatchBatch& batch = interface.batches[i / lane_count].patch;
       if (std::int32_t(i % lane_count) < batch.count && batch.area[i % lane_count] > 0.0)
         visit(i, std::size_t(batch.a[i % lane_count]));
     }
@@ -315,6 +315,7 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   for (int lane = 0; lane < lane_count; ++lane)
     sum.r[lane] = wrench_sum(first + std::size_t(std::min(lane, count - 1)));
   transpose(sum.r);
+  fetch_memory(first + 2 * lane_count);
   const Triple<Lanes> x = {batch.centroid[0] + pose.r[0], batch.centroid[1] + pose.r[1], batch.centroid[2] + pose.r[2]};
   Triple<Lanes> f = {sum.r[0], sum.r[1], sum.r[2]};
   const Triple<Lanes> m = Triple<Lanes>{sum.r[3], sum.r[4], sum.r[5]} - cross(x, f);
@@ -360,11 +361,22 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   return batch.free;
 }
 
+/// What a batch to come reads of its own, if there is one; in two parts (see fetch()).
+void BodyPass::fetch_constants(std::size_t first) const {
+  if (first + lane_count <= model->bodies.size()) fetch(&batches[first / lane_count], sizeof(BodyBatch));
+}
+void BodyPass::fetch_memory(std::size_t first) const {
+  if (first + lane_count > model->bodies.size()) return;
+  fetch(&state->motion[motion_width * first], lane_count * motion_width * sizeof(double));
+  fetch(&state->searched[searched_width * first], lane_count * searched_width * sizeof(float));
+}
+
 BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
   BodyReport report;
   const bool side_by_side = local == 0.0 && !loads;  // these two act on bodies one by one
   for (std::size_t first = begin; first < end; first += lane_count) {
     const std::size_t next = std::min(end, first + lane_count);
+    fetch_constants(first + 2 * lane_count);
     const LaneMask moved =
         side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, report) : LaneMask{};
     for (std::size_t i = first; i < next; ++i)

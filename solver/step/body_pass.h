@@ -81,6 +81,8 @@ struct BodyPass {
   Lanes wrench_sum(std::size_t body) const;
   void move_body(std::size_t body, BodyReport& report) const;
   LaneMask move_lanes(std::size_t first, std::size_t end, BodyReport& report) const;
+  void fetch_constants(std::size_t first) const;
+  void fetch_memory(std::size_t first) const;
 };
 
 /// Work of the loads on a body over half a step at this velocity and angular momentum, J.

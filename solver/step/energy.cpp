@@ -60,13 +60,14 @@ PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch,
   return e;
 }
 
-/// What patches [begin, end) have lost, and the work done on their branches.
+/// What the patches of batches [begin, end) have lost, and the work done on their branches.
 void add_losses(const PatchMemory& memory, std::size_t begin, std::size_t end, Energies& e) {
-  for (std::size_t i = begin; i < end; ++i) {
-    e.friction += memory.energy[3 * i];
-    e.fracture += memory.energy[3 * i + 1];
-    e.joint_damping += memory.energy[3 * i + 2];
-  }
+  for (std::size_t batch = begin; batch < end; ++batch)
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      e.friction += memory.energy[energy_index({batch, lane}, 0)];
+      e.fracture += memory.energy[energy_index({batch, lane}, 1)];
+      e.joint_damping += memory.energy[energy_index({batch, lane}, 2)];
+    }
 }
 
 void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energies& e) {
@@ -126,12 +127,11 @@ Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::siz
 
   for (std::int32_t i = tile.first_body; i < tile.end_body; ++i) add_body(stepper, pass, std::size_t(i), e);
   const std::vector<std::int32_t>& of_interface = state.interface.first_batch;
-  add_losses(state.interface_memory, lane_count * std::size_t(of_interface[index]),
-             lane_count * std::size_t(of_interface[index + 1]), e);
-  add_losses(state.joint, std::size_t(tile.first_joint), std::size_t(tile.end_joint), e);
+  add_losses(state.interface_memory, std::size_t(of_interface[index]), std::size_t(of_interface[index + 1]), e);
+  add_losses(state.joint, std::size_t(tile.first_batch), std::size_t(tile.end_batch), e);
   for (std::int32_t i = stepper.first_contact_batch[index]; i < stepper.first_contact_batch[index + 1]; ++i) {
-    const auto first = lane_count * std::size_t(stepper.contact_batches[std::size_t(i)]);
-    add_losses(state.contact, first, first + lane_count, e);
+    const auto batch = std::size_t(stepper.contact_batches[std::size_t(i)]);
+    add_losses(state.contact, batch, batch + 1, e);
   }
   for (int lane = 0; lane < lane_count; ++lane)
     e.joint_damping += state.branch_work[lane_count * index + std::size_t(lane)];

@@ -68,7 +68,8 @@ Tractions intact_tractions(const Model& model, const State& state, const Patch& 
 }
 
 PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<double>& j, const Tractions& sum,
-                             const Array<double>& corners, const double* largest) {
+                             const Array<double>& corners, const PatchMemory& memory) {
+  const double opening = memory.largest[largest_index(place_of(p), 0)];
   PatchSnapshot s;
   s.a = model.block_of_body[p.a];
   s.b = model.block_of_body[p.b];
@@ -80,8 +81,8 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
   s.area = p.area;
   s.opening = sum.opening;
   s.slip = sum.slip;
-  s.largest_opening = p.stride > 1 ? std::max(largest[0], sum.opening) : largest[0];
-  s.largest_slip = std::max(largest[1], sum.slip);
+  s.largest_opening = p.stride > 1 ? std::max(opening, sum.opening) : opening;
+  s.largest_slip = std::max(memory.largest[largest_index(place_of(p), 1)], sum.slip);
   s.normal_traction = sum.normal / sum.area;
   s.shear_traction = std::hypot(sum.s, sum.t) / sum.area;
   s.bonded = sum.bonded / sum.area;
@@ -111,7 +112,7 @@ PatchSnapshot tie_snapshot(const Model& model, const State& state, std::size_t i
   s.bonded = 0.0;
   s.tie = true;
   s.yielded = set + model.laws[std::size_t(p.law)].prestress / p.kn;
-  s.largest_tension = state.joint.largest[2 * i + 1];
+  s.largest_tension = state.joint.largest[largest_index(place_of(p), 1)];
   return s;
 }
 
@@ -129,7 +130,7 @@ PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t
   } else {
     sum = intact_tractions(model, state, p, j, i);
   }
-  PatchSnapshot s = patch_snapshot(model, p, j, sum, model.corners, &state.joint.largest[2 * i]);
+  PatchSnapshot s = patch_snapshot(model, p, j, sum, model.corners, state.joint);
   s.replaced = replaced;
   return s;
 }
@@ -190,7 +191,7 @@ Snapshot make_snapshot(const Model& model, const State& state) {
     const Patch& p = state.contacts[i];
     const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
     const Tractions sum = point_tractions(p, j, state.contact_points, state.contact);
-    PatchSnapshot s = patch_snapshot(model, p, j, sum, state.contact_corners, &state.contact.largest[2 * i]);
+    PatchSnapshot s = patch_snapshot(model, p, j, sum, state.contact_corners, state.contact);
     add_earlier_slip(state, i, s);
     // Faces that met during the run were never a joint: how far apart they are, or were when they were found, is no
     // opening. What a joint had opened before a contact took its place stays with the joint.

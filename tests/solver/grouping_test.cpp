@@ -78,8 +78,9 @@ TEST(Grouping, LeavesEveryPatchAsItWas) {
   for (std::size_t j = 0; j < before.model.joint_places.size(); ++j) {
     const auto a = std::size_t(before.model.joint_places[j].now), b = std::size_t(after.model.joint_places[j].now);
     EXPECT_EQ(before.state.joint.mode[a], after.state.joint.mode[b]);
-    EXPECT_EQ(before.state.joint.largest[2 * a], after.state.joint.largest[2 * b]);
-    EXPECT_EQ(before.state.joint.energy[3 * a + 2], after.state.joint.energy[3 * b + 2]);
+    const BatchPlace was = place_of(before.model.joints[a]), is = place_of(after.model.joints[b]);
+    EXPECT_EQ(before.state.joint.largest[largest_index(was, 0)], after.state.joint.largest[largest_index(is, 0)]);
+    EXPECT_EQ(before.state.joint.energy[energy_index(was, 2)], after.state.joint.energy[energy_index(is, 2)]);
   }
 }
 

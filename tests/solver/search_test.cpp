@@ -137,14 +137,14 @@ TEST(ContactSlots, AreReusedAndNeverMoved) {
   for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i], i);
   EXPECT_EQ(state.contacts.size(), 24u);
   EXPECT_EQ(state.contact_count(), 12);
-  state.contact.energy[3 * 4] = 7.0;
+  state.contact.energy[energy_index(place_of_slot(4), 0)] = 7.0;
   {
     ContactSlots slots(state, {});
     slots.remove(9), slots.remove(4);
     EXPECT_EQ(slots.add(between(2, 3, 7)), 4u) << "the lowest that is free";
   }
   EXPECT_EQ(state.retired_energy()[0], 7.0);
-  EXPECT_EQ(state.contact.energy[3 * 4], 0.0);
+  EXPECT_EQ(state.contact.energy[energy_index(place_of_slot(4), 0)], 0.0);
   EXPECT_FALSE(state.has_contact(9));
   ContactSlots again(state, {});  // knows from the state alone what is free
   EXPECT_EQ(again.add(between(1, 2, 9)), 9u);
