@@ -157,7 +157,9 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   OutOfBalance r = out_of_balance(stepper, unknowns);
   result.first_residual = result.residual = r.largest;
   Array<double> elastic_pose = state.pose, elastic_nodes = state.fill.pose;
-  const int most_iterations = 40, patience = model.fill.empty() ? 6 : 15;
+  const int most_iterations = 40, patience = model.fill.empty() ? 6 : 15,
+            trial = model.fill.empty() ? 3 : most_iterations;
+  double elastic_residual = 0.0;
   for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
@@ -182,10 +184,12 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     r = here.moved(step, best_share);
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
-    if (i == 0) elastic_pose = state.pose, elastic_nodes = state.fill.pose;
+    if (i == 0) elastic_pose = state.pose, elastic_nodes = state.fill.pose, elastic_residual = r.largest;
     result.residual = std::min(result.residual, r.largest);
-    if (i >= patience && result.residual > 1e-2)
-      break;  // joints keep changing state: it would only go round in circles
+    // Joints keep changing state, and it would only go round in circles: no better off than with all of them closed
+    // after some tries, or far from the end after many.
+    if (result.iterations >= trial && r.largest > elastic_residual) break;
+    if (i >= patience && result.residual > 1e-2) break;
   }
   result.converged = r.largest <= tolerance;
   if (!result.converged) {
