@@ -66,6 +66,11 @@ double check_moment_points(const Polygon& polygon) {
   PatchShape shape = patch_shape(polygon, polygon_normal(polygon), 3);
   shape.points = moment_points(shape);
   EXPECT_EQ(shape.points.size(), 4u);
+  for (std::size_t i = 0; i < 2; ++i) {  // the pass keeps two, and takes the others opposite
+    EXPECT_EQ(shape.points[i + 2].s, -shape.points[i].s);
+    EXPECT_EQ(shape.points[i + 2].t, -shape.points[i].t);
+    EXPECT_EQ(shape.points[i].weight, 0.25 * shape.area);
+  }
   check(polygon, shape);
   double least = 1e300;
   for (std::size_t i = 0; i < shape.corners.size(); ++i)
