@@ -34,19 +34,15 @@ struct ContactsAhead {
 
   /// Of the batch after the next, in three parts.
   [[gnu::always_inline]] void constants(std::size_t part) const {
-    constexpr std::size_t third = (sizeof(ContactBatch) / cache_line + 2) / 3 * cache_line;
     if (end - batch <= 2) return;
-    fetch(reinterpret_cast<const char*>(&state.contact_batches[std::size_t(batch[2])]) + part * third, third);
+    fetch_part<3>(state.contact_batches[std::size_t(batch[2])], part);
     if (part == 2) fetch(&state.contact.last[last_index(std::size_t(batch[2]), 0)], 6 * sizeof(Singles));
   }
   /// Of the next, which by then has been asked for itself.
   [[gnu::always_inline]] void poses() const {
     if (end - batch <= 1) return;
     const JointBatch& next = state.contact_batches[std::size_t(batch[1])].patch;
-    for (int lane = 0; lane < lane_count; ++lane) {
-      fetch(&state.pose[pose_width * std::size_t(next.a[lane])], pose_width * sizeof(double));
-      fetch(&state.pose[pose_width * std::size_t(next.b[lane])], pose_width * sizeof(double));
-    }
+    fetch_poses(state.pose.data(), next.a), fetch_poses(state.pose.data(), next.b);
   }
 };
 

@@ -97,17 +97,14 @@ struct InterfaceAhead {
   [[gnu::always_inline]] bool any() const { return k + 2 < state.interface.batches.size(); }
   /// Of the batch after the next, in three parts.
   [[gnu::always_inline]] void constants(std::size_t part) const {
-    constexpr std::size_t third = (sizeof(InterfaceBatch) / cache_line + 2) / 3 * cache_line;
-    if (any()) fetch(reinterpret_cast<const char*>(&state.interface.batches[k + 2]) + part * third, third);
+    if (any()) fetch_part<3>(state.interface.batches[k + 2], part);
   }
   [[gnu::always_inline]] void last_jumps() const {
     if (any()) fetch(&state.interface_memory.last[9 * lane_count * (k + 2)], 9 * sizeof(Singles));
   }
   /// Of the next batch, which by then has been asked for itself.
   [[gnu::always_inline]] void stones() const {
-    if (!any()) return;
-    for (const std::int32_t body : state.interface.batches[k + 1].patch.a)
-      fetch(&state.pose[pose_width * std::size_t(body)], pose_width * sizeof(double));
+    if (any()) fetch_poses(state.pose.data(), state.interface.batches[k + 1].patch.a);
   }
   [[gnu::always_inline]] void nodes() const {
     if (!any()) return;

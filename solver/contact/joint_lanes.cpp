@@ -185,17 +185,11 @@ struct BatchAhead {
   [[gnu::always_inline]] void poses() const {
     if (k + 1 == pass.model->batches.size()) return;
     const JointBatch& next = pass.model->batches[k + 1];
-    const double* pose = pass.state->pose.data();
-    for (int lane = 0; lane < lane_count; ++lane) {
-      fetch(pose + pose_width * std::size_t(next.a[lane]), pose_width * sizeof(double));
-      fetch(pose + pose_width * std::size_t(next.b[lane]), pose_width * sizeof(double));
-    }
+    fetch_poses(pass.state->pose.data(), next.a), fetch_poses(pass.state->pose.data(), next.b);
   }
   /// Of the one after it, in two parts.
   [[gnu::always_inline]] void constants(std::size_t part) const {
-    constexpr std::size_t half = sizeof(JointBatch) / 2;
-    if (k + 2 < pass.model->batches.size())
-      fetch(reinterpret_cast<const char*>(&pass.model->batches[k + 2]) + part * half, half);
+    if (k + 2 < pass.model->batches.size()) fetch_part<2>(pass.model->batches[k + 2], part);
   }
   [[gnu::always_inline]] void memory() const {
     const State& state = *pass.state;

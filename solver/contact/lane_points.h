@@ -24,6 +24,19 @@ struct LanePoses {
   return {{r[0], r[1], r[2]}, {r[3], {r[4], r[5], r[6]}}};
 }
 
+/// Asks for the poses of eight bodies, see fetch().
+[[gnu::always_inline]] inline void fetch_poses(const double* pose, const std::int32_t* bodies) {
+  for (int lane = 0; lane < lane_count; ++lane)
+    fetch(pose + pose_width * std::size_t(bodies[lane]), pose_width * sizeof(double));
+}
+
+/// Asks for one of so many parts of a record, see fetch().
+template <std::size_t parts, class Record>
+[[gnu::always_inline]] inline void fetch_part(const Record& record, std::size_t part) {
+  constexpr std::size_t size = (sizeof(Record) / cache_line + parts - 1) / parts * cache_line;
+  fetch(reinterpret_cast<const char*>(&record) + part * size, size);
+}
+
 /// Strengths of eight patches: of the bond, and of what is left when it is lost.
 struct LaneStrength {
   Lanes tension, cohesion, tangent, residual_cohesion, residual_tangent, dilation;
