@@ -30,8 +30,8 @@ struct CacheAligned {
 template <class T>
 using Array = std::vector<T, CacheAligned<T>>;
 
-/// Asks for memory that will be needed soon: a dozen cache lines at a time, and the next some hundred cycles later. A
-/// core waits for some two dozen at once; what it is asked for beyond them is lost.
+/// Asks for memory that will be needed soon. No more than a dozen cache lines at a time, and the next some hundred
+/// cycles later: asked for all at once, many do not come (docs/performance.md).
 [[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
   for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<const char*>(from) + at);
 }

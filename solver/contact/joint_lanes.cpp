@@ -356,9 +356,8 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
   TileFindings found;
-  for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k) {
+  for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k)
     if (!all_gone(pass, pass.model->batches[k])) BatchPass<count>(pass, k).run(found);
-  }
   if constexpr (count > 0) *reinterpret_cast<Lanes*>(&pass.state->branch_work[lane_count * index]) += found.work;
   if (pass.energies) pass.energies[index] = {sum_of(found.elastic), sum_of(found.stored)};
   PassReport report;
