@@ -121,7 +121,8 @@ struct PointRows : RowPlace {
 struct LaneTrial {
   Triple<Lanes> u, du;  // jump, and its change since the pass before
   Triple<Lanes> now;    // elastic jump of trial
-  Lanes plastic_n, plastic_s, plastic_t, shear2, limit;
+  Lanes plastic_n, plastic_s, plastic_t;
+  Lanes shear2, limit;  // m², m: square of its shear, and what of it friction holds
   LaneMask was_broken, was_open, breaks, open, slides;
   LaneMask yields;  // in these the state of the point changes: it slides, breaks, opens or closes
 };
@@ -148,7 +149,9 @@ struct PointsPass {
   Field jump, change;
   LaneMask active, following;
   bool energies, dilates;
-  Lanes kn, ks, ease;  // 1/(what shear and compression give way to slip)
+  Lanes kn, ks;
+  Lanes opens, bond, bond_slope, grip, grip_slope;  // of the law, as jumps: see set_limits()
+  Lanes ease;                                       // slip for each metre of shear beyond its limit
   Lanes *plastic, *rest;
   Singles* kept;
   std::uint8_t* broken;
@@ -167,11 +170,11 @@ struct PointsPass {
         dilates(any(less(splat(0.0), strength.dilation))),
         kn(b.kn),
         ks(b.ks),
-        ease(1.0 / (b.ks + b.kn * strength.dilation * strength.residual_tangent)),
         plastic(reinterpret_cast<Lanes*>(memory.point.data()) + 2 * std::size_t(b.first_point)),
         rest(reinterpret_cast<Lanes*>(memory.point_rest.data()) + 2 * std::size_t(b.first_point)),
         kept(reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * std::size_t(b.first_point)),
         broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {
+    set_limits();
     for (int row = 0; row < 3 * count; row += 2) {
       const bool last = row + 1 == 3 * count;
       const int next = (row + 1) / 3;
@@ -195,6 +198,17 @@ struct PointsPass {
   }
 
  private:
+  /// The law in elastic jumps: a bond breaks beyond the opening `opens`, where its tension limit or the apex of its
+  /// cone lies, and beyond the shear `bond` − `bond_slope` n; what is left slides beyond `grip` − `grip_slope` n.
+  [[gnu::always_inline]] void set_limits() {
+    const Lanes softer = kn / ks, apex = law.cohesion / (kn * law.tangent);
+    opens = law.tension / kn;
+    opens = select(less(splat(0.0), law.tangent) & less(apex, opens), apex, opens);
+    bond = law.cohesion / ks, bond_slope = softer * law.tangent;
+    grip = law.residual_cohesion / ks, grip_slope = softer * law.residual_tangent;
+    ease = 1.0 / (1.0 + grip_slope * law.dilation);
+  }
+
   /// Asks for what is kept of a row to come, of this batch or of the next.
   [[gnu::always_inline]] void fetch_row(int i) const {
     fetch(plastic + 2 * i, 2 * sizeof(Lanes));
@@ -216,14 +230,15 @@ struct PointsPass {
     e.now = {e.u.x - e.plastic_n, e.u.y - e.plastic_s, e.u.z - e.plastic_t};
     const LaneBytes flags = load_bytes(broken + lane_count * i);
     e.was_broken = bytes_with(flags, 1), e.was_open = bytes_with(flags, 2);
-    const Lanes sigma = kn * e.now.x;
-    e.shear2 = ks * ks * (e.now.y * e.now.y + e.now.z * e.now.z);
-    const Lanes bond = law.cohesion - sigma * law.tangent;
-    const LaneMask holds = at_most(sigma, law.tension) & at_most(zero, bond) & at_most(e.shear2, bond * bond);
-    e.breaks = ~(e.was_broken | holds);
-    e.open = (e.was_broken | e.breaks) & at_most(zero, e.now.x);
-    e.limit = law.residual_cohesion - sigma * law.residual_tangent;
-    e.slides = without(e.was_broken | e.breaks, e.open) & less(e.limit * e.limit, e.shear2);
+    e.shear2 = e.now.y * e.now.y + e.now.z * e.now.z;
+    e.limit = grip - grip_slope * e.now.x;
+    const Lanes most = bond - bond_slope * e.now.x;
+    const LaneMask apart = at_most(zero, e.now.x), past_grip = less(e.limit * e.limit, e.shear2);
+    const LaneMask holds = at_most(e.now.x, opens) & at_most(e.shear2, most * most);
+    const LaneMask loose = ~(without(holds, e.was_broken));  // was broken or breaks
+    e.breaks = without(loose, e.was_broken);
+    e.open = loose & apart;
+    e.slides = without(loose & past_grip, apart);
     e.yields = active & (e.slides | e.breaks | (e.open ^ e.was_open));
     if constexpr (contacts) e.yields |= active & following;
     return e;
@@ -248,7 +263,7 @@ struct PointsPass {
     const LaneMask elastic = ~(e.open | e.slides | e.breaks);
     const Lanes shear = square_root(e.shear2);
     const Lanes slip = select(e.slides, (shear - e.limit) * ease, zero);
-    const Lanes keep = select(e.slides, 1.0 - ks * slip / shear, splat(1.0));
+    const Lanes keep = select(e.slides, 1.0 - slip / shear, splat(1.0));
     const Triple<Lanes> now = {select(e.open, zero, n0 - slip * law.dilation), select(e.open, zero, keep * s0),
                                select(e.open, zero, keep * t0)};
     const Triple<Lanes> before = e.now - e.du;
@@ -320,15 +335,15 @@ struct PointsPass {
                                               Lanes ws, Triple<Lanes>& v) const {
     const Singles n = narrow(step_n), y = narrow(du.y), z = narrow(du.z);
     const Pairs moves[3] = {pair(n, y), pair(z, n), pair(y, z)};
-    Pairs now[3] = {}, both[3] = {};  // sums over the branches; x y, z x and y z
+    Pairs before[3], now[3];  // sums over the branches; x y, z x and y z
     Singles* row = kept + 3 * count * i;
     for (int k = 0; k < 3 * count; k += 2) {
       const bool last = k + 1 == 3 * count;
       const int at = k / 2 % 3;
       const Pairs then = last ? pair(row[k], Singles{}) : load_pair(row + k);
       const Pairs q = where(live, then + (gain[k / 2] * moves[at] - fade[k / 2] * then));
-      now[at] += q;
-      both[at] += then + q;
+      before[at] = k < 6 ? then : before[at] + then;
+      now[at] = k < 6 ? q : now[at] + q;
       if (last)
         store_lanes(active, low(q), row[k]);
       else
@@ -337,7 +352,7 @@ struct PointsPass {
     const auto gather = [](const Pairs* sums) {
       return Triple<Singles>{low(sums[0]) + high(sums[1]), high(sums[0]) + low(sums[2]), low(sums[1]) + high(sums[2])};
     };
-    const Triple<Singles> q = gather(now), twice = gather(both);
+    const Triple<Singles> q = gather(now), twice = gather(before) + q;
     v.x += widen(q.x), v.y += widen(q.y), v.z += widen(q.z);
     return 0.5 * (wn * widen(twice.x) * du.x + ws * (widen(twice.y) * du.y + widen(twice.z) * du.z));
   }
