@@ -41,7 +41,7 @@ using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
   return x;
 }
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 /// True or false in each lane: one bit a lane, in a mask register.
 struct LaneMask {
   __mmask8 bits = 0;
@@ -73,20 +73,16 @@ struct LaneMask {
 [[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
   return _mm512_max_pd(a, b);
 }
-/// Both halves in the lanes of the mask, zero elsewhere.
-[[gnu::always_inline]] inline Pairs where(LaneMask m, Pairs x) {
-  return _mm512_maskz_mov_ps(__mmask16(m.bits | m.bits << 8), x);
+/// Zero outside the mask.
+[[gnu::always_inline]] inline Singles within(LaneMask m, Singles x) {
+  return _mm256_maskz_mov_ps(m.bits, x);
 }
 /// Lanes of the mask alone are written.
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
   _mm512_mask_store_pd(&to, m.bits, x);
 }
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Singles x, Singles& to) {
-  const __m512 wide = _mm512_castps256_ps512(x);
-  _mm512_mask_storeu_ps(&to, m.bits, wide);
-}
-[[gnu::always_inline]] inline void store_pair(LaneMask m, Pairs x, Singles* rows) {
-  _mm512_mask_storeu_ps(rows, __mmask16(m.bits | m.bits << 8), x);
+  _mm256_mask_storeu_ps(reinterpret_cast<float*>(&to), m.bits, x);
 }
 [[gnu::always_inline]] inline bool any(LaneMask m) {
   return m.bits != 0;
@@ -143,18 +139,14 @@ struct LaneMask {
 [[gnu::always_inline]] inline Singles select(LaneMask m, Singles a, Singles b) {
   return __builtin_convertvector(m.bits, SingleInts) ? a : b;
 }
-[[gnu::always_inline]] inline Pairs where(LaneMask m, Pairs x) {
-  return pair(select(m, low(x), Singles{}), select(m, high(x), Singles{}));
+[[gnu::always_inline]] inline Singles within(LaneMask m, Singles x) {
+  return select(m, x, Singles{});
 }
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
   to = select(m, x, to);
 }
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Singles x, Singles& to) {
   to = select(m, x, to);
-}
-[[gnu::always_inline]] inline void store_pair(LaneMask m, Pairs x, Singles* rows) {
-  store_lanes(m, low(x), rows[0]);
-  store_lanes(m, high(x), rows[1]);
 }
 [[gnu::always_inline]] inline int count_of(LaneMask m) {
   std::int64_t n = 0;
@@ -184,7 +176,7 @@ struct LaneMask {
 
 /// A byte a lane: 1 where `first`, 2 where `second`, or their sum.
 [[gnu::always_inline]] inline void store_flags(LaneMask first, LaneMask second, std::uint8_t* bytes) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__BMI2__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__BMI2__)
   const std::uint64_t packed = _pdep_u64(first.bits, 0x0101010101010101) | _pdep_u64(second.bits, 0x0202020202020202);
   std::memcpy(bytes, &packed, lane_count);
 #else

@@ -8,9 +8,9 @@ namespace voussoir {
 namespace {
 
 /// Of a free slot: no points, and bodies that nobody moves while the tile is at work.
-Patch no_contact(std::int32_t tile) {
+Patch no_contact(const Tile& tile) {
   Patch p;
-  p.a = p.b = tile * tile_bodies;
+  p.a = p.b = tile.first_body;
   return p;
 }
 
@@ -32,7 +32,7 @@ std::size_t ContactSlots::first_of_new_batch(Kind kind) {
   append_contact_batch(state_, kind.first, kind.second);
   const std::size_t slot = state_.contacts.size(), points = lane_count * std::size_t(kind.second);
   const auto more = [](auto& array, std::size_t n, auto value) { array.resize(array.size() + n, value); };
-  more(state_.contacts, lane_count, no_contact(kind.first));
+  more(state_.contacts, lane_count, no_contact(model_.tiles[std::size_t(kind.first)]));
   state_.contact_tiles.insert(state_.contact_tiles.end(), {kind.first, kind.second});
   more(state_.contact_points, 3 * points, 0.0);
   more(state_.contact_corners, 2 * lane_count * std::size_t(most_corners(kind.second)), 0.0);
@@ -85,7 +85,7 @@ void fill_points(State& state, int branches, const NewContact& c, const Patch& p
 std::size_t ContactSlots::add(const NewContact& c) {
   const auto points = std::int32_t(c.points.size());
   const std::int32_t rows = point_rows(points);
-  const std::size_t slot = free_slot({tile_of(std::min(c.patch.a, c.patch.b)), rows});
+  const std::size_t slot = free_slot({model_.tile_of(std::min(c.patch.a, c.patch.b)), rows});
   const std::size_t index = slot / lane_count, lane = slot % lane_count;
   const ContactBatch& batch = state_.contact_batches[index];
   Patch& p = state_.contacts[slot];
@@ -115,7 +115,7 @@ void ContactSlots::remove(std::size_t slot) {
     state_.retired_energy()[c] += std::exchange(state_.contact.energy[energy_index(place_of_slot(slot), c)], 0.0);
   const ContactBatch& batch = state_.contact_batches[slot / lane_count];
   state_.contact.mode[slot] = mode_gone;
-  state_.contacts[slot] = no_contact(batch.tile);
+  state_.contacts[slot] = no_contact(model_.tiles[std::size_t(batch.tile)]);
   fill_contact_lane(state_, slot);
   const auto known = free_.find({batch.tile, batch.patch.points});
   if (known == free_.end()) return;

@@ -10,7 +10,8 @@ namespace voussoir {
 /// Gives contacts their slots; made anew for every search, so that the slots depend on the state alone.
 class ContactSlots {
  public:
-  ContactSlots(State& state, const Branches& branches) : state_(state), branches_(branches.count) {}
+  ContactSlots(const Model& model, State& state, const Branches& branches)
+      : model_(model), state_(state), branches_(branches.count) {}
   /// Returns the slot: the lowest that is free and fits, or the first of a new batch.
   std::size_t add(const NewContact& contact);
   /// What it has lost goes to the common account of contacts that are gone.
@@ -22,6 +23,7 @@ class ContactSlots {
   std::size_t free_slot(Kind kind);
   std::size_t first_of_new_batch(Kind kind);
 
+  const Model& model_;
   State& state_;
   int branches_;
   std::map<Kind, std::vector<std::size_t>> free_;  // descending

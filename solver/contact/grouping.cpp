@@ -173,9 +173,14 @@ std::vector<std::size_t> grouped_joints(const Model& model, const State& state, 
   std::vector<Way> ways(end - first);
   std::transform(&state.joint.mode[first], &state.joint.mode[0] + end, ways.begin(), way_of_joint);
   std::vector<std::pair<std::uint64_t, std::size_t>> keys;  // shape, way, place as built; place now
+  std::uint64_t reversed = 0, shape = 0;
   for (std::size_t i = first; i < end; ++i) {
     const JointPlace& at = model.joint_places[std::size_t(model.joint_of_patch[i])];
-    const auto kind = std::uint64_t(at.shape) << 2 | std::uint64_t(ways[i - first]);
+    // Shapes lie one after the other. Each begins with the way that the one before ends with, so that the batch they
+    // share has one way.
+    if (i > first && std::uint64_t(at.shape) != shape) reversed ^= 3;
+    shape = std::uint64_t(at.shape);
+    const auto kind = shape << 2 | (std::uint64_t(ways[i - first]) ^ reversed);
     keys.emplace_back(kind << 32 | std::uint64_t(at.first), i);
   }
   std::sort(keys.begin(), keys.end());

@@ -75,16 +75,15 @@ struct ShapeFunctions {
 };
 
 /// The four points of moment_points(): two, and two opposite.
-struct MomentRows : RowPlace {
+struct MomentRows {
   const InterfaceBatch& batch;
-  int i = 0;
-  explicit MomentRows(const InterfaceBatch& b) : RowPlace{{}, {}, 0.25 * b.patch.area}, batch(b) {}
-  bool next() {
-    if (i == batch.patch.points) return false;
-    const Lanes* p = batch.point[i % 2];
-    s = i < 2 ? p[0] : -p[0], t = i < 2 ? p[1] : -p[1];
-    ++i;
-    return true;
+  Lanes area() const { return batch.patch.area; }
+  [[gnu::always_inline]] void each(const AffineField& jump, const AffineField& change, const auto& visit) const {
+    for (int i = 0; i < batch.patch.points; ++i) {
+      const Lanes* p = batch.point[i % 2];
+      const RowPlace at = {i < 2 ? p[0] : -p[0], i < 2 ? p[1] : -p[1], splat(0.25)};
+      visit(i, at, jump.at(at.s, at.t), change.at(at.s, at.t));
+    }
   }
 };
 
@@ -152,7 +151,7 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   // 2. tractions
   PointsPass<count, false, AffineField> points(b.patch, strengths(*pass.model, b.patch), jump, pass.branches, used,
                                                LaneMask{}, change, energy != nullptr, memory);
-  const LanePoints found = points.run(MomentRows(b));
+  const LanePoints found = points.run(MomentRows{b});
   ahead.constants(2);
   note_points(found, used, k, memory);
   if (energy) {

@@ -49,9 +49,8 @@ struct LaneCheck {
   const Lanes sigma = batch.kn * u.x;
   const Lanes limit = cohesion - sigma * tangent;
   const Lanes shear2 = batch.ks * batch.ks * (u.y * u.y + u.z * u.z);
-  const Lanes zero = splat(0.0);
-  check.admissible &= at_most(sigma, tension) & at_most(zero, limit) & at_most(shear2, limit * limit);
-  check.open &= at_most(zero, u.x);
+  check.admissible &= at_most(sigma, tension) & at_most(shear2, limit * limit);
+  check.open &= at_most(splat(0.0), u.x);
 }
 
 [[gnu::noinline]] LaneCheck check_polygons(const Model& model, const JointBatch& batch, const LaneElastic& e,
@@ -282,9 +281,10 @@ struct BatchPass {
   }
 
   void leave_intact(LaneMask points) {
+    const LaneMask leave = without(points, bytes_with(modes, mode_points));
+    if (!any(leave)) return;
     for (int lane = 0; lane < batch.count; ++lane)
-      if (points[lane] && !(mode[lane] & mode_points))
-        joint_to_points(*pass.model, *pass.state, pass.branches, first + std::size_t(lane));
+      if (leave[lane]) joint_to_points(*pass.model, *pass.state, pass.branches, first + std::size_t(lane));
   }
 
   /// Adds the wrenches to the sums of their bodies, joint by joint.

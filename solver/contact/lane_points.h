@@ -37,7 +37,8 @@ template <std::size_t parts, class Record>
   fetch(reinterpret_cast<const char*>(&record) + part * size, size);
 }
 
-/// Strengths of eight patches: of the bond, and of what is left when it is lost.
+/// Strengths of eight patches: of the bond, whose tension ends at the apex of its cone, and of what is left when it is
+/// lost.
 struct LaneStrength {
   Lanes tension, cohesion, tangent, residual_cohesion, residual_tangent, dilation;
   LaneMask brittle;
@@ -47,7 +48,8 @@ struct LaneStrength {
 [[gnu::always_inline]] inline LaneStrength strength_of(const LawConstants& law) {
   const bool elastic = law.kind == JointLaw::Kind::elastic;
   LaneStrength s;
-  s.tension = splat(elastic ? 1e300 : law.tension);
+  const double apex = law.tan_friction > 0.0 ? law.cohesion / law.tan_friction : 1e300;  // of the bond's cone
+  s.tension = splat(elastic ? 1e300 : std::min(law.tension, apex));
   s.cohesion = splat(elastic ? 1e300 : law.cohesion);
   s.tangent = splat(elastic ? 0.0 : law.tan_friction);
   s.residual_cohesion = splat(law.residual_cohesion);
@@ -86,33 +88,45 @@ struct LanePoints {
   bool yields = false;  // some point of some lane: without it there is no friction, fracture or new slip
 };
 
-/// One point of eight patches.
+constexpr int rows_ahead = 6;  // what is kept of a row is asked for so much earlier, see fetch()
+
+/// One point of eight patches, and its share of PointRows::area().
 struct RowPlace {
   Lanes s, t, weight;
 };
 
 /// Points of a batch: from its rectangles, or from the table.
-struct PointRows : RowPlace {
+struct PointRows {
   const JointBatch& batch;
   const LineRule& rule;
   const Lanes* table;
-  int i = 0, along = 0, across = 0;
 
   PointRows(const LineRule& of_rectangles, const Array<double>& points, const JointBatch& b)
       : batch(b),
         rule(of_rectangles),
         table(reinterpret_cast<const Lanes*>(points.data()) + 3 * std::size_t(b.first_point)) {}
-  bool next() {
-    if (i == batch.points) return false;
+
+  Lanes area() const { return batch.rectangles ? batch.area : splat(1.0); }
+
+  /// visit(row, place, jump there, its change)
+  template <class Field>
+  [[gnu::always_inline]] void each(const Field& jump, const Field& change, const auto& visit) const {
     if (batch.rectangles) {
-      s = rule.x[along] * batch.half_s, t = rule.x[across] * batch.half_t;
-      weight = rule.w[along] * rule.w[across] * batch.area;
-      if (++across == rule.count) across = 0, ++along;
+      for (int i = 0, along = 0; along < rule.count; ++along) {
+        const Lanes s = rule.x[along] * batch.half_s;
+        const auto u = jump.line(s), du = change.line(s);
+        for (int across = 0; across < rule.count; ++across, ++i) {
+          const Lanes t = rule.x[across] * batch.half_t;
+          visit(i, RowPlace{s, t, splat(rule.w[along] * rule.w[across])}, u.at(t), du.at(t));
+        }
+      }
     } else {
-      s = table[3 * i], t = table[3 * i + 1], weight = table[3 * i + 2];
+      for (int i = 0; i < batch.points; ++i) {
+        fetch(table + 3 * (i + rows_ahead), 3 * sizeof(Lanes));
+        const RowPlace at = {table[3 * i], table[3 * i + 1], table[3 * i + 2]};
+        visit(i, at, jump.at(at.s, at.t), change.at(at.s, at.t));
+      }
     }
-    ++i;
-    return true;
   }
 };
 
@@ -133,9 +147,13 @@ struct RigidField {
   explicit RigidField(const Jump<Lanes>& j) : n(j.n), s(j.s), t(j.t), rn(j.rn), rs(j.rs), rt(j.rt) {}
   explicit RigidField(const Lanes* change)
       : n(change[0]), s(change[1]), t(change[2]), rn(change[3]), rs(change[4]), rt(change[5]) {}
-  [[gnu::always_inline]] Triple<Lanes> at(Lanes x, Lanes y) const {
-    return {n + rs * y - rt * x, s - rn * y, t + rn * x};
-  }
+  [[gnu::always_inline]] Triple<Lanes> at(Lanes x, Lanes y) const { return line(x).at(y); }
+
+  struct Line {
+    Lanes n, s, t, rn, rs;
+    [[gnu::always_inline]] Triple<Lanes> at(Lanes y) const { return {n + rs * y, s - rn * y, t}; }
+  };
+  [[gnu::always_inline]] Line line(Lanes x) const { return {n - rt * x, s, t + rn * x, rn, rs}; }
 };
 
 /// The points of eight patches whose jump is `jump`, and has changed by `change` since the pass before: any field that
@@ -155,7 +173,7 @@ struct PointsPass {
   Lanes *plastic, *rest;
   Singles* kept;
   std::uint8_t* broken;
-  Pairs fade[(3 * count + 2) / 2], gain[(3 * count + 2) / 2];  // of each two rows of the branches
+  Singles fade[count + 1], gain[count + 1];  // of each branch
 
   [[gnu::always_inline]] PointsPass(const PatchBatch& b, const LaneStrength& strength, const Field& now,
                                     const Branches& of, LaneMask which, LaneMask follow, const Field& since,
@@ -175,38 +193,50 @@ struct PointsPass {
         kept(reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * std::size_t(b.first_point)),
         broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {
     set_limits();
-    for (int row = 0; row < 3 * count; row += 2) {
-      const bool last = row + 1 == 3 * count;
-      const int next = (row + 1) / 3;
-      fade[row / 2] = pair(singles(1.0 - of.e[row / 3]), last ? Singles{} : singles(1.0 - of.e[next]));
-      gain[row / 2] = pair(singles(of.g[row / 3]), last ? Singles{} : singles(of.g[next]));
-    }
+    for (int k = 0; k < count; ++k) fade[k] = singles(1.0 - of.e[k]), gain[k] = singles(of.g[k]);
   }
 
-  [[gnu::always_inline]] LanePoints run(auto at) const {
-    LanePoints sum;
+  [[gnu::always_inline]] LanePoints run(const auto& rows) const {
+    Sums sum;
     sum.all_open = sum.all_broken = active;
-    for (int i = 0; at.next(); ++i) {
-      fetch_row(i + 4);
-      const LaneTrial trial = try_point(i, at.s, at.t);
-      if (any(trial.yields))
-        sum.yields = true, yield(i, at, trial, sum);
-      else
-        stay(i, at, trial, sum);
-    }
-    return sum;
+    rows.each(
+        jump, change,
+        [&](int i, const RowPlace& at, const Triple<Lanes>& u, const Triple<Lanes>& du) __attribute__((always_inline)) {
+          fetch_row(i + rows_ahead);
+          const LaneTrial trial = try_point(i, u, du);
+          if (any(trial.yields))
+            sum.yields = true, yield(i, at, trial, sum);
+          else
+            stay(i, at, trial, sum);
+        });
+    return total(sum, rows.area());
   }
 
  private:
-  /// The law in elastic jumps: a bond breaks beyond the opening `opens`, where its tension limit or the apex of its
-  /// cone lies, and beyond the shear `bond` − `bond_slope` n; what is left slides beyond `grip` − `grip_slope` n.
+  /// Sums over the points, of jumps and without what all points of a patch have in common.
+  struct Sums : LanePoints {
+    Lanes work_n{}, work_s{}, elastic_n{}, elastic_s{};
+  };
+  [[gnu::always_inline]] LanePoints total(Sums& sum, Lanes area) const {
+    const Lanes n = kn * area, s = ks * area;
+    Resultant<Lanes>& q = sum.resultant;
+    q.n *= n, q.sn *= n, q.tn *= n;
+    q.s *= s, q.ss *= s, q.ts *= s;
+    q.t *= s, q.st *= s, q.tt *= s;
+    if constexpr (count > 0) sum.work = 0.5 * (n * sum.work_n + s * sum.work_s);
+    if (energies) sum.elastic = 0.5 * (n * sum.elastic_n + s * sum.elastic_s), sum.stored *= 0.5 * area;
+    if (sum.yields) sum.friction *= area, sum.fracture *= area;
+    return sum;
+  }
+
+  /// The law in elastic jumps: a bond breaks beyond the opening `opens`, and beyond the shear `bond` − `bond_slope` n;
+  /// what is left slides beyond `grip` − `grip_slope` n.
   [[gnu::always_inline]] void set_limits() {
-    const Lanes softer = kn / ks, apex = law.cohesion / (kn * law.tangent);
+    const Lanes soft = 1.0 / ks, softer = kn * soft;
     opens = law.tension / kn;
-    opens = select(less(splat(0.0), law.tangent) & less(apex, opens), apex, opens);
-    bond = law.cohesion / ks, bond_slope = softer * law.tangent;
-    grip = law.residual_cohesion / ks, grip_slope = softer * law.residual_tangent;
-    ease = 1.0 / (1.0 + grip_slope * law.dilation);
+    bond = soft * law.cohesion, bond_slope = softer * law.tangent;
+    grip = soft * law.residual_cohesion, grip_slope = softer * law.residual_tangent;
+    ease = dilates ? 1.0 / (1.0 + grip_slope * law.dilation) : splat(1.0);
   }
 
   /// Asks for what is kept of a row to come, of this batch or of the next.
@@ -216,11 +246,11 @@ struct PointsPass {
     fetch(broken + lane_count * i, lane_count);
   }
 
-  [[gnu::always_inline]] LaneTrial try_point(int i, Lanes s, Lanes t) const {
+  [[gnu::always_inline]] LaneTrial try_point(int i, const Triple<Lanes>& u, const Triple<Lanes>& du) const {
     const Lanes zero = splat(0.0);
     LaneTrial e;
-    e.u = jump.at(s, t);
-    e.du = change.at(s, t);
+    e.u = u;
+    e.du = du;
     e.plastic_n = dilates ? rest[2 * i] : zero;
     e.plastic_s = plastic[2 * i], e.plastic_t = plastic[2 * i + 1];
     if constexpr (contacts) {
@@ -245,11 +275,9 @@ struct PointsPass {
   }
 
   /// Every lane goes on as it was.
-  [[gnu::always_inline]] void stay(int i, const RowPlace& at, const LaneTrial& e, LanePoints& sum) const {
-    if (any(active & e.open)) {
-      store_lanes(active & e.open, e.u.y, plastic[2 * i]);
-      store_lanes(active & e.open, e.u.z, plastic[2 * i + 1]);
-    }
+  [[gnu::always_inline]] void stay(int i, const RowPlace& at, const LaneTrial& e, Sums& sum) const {
+    store_lanes(active & e.open, e.u.y, plastic[2 * i]);
+    store_lanes(active & e.open, e.u.z, plastic[2 * i + 1]);
     const Lanes zero = splat(0.0);
     const Triple<Lanes> now = {select(e.open, zero, e.now.x), select(e.open, zero, e.now.y),
                                select(e.open, zero, e.now.z)};
@@ -257,7 +285,7 @@ struct PointsPass {
   }
 
   /// Some slide, break, open or close; every lane computes all it might need.
-  [[gnu::always_inline]] void yield(int i, const RowPlace& at, const LaneTrial& e, LanePoints& sum) const {
+  [[gnu::always_inline]] void yield(int i, const RowPlace& at, const LaneTrial& e, Sums& sum) const {
     const Lanes zero = splat(0.0), w = at.weight;
     const auto [n0, s0, t0] = e.now;
     const LaneMask elastic = ~(e.open | e.slides | e.breaks);
@@ -288,35 +316,36 @@ struct PointsPass {
 
   /// What points at an elastic jump of `now` do. The branches of lanes that are not `live` are emptied.
   [[gnu::always_inline]] void act(int i, const RowPlace& at, const LaneTrial& e, const Triple<Lanes>& now,
-                                  LaneMask live, LanePoints& sum) const {
-    const Lanes s = at.s, t = at.t, wn = at.weight * kn, ws = at.weight * ks;
+                                  LaneMask live, Sums& sum) const {
+    const Lanes w = at.weight;
     Triple<Lanes> v = now;
     if constexpr (count > 0) {
       // What was open is pressed from where it closed.
       const LaneMask was_apart = e.was_broken & less(e.du.x, e.now.x);
-      sum.work += advance(i, live, e.du, select(was_apart, now.x, e.du.x), wn, ws, v);
-      if (energies) sum.stored += 0.5 * at.weight * stored(kept + 3 * count * i);
+      const Triple<Lanes> twice = advance(i, live, e.du, select(was_apart, now.x, e.du.x), v);
+      sum.work_n += w * (twice.x * e.du.x), sum.work_s += w * (twice.y * e.du.y + twice.z * e.du.z);
+      if (energies) sum.stored += w * stored(kept + 3 * count * i);
     }
-    if (energies) sum.elastic += 0.5 * (wn * now.x * now.x + ws * (now.y * now.y + now.z * now.z));
-    add_tractions(s, t, wn * v.x, ws * v.y, ws * v.z, sum.resultant);
+    if (energies) sum.elastic_n += w * (now.x * now.x), sum.elastic_s += w * (now.y * now.y + now.z * now.z);
+    add_tractions(at.s, at.t, w * v.x, w * v.y, w * v.z, sum.resultant);
     sum.opening = larger(sum.opening, select(e.was_broken | e.breaks, e.u.x, splat(0.0)));
     sum.all_open &= e.open;
     sum.all_broken &= e.was_broken | e.breaks;
   }
 
-  /// A point's branches follow the jump, `step_n` along the normal; adds their q to `v` and returns the work done on
-  /// them (J), by the mean of their tractions at both ends of the step.
-  [[gnu::always_inline]] Lanes advance(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n, Lanes wn, Lanes ws,
-                                       Triple<Lanes>& v) const {
+  /// A point's branches follow the jump, `step_n` along the normal; adds their q to `v` and returns the sum of q at
+  /// both ends of the step: by the mean of the two work is done on them.
+  [[gnu::always_inline]] Triple<Lanes> advance(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
+                                               Triple<Lanes>& v) const {
     if constexpr (count == 1)
-      return advance_one(i, live, du, step_n, wn, ws, v);
+      return advance_one(i, live, du, step_n, v);
     else
-      return advance_packed(i, live, du, step_n, wn, ws, v);
+      return advance_several(i, live, du, step_n, v);
   }
 
   /// A single branch may be that of Rayleigh damping, which is stiff and forgets at once: in double precision.
-  [[gnu::always_inline]] Lanes advance_one(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n, Lanes wn,
-                                           Lanes ws, Triple<Lanes>& v) const {
+  [[gnu::always_inline]] Triple<Lanes> advance_one(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
+                                                   Triple<Lanes>& v) const {
     Singles* row = kept + 3 * i;
     const auto one = [&](int c, Lanes step, Lanes& viscous) {
       const Lanes then = widen(row[c]);
@@ -325,36 +354,25 @@ struct PointsPass {
       store_lanes(active, narrow(now), row[c]);
       return then + now;
     };
-    const Lanes n = one(0, step_n, v.x), s = one(1, du.y, v.y), t = one(2, du.z, v.z);
-    return 0.5 * (wn * n * du.x + ws * (s * du.y + t * du.z));
+    return {one(0, step_n, v.x), one(1, du.y, v.y), one(2, du.z, v.z)};
   }
 
-  /// Several branches are a correction of some per cent: in single precision, as they are kept, two components side by
-  /// side. They lose 1 − e of themselves, because e itself, near one, would be rounded to another relaxation time.
-  [[gnu::always_inline]] Lanes advance_packed(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n, Lanes wn,
-                                              Lanes ws, Triple<Lanes>& v) const {
-    const Singles n = narrow(step_n), y = narrow(du.y), z = narrow(du.z);
-    const Pairs moves[3] = {pair(n, y), pair(z, n), pair(y, z)};
-    Pairs before[3], now[3];  // sums over the branches; x y, z x and y z
+  /// Several branches are a correction of some per cent: in single precision, as they are kept. They lose 1 − e of
+  /// themselves, because e itself, near one, would be rounded to another relaxation time.
+  [[gnu::always_inline]] Triple<Lanes> advance_several(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
+                                                       Triple<Lanes>& v) const {
+    const Singles step[3] = {narrow(step_n), narrow(du.y), narrow(du.z)};
+    Singles before[3], now[3];
     Singles* row = kept + 3 * count * i;
-    for (int k = 0; k < 3 * count; k += 2) {
-      const bool last = k + 1 == 3 * count;
-      const int at = k / 2 % 3;
-      const Pairs then = last ? pair(row[k], Singles{}) : load_pair(row + k);
-      const Pairs q = where(live, then + (gain[k / 2] * moves[at] - fade[k / 2] * then));
-      before[at] = k < 6 ? then : before[at] + then;
-      now[at] = k < 6 ? q : now[at] + q;
-      if (last)
-        store_lanes(active, low(q), row[k]);
-      else
-        store_pair(active, q, row + k);
-    }
-    const auto gather = [](const Pairs* sums) {
-      return Triple<Singles>{low(sums[0]) + high(sums[1]), high(sums[0]) + low(sums[2]), low(sums[1]) + high(sums[2])};
-    };
-    const Triple<Singles> q = gather(now), twice = gather(before) + q;
-    v.x += widen(q.x), v.y += widen(q.y), v.z += widen(q.z);
-    return 0.5 * (wn * widen(twice.x) * du.x + ws * (widen(twice.y) * du.y + widen(twice.z) * du.z));
+    for (int k = 0; k < count; ++k)
+      for (int c = 0; c < 3; ++c, ++row) {
+        const Singles then = *row, q = within(live, then + (gain[k] * step[c] - fade[k] * then));
+        before[c] = k == 0 ? then : before[c] + then;
+        now[c] = k == 0 ? q : now[c] + q;
+        store_lanes(active, q, *row);
+      }
+    v.x += widen(now[0]), v.y += widen(now[1]), v.z += widen(now[2]);
+    return {widen(before[0] + now[0]), widen(before[1] + now[1]), widen(before[2] + now[2])};
   }
 
   [[gnu::always_inline]] Lanes stored(const Singles* row) const {

@@ -53,7 +53,7 @@ class Search {
         state_(state),
         branches_(branches),
         threads_(threads),
-        slots_(state, branches),
+        slots_(model, state, branches),
         moved_(model.bodies.size(), 0),
         stale_(model.bodies.size(), 0) {}
 

@@ -173,12 +173,12 @@ std::vector<InterfacePatch> unflatten(const Array<double>& rows, const Array<dou
 namespace {
 
 /// Tile by tile those that are computed alike side by side.
-std::vector<InterfacePatch> sorted(std::vector<InterfacePatch> patches) {
-  const auto key = [](const InterfacePatch& p) {
+std::vector<InterfacePatch> sorted(std::vector<InterfacePatch> patches, const Model& model) {
+  const auto key = [&model](const InterfacePatch& p) {
     int facing = 0;
     const Eigen::Quaterniond q(p.frame[0], p.frame[1], p.frame[2], p.frame[3]);
     (q * Vec3::UnitX()).cwiseAbs().maxCoeff(&facing);
-    return std::tuple(tile_of(p.body), p.points.size(), p.law, facing, p.body, p.cell, p.face, p.triangle);
+    return std::tuple(model.tile_of(p.body), p.points.size(), p.law, facing, p.body, p.cell, p.face, p.triangle);
   };
   std::vector<std::pair<decltype(key(patches[0])), std::size_t>> order;
   order.reserve(patches.size());
@@ -194,18 +194,18 @@ std::vector<InterfacePatch> sorted(std::vector<InterfacePatch> patches) {
 
 Interface make_interface(std::vector<InterfacePatch> patches, const Model& model) {
   Interface interface;
-  patches = sorted(std::move(patches));
+  patches = sorted(std::move(patches), model);
   interface.first_batch.assign(model.tiles.size() + 1, 0);
   for (std::size_t i = 0; i < patches.size();) {
     const InterfacePatch& head = patches[i];
     const auto like = [&](const InterfacePatch& p) {
-      return tile_of(p.body) == tile_of(head.body) && p.points.size() == head.points.size();
+      return model.tile_of(p.body) == model.tile_of(head.body) && p.points.size() == head.points.size();
     };
     int count = 1;
     while (count < lane_count && i + std::size_t(count) < patches.size() && like(patches[i + std::size_t(count)]))
       ++count;
     InterfaceBatch batch{};
-    batch.tile = tile_of(head.body);
+    batch.tile = model.tile_of(head.body);
     batch.patch.count = count;
     for (int lane = 0; lane < lane_count; ++lane) {
       const InterfacePatch& patch = patches[i + std::size_t(std::min(lane, count - 1))];

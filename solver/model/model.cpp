@@ -129,6 +129,13 @@ Patch joint_patch(const Assembly& assembly, const Joint& joint, const PatchShape
   return patch;
 }
 
+/// Large tiles have fewer batches whose joints are not computed alike, and fewer bodies that belong to others; small
+/// ones are needed where there are few for each thread.
+std::int32_t bodies_of_tile(std::size_t bodies) {
+  constexpr std::size_t enough_tiles = 128;
+  return bodies >= 128 * enough_tiles ? 128 : 64;
+}
+
 /// The assembly's joints in the order of their batches; returns their shapes in that of the assembly.
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   // Tile, shape, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
@@ -144,8 +151,8 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
     const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
-    order.emplace_back(tile_of(std::min(a, b)), shape, joint.law, facing, std::min(a, b), std::max(a, b), joint.cell_a,
-                       joint.cell_b, std::int64_t(i));
+    order.emplace_back(model.tile_of(std::min(a, b)), shape, joint.law, facing, std::min(a, b), std::max(a, b),
+                       joint.cell_a, joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
   model.joint_places.resize(order.size());
@@ -287,10 +294,10 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
   const auto bodies = std::int32_t(model.bodies.size()), joints = std::int32_t(model.joints.size());
   std::vector<std::vector<std::int32_t>> sums_of(model.bodies.size());
   std::int32_t joint = 0, sum = 0;
-  for (std::int32_t first_body = 0; first_body < bodies; first_body += tile_bodies) {
+  for (std::int32_t first_body = 0; first_body < bodies; first_body += model.tile_bodies) {
     Tile tile;
     tile.first_body = first_body;
-    tile.end_body = std::min(bodies, first_body + tile_bodies);
+    tile.end_body = std::min(bodies, first_body + model.tile_bodies);
     tile.first_sum = sum;
     const std::int32_t first = joint;
     while (joint < joints &&
@@ -307,7 +314,8 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
     for (std::int32_t body = first_body; body < tile.end_body; ++body) sums_of[std::size_t(body)].push_back(sum++);
     for (const std::int32_t body : beyond) {
       sums_of[std::size_t(body)].push_back(sum++);
-      if (tile.followers.empty() || tile.followers.back() != tile_of(body)) tile.followers.push_back(tile_of(body));
+      const std::int32_t later = model.tile_of(body);
+      if (tile.followers.empty() || tile.followers.back() != later) tile.followers.push_back(later);
     }
     model.tiles.push_back(std::move(tile));
   }
@@ -349,6 +357,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
   add_contact_laws(model);
   model.rule = lobatto_rule(model.contact.points_per_side);
+  model.tile_bodies = bodies_of_tile(model.bodies.size());
   make_tiles(model, add_joints(assembly, model));
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     if (model.joints[i].length == 0.0)  // stones that a tie holds may still touch

@@ -140,10 +140,6 @@ struct Tile {
   std::int32_t first_sum = 0, end_sum = 0;  // its bodies in order, then bodies of later tiles that its joints touch
   std::vector<std::int32_t> followers;      // those later tiles
 };
-constexpr std::int32_t tile_bodies = 64;  // whole batches of bodies
-inline std::int32_t tile_of(std::int32_t body) {
-  return body / tile_bodies;
-}
 
 /// A cell of one body and a cell of another: bodies in order, then their cells.
 using CellPair = std::array<std::int32_t, 4>;
@@ -174,6 +170,8 @@ struct Model {
   Array<Lanes> batch_corners;  // s, t of each corner
   LineRule rule;               // of rectangles: its tensor product
   std::vector<Tile> tiles;
+  std::int32_t tile_bodies = 64;  // each, but for the last: whole batches of bodies
+  std::int32_t tile_of(std::int32_t body) const { return body / tile_bodies; }
   // Sums of each body in the order they are added up: first of each body (and one past the end), places of the sums.
   std::vector<std::int32_t> first_sum, sums;
 

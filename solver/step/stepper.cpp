@@ -59,7 +59,7 @@ Dependencies order_of_tiles(const Model& model, const State& state) {
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     if (!state.has_contact(i)) continue;
     const JointBatch& batch = state.contact_batches[i / lane_count].patch;
-    const std::int32_t a = tile_of(batch.a[i % lane_count]), b = tile_of(batch.b[i % lane_count]);
+    const std::int32_t a = model.tile_of(batch.a[i % lane_count]), b = model.tile_of(batch.b[i % lane_count]);
     if (a == b) continue;
     std::vector<std::int32_t>& followers = order.followers[std::size_t(std::min(a, b))];
     if (std::find(followers.begin(), followers.end(), std::max(a, b)) == followers.end())
@@ -360,7 +360,7 @@ void serial_step(Stepper& s) {
   std::vector<std::map<std::int32_t, std::array<double, 6>>> tile_sums(model.bodies.size());  // by tile, of each body
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Patch& p = model.joints[i];
-    const std::int32_t tile = tile_of(std::min(p.a, p.b));
+    const std::int32_t tile = model.tile_of(std::min(p.a, p.b));
     add(tile_sums[std::size_t(p.a)][tile].data(), &s.wrenches[wrench_width * i], 1.0);
     add(tile_sums[std::size_t(p.b)][tile].data(), &s.wrenches[wrench_width * i], -1.0);
   }

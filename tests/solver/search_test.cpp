@@ -130,7 +130,7 @@ TEST(ContactSlots, AreReusedAndNeverMoved) {
   State& state = made->state;
   std::vector<std::size_t> taken;
   {
-    ContactSlots slots(state, {});
+    ContactSlots slots(made->model, state, {});
     for (int i = 0; i < 11; ++i) taken.push_back(slots.add(between(1, 2, 9)));
     EXPECT_EQ(slots.add(between(1, 3, 1)), 16u) << "a batch of its own: it has one point";
   }
@@ -139,14 +139,14 @@ TEST(ContactSlots, AreReusedAndNeverMoved) {
   EXPECT_EQ(state.contact_count(), 12);
   state.contact.energy[energy_index(place_of_slot(4), 0)] = 7.0;
   {
-    ContactSlots slots(state, {});
+    ContactSlots slots(made->model, state, {});
     slots.remove(9), slots.remove(4);
     EXPECT_EQ(slots.add(between(2, 3, 7)), 4u) << "the lowest that is free";
   }
   EXPECT_EQ(state.retired_energy()[0], 7.0);
   EXPECT_EQ(state.contact.energy[energy_index(place_of_slot(4), 0)], 0.0);
   EXPECT_FALSE(state.has_contact(9));
-  ContactSlots again(state, {});  // knows from the state alone what is free
+  ContactSlots again(made->model, state, {});  // knows from the state alone what is free
   EXPECT_EQ(again.add(between(1, 2, 9)), 9u);
   EXPECT_EQ(again.add(between(1, 2, 9)), 11u);
   // Seven points in nine rows: the two that are missing weigh nothing.

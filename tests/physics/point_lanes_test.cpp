@@ -1,0 +1,110 @@
+// Joints point by point, eight side by side, against the law applied to one point after the other.
+#include "solver/contact/wrench.h"
+#include "solver/model/laws.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+struct Given {
+  const char* name;
+  double tension, cohesion, residual_cohesion, friction, residual_friction, dilation;  // Pa; tangents
+};
+
+JointLaw law_of(const Given& given) {
+  JointLaw law;
+  law.tension = given.tension, law.cohesion = given.cohesion, law.residual_cohesion = given.residual_cohesion;
+  law.friction_angle = std::atan(given.friction), law.residual_friction_angle = std::atan(given.residual_friction);
+  law.dilation_angle = std::atan(given.dilation);
+  return law;
+}
+
+/// A prism on another; a polygon that is no rectangle keeps its points in a table.
+Assembly two_prisms(const Polygon& polygon, const JointLaw& law) {
+  Assembly assembly = stone();
+  add_block(assembly, make_prism(polygon, {0, 0, -0.7}));
+  add_block(assembly, make_prism(Polygon(polygon.rbegin(), polygon.rend()), {0, 0, 0.6}));
+  return joined(std::move(assembly), 2e9, 8e8, law);
+}
+
+/// The only joint, by the law alone.
+class Oracle {
+ public:
+  explicit Oracle(const Bench& bench)
+      : bench_(bench), patch_(bench.model.joints[0]), memory_(std::size_t(patch_.point_count)) {
+    for (PointMemory& memory : memory_) memory.broken = bench.state.joint.mode[0] & mode_broken;  // never had a bond
+  }
+
+  /// Force and moment about the world's origin on body a, at the present placement.
+  std::array<double, 6> wrench() {
+    const double* pose = bench_.state.pose.data();
+    const Jump<double> jump = patch_jump(patch_, pose + pose_width * patch_.a, pose + pose_width * patch_.b);
+    const LawConstants& law = bench_.model.laws[std::size_t(patch_.law)];
+    Resultant<double> q{};
+    for (int i = 0; i < patch_.point_count; ++i) {
+      const PatchPoint at = patch_point(patch_, bench_.model.points, i);
+      const Triple<double> u = point_jump(patch_, jump, at.s, at.t);
+      PointMemory& memory = memory_[std::size_t(i)];
+      const PointMemory before = memory;
+      const PointResult r = BrittleLaw::update(law, patch_.kn, patch_.ks, u.x, u.y, u.z, memory);
+      breaks += memory.broken && !before.broken, slides += !r.elastic && !r.open && before.broken, opens += r.open;
+      const double n = at.weight * patch_.kn * r.n, s = at.weight * patch_.ks * r.s, t = at.weight * patch_.ks * r.t;
+      q.n += n, q.s += s, q.t += t;
+      q.sn += at.s * n, q.tn += at.t * n, q.ss += at.s * s, q.ts += at.t * s, q.st += at.s * t, q.tt += at.t * t;
+    }
+    Triple<double> force, moment;
+    world_wrench(q, jump, force, moment);
+    return {force.x, force.y, force.z, moment.x, moment.y, moment.z};
+  }
+
+  int breaks = 0, slides = 0, opens = 0;
+
+ private:
+  const Bench& bench_;
+  const Patch& patch_;
+  std::vector<PointMemory> memory_;
+};
+
+/// Rocked, twisted and dragged to and fro about a mean compression.
+void move_block(Bench& bench, int step) {
+  const double t = 0.02 * step, reach = 1.2e-4;
+  const Vec3 move = {reach * std::sin(1.3 * t), reach * std::sin(0.7 * t + 1.0), reach * std::sin(1.1 * t) - 6e-5};
+  const Vec3 turn = 1e-4 * Vec3(std::sin(0.9 * t), std::sin(1.7 * t + 2.0), std::sin(0.5 * t));
+  bench.place(
+      1, move,
+      Eigen::Quaterniond(std::sqrt(1 - 0.25 * turn.squaredNorm()), 0.5 * turn.x(), 0.5 * turn.y(), 0.5 * turn.z()));
+}
+
+TEST(PointLanes, FollowTheLawPointByPoint) {
+  const Given laws[] = {{"bonded", 1e5, 1.5e5, 0.0, 0.7, 0.6, 0.0},
+                        {"tension beyond the cone's apex", 1e6, 3e4, 0.0, 0.7, 0.6, 0.0},
+                        {"cohesion that stays, dilation", 5e4, 8e4, 3e4, 0.7, 0.7, 0.1},
+                        {"dry", 0.0, 0.0, 0.0, 0.5, 0.5, 0.0}};
+  const Polygon rectangle = {{0, 0, 0}, {0.8, 0, 0}, {0.8, 0.5, 0}, {0, 0.5, 0}};
+  const Polygon pentagon = {{0, 0, 0}, {0.8, 0, 0}, {0.9, 0.4, 0}, {0.4, 0.7, 0}, {-0.1, 0.4, 0}};
+  for (const Given& given : laws)
+    for (const Polygon& polygon : {rectangle, pentagon}) {
+      SolverSettings settings = undamped();
+      settings.step.intact_shortcut = false;
+      Bench bench(two_prisms(polygon, law_of(given)), settings);
+      ASSERT_EQ(bench.model.joints.size(), 1u);
+      Oracle oracle(bench);
+      double worst = 0.0, largest = 0.0;
+      for (int step = 0; step < 2000; ++step) {
+        move_block(bench, step);
+        bench.stepper.patches_only();
+        const std::array<double, 6> expected = oracle.wrench();
+        for (std::size_t c = 0; c < 6; ++c) {
+          worst = std::max(worst, std::abs(bench.stepper.wrenches[c] - expected[c]));
+          largest = std::max(largest, std::abs(expected[c]));
+        }
+      }
+      EXPECT_LT(worst, 1e-11 * largest) << given.name << ", " << polygon.size() << " corners";
+      EXPECT_GT(oracle.slides, 1000) << given.name;
+      EXPECT_GT(oracle.opens, 1000) << given.name;
+      EXPECT_EQ(oracle.breaks > 0, given.cohesion > given.residual_cohesion) << given.name;
+    }
+}
+
+}  // namespace
+}  // namespace voussoir::test
