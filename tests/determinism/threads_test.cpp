@@ -104,6 +104,32 @@ TEST(Threads, EqualTheSerialLoop) {
   measured("Two passes, 2 threads, against the serial loop: equal states", double(compared), double(equal), "states");
 }
 
+/// Large models have larger tiles. A blow from below breaks joints within a few steps.
+TEST(Threads, EqualTheSerialLoopInALargeModel) {
+  const Assembly wall = weak_wall(130, 130);
+  GroundMotion motion;
+  motion.dt = 1.0;
+  motion.acceleration = {{300, 300, -300}, {300, 300, -300}};
+  const auto hash = [&](int threads) {  // 0: the serial loop
+    Bench bench(wall, undamped({0, 0, -9.81}));
+    EXPECT_EQ(bench.model.tile_bodies, 128) << bench.model.bodies.size() << " bodies";
+    bench.stepper.dt = 1e-4;
+    bench.stepper.motion = &motion;
+    bench.stepper.threads = threads;
+    for (int step = 0; threads == 0 && step < 60; ++step) serial_step(bench.stepper);
+    if (threads > 0) {
+      EXPECT_TRUE(bench.run(60));
+    }
+    const auto left_alone = std::count(bench.state.joint.mode.begin(), bench.state.joint.mode.end(), 0);
+    EXPECT_LT(left_alone + 100, std::ptrdiff_t(bench.state.joint.mode.size()))
+        << "joints must break, or go point by point";
+    return hash_arrays(bench.state.arrays());
+  };
+  const std::uint64_t serial = hash(0);
+  EXPECT_EQ(hash(1), serial);
+  EXPECT_EQ(hash(2), serial);
+}
+
 /// A whole run by Simulation, of a wall large enough that it does share its work.
 TEST(Threads, OfASimulationGiveTheSameBits) {
   const Assembly assembly = weak_wall(24, 24);
