@@ -12,8 +12,8 @@ enum TetYield : std::uint8_t {
   has_yielded_in_tension = 8
 };
 
-constexpr int plastic_width = 9, strain_rows = 7;
-constexpr int row_dilation = 6, row_tension = 7, row_shear = 8;  // of FillMemory::plastic
+constexpr int plastic_width = 8, strain_rows = 7;
+constexpr int row_volume = 6, row_shear = 7;  // of FillMemory::plastic
 
 struct FillMemory {
   Array<double> pose;     // 4 a node: displacement (m), mean elastic volumetric strain about it at the last
@@ -21,7 +21,7 @@ struct FillMemory {
   Array<double> motion;   // 4 a node: velocity at the last half step (m/s), unused
   Array<float> searched;  // 4 a node: displacement relative to the base when patches about it were last looked for (m),
                           // unused
-  Array<double> plastic;  // 9 rows of lanes a batch: Cp⁻¹ − 1 (xx yy zz xy xz yz), volumetric strain by dilation, by
+  Array<double> plastic;  // 8 rows of lanes a batch: Cp⁻¹ − 1 (xx yy zz xy xz yz), volumetric strain by dilation and
                           // tension, accumulated plastic shear strain
   Array<float> last;          // 7 rows of lanes a batch: elastic strain at the last pass, material axes, with the mean
                               // volumetric strain; then the tetrahedron's own

@@ -8,8 +8,8 @@
 // are exact and no stress is accumulated (Simo 1992; de Souza Neto, Perić & Owen 2008, ch. 14). The elastic volumetric
 // strain θ = ½ (J − 1/J) − θp of a tetrahedron is replaced by the mean of its nodes' means, or plastic flow at constant
 // volume would lock (average nodal pressure: Bonet & Burton 1998; nodal mixed discretisation: Detournay & Dzik 2006).
-// It is the strain less what dilation has added that is averaged, or neighbours that dilate would drift apart; what a
-// tetrahedron in tension has opened by is taken from its own mean, at once.
+// It is the strain less what plastic flow has added that is averaged: all of it, or neighbours that dilate would drift
+// apart, and tearing would give energy back.
 #pragma once
 #include "solver/fill/fill_memory.h"
 #include "solver/model/branches.h"

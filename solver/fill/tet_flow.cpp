@@ -6,7 +6,7 @@ namespace voussoir {
 
 namespace tet {
 
-LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
+LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
               Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated) {
   // The circular cone was on the safe side; only what is past the surface itself needs axes.
   const ApartValue<Lanes> single = apart_value(e);
@@ -43,15 +43,12 @@ LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, La
   const Lanes fresh[6] = {scale * inverse.xx - 1.0, scale * inverse.yy - 1.0, scale * inverse.zz - 1.0,
                           scale * inverse.xy,       scale * inverse.xz,       scale * inverse.yz};
   for (int c = 0; c < 6; ++c) plastic[c] = select(lanes, fresh[c], plastic[c]);
-  const LaneMask tears = lanes & at_most(splat(double(ReturnRegion::cut)), region);
-  const Lanes dilates = select(without(lanes, tears), swell, splat(0.0)), opens = select(tears, swell, splat(0.0));
-  plastic[row_dilation] += dilates;
-  plastic[row_tension] += opens;
+  plastic[row_volume] += select(lanes, swell, splat(0.0));
   plastic[row_shear] += select(lanes, square_root((2.0 / 3.0) * flowed), splat(0.0));
   const Symmetric<Lanes> left = from_principal(kept, x.axes);
   e = {select(lanes, left.xx, e.xx), select(lanes, left.yy, e.yy), select(lanes, left.zz, e.zz),
        select(lanes, left.xy, e.xy), select(lanes, left.xz, e.xz), select(lanes, left.yz, e.yz)};
-  work += p * dilates + law.bulk * (own - plastic[row_tension]) * opens;
+  work += mean * swell;
   p = select(lanes, mean, p);
   dissipated = select(lanes, work, splat(0.0));
   return lanes;

@@ -101,11 +101,10 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   Strain s = strain_of(shape, n, flowed ? plastic : nullptr);
   const LaneMask flat = ~less(splat(least_volume - 1.0), s.change) & used;
   if (any(flat)) note_inverted(fill, index, flat, tile.report);
-  const Lanes dilated = flowed ? plastic[row_dilation] : zero, opened = flowed ? plastic[row_tension] : zero;
-  const Lanes own = volumetric(s.change) - dilated;
+  const Lanes swollen = flowed ? plastic[row_volume] : zero, own = volumetric(s.change) - swollen;
   const Lanes mean = pass.averaged ? 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]) : own;
-  Lanes p = law.bulk * (mean - opened);
-  const ElasticStrain trial = {s.e, mean - opened, own - opened};
+  Lanes p = law.bulk * mean;
+  const ElasticStrain trial = {s.e, mean, own};
   ElasticStrain strain = trial;
 
   coming.branches();
@@ -114,11 +113,11 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   const LaneMask yields = may_flow(law, s.e, p);
   if (flowed) begin_yield(yield);
   Lanes lost;
-  const bool flows = any(yields) && any(flow(law, s, yields, own, plastic, yield, s.e, p, lost));
+  const bool flows = any(yields) && any(flow(law, s, yields, plastic, yield, s.e, p, lost));
   if (flows) {
     tile.dissipated += volume * lost;
     tile.report.yielding += count_yielding(yield, batch.count);
-    strain = {s.e, p / law.bulk, own - (plastic[row_dilation] - dilated) - plastic[row_tension]};
+    strain = {s.e, p / law.bulk, own - (plastic[row_volume] - swollen)};
   }
 
   coming.plastic();
@@ -157,8 +156,7 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   }
   add_forces(batch, f, pass.sums);
   if (pass.energies) {
-    const Lanes pressure = own * (mean - 2.0 * opened) + opened * opened;
-    tile.elastic += volume * (law.shear * inner(s.e, s.e) + 0.5 * law.bulk * pressure);
+    tile.elastic += volume * (law.shear * inner(s.e, s.e) + 0.5 * law.bulk * own * mean);
   }
 }
 
@@ -190,7 +188,7 @@ void FillPass::volumes(std::size_t tile) const {
     Lanes strain = volumetric(change);
     if (has_flowed(&memory->yield[lane_count * std::size_t(b)])) {
       const auto* plastic = reinterpret_cast<const Lanes*>(&memory->plastic[plastic_index(std::size_t(b), 0)]);
-      strain -= plastic[row_dilation];
+      strain -= plastic[row_volume];
     }
     const Lanes part = fill->law_of(std::size_t(b)).bulk * (1.0 / 6.0) * shape.volume6 * strain;
     for (int k = 0; k < 4; ++k)

@@ -147,8 +147,8 @@ struct Strain {
 }
 
 /// Plastic flow of the lanes that need it, which it returns: changes the plastic memory, the yield bits, the elastic
-/// deviator and the mean stress. `dissipated`, J/m3, is set if any flows.
-LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes own, Lanes* plastic, std::uint8_t* yield,
+/// deviator and the mean stress. `dissipated`, the stress after it on what flowed (J/m3), is set if any flows.
+LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
               Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated);
 
 /// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa, and 1/J.

@@ -13,12 +13,10 @@ Symmetric<Lanes> batch_cauchy(const FillModel& fill, FillMemory& memory, std::si
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
   const tet::Nodes n = tet::gather_nodes(memory.pose.data(), batch);
   tet::Strain s = tet::strain_of(tet::shape_of(fill.place.data(), batch), n, plastic);
-  const Lanes own = tet::volumetric(s.change) - plastic[row_dilation];
-  const Lanes mean = 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]);
-  Lanes p = law.bulk * (mean - plastic[row_tension]);
+  Lanes p = 0.25 * law.bulk * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]);
   const LaneMask yields = tet::may_flow(law, s.e, p);
   Lanes dissipated;
-  if (any(yields)) tet::flow(law, s, yields, own, plastic, &memory.yield[lane_count * index], s.e, p, dissipated);
+  if (any(yields)) tet::flow(law, s, yields, plastic, &memory.yield[lane_count * index], s.e, p, dissipated);
   const auto [tau, by] = tet::kirchhoff(law, s, p);
   return by * tau;
 }

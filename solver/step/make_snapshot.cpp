@@ -164,8 +164,8 @@ FillSnapshot fill_snapshot(const FillModel& fill, const FillMemory& memory) {
   for (std::size_t i = 0; i < fill.lane_of_tet.size(); ++i) {
     const auto slot = std::size_t(fill.lane_of_tet[i]);
     const double* plastic = &memory.plastic[plastic_index(slot / lane_count, 0) + slot % lane_count];
-    s.tets.push_back({stress[i], plastic[lane_count * row_shear],
-                      plastic[lane_count * row_dilation] + plastic[lane_count * row_tension], memory.yield[slot]});
+    s.tets.push_back(
+        {stress[i], plastic[lane_count * row_shear], plastic[lane_count * row_volume], memory.yield[slot]});
   }
   return s;
 }

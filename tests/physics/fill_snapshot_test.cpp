@@ -103,7 +103,7 @@ TEST(FillSnapshot, HasTheOrderOfTheMesh) {
   const auto plastic = [&](int row) -> double& {
     return bench.state.fill.plastic[plastic_index(slot / lane_count, row) + slot % lane_count];
   };
-  plastic(row_shear) = 0.25, plastic(row_dilation) = 1e-9, plastic(row_tension) = 2e-9;
+  plastic(row_shear) = 0.25, plastic(row_volume) = 3e-9;
   bench.state.fill.yield[slot] = has_yielded_in_tension;
 
   const FillSnapshot s = make_snapshot(bench.model, bench.state).fill;
