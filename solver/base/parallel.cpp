@@ -28,6 +28,13 @@ int available_threads() {
   return omp_get_num_procs();
 }
 
+Alone::Alone() : levels_(omp_get_max_active_levels()) {
+  omp_set_max_active_levels(0);
+}
+Alone::~Alone() {
+  omp_set_max_active_levels(levels_);
+}
+
 Range share(std::size_t n, int thread, int threads) {
   return {n * std::size_t(thread) / std::size_t(threads), n * std::size_t(thread + 1) / std::size_t(threads)};
 }

@@ -17,6 +17,19 @@ void ensure_passive_waiting(char** argv);
 /// Threads the machine offers to this process (its affinity mask counts).
 int available_threads();
 
+/// While one lives, libraries that this thread calls open no teams of OpenMP's. CHOLMOD opens one for each of the many
+/// small parts of a factor, and waking its threads takes longer than all their work.
+class Alone {
+ public:
+  Alone();
+  ~Alone();
+  Alone(const Alone&) = delete;
+  Alone& operator=(const Alone&) = delete;
+
+ private:
+  int levels_;
+};
+
 /// A contiguous share of [0, n) for one thread; the shares depend on n and the thread count only.
 struct Range {
   std::size_t begin = 0, end = 0;

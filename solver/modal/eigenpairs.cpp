@@ -7,7 +7,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <chrono>
-#include <mutex>
 
 #include "solver/base/error.h"
 
@@ -26,7 +25,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 class Inverse {
  public:
   using Scalar = double;
-  Inverse(const ShiftedFactor& factor, const SparseMatrix& m, const Eigen::MatrixXd& known, int& solves)
+  Inverse(const Factor& factor, const SparseMatrix& m, const Eigen::MatrixXd& known, int& solves)
       : factor_(&factor), m_(&m), known_(&known), solves_(&solves) {}
   Eigen::Index rows() const { return m_->rows(); }
   Eigen::Index cols() const { return m_->cols(); }
@@ -43,7 +42,7 @@ class Inverse {
   }
 
  private:
-  const ShiftedFactor* factor_;
+  const Factor* factor_;
   const SparseMatrix* m_;
   const Eigen::MatrixXd* known_;
   int* solves_;
@@ -69,7 +68,7 @@ struct Found {
   Eigen::MatrixXd vectors;
 };
 
-Found search(const ShiftedFactor& factor, const SparseMatrix& m, double shift, const Eigen::MatrixXd& known, int count,
+Found search(const Factor& factor, const SparseMatrix& m, double shift, const Eigen::MatrixXd& known, int count,
              double tolerance, const Eigen::VectorXd& start, int& solves) {
   Inverse inverse(factor, m, known, solves);
   Mass mass(m);
@@ -123,9 +122,9 @@ Eigenpairs dense(const SparseMatrix& k, const SparseMatrix& m, int count) {
 }
 
 /// Two hundred times further down at each try: a state that its own weight makes unstable has λ < 0.
-double factorize(ShiftedFactor& factor, const SparseMatrix& k, const SparseMatrix& m) {
+double factorize(Factor& factor, const SparseMatrix& k, const SparseMatrix& m) {
   double shift = -1e-9 * largest_ratio(k, m);
-  for (int tries = 0; !factor.compute(k, m, shift); ++tries, shift *= 200.0)
+  for (int tries = 0; !factor.compute(k - shift * m); ++tries, shift *= 200.0)
     if (tries == 6) throw RunError("the stiffness matrix cannot be factored: it has no finite values");
   return shift;
 }
@@ -133,7 +132,7 @@ double factorize(ShiftedFactor& factor, const SparseMatrix& k, const SparseMatri
 Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count, EigenMemory& memory) {
   auto start = std::chrono::steady_clock::now();
   Eigenpairs pairs;
-  ShiftedFactor& factor = memory.factor;
+  Factor& factor = memory.factor;
   pairs.shift = factorize(factor, k, m);
   pairs.factor_entries = factor.entries();
   pairs.factor_bytes = factor.bytes();
@@ -157,38 +156,6 @@ Eigenpairs iterated(const SparseMatrix& k, const SparseMatrix& m, int count, Eig
   pairs.iteration_seconds = seconds_since(start);
   return pairs;
 }
-
-}  // namespace
-
-ShiftedFactor::ShiftedFactor() {
-  // Nested dissection: bridges are long, and its fronts are what the dense kernels are quick with.
-  cholesky_.cholmod().nmethods = 1;
-  cholesky_.cholmod().method[0].ordering = CHOLMOD_METIS;
-  cholesky_.cholmod().print = 0;
-}
-
-bool ShiftedFactor::compute(const SparseMatrix& k, const SparseMatrix& m, double shift) {
-  const SparseMatrix a = k - shift * m;
-  const auto same = [](const std::vector<int>& known, const int* begin, Eigen::Index n) {
-    return known.size() == std::size_t(n) && std::equal(known.begin(), known.end(), begin);
-  };
-  if (!same(outer_, a.outerIndexPtr(), a.cols() + 1) || !same(inner_, a.innerIndexPtr(), a.nonZeros())) {
-    // METIS draws from the C library's one random sequence, which it starts anew each time: two at once would disturb
-    // each other's orders, and with them the last bits.
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    cholesky_.analyzePattern(a);
-    outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1);
-    inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
-  }
-  cholesky_.factorize(a);
-  if (cholesky_.cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholesky_.cholmod().status == CHOLMOD_TOO_LARGE)
-    throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
-                   a.rows());
-  return cholesky_.info() == Eigen::Success;
-}
-
-namespace {
 
 bool is_small(const SparseMatrix& m, int count) {
   // Lanczos needs room for a basis; and what is small is done sooner, and whole, by reduction to tridiagonal form.

@@ -1,30 +1,12 @@
 // The lowest eigenpairs of K φ = λ M φ.
 #pragma once
-#include <Eigen/CholmodSupport>
-
-#include "solver/modal/block_matrix.h"
+#include "solver/modal/factor.h"
 
 namespace voussoir {
 
-/// CHOLMOD's supernodal factor of K − σ M. The analysis of a pattern is kept for the next matrices that have the same.
-class ShiftedFactor {
- public:
-  ShiftedFactor();
-  /// False when K − σ M is not positive definite.
-  bool compute(const SparseMatrix& k, const SparseMatrix& m, double shift);
-  /// (K − σ M)⁻¹ x, of as many columns as x has.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const { return cholesky_.solve(x); }
-  double entries() { return cholesky_.cholmod().lnz; }
-  double bytes() { return double(cholesky_.cholmod().memory_usage); }
-
- private:
-  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky_;
-  std::vector<int> outer_, inner_;  // the pattern that was analysed
-};
-
 /// What a solution leaves for the next one of a similar matrix.
 struct EigenMemory {
-  ShiftedFactor factor;      // of the last matrix, at the solution's shift
+  Factor factor;             // of the last K − σ M, at the solution's shift
   Eigen::VectorXd start;     // from the last vectors: where the iteration begins; empty: no matter where
   double tolerance = 1e-12;  // relative, of 1/(λ − σ)
   bool repeated = true;      // look for further vectors of repeated eigenvalues

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/CholmodSupport>
-
+#include "solver/modal/factor.h"
 #include "solver/modal/krylov.h"
 #include "solver/modal/stiffness.h"
 
@@ -71,8 +70,6 @@ SparseMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns) {
   return k.over(unknowns);
 }
 
-using Cholesky = Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower>;
-
 /// A placement, and the out-of-balance forces of those about it, every one from the patches' state at the start.
 struct Surroundings {
   Stepper& stepper;
@@ -101,11 +98,11 @@ Eigen::VectorXd tangent_times(const Surroundings& at, const Eigen::VectorXd& her
 /// The Newton step of a model with a fill: plastic flow leaves a tangent that is not symmetric, so the factored
 /// stiffness, in which the fill is elastic, only preconditions it. (With less stiffness for elements that flow it took
 /// three to ten times as many products.)
-Eigen::VectorXd consistent_step(const Surroundings& at, const Cholesky& cholesky, const Eigen::VectorXd& force) {
+Eigen::VectorXd consistent_step(const Surroundings& at, const Factor& factor, const Eigen::VectorXd& force) {
   constexpr double tolerance = 1e-3;
   constexpr int most_products = 150;
   return solve_by_products([&](const Eigen::VectorXd& x) { return tangent_times(at, force, x); },
-                           [&](const Eigen::VectorXd& b) -> Eigen::VectorXd { return cholesky.solve(b); }, force,
+                           [&](const Eigen::VectorXd& b) -> Eigen::VectorXd { return factor.solve(b); }, force,
                            tolerance, most_products);
 }
 
@@ -152,8 +149,8 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   const Unknowns unknowns = number_unknowns(model);
   const PatchBackup start(state);
   Equilibrium result;
-  Cholesky cholesky;
-  bool analysed = false;
+  Factor factor;
+  bool renew = true;  // the factor
   OutOfBalance r = out_of_balance(stepper, unknowns);
   result.first_residual = result.residual = r.largest;
   Array<double> elastic_pose = state.pose, elastic_nodes = state.fill.pose;
@@ -163,15 +160,12 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
-    const SparseMatrix k = slightly_held(stiffness_blocks(model, state, tangent), unknowns);
-    if (!analysed) cholesky.analyzePattern(k);
-    analysed = true;
-    cholesky.factorize(k);
-    if (cholesky.info() != Eigen::Success) break;
+    const bool fresh = renew;
+    if (fresh && !factor.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns))) break;
     const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose};
     const bool consistent = i > 0 && !model.fill.empty();
     const Eigen::VectorXd step =
-        consistent ? consistent_step(here, cholesky, r.force) : Eigen::VectorXd(cholesky.solve(r.force));
+        consistent ? consistent_step(here, factor, r.force) : Eigen::VectorXd(factor.solve(r.force));
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
     double best_norm = 1e300, best_share = 0.0;
     const double norm = r.force.norm();
@@ -181,6 +175,10 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
       if (now < (1.0 - 0.1 * share) * norm) break;
     }
     if (!(best_norm < 1e300)) break;
+    // One factor serves for several steps while each leaves but a tenth (Shamanskii 1967); where it no longer does, the
+    // step is not taken.
+    renew = !model.fill.empty() || !(best_norm < 0.1 * norm);
+    if (renew && !fresh && best_norm > 0.5 * norm) best_share = 0.0;
     r = here.moved(step, best_share);
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);

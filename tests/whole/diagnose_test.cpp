@@ -62,7 +62,7 @@ TEST(Diagnose, UnderARecordedMotionFindsTheSupportThatMovesOtherwise) {
        {"--effect", "support_motion pier 0 factor=0.3 delay=0", "--sensors", "rich", "--shaken", "60", "--noise",
         "0.005", "--scatter", "0.01", "--materials", "0.02", "--defects", "0", "--mesh", "1", "--seed", "3"});
   const Outcome outcome = voussoir({"diagnose", "bridge.toml", "--measured", "hidden/measured", "-o", "out", "--fits",
-                                    "6", "--threads", "2", "--run-seconds", "3"},
+                                    "6", "--threads", "2", "--run-seconds", "6"},
                                    {.folder = folder.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json json = diagnosis(folder / "out");

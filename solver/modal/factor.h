@@ -1,0 +1,26 @@
+// Sparse Cholesky factors, by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008).
+#pragma once
+#include <Eigen/CholmodSupport>
+
+#include "solver/modal/block_matrix.h"
+
+namespace voussoir {
+
+/// The supernodal factor of a symmetric matrix, ordered by nested dissection. The analysis of a pattern is kept for the
+/// next matrices that have the same.
+class Factor {
+ public:
+  Factor();
+  /// `a` holds its lower triangle. False when it is not positive definite. Throws RunError when memory runs out.
+  bool compute(const SparseMatrix& a);
+  /// a⁻¹ x, of as many columns as x has.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const;
+  double entries() { return cholesky_.cholmod().lnz; }
+  double bytes() { return double(cholesky_.cholmod().memory_usage); }
+
+ private:
+  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky_;
+  std::vector<int> outer_, inner_;  // the pattern that was analysed
+};
+
+}  // namespace voussoir
