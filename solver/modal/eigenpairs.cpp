@@ -124,8 +124,12 @@ Eigenpairs dense(const SparseMatrix& k, const SparseMatrix& m, int count) {
 /// Two hundred times further down at each try: a state that its own weight makes unstable has λ < 0.
 double factorize(Factor& factor, const SparseMatrix& k, const SparseMatrix& m) {
   double shift = -1e-9 * largest_ratio(k, m);
-  for (int tries = 0; !factor.compute(k - shift * m); ++tries, shift *= 200.0)
+  for (int tries = 0; !factor.compute(k - shift * m); ++tries, shift *= 200.0) {
+    if (factor.lacked_memory())
+      throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
+                     k.rows());
     if (tries == 6) throw RunError("the stiffness matrix cannot be factored: it has no finite values");
+  }
   return shift;
 }
 

@@ -5,7 +5,6 @@
 #include <mutex>
 #include <optional>
 
-#include "solver/base/error.h"
 #include "solver/base/parallel.h"
 
 namespace voussoir {
@@ -61,10 +60,11 @@ bool Factor::compute(const SparseMatrix& a) {
     inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   }
   cholesky_.factorize(a);
-  if (cholesky_.cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholesky_.cholmod().status == CHOLMOD_TOO_LARGE)
-    throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
-                   a.rows());
-  return cholesky_.info() == Eigen::Success;
+  return !lacked_memory() && cholesky_.info() == Eigen::Success;
+}
+
+bool Factor::lacked_memory() {
+  return cholesky_.cholmod().status == CHOLMOD_OUT_OF_MEMORY || cholesky_.cholmod().status == CHOLMOD_TOO_LARGE;
 }
 
 Eigen::MatrixXd Factor::solve(const Eigen::MatrixXd& x) const {

@@ -11,8 +11,9 @@ namespace voussoir {
 class Factor {
  public:
   Factor();
-  /// `a` holds its lower triangle. False when it is not positive definite. Throws RunError when memory runs out.
+  /// `a` holds its lower triangle. False when it is not positive definite, or memory runs out.
   bool compute(const SparseMatrix& a);
+  bool lacked_memory();
   /// a⁻¹ x, of as many columns as x has.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const;
   double entries() { return cholesky_.cholmod().lnz; }
