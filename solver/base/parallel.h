@@ -18,7 +18,7 @@ void ensure_passive_waiting(char** argv);
 int available_threads();
 
 /// While one lives, libraries that this thread calls open no teams of OpenMP's. CHOLMOD opens one for each of the many
-/// small parts of a factor, and waking its threads takes longer than all their work.
+/// small parts of a factor, and waking its threads costs more than they save.
 class Alone {
  public:
   Alone();

@@ -175,8 +175,8 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
       if (now < (1.0 - 0.1 * share) * norm) break;
     }
     if (!(best_norm < 1e300)) break;
-    // One factor serves for several steps while each leaves but a tenth (Shamanskii 1967); where it no longer does, the
-    // step is not taken.
+    // One factor serves for several steps while each leaves but a tenth (Shamanskii 1967). A step of an old one that
+    // leaves more than half is not taken.
     renew = !model.fill.empty() || !(best_norm < 0.1 * norm);
     if (renew && !fresh && best_norm > 0.5 * norm) best_share = 0.0;
     r = here.moved(step, best_share);
