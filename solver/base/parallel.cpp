@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <optional>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -46,25 +45,6 @@ void pause_briefly() {
 #endif
 }
 constexpr int spins = 4000;  // some tens of microseconds: longer than a balanced pass's scatter, far below a time slice
-}  // namespace
-
-void Barrier::wait() {
-  if (threads_ == 1) return;
-  const int generation = generation_.load(std::memory_order_acquire);
-  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
-    arrived_.store(0, std::memory_order_relaxed);
-    generation_.store(generation + 1, std::memory_order_release);
-    generation_.notify_all();
-    return;
-  }
-  for (int i = 0; i < spins; ++i) {
-    if (generation_.load(std::memory_order_acquire) != generation) return;
-    pause_briefly();
-  }
-  generation_.wait(generation, std::memory_order_acquire);
-}
-
-namespace {
 
 /// A thread's share of a round: round number, first and one past the last item that nobody has taken, in one word.
 class Share {
@@ -111,8 +91,11 @@ class Rounds {
       const std::uint32_t now = round_.load(std::memory_order_acquire);
       const auto kind = RoundKind(now & kind_mask);
       if (kind == RoundKind::end) return;
-      for (std::int64_t item = take(thread, now >> kind_bits); item >= 0; item = take(thread, now >> kind_bits))
-        work_on(std::size_t(item), kind);
+      for (std::int64_t item = take(thread, now >> kind_bits); item >= 0; item = take(thread, now >> kind_bits)) try {
+          work_on(std::size_t(item), kind);
+        } catch (...) {
+          fail();
+        }
       wait_for_change(now);
     }
   }
@@ -149,13 +132,14 @@ class Rounds {
   void finished(RoundKind kind) {
     if (finished_.fetch_add(1, std::memory_order_acq_rel) + 1 != items_.waits.size()) return;
     finished_.store(0, std::memory_order_relaxed);
-    RoundKind next = RoundKind::end;
-    try {
-      next = work_.next(kind);
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
-    publish(next);
+    publish(work_.next(kind));
+  }
+
+  /// The item that failed is never finished, so nobody else says what comes next.
+  void fail() {
+    if (failed_.exchange(true, std::memory_order_acq_rel)) return;
+    failure_ = std::current_exception();
+    publish(RoundKind::end);
   }
 
   void publish(RoundKind kind) {
@@ -181,44 +165,40 @@ class Rounds {
   std::vector<std::atomic<std::int32_t>> arrived_;
   alignas(64) std::atomic<std::size_t> finished_{0};
   alignas(64) std::atomic<std::uint32_t> round_{0};
+  std::atomic<bool> failed_{false};
   std::exception_ptr failure_;
 };
 
 }  // namespace
 
 void run_rounds(int threads, const Dependencies& items, RoundKind begin, const RoundWork& work) {
-  std::optional<Rounds> rounds;
-  run_team(threads, [&](int thread, int team, Barrier& barrier) {
-    if (thread == 0) rounds.emplace(team, items, work).begin(begin);
-    barrier.wait();
-    rounds->work(thread);
-  });
-  rounds->rethrow();
+  Rounds rounds(threads, items, work);  // if fewer threads are granted, they take the others' shares too
+  rounds.begin(begin);
+  run_team(threads, [&](int thread, int) { rounds.work(thread); });
+  rounds.rethrow();
 }
 
-void run_team(int threads, const std::function<void(int, int, Barrier&)>& work) {
-  std::optional<Barrier> barrier;
-  if (threads == 1) {
-    work(0, 1, barrier.emplace(1));
-    return;
-  }
+void run_team(int threads, const std::function<void(int, int)>& work) {
+  if (threads == 1) return work(0, 1);
+  std::vector<std::exception_ptr> failures(std::size_t(std::max(threads, 1)));
   // These order what OpenMP's fork, barrier and join order anyway, in words that the thread sanitizer understands.
   // Static, so that they are never made anew while a thread of the team before still looks.
-  static std::atomic<int> begun, ready, ended;
+  static std::atomic<int> begun, ended;
   begun.fetch_add(1, std::memory_order_release);
 #pragma omp parallel num_threads(threads)
   {
     begun.load(std::memory_order_acquire);
-    if (omp_get_thread_num() == 0) {
-      barrier.emplace(omp_get_num_threads());  // the runtime may grant fewer than asked for
-      ready.fetch_add(1, std::memory_order_release);
+    const int thread = omp_get_thread_num();
+    try {
+      work(thread, omp_get_num_threads());
+    } catch (...) {
+      failures[std::size_t(thread)] = std::current_exception();
     }
-#pragma omp barrier
-    ready.load(std::memory_order_acquire);
-    work(omp_get_thread_num(), omp_get_num_threads(), *barrier);
     ended.fetch_add(1, std::memory_order_release);
   }
   ended.load(std::memory_order_acquire);
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace voussoir

@@ -36,18 +36,6 @@ struct Range {
 };
 Range share(std::size_t n, int thread, int threads);
 
-/// Waits for all threads of a team. A short spin covers the usual hand-over of microseconds; then the thread sleeps.
-class Barrier {
- public:
-  explicit Barrier(int threads) : threads_(threads) {}
-  void wait();
-
- private:
-  int threads_;
-  std::atomic<int> arrived_{0};
-  std::atomic<int> generation_{0};
-};
-
 /// Items of work in two stages: the second of an item may begin once its own first stage and those of all items before
 /// it are done.
 struct Dependencies {
@@ -65,19 +53,19 @@ struct RoundWork {
 };
 
 /// Works through rounds over all items in a team of up to `threads` threads. Who is done takes from the others' shares,
-/// and a thread that the system has put aside holds up nobody unless it is within an item. An exception of `next` ends
-/// the rounds and is thrown again.
+/// and a thread that the system has put aside holds up nobody unless it is within an item. An exception of any of the
+/// work ends the rounds, with what is begun then done or not, and is thrown again.
 void run_rounds(int threads, const Dependencies& items, RoundKind begin, const RoundWork& work);
 
-/// Runs `work(thread, team, barrier)` once in each of `team` threads: `threads`, or fewer where the system grants
-/// fewer.
-void run_team(int threads, const std::function<void(int, int, Barrier&)>& work);
+/// Runs `work(thread, team)` once in each of `team` threads: `threads`, or fewer where the system grants fewer. What
+/// one of them throws is thrown again when all have ended; of several the one of the lowest number.
+void run_team(int threads, const std::function<void(int, int)>& work);
 
 /// Runs `work(thread, range)` over contiguous shares of [0, n), in as many threads as get `least` each.
 template <class Work>
 void share_out(std::size_t n, int threads, std::size_t least, const Work& work) {
   const int team = int(std::clamp<std::size_t>(n / least, 1, std::size_t(std::max(1, threads))));
-  run_team(team, [&](int thread, int size, Barrier&) { work(thread, share(n, thread, size)); });
+  run_team(team, [&](int thread, int size) { work(thread, share(n, thread, size)); });
 }
 /// The same item by item: `work(i)`.
 template <class Work>

@@ -86,7 +86,7 @@ void for_all(std::size_t n, int threads, const Eigen::VectorXd& start,
              const std::function<void(std::size_t, EigenMemory&)>& work) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> errors(n);
-  run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int, Barrier&) {
+  run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int) {
     EigenMemory memory;
     make_quick(memory);
     for (std::size_t i = next++; i < n; i = next++) try {

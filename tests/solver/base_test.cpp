@@ -1,8 +1,7 @@
-// Hashes, shares of a loop, barrier and team; the base's acceleration.
+// Hashes, shares of a loop, teams and rounds; the base's acceleration.
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <thread>
@@ -58,44 +57,36 @@ TEST(Share, CoversEveryIndexOnceInOrder) {
     }
 }
 
-/// Counters that only agree after each wait when nobody runs ahead.
-void count_together(int threads, int rounds) {
-  std::vector<std::array<long, 8>> counters(std::size_t(threads), std::array<long, 8>{});
-  std::atomic<int> wrong{0}, ran{0};
-  run_team(threads, [&](int thread, int team, Barrier& barrier) {
-    ++ran;
-    if (team != threads) ++wrong;
-    for (int i = 0; i < rounds; ++i) {
-      counters[std::size_t(thread)][0] = i;
-      barrier.wait();
-      for (const auto& c : counters)
-        if (c[0] != i) ++wrong;
-      barrier.wait();
+TEST(Team, EveryThreadOnce) {
+  for (const int threads : {1, 2, 3, 8}) {  // more than the machine has, on most
+    std::vector<int> ran(std::size_t(threads), 0);
+    run_team(threads, [&](int thread, int team) {
+      EXPECT_EQ(team, threads);
+      ++ran[std::size_t(thread)];
+    });
+    EXPECT_EQ(ran, std::vector<int>(std::size_t(threads), 1));
+  }
+}
+
+TEST(Team, ThrowsAgainWhatAThreadThrew) {
+  for (const int threads : {1, 2, 3}) {
+    std::atomic<int> ran{0};
+    const auto work = [&](int thread, int team) {
+      ++ran;
+      if (thread > 0 || team == 1) throw RunError("thread {}", thread);
+    };
+    try {
+      run_team(threads, work);
+      ADD_FAILURE() << "nothing thrown";
+    } catch (const RunError& e) {
+      EXPECT_EQ(e.what(), std::string(threads == 1 ? "thread 0" : "thread 1"));
     }
-  });
-  EXPECT_EQ(wrong.load(), 0);
-  EXPECT_EQ(ran.load(), threads);
-}
-
-TEST(Team, StaysTogetherAtTheBarrier) {
-  count_together(1, 100);
-  count_together(2, 20000);
-  count_together(3, 2000);
-  count_together(8, 500);  // more than the machine has, on most
-}
-
-/// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel
-/// already) must not leave the team waiting for threads that never came.
-TEST(Team, DoesNotHangWhenFewerThreadsAreGranted) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");  // the child starts afresh and reads the variable
-  setenv("OMP_THREAD_LIMIT", "1", 1);
-  const auto child = [] {
-    alarm(5);
-    run_team(4, [](int, int, Barrier& barrier) { barrier.wait(); });
-    std::_Exit(0);
+    EXPECT_EQ(ran.load(), threads);
+  }
+  const auto without_memory = [](std::size_t i) {
+    if (i == 90) throw std::bad_alloc();
   };
-  EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
-  unsetenv("OMP_THREAD_LIMIT");
+  EXPECT_THROW(for_each(100, 2, 10, without_memory), std::bad_alloc);
 }
 
 /// Items in a row, each followed by the next two.
@@ -148,6 +139,20 @@ TEST(Rounds, EveryItemOnceAndInOrder) {
   go_round(8, 5, 500);  // more threads than items
 }
 
+/// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel
+/// already) must not leave the team waiting for threads that never came.
+TEST(Team, DoesNotHangWhenFewerThreadsAreGranted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // the child starts afresh and reads the variable
+  setenv("OMP_THREAD_LIMIT", "1", 1);
+  const auto child = [] {
+    alarm(5);
+    go_round(4, 17, 100);
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
+  unsetenv("OMP_THREAD_LIMIT");
+}
+
 TEST(Rounds, AnExceptionBetweenThemEndsThem) {
   for (int threads : {1, 3}) {
     int ends = 0;
@@ -160,6 +165,20 @@ TEST(Rounds, AnExceptionBetweenThemEndsThem) {
     EXPECT_THROW(run_rounds(threads, chain(10), RoundKind::both, work), RunError);
     EXPECT_EQ(ends, 7);
   }
+}
+
+TEST(Rounds, AnExceptionOfAnItemEndsThem) {
+  for (const int threads : {1, 3})
+    for (const bool in_first : {true, false}) {
+      std::atomic<int> calls{0};
+      RoundWork work;
+      work.first = work.second = [](std::size_t) {};
+      (in_first ? work.first : work.second) = [&](std::size_t i) {
+        if (++calls > 100 && i % 2 == 0) throw std::bad_alloc();  // several threads at once
+      };
+      work.next = [](RoundKind) { return RoundKind::both; };
+      EXPECT_THROW(run_rounds(threads, chain(10), RoundKind::both, work), std::bad_alloc);
+    }
 }
 
 TEST(BaseAcceleration, IsLinearBetweenSamplesAndZeroOutside) {

@@ -20,7 +20,7 @@ double best_time(int tries, int threads, const Work& work) {
   double best = 1e300;
   for (int i = 0; i < tries; ++i) {
     const auto begin = Clock::now();
-    run_team(threads, [&](int thread, int team, Barrier&) { work(thread, team); });
+    run_team(threads, work);
     best = std::min(best, std::chrono::duration<double>(Clock::now() - begin).count());
   }
   return best;
