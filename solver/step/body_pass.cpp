@@ -284,6 +284,12 @@ void store_rows(LaneRows l, LaneMask which, double* rows) {
     if (which[lane]) reinterpret_cast<Lanes*>(rows)[lane] = l.r[lane];
 }
 
+double largest(Lanes x) {
+  double most = x[0];
+  for (int lane = 1; lane < lane_count; ++lane) most = std::max(most, x[lane]);
+  return most;
+}
+
 LaneRows load_searched(const float* rows, int count) {
   LaneRows l;
   for (int lane = 0; lane < lane_count; ++lane)
@@ -307,7 +313,7 @@ Lanes lanes_moved(const LaneRows& pose, const LaneRows& from, const Vec3& base, 
 
 /// Free bodies of the batch that begins at `first`; returns which it has moved: none where one turns too fast for the
 /// series of rotate().
-LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& report) const {
+LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, Steps& steps, BodyReport& report) const {
   const int count = int(std::min<std::size_t>(lane_count, end - first));
   const BodyBatch& batch = batches[first / lane_count];
   LaneRows sum, motion = load_rows(&state->motion[motion_width * first], count),
@@ -315,7 +321,7 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   for (int lane = 0; lane < lane_count; ++lane)
     sum.r[lane] = wrench_sum(first + std::size_t(std::min(lane, count - 1)));
   transpose(sum.r);
-  fetch_memory(first + 2 * lane_count);
+  fetch_motion(first + 2 * lane_count);
   const Triple<Lanes> x = {batch.centroid[0] + pose.r[0], batch.centroid[1] + pose.r[1], batch.centroid[2] + pose.r[2]};
   Triple<Lanes> f = {sum.r[0], sum.r[1], sum.r[2]};
   const Triple<Lanes> m = Triple<Lanes>{sum.r[3], sum.r[4], sum.r[5]} - cross(x, f);
@@ -348,10 +354,12 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   for (int c = 0; c < 3; ++c) pose.r[c] += dt * moved[c];
   pose.r[3] = norm * turned.w;
   pose.r[4] = norm * turned.v.x, pose.r[5] = norm * turned.v.y, pose.r[6] = norm * turned.v.z;
-  const LaneRows from = load_searched(&state->searched[searched_width * first], count);
-  const Lanes distance = lanes_moved(pose, from, base_displacement_next, batch.radius);
-  const LaneMask lost = less(splat(0.0), from.r[7]);
-  report.search |= any(without(batch.free & less(splat(search_distance), distance), lost));
+  const Vec3& ground_next = base_velocity_next;
+  const Triple<Lanes> relative = {velocity.x - ground_next.x(), velocity.y - ground_next.y(),
+                                  velocity.z - ground_next.z()};
+  const Lanes none = splat(0.0);
+  steps.speed2 = larger(steps.speed2, select(batch.free, dot(relative, relative), none));
+  steps.turn2 = larger(steps.turn2, select(batch.free, batch.radius * batch.radius * angle2, none));
   const LaneMask runs = without(batch.free, less(dot(velocity, velocity), splat(1e6)));
   if (any(runs) && report.runaway < 0)
     for (int lane = count; lane-- > 0;)
@@ -365,23 +373,53 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
 void BodyPass::fetch_constants(std::size_t first) const {
   if (first + lane_count <= model->bodies.size()) fetch(&batches[first / lane_count], sizeof(BodyBatch));
 }
-void BodyPass::fetch_memory(std::size_t first) const {
+void BodyPass::fetch_motion(std::size_t first) const {
   if (first + lane_count > model->bodies.size()) return;
   fetch(&state->motion[motion_width * first], lane_count * motion_width * sizeof(double));
-  fetch(&state->searched[searched_width * first], lane_count * searched_width * sizeof(float));
+}
+
+/// Of those that move side by side: lost ones and held ones do not count.
+double BodyPass::farthest(std::size_t begin, std::size_t end) const {
+  Lanes farthest = splat(0.0);
+  for (std::size_t first = begin; first < end; first += lane_count) {
+    const int count = int(std::min<std::size_t>(lane_count, end - first));
+    const BodyBatch& batch = batches[first / lane_count];
+    const LaneRows pose = load_rows(&state->pose[pose_width * first], count),
+                   from = load_searched(&state->searched[searched_width * first], count);
+    const LaneMask counts = without(batch.free, less(splat(0.0), from.r[7]));
+    const Lanes distance = lanes_moved(pose, from, base_displacement_next, batch.radius);
+    farthest = larger(farthest, select(counts, distance, splat(0.0)));
+  }
+  return largest(farthest);
+}
+
+/// A step takes a body no farther than its velocity relative to the ground and half its turn say, so that places are
+/// only compared where these, added up over the steps, allow that one has come far enough.
+bool BodyPass::far_enough(std::size_t begin, std::size_t end, const Steps& steps) const {
+  constexpr double rounding = 1e-12;  // m, of places, and of what is added up
+  if (!way) return farthest(begin, end) > search_distance;
+  double& most = way[begin / lane_count];
+  const double step = dt * std::sqrt(largest(steps.speed2)) + quaternion_reach * std::sqrt(largest(steps.turn2));
+  most = (1.0 + rounding) * (most + step) + rounding;
+  if (most <= search_distance) return false;
+  most = farthest(begin, end);
+  return most > search_distance;
 }
 
 BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
   BodyReport report;
+  Steps steps;
   const bool side_by_side = local == 0.0 && !loads;  // these two act on bodies one by one
   for (std::size_t first = begin; first < end; first += lane_count) {
     const std::size_t next = std::min(end, first + lane_count);
     fetch_constants(first + 2 * lane_count);
     const LaneMask moved =
-        side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, report) : LaneMask{};
+        side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, steps, report) : LaneMask{};
     for (std::size_t i = first; i < next; ++i)
       if (!moved[int(i - first)]) move_body(i, report);
+    if (any(without(batches[first / lane_count].free, moved))) steps.turn2 = splat(HUGE_VAL);
   }
+  if (side_by_side) report.search |= far_enough(begin, end, steps);
   return report;
 }
 

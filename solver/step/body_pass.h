@@ -58,6 +58,9 @@ struct BodyPass {
   double mass_rate = 0.0;                           // 1/s, Rayleigh
   double local = 0.0;                               // Cundall
   double search_distance = 1e300;                   // m
+  // m, of the tile whose bodies begin with each batch: how far one may have moved at most since its place was noted.
+  // Infinite until that has been looked at, and whenever bodies have been put elsewhere. None: looked at each time.
+  double* way = nullptr;
   const Array<std::int32_t>* drive = nullptr;  // of each body, which of drive_velocity is its own or -1; empty: none
   std::vector<Vec3> drive_velocity;            // relative to the ground, at the next half step
   const LoadsAtWork* loads = nullptr;          // none: nothing beside gravity
@@ -80,9 +83,16 @@ struct BodyPass {
  private:
   Lanes wrench_sum(std::size_t body) const;
   void move_body(std::size_t body, BodyReport& report) const;
-  LaneMask move_lanes(std::size_t first, std::size_t end, BodyReport& report) const;
+  /// Of the bodies that moved side by side the largest squares of velocity relative to the ground, m2/s2, and of half
+  /// the turn times radius, m2.
+  struct Steps {
+    Lanes speed2 = splat(0.0), turn2 = splat(0.0);
+  };
   void fetch_constants(std::size_t first) const;
-  void fetch_memory(std::size_t first) const;
+  void fetch_motion(std::size_t first) const;
+  LaneMask move_lanes(std::size_t first, std::size_t end, Steps& steps, BodyReport& report) const;
+  double farthest(std::size_t begin, std::size_t end) const;
+  bool far_enough(std::size_t begin, std::size_t end, const Steps& steps) const;
 };
 
 /// Work of the loads on a body over half a step at this velocity and angular momentum, J.

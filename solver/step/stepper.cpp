@@ -276,6 +276,8 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
   BodyPass bodies = body_pass();
   FillPass fill = fill_pass();
   bodies.energies = &energies;
+  std::vector<double> way(body_batches.size(), HUGE_VAL);
+  bodies.way = way.data();
   RoundKind step_kind = RoundKind::both;
   const auto next_step = [&] {
     move_base(*this, state->time(), bodies);

@@ -156,6 +156,43 @@ TEST(ContactSlots, AreReusedAndNeverMoved) {
   EXPECT_NEAR(weight, 0.1, 1e-15);
 }
 
+/// Steps at which a search is called for, while blocks fly and turn about over a shaken base. An advance begins by
+/// comparing places and from then on adds up how far bodies may have come; of one step each, all compare places.
+std::vector<std::int64_t> searched_steps(std::int64_t at_once) {
+  constexpr int count = 20;
+  const auto made = row_of_cubes(count, 0.5);
+  Bench& bench = *made;
+  bench.stepper.dt = 1e-4;
+  GroundMotion motion;
+  motion.dt = 0.01;
+  for (int i = 0; i < 30; ++i) motion.acceleration.emplace_back(9.0 * std::sin(i), 5.0 * std::cos(i), 2.0);
+  bench.stepper.motion = &motion;
+  std::mt19937 random(5);
+  for (int i = 1; i <= count; ++i) {
+    bench.place(i, {0.0, 0.0, 1.0}, Eigen::Quaterniond::Identity());
+    bench.push(i, random_vector(0.3, random), random_vector(1.0, random));
+  }
+  update_contacts(bench.model, bench.state, {});
+  bench.stepper.prepare();
+  std::vector<std::int64_t> steps;
+  while (bench.state.step() < 2000) {
+    const std::int64_t target = std::min<std::int64_t>(2000, bench.state.step() + at_once);
+    if (bench.stepper.advance(target, 1, nullptr, nullptr).outcome != StepOutcome::contacts) continue;
+    steps.push_back(bench.state.step());
+    update_contacts(bench.model, bench.state, {});
+    bench.stepper.prepare();
+  }
+  return steps;
+}
+
+TEST(Search, BeginsWhenABodyHasComeFarEnough) {
+  const std::vector<std::int64_t> steps = searched_steps(2000);
+  EXPECT_GT(steps.size(), 10u);
+  EXPECT_LT(steps.size(), 1000u);
+  EXPECT_EQ(searched_steps(1), steps);
+  EXPECT_EQ(searched_steps(7), steps);
+}
+
 /// A spring without limits stays the spring it is, however far it turns.
 TEST(Search, LeavesElasticJointsWhereTheyAre) {
   Assembly assembly = stone(2000.0, 1e9, 0.5);
