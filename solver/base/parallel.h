@@ -2,7 +2,6 @@
 // bits for any number of threads.
 #pragma once
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

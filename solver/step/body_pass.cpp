@@ -396,7 +396,7 @@ double BodyPass::farthest(std::size_t begin, std::size_t end) const {
 /// A step takes a body no farther than its velocity relative to the ground and half its turn say, so that places are
 /// only compared where these, added up over the steps, allow that one has come far enough.
 bool BodyPass::far_enough(std::size_t begin, std::size_t end, const Steps& steps) const {
-  constexpr double rounding = 1e-12;  // m, of places, and of what is added up
+  constexpr double rounding = 1e-12;  // of a step's place, m, and of what is added up, share
   if (!way) return farthest(begin, end) > search_distance;
   double& most = way[begin / lane_count];
   const double step = dt * std::sqrt(largest(steps.speed2)) + quaternion_reach * std::sqrt(largest(steps.turn2));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <new>
 #include <thread>
 
 #include "solver/base/arrays.h"
@@ -140,14 +141,14 @@ TEST(Rounds, EveryItemOnceAndInOrder) {
 }
 
 /// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel
-/// already) must not leave the team waiting for threads that never came.
-TEST(Team, DoesNotHangWhenFewerThreadsAreGranted) {
+/// already) must not leave a round waiting for threads that never came.
+TEST(Rounds, DoNotHangWhenFewerThreadsAreGranted) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // the child starts afresh and reads the variable
   setenv("OMP_THREAD_LIMIT", "1", 1);
   const auto child = [] {
     alarm(5);
     go_round(4, 17, 100);
-    std::_Exit(0);
+    std::_Exit(testing::Test::HasFailure());
   };
   EXPECT_EXIT(child(), testing::ExitedWithCode(0), "");
   unsetenv("OMP_THREAD_LIMIT");
