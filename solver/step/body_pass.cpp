@@ -81,6 +81,7 @@ Triple<double> spin(const Body& body, const Quat<double>& q, const Triple<double
   return spin(entries, q, momentum);
 }
 
+constexpr double most_speed2 = 1e6;    // (m/s)²
 constexpr double series_limit = 0.06;  // of |h|², below which the series of rotate() keep full precision
 
 /// exp(h) q by the series of cos |h| and sin |h| / |h|.
@@ -244,6 +245,11 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
   // the loads.
   for (int c = 0; c < 3; ++c)
+/// What falls for good may go as fast as it likes.
+bool BodyPass::runs_away(std::size_t body, double speed2) const {
+  return !(speed2 < most_speed2) && !(state->lost(body) && std::isfinite(speed2));
+}
+
     if (body.held(c)) motion[6] -= 0.5 * dt * (&next.force.x)[c] * (motion[c] + (&next.velocity.x)[c]);
   if (loads && !body.still())
     motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
@@ -260,7 +266,7 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   report.search |= moved_since(*model, *state, state->searched, i, base_displacement_next) > search_distance;
   if (body.held(3)) return;
   const double speed2 = dot(next.velocity, next.velocity);
-  if (!(speed2 < 1e6) && report.runaway < 0) report.runaway = std::int32_t(i);
+  if (runs_away(i, speed2) && report.runaway < 0) report.runaway = std::int32_t(i);
 }
 
 namespace {
@@ -360,10 +366,11 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, Steps& steps, 
   const Lanes none = splat(0.0);
   steps.speed2 = larger(steps.speed2, select(batch.free, dot(relative, relative), none));
   steps.turn2 = larger(steps.turn2, select(batch.free, batch.radius * batch.radius * angle2, none));
-  const LaneMask runs = without(batch.free, less(dot(velocity, velocity), splat(1e6)));
+  const Lanes speed2 = dot(velocity, velocity);
+  const LaneMask runs = without(batch.free, less(speed2, splat(most_speed2)));
   if (any(runs) && report.runaway < 0)
     for (int lane = count; lane-- > 0;)
-      if (runs[lane]) report.runaway = std::int32_t(first) + lane;
+      if (runs[lane] && runs_away(first + std::size_t(lane), speed2[lane])) report.runaway = std::int32_t(first) + lane;
   store_rows(motion, batch.free, &state->motion[motion_width * first]);
   store_rows(pose, batch.free, &state->pose[pose_width * first]);
   return batch.free;

@@ -82,6 +82,7 @@ struct BodyPass {
 
  private:
   Lanes wrench_sum(std::size_t body) const;
+  bool runs_away(std::size_t body, double speed2) const;
   void move_body(std::size_t body, BodyReport& report) const;
   /// Of the bodies that moved side by side the largest squares of velocity relative to the ground, m2/s2, and of half
   /// the turn times radius, m2.

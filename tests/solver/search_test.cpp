@@ -116,6 +116,29 @@ TEST(Search, LooksForNothingAroundWhatHasFallenOut) {
   EXPECT_EQ(update_contacts(bench.model, bench.state, {}, false).made, 0);
 }
 
+/// Whoever falls for a hundred seconds is faster than 1000 m/s: no reason to end a run, unless there is still something
+/// for it to hit.
+TEST(Search, LetsWhatHasFallenOutFallAsFastAsItLikes) {
+  for (const double local : {0.0, 0.1}) {  // eight side by side, one by one
+    const auto made = row_of_cubes(1, 0.5);
+    Bench& bench = *made;
+    bench.model.up = Vec3::UnitZ(), bench.model.bottom = -0.5;
+    bench.stepper.damping.local = local;
+    const auto falling = [&](double speed) {
+      bench.push(1, {0, 0, -speed}, Vec3::Zero());
+      update_contacts(bench.model, bench.state, {});
+      bench.stepper.prepare();
+      return bench.stepper.advance(bench.state.step() + 1, 1, nullptr, nullptr).outcome;
+    };
+    bench.place(1, {0, 0, 5.0}, Eigen::Quaterniond::Identity());
+    EXPECT_EQ(falling(2000.0), StepOutcome::runaway);
+    bench.place(1, {0, 0, -2.0}, Eigen::Quaterniond::Identity());
+    EXPECT_NE(falling(2000.0), StepOutcome::runaway);
+    EXPECT_TRUE(bench.state.lost(std::size_t(bench.body(1))));
+    EXPECT_EQ(falling(HUGE_VAL), StepOutcome::runaway);
+  }
+}
+
 NewContact between(std::int32_t a, std::int32_t b, std::size_t points) {
   NewContact c;
   c.patch.a = a, c.patch.b = b, c.patch.kn = c.patch.ks = 1e9, c.patch.area = 0.1;
