@@ -84,21 +84,29 @@ Triple<double> spin(const Body& body, const Quat<double>& q, const Triple<double
 constexpr double most_speed2 = 1e6;    // (m/s)²
 constexpr double series_limit = 0.06;  // of |h|², below which the series of rotate() keep full precision
 
-/// exp(h) q by the series of cos |h| and sin |h| / |h|.
+/// exp(h) by the series of cos |h| and sin |h| / |h|, x = |h|².
 template <class T>
-[[gnu::always_inline]] inline Quat<T> rotate_by_series(const Quat<T>& q, const Triple<T>& h, const T& x) {
+[[gnu::always_inline]] inline Quat<T> exponential(const Triple<T>& h, const T& x) {
   constexpr double c2 = 1.0 / 12, c3 = 1.0 / 30, c4 = 1.0 / 56, c5 = 1.0 / 90;
   constexpr double s1 = 1.0 / 6, s2 = 1.0 / 20, s3 = 1.0 / 42, s4 = 1.0 / 72, s5 = 1.0 / 110;
   const T c = 1.0 - 0.5 * x * (1.0 - c2 * x * (1.0 - c3 * x * (1.0 - c4 * x * (1.0 - c5 * x))));
   const T s = 1.0 - s1 * x * (1.0 - s2 * x * (1.0 - s3 * x * (1.0 - s4 * x * (1.0 - s5 * x))));
-  return Quat<T>{c, s * h} * q;
+  return {c, s * h};
+}
+
+/// The same of eight; where all turn little the terms left out are below rounding.
+[[gnu::always_inline]] inline Quat<Lanes> short_exponential(const Triple<Lanes>& h, Lanes x) {
+  constexpr double little = 1e-5;  // x³/720 < 2e-18
+  if (!all(less(x, splat(little)))) return exponential(h, x);
+  const Lanes c = 1.0 - 0.5 * x * (1.0 - 1.0 / 12 * x), s = 1.0 - 1.0 / 6 * x * (1.0 - 1.0 / 20 * x);
+  return {c, s * h};
 }
 
 /// exp(½ dt ω) q; series below a quarter turn a step, which are the same on every machine.
 Quat<double> rotate(const Quat<double>& q, const Triple<double>& omega, double dt) {
   const Triple<double> h = 0.5 * dt * omega;
   const double x = dot(h, h);
-  if (x < series_limit) return rotate_by_series(q, h, x);
+  if (x < series_limit) return exponential(h, x) * q;
   const double a = std::sqrt(x);
   return Quat<double>{std::cos(a), std::sin(a) / a * h} * q;
 }
@@ -186,7 +194,7 @@ BodyUpdate BodyPass::held_update(std::size_t i, const Triple<double>& patches, c
 }
 
 /// Force and moment about the world's origin.
-Lanes BodyPass::wrench_sum(std::size_t i) const {
+[[gnu::always_inline]] inline Lanes BodyPass::wrench_sum(std::size_t i) const {
   const auto* rows = reinterpret_cast<const Lanes*>(sums);
   const std::int32_t* place = &(*sum_places)[std::size_t((*first_sum)[i])];
   const std::int32_t* const end = place + ((*first_sum)[i + 1] - (*first_sum)[i]);
@@ -237,6 +245,11 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   return r;
 }
 
+/// What falls for good may go as fast as it likes.
+bool BodyPass::runs_away(std::size_t body, double speed2) const {
+  return !(speed2 < most_speed2) && !(state->lost(body) && std::isfinite(speed2));
+}
+
 void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   const Body& body = model->bodies[i];
   double* pose = &state->pose[pose_width * i];
@@ -245,11 +258,6 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
   // the loads.
   for (int c = 0; c < 3; ++c)
-/// What falls for good may go as fast as it likes.
-bool BodyPass::runs_away(std::size_t body, double speed2) const {
-  return !(speed2 < most_speed2) && !(state->lost(body) && std::isfinite(speed2));
-}
-
     if (body.held(c)) motion[6] -= 0.5 * dt * (&next.force.x)[c] * (motion[c] + (&next.velocity.x)[c]);
   if (loads && !body.still())
     motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
@@ -276,7 +284,7 @@ struct LaneRows {
 };
 
 /// Rows of eight numbers, those of lanes past the last repeated, as columns.
-LaneRows load_rows(const double* rows, int count) {
+[[gnu::always_inline]] inline LaneRows load_rows(const double* rows, int count) {
   LaneRows l;
   for (int lane = 0; lane < lane_count; ++lane)
     l.r[lane] = reinterpret_cast<const Lanes*>(rows)[std::min(lane, count - 1)];
@@ -284,7 +292,7 @@ LaneRows load_rows(const double* rows, int count) {
   return l;
 }
 
-void store_rows(LaneRows l, LaneMask which, double* rows) {
+[[gnu::always_inline]] inline void store_rows(LaneRows l, LaneMask which, double* rows) {
   transpose(l.r);
   for (int lane = 0; lane < lane_count; ++lane)
     if (which[lane]) reinterpret_cast<Lanes*>(rows)[lane] = l.r[lane];
@@ -348,13 +356,17 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, Steps& steps, 
         mass_rate * dt *
         (batch.inertial_mass * dot(mean - base, mean) + dot(turning, spin(batch.inverse_inertia, q, turning)));
   }
-  const Triple<Lanes> first_turn = splat(0.25 * dt) * spin(batch.inverse_inertia, q, momentum);
-  const Quat<Lanes> half = rotate_by_series(q, first_turn, dot(first_turn, first_turn));
-  const Triple<Lanes> whole_turn = splat(0.5 * dt) * spin(batch.inverse_inertia, half, momentum);
+  // As move_body(), in the axes of each body as they are before the step: exp(R h) q = q exp(h).
+  const Triple<Lanes> own = turn_back(q, momentum);
+  const Triple<Lanes> first_turn = splat(0.25 * dt) * times(batch.inverse_inertia, own);
+  const Lanes first_angle2 = dot(first_turn, first_turn);
+  const Quat<Lanes> half = short_exponential(first_turn, first_angle2);
+  const Triple<Lanes> whole_turn =
+      splat(0.5 * dt) * voussoir::turn(half, times(batch.inverse_inertia, turn_back(half, own)));
   const Lanes angle2 = dot(whole_turn, whole_turn);
-  if (any(without(batch.free, less(larger(angle2, dot(first_turn, first_turn)), splat(series_limit))))) return {};
-  const Quat<Lanes> turned = rotate_by_series(q, whole_turn, angle2);
-  const Lanes norm = 1.0 / square_root(turned.w * turned.w + dot(turned.v, turned.v));
+  if (any(without(batch.free, less(larger(angle2, first_angle2), splat(series_limit))))) return {};
+  const Quat<Lanes> turned = q * short_exponential(whole_turn, angle2);
+  const Lanes norm = 1.5 - 0.5 * (turned.w * turned.w + dot(turned.v, turned.v));  // a unit but for rounding
   const Lanes moved[6] = {velocity.x, velocity.y, velocity.z, momentum.x, momentum.y, momentum.z};
   std::copy(moved, moved + 6, motion.r);
   for (int c = 0; c < 3; ++c) pose.r[c] += dt * moved[c];
