@@ -41,7 +41,7 @@ using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
   return x;
 }
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512BW__)
 /// True or false in each lane: one bit a lane, in a mask register.
 struct LaneMask {
   __mmask8 bits = 0;
@@ -97,7 +97,7 @@ struct LaneMask {
 [[gnu::always_inline]] inline LaneMask bytes_with(LaneBytes bytes, int bits) {
   std::int64_t packed;
   std::memcpy(&packed, &bytes, lane_count);
-  return {_mm512_test_epi64_mask(_mm512_cvtepu8_epi64(_mm_cvtsi64_si128(packed)), _mm512_set1_epi64(bits))};
+  return {__mmask8(_mm_test_epi8_mask(_mm_cvtsi64_si128(packed), _mm_set1_epi8(char(bits))))};
 }
 #else
 struct LaneMask {
@@ -163,6 +163,14 @@ struct LaneMask {
   return {(__builtin_convertvector(bytes, LaneInts) & std::int64_t(bits)) != 0};
 }
 #endif
+
+[[gnu::always_inline]] inline Lanes magnitude(Lanes x) {
+  return Lanes(LaneInts(x) & std::int64_t(0x7fffffffffffffff));
+}
+/// x, and −x where `by` is negative.
+[[gnu::always_inline]] inline Lanes flip(Lanes x, Lanes by) {
+  return Lanes(LaneInts(x) ^ (LaneInts(by) & std::int64_t(0x8000000000000000)));
+}
 
 [[gnu::always_inline]] inline LaneMask& operator&=(LaneMask& a, LaneMask b) {
   return a = a & b;
@@ -254,10 +262,8 @@ template <class T>
 /// R x − x without cancellation: 2 w (v × x) + 2 v × (v × x).
 template <class T>
 [[gnu::always_inline]] inline Triple<T> turn_change(const Quat<T>& q, const Triple<T>& x) {
-  const Triple<T> c = cross(q.v, x);
-  const Triple<T> d = cross(q.v, c);
-  const T w = q.w;
-  return {2.0 * (w * c.x + d.x), 2.0 * (w * c.y + d.y), 2.0 * (w * c.z + d.z)};
+  const Triple<T> c = cross(q.v + q.v, x);
+  return q.w * c + cross(q.v, c);
 }
 template <class T>
 [[gnu::always_inline]] inline Triple<T> turn(const Quat<T>& q, const Triple<T>& x) {
@@ -266,6 +272,30 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] inline Triple<T> turn_back(const Quat<T>& q, const Triple<T>& x) {
   return turn(Quat<T>{q.w, {-q.v.x, -q.v.y, -q.v.z}}, x);
+}
+
+/// The same rotation as a matrix, by its columns: cheaper from the second vector on.
+template <class T>
+struct Axes {
+  Triple<T> x, y, z;
+};
+/// Of a quaternion of any length, `twice` = 2/|q|².
+template <class T>
+[[gnu::always_inline]] inline Axes<T> axes_of(const Quat<T>& q, T twice) {
+  const Triple<T>& v = q.v;
+  const Triple<T> t = twice * v;
+  const T xy = v.x * t.y, xz = v.x * t.z, yz = v.y * t.z;
+  return {{1.0 - v.y * t.y - v.z * t.z, xy + q.w * t.z, xz - q.w * t.y},
+          {xy - q.w * t.z, 1.0 - v.x * t.x - v.z * t.z, yz + q.w * t.x},
+          {xz + q.w * t.y, yz - q.w * t.x, 1.0 - v.x * t.x - v.y * t.y}};
+}
+template <class T>
+[[gnu::always_inline]] inline Triple<T> turn(const Axes<T>& axes, const Triple<T>& x) {
+  return x.x * axes.x + x.y * axes.y + x.z * axes.z;
+}
+template <class T>
+[[gnu::always_inline]] inline Triple<T> turn_back(const Axes<T>& axes, const Triple<T>& x) {
+  return {dot(axes.x, x), dot(axes.y, x), dot(axes.z, x)};
 }
 
 }  // namespace voussoir

@@ -11,14 +11,14 @@ namespace {
   const LanePoses a = gather(pose, c.patch.a), b = gather(pose, c.patch.b);
   const Quat<Lanes> fa = a.q * Quat<Lanes>{c.patch.frame[0], load(c.patch.frame + 1)};
   Quat<Lanes> fb = b.q * Quat<Lanes>{c.frame_b[0], load(c.frame_b + 1)};
-  const Lanes sign = select(less(fa.w * fb.w + dot(fa.v, fb.v), splat(0.0)), splat(-1.0), splat(1.0));
-  fb = {sign * fb.w, sign * fb.v};
+  const Lanes same = fa.w * fb.w + dot(fa.v, fb.v);
+  fb = {flip(fb.w, same), {flip(fb.v.x, same), flip(fb.v.y, same), flip(fb.v.z, same)}};
   const Quat<Lanes> relative = fb * Quat<Lanes>{fa.w, {-fa.v.x, -fa.v.y, -fa.v.z}};
-  const Lanes norm = 1.0 / square_root(2.0 + 2.0 * relative.w);
-  const Quat<Lanes> frame = {norm * (fa.w + fb.w), norm * (fa.v + fb.v)};
   const Triple<Lanes> move_a = a.u + turn_change(a.q, load(c.patch.arm_a));
   const Triple<Lanes> move_b = b.u + turn_change(b.q, load(c.patch.arm_b));
-  return local_jump(move_a, move_b, load(c.patch.place), load(c.shift), relative, norm, frame);
+  const Triple<Lanes> shift = load(c.shift);
+  return local_jump(shift + (move_b - move_a), shift + (move_a + move_b), load(c.patch.place), relative,
+                    Quat<Lanes>{fa.w + fb.w, fa.v + fb.v});
 }
 
 /// Lanes in which every point is open, judged by the gap at the centroid and how far the turn can close it.
@@ -82,12 +82,12 @@ struct ContactPass {
     ahead.constants(1);
     Triple<Lanes> force{}, moment{};
     if (any(active)) {
-      const Resultant<Lanes> nothing{};
-      world_wrench(select(active, points(gaps, active, leaving, energy), nothing), j, force, moment);
+      const WorldWrench<Lanes> w(select(active, points(gaps, active, leaving, energy), Resultant<Lanes>{}), j);
+      force = w.force, moment = w.moment;
     }
     ahead.constants(2);
     store_wrenches(force, moment, pass.contact_wrenches + wrench_width * lane_count * k);
-    report.reclip |= any(live & past_limits(*pass.model, batch.patch, j));
+    report.reclip |= any(live & past_limits(SlidingLimits(*pass.model), batch.patch.area, j));
     report.contacts += count_of(live);
   }
 

@@ -124,14 +124,14 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   ahead.nodes();
   // 1. what the corners have moved in the stone's axes
   const LanePoses stone = gather(state.pose.data(), b.patch.a);
-  const Quat<Lanes> frame = stone.q * Quat<Lanes>{b.patch.frame[0], load(b.patch.frame + 1)};
+  const Axes<Lanes> axes = axes_of(stone.q * Quat<Lanes>{b.patch.frame[0], load(b.patch.frame + 1)}, splat(2.0));
   const Vector origin = stone.u + turn_change(stone.q, load(b.patch.arm_a));
   Vector u[3], reach[3], moved[3];
   node_moves(state.fill.pose.data(), b.node[0], b.node[1], u[0], u[1]);
   node_moves(state.fill.pose.data(), b.node[2], b.node[2], u[2], u[2]);
   for (int i = 0; i < 3; ++i) {
     reach[i] = load(b.lever[i]) + u[i];
-    moved[i] = turn_back(frame, reach[i] - origin) - load(b.rest[i]);
+    moved[i] = turn_back(axes, reach[i] - origin) - load(b.rest[i]);
   }
   ahead.constants(0);
   const ShapeFunctions shape(b);
@@ -165,7 +165,7 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   const Vector place = load(b.patch.place);
   Vector force = {Lanes{}, Lanes{}, Lanes{}}, moment = force, pushes[3];
   for (int i = 0; i < 3; ++i) {
-    const Vector pull = turn(frame, shape.n[i][0] * sum + shape.n[i][1] * first_s + shape.n[i][2] * first_t);
+    const Vector pull = turn(axes, shape.n[i][0] * sum + shape.n[i][1] * first_s + shape.n[i][2] * first_t);
     force = force + pull;
     moment = moment + cross(place + reach[i], pull);
     pushes[i] = {-pull.x, -pull.y, -pull.z};
@@ -176,7 +176,7 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   store_wrenches(force, moment, pass.interface_wrenches + wrench_width * lane_count * k);
 
   const Lanes slid2 = jump.middle.y * jump.middle.y + jump.middle.z * jump.middle.z;
-  return any(used & less(pass.model->slip_limit2(b.patch.area), slid2));
+  return any(used & less(SlidingLimits(*pass.model).slip_limit2(b.patch.area), slid2));
 }
 
 }  // namespace

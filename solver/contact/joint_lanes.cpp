@@ -12,21 +12,16 @@ namespace {
 
 [[gnu::always_inline]] inline Jump<Lanes> lanes_jump(const JointBatch& batch, const double* pose) {
   const LanePoses a = gather(pose, batch.a), b = gather(pose, batch.b);
-  Lanes same = a.q.w * b.q.w + dot(a.q.v, b.q.v);
-  const Lanes sign = select(less(same, splat(0.0)), splat(-1.0), splat(1.0));
-  same *= sign;
-  const Quat<Lanes> qb = {sign * b.q.w, sign * b.q.v};
+  const Lanes same = a.q.w * b.q.w + dot(a.q.v, b.q.v);
+  const Quat<Lanes> qb = {flip(b.q.w, same), {flip(b.q.v.x, same), flip(b.q.v.y, same), flip(b.q.v.z, same)}};
   const Triple<Lanes> c = cross(a.q.v, qb.v);
-  const Quat<Lanes> relative = {same,
+  const Quat<Lanes> relative = {magnitude(same),
                                 {a.q.w * qb.v.x - qb.w * a.q.v.x + c.x, a.q.w * qb.v.y - qb.w * a.q.v.y + c.y,
                                  a.q.w * qb.v.z - qb.w * a.q.v.z + c.z}};
-  const Lanes norm = 1.0 / square_root(2.0 + 2.0 * same);
-  const Quat<Lanes> half = {norm * (a.q.w + qb.w), norm * (a.q.v + qb.v)};
-  const Quat<Lanes> frame = half * Quat<Lanes>{batch.frame[0], load(batch.frame + 1)};
+  const Quat<Lanes> sum = Quat<Lanes>{a.q.w + qb.w, a.q.v + qb.v} * Quat<Lanes>{batch.frame[0], load(batch.frame + 1)};
   const Triple<Lanes> move_a = a.u + turn_change(a.q, load(batch.arm_a));
   const Triple<Lanes> move_b = b.u + turn_change(b.q, load(batch.arm_b));
-  const Lanes zero = splat(0.0);
-  return local_jump(move_a, move_b, load(batch.place), Triple<Lanes>{zero, zero, zero}, relative, norm, frame);
+  return local_jump(move_b - move_a, move_a + move_b, load(batch.place), relative, sum);
 }
 
 /// The elastic generalised jump of the intact path.
@@ -37,6 +32,13 @@ struct LaneElastic {
 struct LaneCheck {
   LaneMask admissible, open;
 };
+
+/// A copy made number by number: of one made at once the compiler would keep the original in memory too.
+[[gnu::always_inline]] inline Jump<Lanes> in_memory(const Jump<Lanes>& j) {
+  const auto copy = [](const Triple<Lanes>& v) { return Triple<Lanes>{v.x, v.y, v.z}; };
+  return {j.n,          j.s, j.t, j.rn, j.rs, j.rt, j.cosine, j.share, {copy(j.axes.x), copy(j.axes.y), copy(j.axes.z)},
+          copy(j.place)};
+}
 
 /// Jump at one place of the joints' planes.
 [[gnu::always_inline]] inline Triple<Lanes> jump_at(const LaneElastic& e, Lanes s, Lanes t) {
@@ -60,6 +62,17 @@ struct LaneCheck {
   for (int c = 0; c < batch.corners; ++c, corner += 2)
     check_corner(batch, e, corner[0], corner[1], tension, cohesion, tangent, check);
   return check;
+}
+
+/// Whether all lanes bear the largest normal and the largest shear jump there are in their rectangles, as most do: then
+/// every point of theirs is elastic.
+[[gnu::always_inline]] inline LaneMask surely_bear(const JointBatch& batch, const LaneElastic& e, Lanes tension,
+                                                   Lanes cohesion, Lanes tangent) {
+  const Lanes a = batch.half_s, b = batch.half_t;
+  const Lanes turned = magnitude(e.u[4]) * b + magnitude(e.u[5]) * a;
+  const Lanes s = magnitude(e.u[1]) + magnitude(e.u[3]) * b, t = magnitude(e.u[2]) + magnitude(e.u[3]) * a;
+  const Lanes sigma = batch.kn * (e.u[0] + turned), limit = cohesion - sigma * tangent;
+  return at_most(sigma, tension) & at_most(batch.ks * batch.ks * (s * s + t * t), limit * limit);
 }
 
 /// The elastic traction field is affine and the admissible set convex: the corners decide for the whole polygon, and
@@ -97,29 +110,49 @@ struct LaneCheck {
     if (open[lane]) mode[lane] |= mode_slid;
 }
 
-/// Elastic plus viscous generalised jump; the branches of open lanes relax, those of lanes that close start from
-/// nothing. Adds the work done on them, by the mean of their tractions at both ends of the step.
+/// The branches of one generalised jump follow its change `du`, those of lanes that are not closed relax; adds their q
+/// to `viscous` and returns the sum of q at both ends of the step. Lanes to keep are written.
 template <int count>
-[[gnu::always_inline]] inline LaneElastic advance_lanes(const Branches& branches, const JointBatch& batch,
-                                                        const LaneElastic& e, LaneMask closed, LaneMask was_open,
-                                                        LaneMask keep, Singles* kept, Lanes& work, const Lanes* du) {
+[[gnu::always_inline]] inline Lanes advance_jump(const Branches& branches, const SingleBranches<count>& several,
+                                                 Lanes du, LaneMask closed, LaneMask keep, Singles* kept,
+                                                 Lanes& viscous) {
+  if constexpr (count == 1) {  // it may be stiff and forget at once, see PointsPass::advance_one()
+    const Lanes then = widen(*kept);
+    const Lanes q = select(closed, branches.e[0] * then + branches.g[0] * du, splat(0.0));
+    viscous += q;
+    store_lanes(keep, narrow(q), *kept);
+    return then + q;
+  }
+  const Singles step = narrow(du);
+  Singles before{}, now{};
+  for (int k = 0; k < count; ++k, ++kept) {
+    const Singles then = *kept, q = within(closed, several.next(k, then, step));
+    before = k == 0 ? then : before + then;
+    now = k == 0 ? q : now + q;
+    store_lanes(keep, q, *kept);
+  }
+  viscous += widen(now);
+  return widen(before + now);
+}
+
+/// Elastic plus viscous generalised jump; the branches of lanes that close start from nothing. Adds the work done on
+/// them, by the mean of their tractions at both ends of the step.
+template <int count>
+[[gnu::always_inline]] inline LaneElastic advance_lanes(const Branches& branches, const SingleBranches<count>& several,
+                                                        const JointBatch& batch, const LaneElastic& e, LaneMask closed,
+                                                        LaneMask was_open, LaneMask keep, Singles* kept, Lanes& work,
+                                                        const Lanes* du) {
   LaneElastic sum = e;
   const Lanes stiffness[6] = {batch.kn * batch.area, batch.ks * batch.area,
                               batch.ks * batch.area, batch.ks * (batch.ss + batch.tt),
                               batch.kn * batch.tt,   batch.kn * batch.ss};
-  const Lanes zero = splat(0.0);
+  Lanes done = splat(0.0);
   for (int c = 0; c < 6; ++c) {
-    Lanes both = zero;
     const Lanes change = select(was_open, e.u[c], du[c]);
-    for (int k = 0; k < count; ++k, ++kept) {
-      const Lanes then = widen(*kept);
-      const Lanes q = select(closed, branches.e[k] * then + branches.g[k] * change, zero);
-      sum.u[c] += q;
-      both += then + q;
-      *kept = narrow(select(keep, q, then));
-    }
-    work += select(keep, 0.5 * stiffness[c] * both * du[c], zero);
+    const Lanes twice = advance_jump<count>(branches, several, change, closed, keep, kept + count * c, sum.u[c]);
+    done += stiffness[c] * (twice * du[c]);
   }
+  work += select(keep, 0.5 * done, splat(0.0));
   return sum;
 }
 
@@ -173,37 +206,61 @@ struct TileFindings {
   Lanes elastic = splat(0.0), stored = splat(0.0);  // J, where energies are wanted
 };
 
-/// A batch lies in several arrays, which together do not fit in a cache: what those after batch k have there is asked
-/// for while it is computed, a part at a time (see fetch()); points are asked for row by row.
+/// The arrays that batches lie in.
+template <int count>
+struct BatchArrays {
+  const JointBatch* batches;
+  std::size_t final;  // of all batches
+  const double* pose;
+  std::uint8_t* mode;
+  Singles *last, *branch;
+  Lanes *slip, *sums;
+  SlidingLimits limits;
+  SingleBranches<count> several;
+
+  explicit BatchArrays(const PatchPass& pass)
+      : batches(pass.model->batches.data()),
+        final(pass.model->batches.size() - 1),
+        pose(pass.state->pose.data()),
+        mode(pass.state->joint.mode.data()),
+        last(reinterpret_cast<Singles*>(pass.state->joint.last.data())),
+        branch(reinterpret_cast<Singles*>(pass.state->branch.data())),
+        slip(reinterpret_cast<Lanes*>(pass.state->slip.data())),
+        sums(reinterpret_cast<Lanes*>(pass.sums)),
+        limits(*pass.model),
+        several(pass.branches) {}
+
+  Singles* last_of(std::size_t k) const { return last + 6 * k; }
+  Singles* branches_of(std::size_t k) const { return branch + 6 * count * k; }
+  Lanes* slip_of(std::size_t k) const { return slip + 3 * k; }
+};
+
+/// Those arrays together do not fit in a cache: what the batches after batch k have there is asked for while it is
+/// computed, a part at a time (see fetch()); points are asked for row by row.
 template <int count>
 struct BatchAhead {
-  const PatchPass& pass;
-  std::size_t k;
+  const BatchArrays<count>& in;
+  std::size_t k, next, after;
+
+  [[gnu::always_inline]] BatchAhead(const BatchArrays<count>& arrays, std::size_t index)
+      : in(arrays), k(index), next(std::min(k + 1, in.final)), after(std::min(k + 2, in.final)) {}
 
   /// Of the next batch, which by then has been asked for itself.
   [[gnu::always_inline]] void poses() const {
-    if (k + 1 == pass.model->batches.size()) return;
-    const JointBatch& next = pass.model->batches[k + 1];
-    fetch_poses(pass.state->pose.data(), next.a), fetch_poses(pass.state->pose.data(), next.b);
+    fetch_poses(in.pose, in.batches[next].a), fetch_poses(in.pose, in.batches[next].b);
   }
   /// Of the one after it, in two parts.
-  [[gnu::always_inline]] void constants(std::size_t part) const {
-    if (k + 2 < pass.model->batches.size()) fetch_part<2>(pass.model->batches[k + 2], part);
-  }
+  [[gnu::always_inline]] void constants(std::size_t part) const { fetch_part<2>(in.batches[after], part); }
   [[gnu::always_inline]] void memory() const {
-    const State& state = *pass.state;
-    const std::size_t next = k + 2;
-    if (next >= pass.model->batches.size()) return;
-    fetch(&state.joint.last[last_index(next, 0)], 6 * sizeof(Singles));
-    fetch(&state.slip[3 * lane_count * next], 3 * sizeof(Lanes));
-    fetch(state.joint.mode.data() + pass.model->batches[k].first_joint + 2 * lane_count, 1);
-    if constexpr (count > 0) fetch(&state.branch[branch_index(count, next, 0, 0)], 6 * count * sizeof(Singles));
+    fetch(in.last_of(after), 6 * sizeof(Singles));
+    fetch(in.slip_of(after), 3 * sizeof(Lanes));
+    fetch(in.mode + in.batches[k].first_joint + 2 * lane_count, 1);
+    if constexpr (count > 0) fetch(in.branches_of(after), 6 * count * sizeof(Singles));
   }
   /// Of patches that are likely to go point by point, too.
-  [[gnu::always_inline]] void notes() const {
-    if (k + 1 == pass.model->batches.size()) return;
-    fetch(&pass.state->joint.energy[energy_index({k + 1, 0}, 0)], 3 * sizeof(Lanes));
-    fetch(&pass.state->joint.largest[largest_index({k + 1, 0}, 0)], 2 * sizeof(Lanes));
+  [[gnu::always_inline]] void notes(const PatchMemory& memory) const {
+    fetch(&memory.energy[energy_index({next, 0}, 0)], 3 * sizeof(Lanes));
+    fetch(&memory.largest[largest_index({next, 0}, 0)], 2 * sizeof(Lanes));
   }
 };
 
@@ -211,43 +268,124 @@ struct BatchAhead {
 template <int count>
 struct BatchPass {
   const PatchPass& pass;
+  const BatchArrays<count>& in;
+  const BatchAhead<count> ahead;
+  std::size_t k;
   const JointBatch& batch;
-  std::size_t k, first;
-  BatchAhead<count> ahead{pass, k};
   std::uint8_t* mode;
-  LaneBytes modes;
-  Jump<Lanes> jump;
-  LaneStrength strength;
-  Lanes* slip;
-  Singles* kept;    // branches of the intact path
-  Lanes change[6];  // of the jump since the pass before
-  alignas(64) double rows[lane_count * wrench_width];
 
-  [[gnu::always_inline]] BatchPass(const PatchPass& p, std::size_t index)
-      : pass(p),
-        batch(p.model->batches[index]),
-        k(index),
-        first(std::size_t(batch.first_joint)),
-        mode(&p.state->joint.mode[first]),
-        modes(load_bytes(mode, batch.count)),
-        jump(lanes_jump(batch, p.state->pose.data())),
-        strength(strengths(*p.model, batch)),
-        slip(reinterpret_cast<Lanes*>(p.state->slip.data()) + 3 * index),
-        kept(reinterpret_cast<Singles*>(p.state->branch.data()) + 6 * count * index) {}
+  [[gnu::always_inline]] BatchPass(const PatchPass& p, const BatchArrays<count>& arrays, std::size_t index)
+      : pass(p), in(arrays), ahead(in, index), k(index), batch(in.batches[k]), mode(in.mode + batch.first_joint) {}
 
-  /// Intact lanes: checked at the corners, advanced if they stay; returns which did, and which of those carry load.
+  [[gnu::always_inline]] void run(TileFindings& findings) const {
+    const bool full = batch.count == lane_count && batch.law >= 0 && pass.shortcut;
+    const std::uint64_t modes = full ? all_modes() : 0;
+    const bool closed = full && !(modes & in_each(mode_points | mode_gone | mode_open));
+    if (!closed && !any(live_lanes())) return nothing_left();
+    const Jump<Lanes> jump = lanes_jump(batch, in.pose);
+    ahead.poses();
+    if (closed) {
+      LaneElastic e = elastic_of(jump, modes & in_each(mode_slid));
+      const LawConstants& law = pass.model->laws[std::size_t(batch.law)];
+      Lanes tension = splat(law.most_tension), cohesion = splat(law.most_cohesion), tangent = splat(law.slope);
+      if (modes & in_each(mode_broken)) {
+        const LaneMask broken = bytes_with(load_bytes(mode), mode_broken);
+        tension = select(broken, splat(-1e-300), tension);  // where nothing presses they are open
+        cohesion = select(broken, splat(law.residual_cohesion), cohesion);
+        tangent = select(broken, splat(law.residual_tan_friction), tangent);
+      }
+      if (all(surely_bear(batch, e, tension, cohesion, tangent))) return springs(jump, e, findings);
+    }
+    mixed(in_memory(jump), findings);
+  }
+
+ private:
+  std::uint64_t all_modes() const {
+    std::uint64_t modes;
+    std::memcpy(&modes, mode, sizeof(modes));
+    return modes;
+  }
+  static constexpr std::uint64_t in_each(int bits) { return 0x0101010101010101u * std::uint64_t(bits); }
+
+  LaneMask live_lanes() const {
+    return without(LaneMask::first(batch.count), bytes_with(load_bytes(mode, batch.count), mode_gone));
+  }
+
+  [[gnu::always_inline]] LaneElastic elastic_of(const Jump<Lanes>& jump, bool slid) const {
+    LaneElastic e = {{jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt}};
+    if (slid)
+      for (int c = 0; c < 3; ++c) e.u[c + 1] -= in.slip_of(k)[c];
+    return e;
+  }
+
+  /// All lanes are springs, and were: nothing of theirs changes but the last jump and the branches.
+  [[gnu::always_inline]] void springs(const Jump<Lanes>& jump, LaneElastic e, TileFindings& findings) const {
+    const LaneMask every = LaneMask::first(lane_count);
+    Lanes change[6];
+    note_change(jump, LaneMask{}, in.last_of(k), change);
+    ahead.constants(0);
+    const LaneElastic elastic = e;
+    if constexpr (count > 0)
+      e = advance_lanes<count>(pass.branches, in.several, batch, e, every, LaneMask{}, every, in.branches_of(k),
+                               findings.work, change);
+    if (pass.energies)
+      add_energy<count>(pass.branches, batch, elastic, every, in.branches_of(k), findings.elastic, findings.stored);
+    ahead.constants(1);
+    const auto wrench = WorldWrench<Lanes>::of_springs(lanes_resultant(batch, e), jump);
+    const WrenchRows wrenches(wrench.force, wrench.moment);
+    add_up(wrenches.row, lane_count);
+    ahead.memory();
+    findings.reclip |= past_limits(in.limits, batch.area, jump);
+    findings.intact += lane_count;
+  }
+
+  /// What the check left of intact lanes: those that stay, and those of them that carry load.
   struct Intact {
     LaneMask stays{}, closed{};
     Resultant<Lanes> resultant;  // of closed lanes alone
   };
-  [[gnu::always_inline]] Intact intact_lanes(LaneMask keep, TileFindings& findings) {
-    LaneElastic e = {{jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt}};
-    if (any(bytes_with(modes, mode_slid)))
-      for (int c = 0; c < 3; ++c) e.u[c + 1] -= slip[c];
+
+  /// A batch in which some lanes are open, gone or go point by point: those that fail the check from here on.
+  [[gnu::noinline]] void mixed(const Jump<Lanes>& jump, TileFindings& findings) const {
+    const LaneMask live = live_lanes();
+    const LaneBytes modes = load_bytes(mode, batch.count);
+    const LaneMask keep = pass.shortcut ? without(live, bytes_with(modes, mode_points)) : LaneMask{};
+    const LaneStrength strength = strengths(*pass.model, batch);
+    Lanes change[6];  // of the jump since the pass before
+    // point_patch() keeps the last jump of its lanes itself.
+    note_change(jump, without(live, keep | strength.brittle), in.last_of(k), change);
+    ahead.constants(0);
+    Intact intact;
+    if (any(keep)) intact = intact_lanes(jump, change, strength, modes, keep, findings);
+    const LaneMask points = without(live, intact.stays);
+    ahead.constants(1);
+    const Resultant<Lanes> nothing{};
+    Resultant<Lanes> by_points{};
+    const LaneMask brittle = points & strength.brittle, others = without(points, brittle);
+    leave_intact(without(points, bytes_with(modes, mode_points)));
+    if (any(brittle)) by_points = point_lanes(jump, change, strength, brittle, findings);
+    const WorldWrench<Lanes> wrench(select(intact.closed, intact.resultant, select(brittle, by_points, nothing)), jump);
+    alignas(64) double rows[lane_count * wrench_width];
+    store_wrenches(wrench.force, wrench.moment, rows);
+    for (int lane = 0; any(others) && lane < batch.count; ++lane)
+      if (others[lane])
+        point_patch(*pass.model, std::size_t(batch.first_joint + lane), pass.branches, *pass.state,
+                    rows + wrench_width * lane);
+    ahead.memory();
+    add_up(reinterpret_cast<const Lanes*>(rows), batch.count);
+    findings.reclip |= without(live, strength.tie) & past_limits(in.limits, batch.area, jump);
+    findings.intact += count_of(intact.stays);
+    findings.points += count_of(points);
+  }
+
+  /// Intact lanes: checked at the corners, advanced if they stay.
+  [[gnu::always_inline]] Intact intact_lanes(const Jump<Lanes>& jump, const Lanes* change, const LaneStrength& strength,
+                                             LaneBytes modes, LaneMask keep, TileFindings& findings) const {
+    LaneElastic e = elastic_of(jump, any(bytes_with(modes, mode_slid)));
     const LaneMask broken = bytes_with(modes, mode_broken);
     const LaneCheck check = check_corners(*pass.model, batch, e, strength, broken, keep);
     const LaneMask open = broken & check.open, closed = without(check.admissible, open);
-    if (any(open)) follow_open(*pass.model, batch, e, open, slip, mode, largest_openings());
+    if (any(open)) follow_open(*pass.model, batch, e, open, in.slip_of(k), mode, largest_openings());
     const LaneMask was_open = keep & bytes_with(modes, mode_open);
     if (any(open ^ was_open))
       for (int lane = 0; lane < batch.count; ++lane)
@@ -255,109 +393,69 @@ struct BatchPass {
     const LaneMask stays = open | closed;
     const LaneElastic elastic = e;
     if constexpr (count > 0)
-      e = advance_lanes<count>(pass.branches, batch, e, closed, was_open, stays, kept, findings.work, change);
+      e = advance_lanes<count>(pass.branches, in.several, batch, e, closed, was_open, stays, in.branches_of(k),
+                               findings.work, change);
     if (pass.energies)
-      add_energy<count>(pass.branches, batch, elastic, closed, kept, findings.elastic, findings.stored);
+      add_energy<count>(pass.branches, batch, elastic, closed, in.branches_of(k), findings.elastic, findings.stored);
     return {stays, closed, lanes_resultant(batch, e)};
-  }
-
-  /// Lanes point by point; the few whose law has no lane form are left to point_patch().
-  Resultant<Lanes> point_lanes(LaneMask active, TileFindings& findings) {
-    ahead.notes();
-    const PointRows rows_of_points(pass.model->rule, pass.model->points, batch);
-    PointsPass<count, false> points(batch, strength, RigidField(jump), pass.branches, active, LaneMask{},
-                                    RigidField(change), pass.energies != nullptr, pass.state->joint);
-    const LanePoints found = points.run(rows_of_points);
-    note_points(found, active, k, pass.state->joint);
-    findings.elastic += select(active, found.elastic, splat(0.0));
-    findings.stored += select(active, found.stored, splat(0.0));
-    const LaneMask back = active & found.all_open & found.all_broken;
-    if (pass.shortcut && any(back)) to_intact(jump, pass.branches, back, batch.count, mode, slip, kept);
-    return found.resultant;
   }
 
   Lanes& largest_openings() const {
     return *reinterpret_cast<Lanes*>(&pass.state->joint.largest[largest_index({k, 0}, 0)]);
   }
 
-  void leave_intact(LaneMask points) {
-    const LaneMask leave = without(points, bytes_with(modes, mode_points));
-    if (!any(leave)) return;
-    for (int lane = 0; lane < batch.count; ++lane)
-      if (leave[lane]) joint_to_points(*pass.model, *pass.state, pass.branches, first + std::size_t(lane));
+  void leave_intact(LaneMask leave) const {
+    for (int lane = 0; any(leave) && lane < lane_count; ++lane)
+      if (leave[lane]) joint_to_points(*pass.model, *pass.state, pass.branches, std::size_t(batch.first_joint + lane));
+  }
+
+  /// Lanes point by point; the few whose law has no lane form are left to point_patch().
+  [[gnu::always_inline]] Resultant<Lanes> point_lanes(const Jump<Lanes>& jump, const Lanes* change,
+                                                      const LaneStrength& strength, LaneMask active,
+                                                      TileFindings& findings) const {
+    PatchMemory& memory = pass.state->joint;
+    ahead.notes(memory);
+    const PointRows rows_of_points(pass.model->rule, pass.model->points, batch);
+    PointsPass<count, false> points(batch, strength, RigidField(jump), pass.branches, active, LaneMask{},
+                                    RigidField(change), pass.energies != nullptr, memory);
+    const LanePoints found = points.run(rows_of_points);
+    note_points(found, active, k, memory);
+    findings.elastic += select(active, found.elastic, splat(0.0));
+    findings.stored += select(active, found.stored, splat(0.0));
+    const LaneMask back = active & found.all_open & found.all_broken;
+    if (pass.shortcut && any(back))
+      to_intact(jump, pass.branches, back, batch.count, mode, in.slip_of(k), in.branches_of(k));
+    return found.resultant;
   }
 
   /// Adds the wrenches to the sums of their bodies, joint by joint.
-  [[gnu::always_inline]] void add_up() const {
-    auto* sums = reinterpret_cast<Lanes*>(pass.sums);
-    for (int lane = 0; lane < batch.count; ++lane) {
-      const Lanes row = reinterpret_cast<const Lanes*>(rows)[lane];
-      sums[batch.sum_a[lane]] += row;
-      sums[batch.sum_b[lane]] -= row;
+  [[gnu::always_inline]] void add_up(const Lanes* rows, int lanes) const {
+    for (int lane = 0; lane < lane_count; ++lane) {
+      if (lane == lanes) break;
+      in.sums[batch.sum_a[lane]] += rows[lane];
+      in.sums[batch.sum_b[lane]] -= rows[lane];
     }
-    if (pass.wrenches) std::copy_n(rows, wrench_width * batch.count, pass.wrenches + wrench_width * first);
+    if (!pass.wrenches) return;
+    auto* wrenches = reinterpret_cast<Lanes*>(pass.wrenches + wrench_width * batch.first_joint);
+    for (int lane = 0; lane < lane_count && lane < lanes; ++lane) wrenches[lane] = rows[lane];
   }
 
-  [[gnu::always_inline]] void run(TileFindings& findings) {
-    const LaneMask live = without(LaneMask::first(batch.count), bytes_with(modes, mode_gone));
-    const LaneMask keep = pass.shortcut ? without(live, bytes_with(modes, mode_points)) : LaneMask{};
-    // point_patch() keeps the last jump of its lanes itself.
-    ahead.poses();
-    note_change(jump, without(live, keep | strength.brittle),
-                reinterpret_cast<Singles*>(&pass.state->joint.last[last_index(k, 0)]), change);
-    ahead.constants(0);
-    Intact intact;
-    if (any(keep)) intact = intact_lanes(keep, findings);
-    const LaneMask points = without(live, intact.stays);
-    ahead.constants(1);
-    Triple<Lanes> force, moment;
-    if (all(intact.closed)) {
-      world_wrench(intact.resultant, jump, force, moment);
-      store_wrenches(force, moment, rows);
-    } else {
-      mixed(intact, points, findings);
-    }
-    ahead.memory();
-    add_up();
-    findings.reclip |= without(live, strength.tie) & past_limits(*pass.model, batch, jump);
-    findings.intact += count_of(intact.stays);
-    findings.points += count_of(points);
-  }
-
-  /// A batch in which some lanes are open, gone or go point by point: those that fail the check from here on.
-  [[gnu::noinline]] void mixed(const Intact& intact, LaneMask points, TileFindings& findings) {
-    const Resultant<Lanes> nothing{};
-    Resultant<Lanes> by_points{};
-    const LaneMask brittle = points & strength.brittle, others = without(points, brittle);
-    if (any(points)) leave_intact(points);
-    if (any(brittle)) by_points = point_lanes(brittle, findings);
-    Triple<Lanes> force, moment;
-    world_wrench(select(intact.closed, intact.resultant, select(brittle, by_points, nothing)), jump, force, moment);
-    store_wrenches(force, moment, rows);
-    if (!any(others)) return;
-    for (int lane = 0; lane < batch.count; ++lane)
-      if (others[lane])
-        point_patch(*pass.model, first + std::size_t(lane), pass.branches, *pass.state, rows + wrench_width * lane);
+  /// Of a batch without live lanes, whose wrenches are none.
+  void nothing_left() const {
+    if (pass.wrenches)
+      std::fill_n(pass.wrenches + wrench_width * batch.first_joint, wrench_width * std::size_t(batch.count), 0.0);
   }
 };
-
-/// Whether nothing is left of a batch; its wrenches are then none.
-bool all_gone(const PatchPass& pass, const JointBatch& batch) {
-  const auto first = std::size_t(batch.first_joint);
-  const LaneBytes modes = load_bytes(&pass.state->joint.mode[first], batch.count);
-  if (any(without(LaneMask::first(batch.count), bytes_with(modes, mode_gone)))) return false;
-  if (pass.wrenches) std::fill_n(pass.wrenches + wrench_width * first, wrench_width * std::size_t(batch.count), 0.0);
-  return true;
-}
 
 template <int count>
 PassReport joints_of(const PatchPass& pass, std::size_t index) {
   const Tile& tile = pass.model->tiles[index];
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
+  const BatchArrays<count> arrays(pass);
   TileFindings found;
   for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k)
-    if (!all_gone(pass, pass.model->batches[k])) BatchPass<count>(pass, k).run(found);
+    BatchPass<count>(pass, arrays, k).run(found);
   if constexpr (count > 0) *reinterpret_cast<Lanes*>(&pass.state->branch_work[lane_count * index]) += found.work;
   if (pass.energies) pass.energies[index] = {sum_of(found.elastic), sum_of(found.stored)};
   PassReport report;

@@ -10,7 +10,7 @@ Jump<double> tie_jump(const Patch& patch, const Triple<double>& move_a, const Tr
   j.n = patch.length - way.norm();
   j.cosine = 1.0;
   j.share = 0.125;
-  j.frame = Quat<double>{turn.w(), {turn.x(), turn.y(), turn.z()}} * quat(patch.e_a);
+  j.axes = axes_of(Quat<double>{turn.w(), {turn.x(), turn.y(), turn.z()}} * quat(patch.e_a), 2.0);
   j.place = {from.x() + 0.5 * way.x(), from.y() + 0.5 * way.y(), from.z() + 0.5 * way.z()};
   return j;
 }

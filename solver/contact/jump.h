@@ -18,26 +18,25 @@ struct Jump {
   T rn, rs, rt;     // θ'
   T cosine;         // of half the relative rotation
   T share;          // 1/(4 (1 + cosine))
-  Quat<T> frame;    // local axes → world
+  Axes<T> axes;     // n, s, t in the world
   Triple<T> place;  // midway between the two material points at the patch's centroid, m
 };
 
-/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `norm` = 1/|q_a + q_b|, `frame` the normalised
-/// half-way rotation times the local axes.
+/// `way` from the material point of a at the centroid to that of b, `moves` the sum of what both have moved (m);
+/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `sum` = q_a + q_b times the local axes.
 template <class T>
-[[gnu::always_inline]] inline Jump<T> local_jump(const Triple<T>& move_a, const Triple<T>& move_b,
-                                                 const Triple<T>& place, const Triple<T>& shift,
-                                                 const Quat<T>& relative, T norm, const Quat<T>& frame) {
+[[gnu::always_inline]] inline Jump<T> local_jump(const Triple<T>& way, const Triple<T>& moves, const Triple<T>& place,
+                                                 const Quat<T>& relative, const Quat<T>& sum) {
   Jump<T> j;
-  const Triple<T> d = turn_back(frame, shift + (move_b - move_a));
-  const Triple<T> r = turn_back(frame, relative.v);
+  const T by = 1.0 / (1.0 + relative.w);  // 2/|q_a + q_b|²
+  j.axes = axes_of(sum, by);
+  const Triple<T> d = turn_back(j.axes, way);
+  const Triple<T> r = turn_back(j.axes, relative.v);
   j.n = d.x, j.s = d.y, j.t = d.z;
   j.rn = 2.0 * r.x, j.rs = 2.0 * r.y, j.rt = 2.0 * r.z;
   j.cosine = relative.w;
-  j.share = 0.5 * norm * norm;  // |q_a + q_b|² = 2 (1 + cosine)
-  j.frame = frame;
-  const Triple<T> sum = shift + (move_a + move_b);
-  j.place = {place.x + 0.5 * sum.x, place.y + 0.5 * sum.y, place.z + 0.5 * sum.z};
+  j.share = 0.25 * by;
+  j.place = {place.x + 0.5 * moves.x, place.y + 0.5 * moves.y, place.z + 0.5 * moves.z};
   return j;
 }
 
@@ -73,14 +72,20 @@ inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const d
   Quat<double> fb = qb * quat(patch.e_b);
   if (fa.w * fb.w + dot(fa.v, fb.v) < 0.0) fb = {-fb.w, {-fb.v.x, -fb.v.y, -fb.v.z}};
   const Quat<double> relative = fb * conjugate(fa);
-  const double norm = 1.0 / std::sqrt(2.0 + 2.0 * relative.w);
-  const Quat<double> frame = {norm * (fa.w + fb.w), norm * (fa.v + fb.v)};
   const Triple<double> arm_a = triple(patch.arm_a), arm_b = triple(patch.arm_b);
   const Triple<double> move_a = pose_displacement(pose_a) + turn_change(qa, arm_a);
   const Triple<double> move_b = pose_displacement(pose_b) + turn_change(qb, arm_b);
   if (patch.length > 0.0) return tie_jump(patch, move_a, move_b);
-  Jump<double> j = local_jump(move_a, move_b, triple(patch.place), triple(patch.shift), relative, norm, frame);
-  return j;
+  const Quat<double> sum = {fa.w + fb.w, fa.v + fb.v};
+  const Triple<double> shift = triple(patch.shift);
+  return local_jump(shift + (move_b - move_a), shift + (move_a + move_b), triple(patch.place), relative, sum);
+}
+
+/// The turning axes n, s, t as columns.
+inline Mat3 axes_matrix(const Jump<double>& j) {
+  Mat3 m;
+  m << j.axes.x.x, j.axes.y.x, j.axes.z.x, j.axes.x.y, j.axes.y.y, j.axes.z.y, j.axes.x.z, j.axes.y.z, j.axes.z.z;
+  return m;
 }
 
 /// Jump of the patch's material at a point of it, gap included: n, s, t.

@@ -46,12 +46,10 @@ struct LaneStrength {
 };
 
 [[gnu::always_inline]] inline LaneStrength strength_of(const LawConstants& law) {
-  const bool elastic = law.kind == JointLaw::Kind::elastic;
   LaneStrength s;
-  const double apex = law.tan_friction > 0.0 ? law.cohesion / law.tan_friction : 1e300;  // of the bond's cone
-  s.tension = splat(elastic ? 1e300 : std::min(law.tension, apex));
-  s.cohesion = splat(elastic ? 1e300 : law.cohesion);
-  s.tangent = splat(elastic ? 0.0 : law.tan_friction);
+  s.tension = splat(law.most_tension);
+  s.cohesion = splat(law.most_cohesion);
+  s.tangent = splat(law.slope);
   s.residual_cohesion = splat(law.residual_cohesion);
   s.residual_tangent = splat(law.residual_tan_friction);
   s.dilation = splat(law.tan_dilation);
@@ -156,6 +154,19 @@ struct RigidField {
   [[gnu::always_inline]] Line line(Lanes x) const { return {n - rt * x, s, t + rn * x, rn, rs}; }
 };
 
+/// Several branches are a correction of some per cent: in single precision, as they are kept. They lose 1 − e of
+/// themselves, because e itself, near one, would be rounded to another relaxation time.
+template <int count>
+struct SingleBranches {
+  Singles fade[count + 1], gain[count + 1];  // of each
+  explicit SingleBranches(const Branches& of) {
+    for (int k = 0; k < count; ++k) fade[k] = singles(1.0 - of.e[k]), gain[k] = singles(of.g[k]);
+  }
+  [[gnu::always_inline]] Singles next(int k, Singles then, Singles step) const {
+    return then + (gain[k] * step - fade[k] * then);
+  }
+};
+
 /// The points of eight patches whose jump is `jump`, and has changed by `change` since the pass before: any field that
 /// is affine over the patch. Most points stay as they were, closed and elastic or open: only a row in which some lane
 /// does not asks for more. `contacts`: lanes may be `following`, which were wholly open in the pass before: their
@@ -173,7 +184,7 @@ struct PointsPass {
   Lanes *plastic, *rest;
   Singles* kept;
   std::uint8_t* broken;
-  Singles fade[count + 1], gain[count + 1];  // of each branch
+  SingleBranches<count> several;
 
   [[gnu::always_inline]] PointsPass(const PatchBatch& b, const LaneStrength& strength, const Field& now,
                                     const Branches& of, LaneMask which, LaneMask follow, const Field& since,
@@ -191,9 +202,9 @@ struct PointsPass {
         plastic(reinterpret_cast<Lanes*>(memory.point.data()) + 2 * std::size_t(b.first_point)),
         rest(reinterpret_cast<Lanes*>(memory.point_rest.data()) + 2 * std::size_t(b.first_point)),
         kept(reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * std::size_t(b.first_point)),
-        broken(&memory.broken[lane_count * std::size_t(b.first_point)]) {
+        broken(&memory.broken[lane_count * std::size_t(b.first_point)]),
+        several(of) {
     set_limits();
-    for (int k = 0; k < count; ++k) fade[k] = singles(1.0 - of.e[k]), gain[k] = singles(of.g[k]);
   }
 
   [[gnu::always_inline]] LanePoints run(const auto& rows) const {
@@ -357,8 +368,6 @@ struct PointsPass {
     return {one(0, step_n, v.x), one(1, du.y, v.y), one(2, du.z, v.z)};
   }
 
-  /// Several branches are a correction of some per cent: in single precision, as they are kept. They lose 1 − e of
-  /// themselves, because e itself, near one, would be rounded to another relaxation time.
   [[gnu::always_inline]] Triple<Lanes> advance_several(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
                                                        Triple<Lanes>& v) const {
     const Singles step[3] = {narrow(step_n), narrow(du.y), narrow(du.z)};
@@ -366,7 +375,7 @@ struct PointsPass {
     Singles* row = kept + 3 * count * i;
     for (int k = 0; k < count; ++k)
       for (int c = 0; c < 3; ++c, ++row) {
-        const Singles then = *row, q = within(live, then + (gain[k] * step[c] - fade[k] * then));
+        const Singles then = *row, q = within(live, several.next(k, then, step[c]));
         before[c] = k == 0 ? then : before[c] + then;
         now[c] = k == 0 ? q : now[c] + q;
         store_lanes(active, q, *row);
@@ -412,11 +421,17 @@ struct PointsPass {
           select(m, a.ts, b.ts), select(m, a.ss, b.ss), select(m, a.tt, b.tt)};
 }
 
-/// Wrenches as rows of wrench_width numbers.
+/// Wrenches of eight patches as rows of wrench_width numbers.
+struct WrenchRows {
+  Lanes row[lane_count];
+  [[gnu::always_inline]] WrenchRows(const Triple<Lanes>& f, const Triple<Lanes>& m)
+      : row{f.x, f.y, f.z, m.x, m.y, m.z, Lanes{}, Lanes{}} {
+    transpose(row);
+  }
+};
 [[gnu::always_inline]] inline void store_wrenches(const Triple<Lanes>& f, const Triple<Lanes>& m, double* rows) {
-  Lanes r[lane_count] = {f.x, f.y, f.z, m.x, m.y, m.z, Lanes{}, Lanes{}};
-  transpose(r);
-  for (int lane = 0; lane < lane_count; ++lane) reinterpret_cast<Lanes*>(rows)[lane] = r[lane];
+  const WrenchRows wrenches(f, m);
+  std::memcpy(rows, wrenches.row, sizeof(wrenches.row));
 }
 
 /// Puts `now` in the place of the last jump and returns how it has changed, of jumps rounded to single precision, so
@@ -425,17 +440,29 @@ struct PointsPass {
   const Lanes now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
   for (int c = 0; c < 6; ++c) {
     const Singles rounded = narrow(now[c]);
-    const Lanes before = widen(last[c]), after = widen(rounded);
-    change[c] = after - before;
-    last[c] = any(others) ? narrow(select(others, before, after)) : rounded;
+    change[c] = widen(rounded - last[c]);
+    if (any(others))
+      store_lanes(~others, rounded, last[c]);
+    else
+      last[c] = rounded;
   }
 }
 
+/// See Model::slip_limit2() and turn_limit2().
+struct SlidingLimits {
+  Lanes slip2, least_area, turn2;
+  explicit SlidingLimits(const Model& model)
+      : slip2(splat(model.contact.reclip_slip * model.contact.reclip_slip)),
+        least_area(splat(model.least_slip_area())),
+        turn2(splat(model.turn_limit2())) {}
+  [[gnu::always_inline]] Lanes slip_limit2(Lanes area) const { return slip2 * larger(area, least_area); }
+};
+
 /// Lanes that have slid or turned past their limits.
-[[gnu::always_inline]] inline LaneMask past_limits(const Model& model, const JointBatch& batch, const Jump<Lanes>& j) {
-  const Lanes slip2 = j.s * j.s + j.t * j.t;
-  const Lanes turn2 = j.rn * j.rn + j.rs * j.rs + j.rt * j.rt;
-  return less(model.slip_limit2(batch.area), slip2) | less(splat(model.turn_limit2()), turn2);
+[[gnu::always_inline]] inline LaneMask past_limits(const SlidingLimits& limits, Lanes area, const Jump<Lanes>& j) {
+  const Lanes slip = j.s * j.s + j.t * j.t;
+  const Lanes turn = j.rn * j.rn + j.rs * j.rs + j.rt * j.rt;
+  return less(limits.slip_limit2(area), slip) | less(limits.turn2, turn);
 }
 
 inline double sum_of(Lanes x) {

@@ -171,7 +171,7 @@ struct Carried {
 Carried elastic_wrench(const Model& model, const State& state, const Patch& patch, const Array<double>& points,
                        const PatchMemory& memory, const Vec3& place) {
   const Jump<double> j = patch_jump(patch, pose_of(state, patch.a), pose_of(state, patch.b));
-  const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
+  const Mat3 axes = axes_matrix(j);
   Carried sum;
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
@@ -239,7 +239,7 @@ void match_tractions(const Model& model, const State& state, const Patch& old, c
   Patch& p = contact.patch;
   p.kn = old.kn, p.ks = old.ks;
   const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
-  const Mat3 axes = Eigen::Quaterniond(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z).toRotationMatrix();
+  const Mat3 axes = axes_matrix(j);
   const Carried carried = elastic_wrench(model, state, old, points, memory, Vec3(j.place.x, j.place.y, j.place.z));
   const Vec3 force = axes.transpose() * carried.force, moment = axes.transpose() * carried.moment;
   if (force.x() >= 0.0) return;  // nothing pressed: it starts as it lies
@@ -278,8 +278,7 @@ Vec3 mean_slip(const State& state, const Patch& patch, const Array<double>& poin
     sum += weight * Vec3(0.0, memory.point[point_index(patch, i, 2, 0)], memory.point[point_index(patch, i, 2, 1)]);
     area += weight;
   }
-  const Eigen::Quaterniond frame(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z);
-  return area > 0.0 ? Vec3(frame * sum / area) : Vec3::Zero();
+  return area > 0.0 ? Vec3(axes_matrix(j) * sum / area) : Vec3::Zero();
 }
 
 void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,

@@ -8,9 +8,9 @@ namespace voussoir {
 
 namespace {
 
-void store_wrench(const Triple<double>& f, const Triple<double>& m, double* wrench) {
-  wrench[0] = f.x, wrench[1] = f.y, wrench[2] = f.z;
-  wrench[3] = m.x, wrench[4] = m.y, wrench[5] = m.z;
+void store_wrench(const WorldWrench<double>& of, double* wrench) {
+  wrench[0] = of.force.x, wrench[1] = of.force.y, wrench[2] = of.force.z;
+  wrench[3] = of.moment.x, wrench[4] = of.moment.y, wrench[5] = of.moment.z;
 }
 
 PointMemory load_memory(const Patch& patch, int i, const PatchMemory& memory) {
@@ -142,9 +142,7 @@ void point_patch(const Model& model, std::size_t index, const Branches& branches
   }
   const PointSums sums = with_law(
       law.kind, [&](auto kind) { return sum_points(kind, law, patch, j, model.points, branches, change, memory); });
-  Triple<double> force, moment;
-  world_wrench(sums.resultant, j, force, moment);
-  store_wrench(force, moment, wrench);
+  store_wrench(WorldWrench<double>(sums.resultant, j), wrench);
   const BatchPlace at = place_of(patch);
   const double lost[3] = {sums.friction, sums.fracture, sums.damping};
   for (std::size_t c = 0; c < 3; ++c) memory.energy[energy_index(at, c)] += lost[c];

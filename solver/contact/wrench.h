@@ -14,14 +14,24 @@ struct Resultant {
 
 /// Force and moment about the world's origin on body a, with the exact arms H Q r.
 template <class T>
-[[gnu::always_inline]] inline void world_wrench(const Resultant<T>& q, const Jump<T>& j, Triple<T>& force,
-                                                Triple<T>& moment) {
-  const Triple<T> m0 = {q.st - q.ts, q.tn, -q.sn};
-  const Triple<T> turn_vector = {j.rn, j.rs, j.rt};
-  const Triple<T> g = {j.rs * q.sn + j.rt * q.tn, j.rs * q.ss + j.rt * q.ts, j.rs * q.st + j.rt * q.tt};
-  const Triple<T> local = j.cosine * m0 + j.share * cross(turn_vector, g);
-  force = turn(j.frame, Triple<T>{q.n, q.s, q.t});
-  moment = turn(j.frame, local) + cross(j.place, force);
-}
+struct WorldWrench {
+  Triple<T> force, moment;
+
+  [[gnu::always_inline]] WorldWrench(const Resultant<T>& q, const Jump<T>& j)
+      : WorldWrench(q, j, {j.rs * q.sn + j.rt * q.tn, j.rs * q.ss + j.rt * q.ts, j.rs * q.st + j.rt * q.tt}) {}
+
+  /// Of tractions whose moments ss and tt are none.
+  [[gnu::always_inline]] static WorldWrench of_springs(const Resultant<T>& q, const Jump<T>& j) {
+    return {q, j, {j.rs * q.sn + j.rt * q.tn, j.rt * q.ts, j.rs * q.st}};
+  }
+
+ private:
+  [[gnu::always_inline]] WorldWrench(const Resultant<T>& q, const Jump<T>& j, const Triple<T>& g) {
+    const Triple<T> m0 = {q.st - q.ts, q.tn, -q.sn};
+    const Triple<T> local = j.cosine * m0 + j.share * cross(Triple<T>{j.rn, j.rs, j.rt}, g);
+    force = turn(j.axes, Triple<T>{q.n, q.s, q.t});
+    moment = turn(j.axes, local) + cross(j.place, force);
+  }
+};
 
 }  // namespace voussoir

@@ -96,8 +96,7 @@ Vec3 arm_to(const Model& model, const double* pose, std::int32_t body, const Vec
 Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch) {
   const double *pa = pose_of(state, patch.a), *pb = pose_of(state, patch.b);
   const Jump<double> j = patch_jump(patch, pa, pb);
-  const Eigen::Quaterniond q(j.frame.w, j.frame.v.x, j.frame.v.y, j.frame.v.z);
-  const Mat3 to_local = q.toRotationMatrix().transpose();
+  const Mat3 to_local = axes_matrix(j).transpose();
   const Vec3 place(j.place.x, j.place.y, j.place.z);
   const Vec3 arm_a = arm_to(model, pa, patch.a, place), arm_b = arm_to(model, pb, patch.b, place);
   Matrix6x12 rows = Matrix6x12::Zero();

@@ -1,5 +1,7 @@
 #include "solver/model/laws.h"
 
+#include <algorithm>
+
 namespace voussoir {
 
 LawConstants law_constants(const JointLaw& law) {
@@ -14,6 +16,12 @@ LawConstants law_constants(const JointLaw& law) {
   c.mode_1 = law.fracture_energy[0];
   c.mode_2 = law.fracture_energy[1];
   c.prestress = law.prestress;
+  constexpr double none = 1e300;
+  const bool elastic = law.kind == JointLaw::Kind::elastic;
+  const double apex = c.tan_friction > 0.0 ? c.cohesion / c.tan_friction : none;
+  c.most_tension = elastic ? none : std::min(c.tension, apex);
+  c.most_cohesion = elastic ? none : c.cohesion;
+  c.slope = elastic ? 0.0 : c.tan_friction;
   return c;
 }
 

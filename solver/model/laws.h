@@ -18,6 +18,8 @@ struct LawConstants {
   double tan_dilation = 0.0;
   double mode_1 = 0.0, mode_2 = 0.0;  // J/m2, softening
   double prestress = 0.0;             // Pa, tie
+  // What the elastic path compares with: nothing limits an elastic law, and tension ends at the apex of the cone.
+  double most_tension = 0.0, most_cohesion = 0.0, slope = 0.0;
 };
 LawConstants law_constants(const JointLaw& law);
 

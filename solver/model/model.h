@@ -190,12 +190,9 @@ struct Model {
   double typical_size = 0.0;              // m, median over bodies of volume^(1/3)
   /// Square of the slip past which a patch is clipped anew, m2: small patches are allowed that of a quarter of a block.
   double slip_limit2(double area) const {
-    return contact.reclip_slip * contact.reclip_slip * std::max(area, 0.0625 * typical_size * typical_size);
+    return contact.reclip_slip * contact.reclip_slip * std::max(area, least_slip_area());
   }
-  Lanes slip_limit2(Lanes area) const {
-    const Lanes least = splat(0.0625 * typical_size * typical_size);
-    return contact.reclip_slip * contact.reclip_slip * (area > least ? area : least);
-  }
+  double least_slip_area() const { return 0.0625 * typical_size * typical_size; }
   /// Square of the turn past which a patch is clipped anew, in units of |2 sin(φ/2)|.
   double turn_limit2() const { return contact.reclip_angle * contact.reclip_angle; }
   double average_weight = 0.0;  // N, of a free block under the case's gravity, or 9.81 m/s2 without any

@@ -73,10 +73,10 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
   PatchSnapshot s;
   s.a = model.block_of_body[p.a];
   s.b = model.block_of_body[p.b];
-  s.normal = vector(turn(j.frame, Triple<double>{1, 0, 0}));
+  s.normal = vector(turn(j.axes, Triple<double>{1, 0, 0}));
   for (int c = 0; c < p.corner_count; ++c) {
     const PatchPoint corner = patch_corner(p, corners, c);
-    s.polygon.push_back(vector(j.place) + vector(turn(j.frame, Triple<double>{0, corner.s, corner.t})));
+    s.polygon.push_back(vector(j.place) + vector(turn(j.axes, Triple<double>{0, corner.s, corner.t})));
   }
   s.area = p.area;
   s.opening = sum.opening;
@@ -92,7 +92,7 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
 
 /// The strip between the anchors of a tie, as wide as it was.
 Polygon strip_of(const Patch& p, const Jump<double>& j) {
-  const auto axis = [&](double n, double s) { return vector(turn(j.frame, Triple<double>{n, s, 0.0})); };
+  const auto axis = [&](double n, double s) { return vector(turn(j.axes, Triple<double>{n, s, 0.0})); };
   const Vec3 half = axis(-0.5 * (p.length - j.n), 0.0), side = axis(0.0, 0.5 * p.area / p.length);
   const Vec3 from = vector(j.place) - half, to = vector(j.place) + half;
   return {from - side, from + side, to + side, to - side};
@@ -140,7 +140,7 @@ Vec3 slip_of(const State& state, std::size_t contact) {
   const Patch& p = state.contacts[contact];
   if (!(state.contact.mode[contact] & mode_open)) return mean_slip(state, p, state.contact_points, state.contact);
   const Jump<double> j = patch_jump(p, &state.pose[pose_width * p.a], &state.pose[pose_width * p.b]);
-  return vector(turn(j.frame, Triple<double>{0.0, j.s, j.t}));
+  return vector(turn(j.axes, Triple<double>{0.0, j.s, j.t}));
 }
 
 /// What the patches that a contact replaced had slipped belongs to it.

@@ -57,9 +57,8 @@ class Oracle {
       q.n += n, q.s += s, q.t += t;
       q.sn += at.s * n, q.tn += at.t * n, q.ss += at.s * s, q.ts += at.t * s, q.st += at.s * t, q.tt += at.t * t;
     }
-    Triple<double> force, moment;
-    world_wrench(q, jump, force, moment);
-    return {force.x, force.y, force.z, moment.x, moment.y, moment.z};
+    const WorldWrench<double> w(q, jump);
+    return {w.force.x, w.force.y, w.force.z, w.moment.x, w.moment.y, w.moment.z};
   }
 
   int breaks = 0, slides = 0, opens = 0;

@@ -5,14 +5,15 @@
 namespace voussoir::test {
 namespace {
 
-/// Maxwell branches are kept in single precision, rounded otherwise on the two paths.
-constexpr double agreement = 1e-7;
+/// Maxwell branches are kept in single precision, rounded otherwise on the two paths: of the largest displacement, and
+/// of what is lost. (The motion dies down to a twentieth, the rounding stays what it is.)
+constexpr double agreement = 3e-8, same_loss = 1e-7;
 
 /// Histories agree until rounding is amplified by sliding joints.
 TEST(Shortcut, SameMotionOfAnElasticWall) {
   JointLaw law = weak_bond();
   law.tension = law.cohesion = 1e7;
-  Vec3 top[2];
+  std::vector<Vec3> top[2];
   double damping_loss[2];
   for (bool shortcut : {true, false}) {
     Assembly assembly = generated("wall", {{"length_blocks", 3}, {"courses", 4}});
@@ -26,13 +27,17 @@ TEST(Shortcut, SameMotionOfAnElasticWall) {
     motion.dt = 0.05;
     motion.acceleration = {{0, 0, 0}, {2, 3, 0}, {-4, 1, 1}, {1, -2, 0}, {0, 0, 0}};
     bench.stepper.motion = &motion;
-    ASSERT_TRUE(bench.run(3000));
-    top[shortcut] = bench.displacement(bench.assembly.groups.at("top")[0]) - bench.state.base_displacement();
+    for (int i = 0; i < 30; ++i) {
+      ASSERT_TRUE(bench.run(100));
+      top[shortcut].push_back(bench.displacement(bench.assembly.groups.at("top")[0]) - bench.state.base_displacement());
+    }
     bench.stepper.patches_only();
     damping_loss[shortcut] = compute_energies(bench.stepper, bench.stepper.body_pass()).joint_damping;
   }
-  EXPECT_LT((top[0] - top[1]).norm(), agreement * top[0].norm());
-  EXPECT_NEAR(damping_loss[0], damping_loss[1], agreement * damping_loss[0]);
+  double largest = 0.0;
+  for (const Vec3& u : top[0]) largest = std::max(largest, u.norm());
+  for (std::size_t i = 0; i < top[0].size(); ++i) EXPECT_LT((top[0][i] - top[1][i]).norm(), agreement * largest) << i;
+  EXPECT_NEAR(damping_loss[0], damping_loss[1], same_loss * damping_loss[0]);
 }
 
 }  // namespace
