@@ -4,6 +4,7 @@
 
 #include "solver/modal/factor.h"
 #include "solver/modal/krylov.h"
+#include "solver/modal/multigrid.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
@@ -58,7 +59,7 @@ void move_nodes(const Model& model, const Unknowns& unknowns, const Array<double
 
 /// K with every diagonal entry raised by a ten-millionth, so that a sliver of a mechanism does not stop Newton, and by
 /// a tenth of a thousandth of a millionth of the largest, for what nothing holds.
-SparseMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns) {
+BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns) {
   constexpr double share = 1e-7;
   double largest = 0.0;
   for (std::size_t site = 0; site < k.sites(); ++site)
@@ -67,8 +68,47 @@ SparseMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns) {
     auto diagonal = k.diagonal(std::int32_t(site)).diagonal().array();
     diagonal = (diagonal + share * 1e-3 * largest) * (1.0 + share);
   }
-  return k.over(unknowns);
+  return k;
 }
+
+/// The inverse of a tangent: by multigrid in a large assembly of blocks alone, while that finds what is asked for, else
+/// by a factor.
+class TangentInverse {
+ public:
+  TangentInverse(const Model& model, const Unknowns& unknowns) : model_(model), unknowns_(unknowns) {}
+
+  bool compute(BlockMatrix k, const State& state) {
+    constexpr std::size_t many = 5000;  // bodies; fewer are quicker with a factor
+    k_ = std::move(k);
+    by_cycles_ = false;
+    if (model_.fill.empty() && model_.bodies.size() >= many) {
+      std::vector<Vec3> places;
+      for (std::size_t i = 0; i < model_.bodies.size(); ++i)
+        places.push_back(model_.bodies[i].centroid + Vec3(&state.pose[pose_width * i]));
+      by_cycles_ = multigrid_.compute(k_, unknowns_, places);
+    }
+    return by_cycles_ || factor_.compute(k_.over(unknowns_));
+  }
+  /// K⁻¹ b, with an error of `tolerance` |b| in K x; exact where by a factor.
+  std::optional<Eigen::VectorXd> times(const Eigen::VectorXd& b, double tolerance) {
+    constexpr int most_iterations = 100;
+    if (by_cycles_) {
+      if (auto x = multigrid_.solve(b, tolerance, most_iterations)) return x;
+      by_cycles_ = false;
+      if (!factor_.compute(k_.over(unknowns_))) return {};
+    }
+    return factor_.solve(b);
+  }
+  const Factor& factor() const { return factor_; }
+
+ private:
+  const Model& model_;
+  const Unknowns& unknowns_;
+  BlockMatrix k_{0, {}};
+  Multigrid multigrid_;
+  Factor factor_;
+  bool by_cycles_ = false;
+};
 
 /// A placement, and the out-of-balance forces of those about it, every one from the patches' state at the start.
 struct Surroundings {
@@ -149,8 +189,8 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   const Unknowns unknowns = number_unknowns(model);
   const PatchBackup start(state);
   Equilibrium result;
-  Factor factor;
-  bool renew = true;  // the factor
+  TangentInverse inverse(model, unknowns);
+  bool renew = true;  // the inverse
   OutOfBalance r = out_of_balance(stepper, unknowns);
   result.first_residual = result.residual = r.largest;
   Array<double> elastic_pose = state.pose, elastic_nodes = state.fill.pose;
@@ -161,11 +201,14 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
     const bool fresh = renew;
-    if (fresh && !factor.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns))) break;
+    if (fresh && !inverse.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns), state)) break;
     const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose};
     const bool consistent = i > 0 && !model.fill.empty();
-    const Eigen::VectorXd step =
-        consistent ? consistent_step(here, factor, r.force) : Eigen::VectorXd(factor.solve(r.force));
+    const std::optional<Eigen::VectorXd> found =
+        consistent ? consistent_step(here, inverse.factor(), r.force)
+                   : inverse.times(r.force, std::clamp(0.1 * tolerance / r.largest, 1e-3, 1e-2));
+    if (!found) break;
+    const Eigen::VectorXd& step = *found;
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
     double best_norm = 1e300, best_share = 0.0;
     const double norm = r.force.norm();
@@ -175,7 +218,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
       if (now < (1.0 - 0.1 * share) * norm) break;
     }
     if (!(best_norm < 1e300)) break;
-    // One factor serves for several steps while each leaves but a tenth (Shamanskii 1967). A step of an old one that
+    // One inverse serves for several steps while each leaves but a tenth (Shamanskii 1967). A step of an old one that
     // leaves more than half is not taken.
     renew = !model.fill.empty() || !(best_norm < 0.1 * norm);
     if (renew && !fresh && best_norm > 0.5 * norm) best_share = 0.0;

@@ -1,0 +1,366 @@
+#include "solver/modal/multigrid.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace voussoir {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+auto part(Vector& x, std::size_t i) {
+  return x.segment<6>(Eigen::Index(6 * i));
+}
+auto part(const Vector& x, std::size_t i) {
+  return x.segment<6>(Eigen::Index(6 * i));
+}
+
+/// Calls use(entry) for each block of a row.
+template <class F>
+void each_of(const BlockRows& m, std::size_t row, F use) {
+  for (auto at = std::size_t(m.first[row]); at < std::size_t(m.first[row + 1]); ++at) use(at);
+}
+
+// Six rows of a column, as registers have them: Eigen's product of 6 × 6 takes three times as long.
+using Four = double __attribute__((vector_size(32)));
+using Two = double __attribute__((vector_size(16)));
+
+/// Σ block x of some of a row's blocks.
+[[gnu::always_inline]] inline Vector6 times(const BlockRows& m, std::size_t begin, std::size_t end, const Vector& x) {
+  Four upper = {};
+  Two lower = {};
+  for (std::size_t at = begin; at < end; ++at) {
+    const double* block = m.block[at].data();
+    const double* v = x.data() + 6 * m.column[at];
+    for (int c = 0; c < 6; ++c, block += 6) {
+      Four four;
+      Two two;
+      std::memcpy(&four, block, sizeof(four)), std::memcpy(&two, block + 4, sizeof(two));
+      upper += four * v[c], lower += two * v[c];
+    }
+  }
+  Vector6 sum;
+  sum << upper[0], upper[1], upper[2], upper[3], lower[0], lower[1];
+  return sum;
+}
+[[gnu::always_inline]] inline Vector6 times(const BlockRows& m, std::size_t row, const Vector& x) {
+  return times(m, std::size_t(m.first[row]), std::size_t(m.first[row + 1]), x);
+}
+
+void multiply(const BlockRows& m, const Vector& x, Vector& y) {
+  for (std::size_t i = 0; i < m.rows(); ++i) part(y, i) = times(m, i, x);
+}
+
+/// Rows of a block matrix, each summed up from blocks that come in any order of columns.
+class RowSums {
+ public:
+  RowSums(std::size_t rows, std::size_t columns) : rows_(rows), place_(columns, -1) {
+    m_.first.reserve(rows + 1);
+    m_.first.push_back(0);
+  }
+  Matrix6& at(std::int32_t column) {
+    std::int32_t& place = place_[std::size_t(column)];
+    if (place < 0) place = std::int32_t(column_.size()), column_.push_back(column), block_.push_back(Matrix6::Zero());
+    return block_[std::size_t(place)];
+  }
+  void end_row() {
+    order_ = column_;
+    std::sort(order_.begin(), order_.end());
+    for (const std::int32_t column : order_) {
+      m_.column.push_back(column), m_.block.push_back(block_[std::size_t(place_[std::size_t(column)])]);
+      place_[std::size_t(column)] = -1;
+    }
+    m_.first.push_back(std::int32_t(m_.column.size()));
+    column_.clear(), block_.clear();
+    constexpr std::size_t sample = 1000;  // rows, by which the room for all is judged
+    if (m_.rows() == sample) {
+      const std::size_t all = m_.column.size() * (rows_ + rows_ / 8) / sample;
+      m_.column.reserve(all), m_.block.reserve(all);
+    }
+  }
+  BlockRows take() { return std::move(m_); }
+
+ private:
+  std::size_t rows_;
+  BlockRows m_;
+  std::vector<std::int32_t> place_, column_, order_;
+  std::vector<Matrix6> block_;
+};
+
+BlockRows transposed(const BlockRows& m, std::size_t columns) {
+  BlockRows t;
+  t.first.assign(columns + 1, 0);
+  for (const std::int32_t c : m.column) ++t.first[std::size_t(c) + 1];
+  for (std::size_t c = 0; c < columns; ++c) t.first[c + 1] += t.first[c];
+  t.column.resize(m.column.size()), t.block.resize(m.block.size());
+  Array<std::int32_t> next(t.first.begin(), t.first.end() - 1);
+  for (std::size_t i = 0; i < m.rows(); ++i)
+    each_of(m, i, [&](std::size_t at) {
+      const auto to = std::size_t(next[std::size_t(m.column[at])]++);
+      t.column[to] = std::int32_t(i), t.block[to] = m.block[at].transpose();
+    });
+  return t;
+}
+
+BlockRows product(const BlockRows& a, const BlockRows& b, std::size_t columns) {
+  RowSums sums(a.rows(), columns);
+  for (std::size_t i = 0; i < a.rows(); ++i) {
+    each_of(a, i, [&](std::size_t p) {
+      each_of(b, std::size_t(a.column[p]),
+              [&](std::size_t q) { sums.at(b.column[q]).noalias() += a.block[p] * b.block[q]; });
+    });
+    sums.end_row();
+  }
+  return sums.take();
+}
+
+/// Which coarse site each site belongs to, −1: none, as nothing is coupled to it. Sites are coupled where the block
+/// between them is not small against their own; roots take all that they are coupled to, and what is left over goes to
+/// its strongest neighbour's.
+std::vector<std::int32_t> aggregates(const BlockRows& a, std::int32_t& count) {
+  constexpr double coupled = 0.02;
+  const std::size_t n = a.rows();
+  std::vector<double> own(n);
+  for (std::size_t i = 0; i < n; ++i)
+    each_of(a, i, [&](std::size_t at) {
+      if (std::size_t(a.column[at]) == i) own[i] = a.block[at].topLeftCorner<3, 3>().norm();
+    });
+  const auto each_neighbour = [&](std::size_t i, const auto& use) {
+    each_of(a, i, [&](std::size_t at) {
+      const auto j = std::size_t(a.column[at]);
+      if (j == i) return;
+      const double size = a.block[at].topLeftCorner<3, 3>().norm();
+      if (size * size > coupled * coupled * own[i] * own[j]) use(j, size);
+    });
+  };
+  std::vector<std::int32_t> of(n, -1);
+  count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    bool alone = true, free = of[i] < 0;
+    each_neighbour(i, [&](std::size_t j, double) { alone = false, free &= of[j] < 0; });
+    if (alone || !free) continue;
+    of[i] = count;
+    each_neighbour(i, [&](std::size_t j, double) { of[j] = count; });
+    ++count;
+  }
+  const std::vector<std::int32_t> first = of;
+  for (std::size_t i = 0; i < n; ++i) {
+    double strongest = 0.0;
+    if (first[i] < 0)
+      each_neighbour(i, [&](std::size_t j, double size) {
+        if (first[j] >= 0 && size > strongest) strongest = size, of[i] = first[j];
+      });
+  }
+  return of;
+}
+
+/// How a site moves when its coarse site does: rigidly about the coarse site's place.
+Matrix6 rigid(const Vec3& arm) {
+  Matrix6 m = Matrix6::Identity();
+  m.topRightCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  return m;
+}
+
+/// Largest eigenvalue of D⁻¹ A, by some steps of power iteration.
+double largest_eigenvalue(const BlockRows& a, const Array<Matrix6>& inverse) {
+  Vector x(Eigen::Index(6 * a.rows())), y(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + double(i) * 0.7390851332151607);
+  double value = 1.0;
+  for (int step = 0; step < 12; ++step) {
+    x /= x.norm();
+    multiply(a, x, y);
+    for (std::size_t i = 0; i < a.rows(); ++i) part(y, i) = (inverse[i] * part(y, i)).eval();
+    value = y.norm();
+    x.swap(y);
+  }
+  return 1.1 * value;
+}
+
+/// Sites with unknowns alone. A component that is prescribed has a 1 on its diagonal and nothing beside it.
+struct ActiveSites {
+  std::vector<std::int32_t> of;  // of all sites, or −1
+  std::vector<Vec3> place;       // m
+  std::vector<Vector6> free;     // 1 where a component is unknown, else 0
+};
+
+BlockRows active_rows(const BlockMatrix& k, const ActiveSites& sites) {
+  BlockRows rows;
+  const std::size_t n = sites.place.size();
+  const auto each = [&](const auto& use) {
+    k.for_each([&](std::int32_t row, std::int32_t column, const Matrix6& block) {
+      const std::int32_t i = sites.of[std::size_t(row)], j = sites.of[std::size_t(column)];
+      if (i >= 0 && j >= 0) use(i, j, block);
+    });
+  };
+  rows.first.assign(n + 1, 0);
+  each([&](std::int32_t i, std::int32_t j, const Matrix6&) {
+    ++rows.first[std::size_t(i) + 1];
+    if (i != j) ++rows.first[std::size_t(j) + 1];
+  });
+  for (std::size_t i = 0; i < n; ++i) rows.first[i + 1] += rows.first[i];
+  rows.column.resize(std::size_t(rows.first.back())), rows.block.resize(rows.column.size());
+  Array<std::int32_t> next(rows.first.begin(), rows.first.end() - 1);
+  const auto put = [&](std::int32_t i, std::int32_t j, const Matrix6& block) {
+    const auto at = std::size_t(next[std::size_t(i)]++);
+    const Vector6 &fi = sites.free[std::size_t(i)], &fj = sites.free[std::size_t(j)];
+    rows.column[at] = j;
+    rows.block[at] = fi.asDiagonal() * block * fj.asDiagonal();
+    if (i == j) rows.block[at].diagonal() += Vector6::Ones() - fi;
+  };
+  // Blocks come column by column: what is left of a row's diagonal first, then from the diagonal on.
+  each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
+    if (i != j) put(i, j, block);
+  });
+  each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
+    put(j, i, i == j ? block : Matrix6(block.transpose()));
+  });
+  return rows;
+}
+
+/// Where the diagonal block of each row is.
+Array<std::int32_t> diagonal_of(const BlockRows& a) {
+  Array<std::int32_t> diagonal(a.rows());
+  for (std::size_t i = 0; i < a.rows(); ++i)
+    diagonal[i] = std::int32_t(
+        std::lower_bound(a.column.begin() + a.first[i], a.column.begin() + a.first[i + 1], std::int32_t(i)) -
+        a.column.begin());
+  return diagonal;
+}
+
+/// Middles of the aggregates, m.
+std::vector<Vec3> middles(const std::vector<Vec3>& place, const std::vector<std::int32_t>& of, std::int32_t count) {
+  std::vector<Vec3> middle(std::size_t(count), Vec3::Zero());
+  std::vector<double> members(std::size_t(count), 0.0);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (of[i] >= 0) middle[std::size_t(of[i])] += place[i], members[std::size_t(of[i])] += 1.0;
+  for (std::size_t c = 0; c < middle.size(); ++c) middle[c] /= members[c];
+  return middle;
+}
+
+/// (1 − ω D⁻¹ A) times the rigid motions of the aggregates.
+BlockRows smoothed(const BlockRows& a, const Array<Matrix6>& inverse, const Array<Matrix6>& rigid_motion,
+                   const std::vector<std::int32_t>& of, std::int32_t count) {
+  const double omega = 4.0 / 3.0 / largest_eigenvalue(a, inverse);
+  RowSums sums(a.rows(), std::size_t(count));
+  for (std::size_t i = 0; i < a.rows(); ++i) {
+    if (of[i] >= 0) sums.at(of[i]) += rigid_motion[i];
+    const Matrix6 w = omega * inverse[i];
+    each_of(a, i, [&](std::size_t at) {
+      const auto j = std::size_t(a.column[at]);
+      if (of[j] >= 0) sums.at(of[j]).noalias() -= w * (a.block[at] * rigid_motion[j]);
+    });
+    sums.end_row();
+  }
+  return sums.take();
+}
+
+}  // namespace
+
+bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const std::vector<Vec3>& places) {
+  constexpr std::size_t small = 60, too_large = 500;  // sites
+  levels_.clear(), unknowns_.clear();
+  ActiveSites sites;
+  for (std::size_t site = 0; site < k.sites(); ++site) {
+    sites.of.push_back(unknowns.any(site) ? std::int32_t(sites.place.size()) : -1);
+    if (sites.of.back() < 0) continue;
+    sites.place.push_back(places[site]);
+    unknowns_.push_back(unknowns.of[site]);
+    Vector6& free = sites.free.emplace_back();
+    for (int c = 0; c < 6; ++c) free[c] = unknowns.of[site][std::size_t(c)] >= 0 ? 1.0 : 0.0;
+  }
+  levels_.emplace_back().a = active_rows(k, sites);
+  for (std::vector<Vec3> place = sites.place; levels_.back().a.rows() > small;) {
+    Level& level = levels_.back();
+    const std::size_t n = level.a.rows();
+    level.diagonal = diagonal_of(level.a);
+    level.inverse.resize(n);
+    for (std::size_t i = 0; i < n; ++i) level.inverse[i] = level.a.block[std::size_t(level.diagonal[i])].inverse();
+    std::int32_t count = 0;
+    const std::vector<std::int32_t> of = aggregates(level.a, count);
+    if (2 * std::size_t(count) > n) break;
+    const std::vector<Vec3> middle = middles(place, of, count);
+    Array<Matrix6> rigid_motion(n, Matrix6::Zero());
+    for (std::size_t i = 0; i < n; ++i)
+      if (of[i] >= 0) rigid_motion[i] = rigid(place[i] - middle[std::size_t(of[i])]);
+    if (levels_.size() == 1)
+      for (std::size_t i = 0; i < n; ++i) rigid_motion[i] = (sites.free[i].asDiagonal() * rigid_motion[i]).eval();
+    level.p = smoothed(level.a, level.inverse, rigid_motion, of, count);
+    const BlockRows ap = product(level.a, level.p, std::size_t(count));
+    Level next;
+    next.a = product(transposed(level.p, std::size_t(count)), ap, std::size_t(count));
+    levels_.push_back(std::move(next));
+    place = middle;
+  }
+  return levels_.back().a.rows() <= too_large && factor_coarsest();
+}
+
+bool Multigrid::factor_coarsest() {
+  const BlockRows& a = levels_.back().a;
+  const auto size = Eigen::Index(6 * a.rows());
+  if (size == 0) return true;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t i = 0; i < a.rows(); ++i)
+    each_of(a, i, [&](std::size_t at) { dense.block<6, 6>(Eigen::Index(6 * i), 6 * a.column[at]) = a.block[at]; });
+  coarsest_.compute(dense);
+  return coarsest_.info() == Eigen::Success;
+}
+
+/// x ≈ A⁻¹ b of a level: block Gauss–Seidel forwards, the coarse correction, block Gauss–Seidel backwards; symmetric.
+void Multigrid::cycle(std::size_t at, const Vector& b, Vector& x) const {
+  if (at + 1 == levels_.size()) {
+    if (b.size() > 0) x = coarsest_.solve(b);
+    return;
+  }
+  const Level& level = levels_[at];
+  const std::size_t n = level.a.rows();
+  // Forwards from nothing: what is left of the diagonal alone; what then remains is what is right of it.
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector6 left = times(level.a, std::size_t(level.a.first[i]), std::size_t(level.diagonal[i]), x);
+    part(x, i).noalias() = level.inverse[i] * (part(b, i) - left);
+  }
+  Vector coarse = Vector::Zero(Eigen::Index(6 * levels_[at + 1].a.rows()));
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector6 right = times(level.a, std::size_t(level.diagonal[i]) + 1, std::size_t(level.a.first[i + 1]), x);
+    each_of(level.p, i, [&](std::size_t e) {
+      part(coarse, std::size_t(level.p.column[e])) -= level.p.block[e].transpose().lazyProduct(right);
+    });
+  }
+  Vector correction(coarse.size());
+  cycle(at + 1, coarse, correction);
+  for (std::size_t i = 0; i < n; ++i) part(x, i) += times(level.p, i, correction);
+  for (std::size_t i = n; i-- > 0;) {
+    const Vector6 r = part(b, i) - times(level.a, i, x);
+    part(x, i) += level.inverse[i].lazyProduct(r);
+  }
+}
+
+std::optional<Vector> Multigrid::solve(const Vector& b, double tolerance, int most_iterations) {
+  const Level& fine = levels_.front();
+  const auto size = Eigen::Index(6 * fine.a.rows());
+  Vector r = Vector::Zero(size), x = r, z(size), p(size), kp(size);
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      if (unknowns_[i][c] >= 0) r[Eigen::Index(6 * i + c)] = b[unknowns_[i][c]];
+  const double target = tolerance * r.norm();
+  double before = 1.0;
+  for (iterations_ = 0; r.norm() > target; ++iterations_) {
+    if (iterations_ == most_iterations) return {};
+    cycle(0, r, z);
+    const double now = r.dot(z);
+    if (!(now > 0.0)) return {};
+    p = iterations_ == 0 ? z : Vector(z + now / before * p);
+    before = now;
+    multiply(fine.a, p, kp);
+    const double share = now / p.dot(kp);
+    x += share * p;
+    r -= share * kp;
+  }
+  Vector found(b.size());
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      if (unknowns_[i][c] >= 0) found[unknowns_[i][c]] = x[Eigen::Index(6 * i + c)];
+  return found;
+}
+
+}  // namespace voussoir
