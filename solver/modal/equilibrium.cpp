@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "solver/modal/factor.h"
 #include "solver/modal/krylov.h"
 #include "solver/modal/multigrid.h"
@@ -85,7 +87,11 @@ class TangentInverse {
       std::vector<Vec3> places;
       for (std::size_t i = 0; i < model_.bodies.size(); ++i)
         places.push_back(model_.bodies[i].centroid + Vec3(&state.pose[pose_width * i]));
-      by_cycles_ = multigrid_.compute(k_, unknowns_, places);
+      try {
+        by_cycles_ = multigrid_.compute(k_, unknowns_, places);
+      } catch (const std::bad_alloc&) {  // relaxation may still do with what there is
+        multigrid_ = {};
+      }
     }
     return by_cycles_ || factor_.compute(k_.over(unknowns_));
   }
