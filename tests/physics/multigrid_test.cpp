@@ -89,7 +89,7 @@ int iterations_of(int side) {
   return multigrid.iterations();
 }
 
-/// What it is for: conjugate gradients alone would take eight times the iterations.
+/// What coarse levels are for.
 TEST(Multigrid, TakesHardlyMoreIterationsForAWallOfEightTimesTheHeight) {
   const int low = iterations_of(10), high = iterations_of(80);
   EXPECT_LE(low, 12);
