@@ -30,4 +30,16 @@ std::vector<std::int32_t> along_curve(const std::vector<Vec3>& points) {
   return order;
 }
 
+std::vector<std::int32_t> in_slabs(const std::vector<Vec3>& points, double thickness) {
+  const Box box = bounding_box(points);
+  int axis = 0;
+  (box.high - box.low).maxCoeff(&axis);
+  const auto slab = [&](std::int32_t i) {
+    return std::int64_t((points[std::size_t(i)][axis] - box.low[axis]) / thickness);
+  };
+  std::vector<std::int32_t> order = along_curve(points);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return slab(a) < slab(b); });
+  return order;
+}
+
 }  // namespace voussoir

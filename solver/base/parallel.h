@@ -36,7 +36,7 @@ struct Range {
 Range share(std::size_t n, int thread, int threads);
 
 /// Items of work in two stages: the second of an item may begin once its own first stage and those of all items before
-/// it are done.
+/// it are done. In the next step its first stage may begin once its own second stage and those of its followers are.
 struct Dependencies {
   std::vector<std::vector<std::int32_t>> followers;  // of each item: later items whose second stage waits for it
   std::vector<std::int32_t> waits;  // of each item: first stages its second waits for, its own included
@@ -45,16 +45,26 @@ struct Dependencies {
 
 enum class RoundKind { before, both, first_only, between, second_only, end };
 
-struct RoundWork {
-  std::function<void(std::size_t)> first, between, second;
-  std::function<void(std::size_t)> before_first, before_second;  // of a round `before`, which waits as `both` does
-  std::function<RoundKind(RoundKind)> next;  // called by one thread when a round is over: what comes next
+/// What comes next: `both` may be several steps, in which items go ahead of each other as far as they may.
+struct NextRound {
+  RoundKind kind = RoundKind::end;
+  int steps = 1;
+  NextRound(RoundKind k, int n = 1) : kind(k), steps(n) {}
 };
 
-/// Works through rounds over all items in a team of up to `threads` threads. Who is done takes from the others' shares,
-/// and a thread that the system has put aside holds up nobody unless it is within an item. An exception of any of the
-/// work ends the rounds, with what is begun then done or not, and is thrown again.
-void run_rounds(int threads, const Dependencies& items, RoundKind begin, const RoundWork& work);
+struct RoundWork {
+  std::function<void(std::size_t item, int step)> first, second;  // step: of the round
+  std::function<void(std::size_t)> between;
+  std::function<void(std::size_t)> before_first, before_second;  // of a round `before`, which waits as `both` does
+  std::function<NextRound(RoundKind)> next;  // called by one thread when a round is over: what comes next
+};
+
+/// Works through rounds over all items in a team of up to `threads` threads. A thread takes the lowest item of its
+/// share that may go on, so that in a round of several steps the same few items are worked on step after step while
+/// they are in the cache. Who finds none takes from the others' shares, and a thread that the system has put aside
+/// holds up nobody unless it is within an item. An exception of any of the work ends the rounds, with what is begun
+/// then done or not, and is thrown again.
+void run_rounds(int threads, const Dependencies& items, NextRound begin, const RoundWork& work);
 
 /// Runs `work(thread, team)` once in each of `team` threads: `threads`, or fewer where the system grants fewer. What
 /// one of them throws is thrown again when all have ended; of several the one of the lowest number.

@@ -10,8 +10,22 @@ namespace voussoir {
 
 namespace {
 
-[[gnu::always_inline]] inline Jump<Lanes> lanes_jump(const JointBatch& batch, const double* pose) {
-  const LanePoses a = gather(pose, batch.a), b = gather(pose, batch.b);
+/// Where eight bodies are found: rows of poses, and which of them.
+struct PoseRows {
+  const double* rows;
+  const std::int32_t* which;
+};
+
+/// Copies of eight poses, of still bodies from where those are: for batches of tiles that touch any.
+[[gnu::noinline]] PoseRows copies(const PatchPass& pass, const std::int32_t* bodies, double* rows) {
+  static constexpr std::int32_t in_order[lane_count] = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (int lane = 0; lane < lane_count; ++lane)
+    std::copy_n(pass.pose_of(bodies[lane]), pose_width, rows + pose_width * lane);
+  return {rows, in_order};
+}
+
+[[gnu::always_inline]] inline Jump<Lanes> lanes_jump(const JointBatch& batch, PoseRows of_a, PoseRows of_b) {
+  const LanePoses a = gather(of_a.rows, of_a.which), b = gather(of_b.rows, of_b.which);
   const Lanes same = a.q.w * b.q.w + dot(a.q.v, b.q.v);
   const Quat<Lanes> qb = {flip(b.q.w, same), {flip(b.q.v.x, same), flip(b.q.v.y, same), flip(b.q.v.z, same)}};
   const Triple<Lanes> c = cross(a.q.v, qb.v);
@@ -217,8 +231,9 @@ struct BatchArrays {
   Lanes *slip, *sums;
   SlidingLimits limits;
   SingleBranches<count> several;
+  bool touches_still;  // joints of the tile, bodies that PatchPass::still places
 
-  explicit BatchArrays(const PatchPass& pass)
+  BatchArrays(const PatchPass& pass, const Tile& tile)
       : batches(pass.model->batches.data()),
         final(pass.model->batches.size() - 1),
         pose(pass.state->pose.data()),
@@ -228,7 +243,8 @@ struct BatchArrays {
         slip(reinterpret_cast<Lanes*>(pass.state->slip.data())),
         sums(reinterpret_cast<Lanes*>(pass.sums)),
         limits(*pass.model),
-        several(pass.branches) {}
+        several(pass.branches),
+        touches_still(pass.still && !tile.still_sums.empty()) {}
 
   Singles* last_of(std::size_t k) const { return last + 6 * k; }
   Singles* branches_of(std::size_t k) const { return branch + 6 * count * k; }
@@ -282,7 +298,10 @@ struct BatchPass {
     const std::uint64_t modes = full ? all_modes() : 0;
     const bool closed = full && !(modes & in_each(mode_points | mode_gone | mode_open));
     if (!closed && !any(live_lanes())) return nothing_left();
-    const Jump<Lanes> jump = lanes_jump(batch, in.pose);
+    PoseRows a = {in.pose, batch.a}, b = {in.pose, batch.b};
+    alignas(64) double rows[2][lane_count * pose_width];
+    if (in.touches_still) a = copies(pass, batch.a, rows[0]), b = copies(pass, batch.b, rows[1]);
+    const Jump<Lanes> jump = lanes_jump(batch, a, b);
     ahead.poses();
     if (closed) {
       LaneElastic e = elastic_of(jump, modes & in_each(mode_slid));
@@ -368,9 +387,7 @@ struct BatchPass {
     alignas(64) double rows[lane_count * wrench_width];
     store_wrenches(wrench.force, wrench.moment, rows);
     for (int lane = 0; any(others) && lane < batch.count; ++lane)
-      if (others[lane])
-        point_patch(*pass.model, std::size_t(batch.first_joint + lane), pass.branches, *pass.state,
-                    rows + wrench_width * lane);
+      if (others[lane]) point_patch(pass, std::size_t(batch.first_joint + lane), rows + wrench_width * lane);
     ahead.memory();
     add_up(reinterpret_cast<const Lanes*>(rows), batch.count);
     findings.reclip |= without(live, strength.tie) & past_limits(in.limits, batch.area, jump);
@@ -452,7 +469,7 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
   const Tile& tile = pass.model->tiles[index];
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
-  const BatchArrays<count> arrays(pass);
+  const BatchArrays<count> arrays(pass, tile);
   TileFindings found;
   for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k)
     BatchPass<count>(pass, arrays, k).run(found);

@@ -128,10 +128,12 @@ bool past_limits(const Model& model, const Patch& patch, const Jump<double>& j) 
          j.rn * j.rn + j.rs * j.rs + j.rt * j.rt > model.turn_limit2();
 }
 
-void point_patch(const Model& model, std::size_t index, const Branches& branches, State& state, double* wrench) {
+void point_patch(const PatchPass& pass, std::size_t index, double* wrench) {
+  const Model& model = *pass.model;
+  const Branches& branches = pass.branches;
   const Patch& patch = model.joints[index];
-  PatchMemory& memory = state.joint;
-  const Jump<double> j = patch_jump(patch, &state.pose[pose_width * patch.a], &state.pose[pose_width * patch.b]);
+  PatchMemory& memory = pass.state->joint;
+  const Jump<double> j = patch_jump(patch, pass.pose_of(patch.a), pass.pose_of(patch.b));
   const LawConstants& law = model.laws[patch.law];
   const double now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
   double change[6];

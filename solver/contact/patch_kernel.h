@@ -32,6 +32,7 @@ bool in_tile_energy(const Model& model, const State& state, std::size_t joint);
 struct PatchPass {
   const Model* model = nullptr;
   State* state = nullptr;
+  const double* still = nullptr;  // pose_width × Model::still: where they are; none: where the state has them
   Branches branches;
   double* sums = nullptr;                // wrench_width × the sums of Model::tiles
   double* contact_wrenches = nullptr;    // wrench_width × slots of contacts
@@ -41,6 +42,11 @@ struct PatchPass {
   bool shortcut = true;                  // false: every patch point by point, for verification
   TileEnergy* energies = nullptr;        // of each tile, or not wanted
 
+  /// Of a body, as joints read it.
+  const double* pose_of(std::int32_t body) const {
+    const std::int32_t which = still ? model->still_of[std::size_t(body)] : -1;
+    return which < 0 ? &state->pose[pose_width * std::size_t(body)] : still + pose_width * std::size_t(which);
+  }
   /// The joints of a tile, eight side by side: intact lanes as generalised springs, the others point by point.
   PassReport joints(std::size_t tile) const;
   /// The contacts of a tile, in these batches of eight; after its joints.
@@ -60,6 +66,6 @@ bool past_limits(const Model& model, const Patch& patch, const Jump<double>& jum
 void follow_open_contact(State& state, std::size_t contact);
 
 /// A joint point by point, for the laws that have no lane form.
-void point_patch(const Model& model, std::size_t joint, const Branches& branches, State& state, double* wrench);
+void point_patch(const PatchPass& pass, std::size_t joint, double* wrench);
 
 }  // namespace voussoir

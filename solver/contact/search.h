@@ -53,8 +53,9 @@ inline double search_distance(const Model& model) {
 
 /// Patches past their limits of slip and turn are clipped anew at every 32nd step at the earliest, so that a sliding
 /// wall does not stop the run at each step.
+constexpr std::int64_t clip_interval = 32;
 inline bool may_clip_at(std::int64_t step) {
-  return step % 32 == 0;
+  return step % clip_interval == 0;
 }
 
 /// Looks for new contacts around the bodies that have moved since they were last looked at, and drops contacts of

@@ -12,15 +12,27 @@ namespace voussoir {
 
 namespace {
 
-std::vector<std::int64_t> space_filling_order(const Assembly& assembly) {
+constexpr std::size_t large_model = 16384;  // bodies
+
+/// Along a space-filling curve. What a step of a large model reads does not fit in a cache, so its tiles go ahead of
+/// each other, several steps in one sweep; they can where neighbours are near each other in the order.
+std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
+  constexpr double slab = 3.0;  // of a typical block's size
   std::vector<Vec3> centroids;
-  for (const Block& block : assembly.blocks) centroids.push_back(block.centroid);
-  const std::vector<std::int32_t> order = along_curve(centroids);
+  std::vector<double> sizes;
+  for (const Block& block : assembly.blocks) {
+    centroids.push_back(block.centroid);
+    sizes.push_back(std::cbrt(block.mass / assembly.materials.at(std::size_t(block.material)).density));
+  }
+  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const std::vector<std::int32_t> order =
+      centroids.size() < large_model ? along_curve(centroids) : in_slabs(centroids, slab * *middle);
   return {order.begin(), order.end()};
 }
 
 void add_bodies(const Assembly& assembly, Model& model) {
-  model.block_of_body = space_filling_order(assembly);
+  model.block_of_body = order_of_blocks(assembly);
   model.body_of_block.resize(assembly.blocks.size());
   std::vector<double> sizes;
   double weight = 0.0, bottom = 1e300;
@@ -129,11 +141,25 @@ Patch joint_patch(const Assembly& assembly, const Joint& joint, const PatchShape
   return patch;
 }
 
+/// Fixed bodies that no guide lets move.
+void find_still(const Assembly& assembly, const std::vector<Guide>& guides, Model& model) {
+  std::vector<bool> guided(model.bodies.size());
+  for (const Guide& guide : guides)
+    if (const auto group = assembly.groups.find(guide.group); group != assembly.groups.end())
+      for (const std::int64_t block : group->second)
+        guided[std::size_t(model.body_of_block[std::size_t(block)])] = true;
+  model.still_of.assign(model.bodies.size(), -1);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    if (!model.bodies[i].fixed || guided[i]) continue;
+    model.still_of[i] = std::int32_t(model.still.size());
+    model.still.push_back(std::int32_t(i));
+  }
+}
+
 /// Large tiles have fewer batches whose joints are not computed alike, and fewer bodies that belong to others; small
 /// ones are needed where there are few for each thread.
 std::int32_t bodies_of_tile(std::size_t bodies) {
-  constexpr std::size_t enough_tiles = 128;
-  return bodies >= 128 * enough_tiles ? 128 : 64;
+  return bodies >= large_model ? 128 : 64;
 }
 
 /// The assembly's joints in the order of their batches; returns their shapes in that of the assembly.
@@ -151,7 +177,7 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
     const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
-    order.emplace_back(model.tile_of(std::min(a, b)), shape, joint.law, facing, std::min(a, b), std::max(a, b),
+    order.emplace_back(model.tile_of_joint(a, b), shape, joint.law, facing, std::min(a, b), std::max(a, b),
                        joint.cell_a, joint.cell_b, std::int64_t(i));
   }
   std::sort(order.begin(), order.end());
@@ -174,6 +200,11 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
 
 CellPair cells_of(const Patch& p) {
   return p.a < p.b ? CellPair{p.a, p.b, p.cell_a, p.cell_b} : CellPair{p.b, p.a, p.cell_b, p.cell_a};
+}
+
+std::int32_t Model::tile_of_joint(std::int32_t a, std::int32_t b) const {
+  const bool a_is_still = still_of[std::size_t(a)] >= 0, b_is_still = still_of[std::size_t(b)] >= 0;
+  return tile_of(a_is_still == b_is_still ? std::min(a, b) : a_is_still ? b : a);
 }
 
 void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
@@ -267,13 +298,12 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
   model.batches.push_back(batch);
 }
 
-/// Bodies of later tiles that the joints [first, end) touch, each once and in order.
-std::vector<std::int32_t> bodies_beyond(const Model& model, std::int32_t first, std::int32_t end,
-                                        std::int32_t end_body) {
+/// Bodies of later tiles, and still ones of other tiles, that a tile's joints touch, each once and in order.
+std::vector<std::int32_t> bodies_beyond(const Model& model, const Tile& tile) {
   std::vector<std::int32_t> bodies;
-  for (std::int32_t i = first; i < end; ++i)
+  for (std::int32_t i = tile.first_joint; i < tile.end_joint; ++i)
     for (const std::int32_t body : {model.joints[std::size_t(i)].a, model.joints[std::size_t(i)].b})
-      if (body >= end_body) bodies.push_back(body);
+      if (body < tile.first_body || body >= tile.end_body) bodies.push_back(body);
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return bodies;
@@ -281,7 +311,7 @@ std::vector<std::int32_t> bodies_beyond(const Model& model, std::int32_t first, 
 
 void place_sums(JointBatch& batch, const Tile& tile, const std::vector<std::int32_t>& beyond) {
   const auto place = [&](std::int32_t body) {
-    if (body < tile.end_body) return tile.first_sum + body - tile.first_body;
+    if (body >= tile.first_body && body < tile.end_body) return tile.first_sum + body - tile.first_body;
     const auto at = std::lower_bound(beyond.begin(), beyond.end(), body) - beyond.begin();
     return tile.first_sum + tile.end_body - tile.first_body + std::int32_t(at);
   };
@@ -299,24 +329,33 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
     tile.first_body = first_body;
     tile.end_body = std::min(bodies, first_body + model.tile_bodies);
     tile.first_sum = sum;
-    const std::int32_t first = joint;
+    tile.first_joint = joint;
     while (joint < joints &&
-           std::min(model.joints[std::size_t(joint)].a, model.joints[std::size_t(joint)].b) < tile.end_body)
+           model.tile_of_joint(model.joints[std::size_t(joint)].a, model.joints[std::size_t(joint)].b) ==
+               std::int32_t(model.tiles.size()))
       ++joint;
-    const std::vector<std::int32_t> beyond = bodies_beyond(model, first, joint, tile.end_body);
+    tile.end_joint = joint;
+    const std::vector<std::int32_t> beyond = bodies_beyond(model, tile);
     tile.end_sum = sum + tile.end_body - first_body + std::int32_t(beyond.size());
-    tile.first_joint = first, tile.end_joint = joint;
     tile.first_batch = std::int32_t(model.batches.size());
-    for (std::int32_t i = first; i < joint; i += lane_count) add_batch(model, i, joint, shapes);
+    for (std::int32_t i = tile.first_joint; i < joint; i += lane_count) add_batch(model, i, joint, shapes);
     tile.end_batch = std::int32_t(model.batches.size());
     for (std::int32_t k = tile.first_batch; k < tile.end_batch; ++k)
       place_sums(model.batches[std::size_t(k)], tile, beyond);
-    for (std::int32_t body = first_body; body < tile.end_body; ++body) sums_of[std::size_t(body)].push_back(sum++);
-    for (const std::int32_t body : beyond) {
+    const auto add_sum = [&](std::int32_t body) {
+      const std::int32_t which = model.still_of[std::size_t(body)];
+      if (which >= 0) tile.still_sums.push_back({which, sum});
       sums_of[std::size_t(body)].push_back(sum++);
+      return which < 0;
+    };
+    for (std::int32_t body = first_body; body < tile.end_body; ++body) add_sum(body);
+    for (const std::int32_t body : beyond) {
+      if (!add_sum(body)) continue;
       const std::int32_t later = model.tile_of(body);
       if (tile.followers.empty() || tile.followers.back() != later) tile.followers.push_back(later);
     }
+    std::sort(tile.still_sums.begin(), tile.still_sums.end(),
+              [](const Tile::StillSum& a, const Tile::StillSum& b) { return a.which < b.which; });
     model.tiles.push_back(std::move(tile));
   }
   for (const std::vector<std::int32_t>& places : sums_of) {
@@ -358,6 +397,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   add_contact_laws(model);
   model.rule = lobatto_rule(model.contact.points_per_side);
   model.tile_bodies = bodies_of_tile(model.bodies.size());
+  find_still(assembly, settings.guides, model);
   make_tiles(model, add_joints(assembly, model));
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     if (model.joints[i].length == 0.0)  // stones that a tie holds may still touch

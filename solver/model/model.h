@@ -132,13 +132,20 @@ struct InterfacePatch {
   bool again = false;
 };
 
-/// Bodies next to each other in the order, and the joints whose first body is one of them.
+/// Bodies next to each other in the order, and the joints whose first body is one of them; still bodies do not count,
+/// but between themselves.
 struct Tile {
+  struct StillSum {
+    std::int32_t which = 0;  // of Model::still
+    std::int32_t sum = 0;
+  };
   std::int32_t first_body = 0, end_body = 0;
   std::int32_t first_joint = 0, end_joint = 0;
   std::int32_t first_batch = 0, end_batch = 0;
-  std::int32_t first_sum = 0, end_sum = 0;  // its bodies in order, then bodies of later tiles that its joints touch
+  std::int32_t first_sum = 0, end_sum = 0;  // its bodies in order, then still ones and bodies of later tiles that its
+                                            // joints touch
   std::vector<std::int32_t> followers;      // those later tiles
+  std::vector<StillSum> still_sums;         // of the still bodies that its joints touch, in their order
 };
 
 /// A cell of one body and a cell of another: bodies in order, then their cells.
@@ -172,6 +179,11 @@ struct Model {
   std::vector<Tile> tiles;
   std::int32_t tile_bodies = 64;  // each, but for the last: whole batches of bodies
   std::int32_t tile_of(std::int32_t body) const { return body / tile_bodies; }
+  std::int32_t tile_of_joint(std::int32_t a, std::int32_t b) const;
+  // Bodies that only go where they are told: where they will be is known beforehand, so that no tile waits for them to
+  // move. Guided bodies are not among them.
+  std::vector<std::int32_t> still;
+  std::vector<std::int32_t> still_of;  // of each body: its place among them, or −1
   // Sums of each body in the order they are added up: first of each body (and one past the end), places of the sums.
   std::vector<std::int32_t> first_sum, sums;
 

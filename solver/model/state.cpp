@@ -102,7 +102,8 @@ std::vector<NamedArray> State::arrays() {
                                   {"joints/order", 1, "-", &joint_order},
                                   {"joints/slip", lane_count, "m, m, rad", &slip},
                                   {"joints/branch", lane_count, "m, rad", &branch},
-                                  {"joints/branch_work", lane_count, "J", &branch_work}};
+                                  {"joints/branch_work", lane_count, "J", &branch_work},
+                                  {"joints/support_work", 1, "J", &support_work}};
   add(list, "joints", joint);
   list.push_back({"contacts/batches", 2, "-", &contact_tiles});
   list.push_back({"contacts/patches", patch_columns, "SI", &contact_rows});
@@ -224,6 +225,7 @@ State initial_state(const Model& model) {
   state.joint.resize(model.joints.size(), model.batches.size(), lane_count * model.point_rows);
   state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);
   state.branch_work.assign(lane_count * model.tiles.size(), 0.0);
+  state.support_work.assign(model.tiles.size(), 0.0);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const LawConstants& law = model.laws[model.joints[i].law];
     const bool bondless =

@@ -36,7 +36,8 @@ struct PatchMemory {
 };
 
 constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
-constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base, loss by body damping (J)
+constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base (of still bodies: on contacts),
+                                 // loss by body damping (J)
 constexpr int searched_width = 8;
 
 struct State {
@@ -44,8 +45,9 @@ struct State {
   // damping), elastic energy that new clippings of patches took out, energy at the start of the motion, largest energy
   // term so far
   Array<double> scalars = Array<double>(13, 0.0);
-  Array<std::int64_t> counters = Array<std::int64_t>(4, 0);  // steps, contact searches, contacts made, last step at
-                                                             // which patches were grouped
+  Array<std::int64_t> counters = Array<std::int64_t>(5, 0);  // steps, contact searches, contacts made, last step at
+                                                             // which patches were grouped, next at whose end it is
+                                                             // looked how far bodies have moved
 
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
@@ -64,6 +66,7 @@ struct State {
   Array<double> slip;               // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
   Array<float> branch;              // per batch 6 × branches × 8: q of the six generalised jumps
   Array<double> branch_work;        // 8 a tile: work done on the branches of the intact path (J)
+  Array<double> support_work;       // 1 a tile: work of what holds or drives still bodies, on the tile's joints (J)
 
   // Contacts found during the run live in slots, eight to a batch; a slot that is free has mode_gone and a patch
   // without points. Which slot a contact takes depends on those before it, so batches and free slots are part of the
@@ -94,6 +97,7 @@ struct State {
   double* retired_energy() { return &scalars[7]; }
   const double* retired_energy() const { return &scalars[7]; }
   std::int64_t& grouped_at() { return counters[3]; }
+  std::int64_t& look_at() { return counters[4]; }
   double& clipped_energy() { return scalars[10]; }
   double clipped_energy() const { return scalars[10]; }
   double& starting_energy() { return scalars[11]; }

@@ -200,6 +200,11 @@ BodyUpdate BodyPass::held_update(std::size_t i, const Triple<double>& patches, c
   const std::int32_t* const end = place + ((*first_sum)[i + 1] - (*first_sum)[i]);
   Lanes sum = rows[*place];
   while (++place != end) sum += rows[*place];
+  return contact_sum(i, sum);
+}
+
+/// A sum and the wrenches of a body's contacts.
+[[gnu::always_inline]] inline Lanes BodyPass::contact_sum(std::size_t i, Lanes sum) const {
   const auto* contacts = reinterpret_cast<const Lanes*>(contact_wrenches);
   for (std::int32_t k = incidence->first[i]; k < incidence->first[i + 1]; ++k) {
     const std::int32_t entry = incidence->contacts[std::size_t(k)];
@@ -250,6 +255,52 @@ bool BodyPass::runs_away(std::size_t body, double speed2) const {
   return !(speed2 < most_speed2) && !(state->lost(body) && std::isfinite(speed2));
 }
 
+// Not inlined: each caller might round otherwise.
+[[gnu::noinline]] double holding_work(const double* force, const double* velocity_now, const double* velocity_next,
+                                      double dt) {
+  double work = 0.0;
+  for (int c = 0; c < 3; ++c) work -= 0.5 * dt * force[c] * (velocity_now[c] + velocity_next[c]);
+  return work;
+}
+
+double BodyPass::support_work(const Tile& tile) const {
+  double work = 0.0;
+  for (const Tile::StillSum& one : tile.still_sums) {
+    const std::size_t row = motion_width * std::size_t(one.which);
+    work +=
+        holding_work(sums + wrench_width * std::size_t(one.sum), &still_now->motion[row], &still_next->motion[row], dt);
+  }
+  return work;
+}
+
+/// As move_body(), but that what its joints put on it is not added up: tiles are at other steps than this one's.
+void BodyPass::move_still(std::size_t i, BodyReport& report) const {
+  const auto which = std::size_t(model->still_of[i]);
+  double* motion = &state->motion[motion_width * i];
+  const double *next = &still_next->motion[motion_width * which], *pose = &still_next->pose[pose_width * which];
+  const Lanes contacts = contact_sum(i, splat(0.0));
+  for (int c = 0; c < 3; ++c) motion[6] -= 0.5 * dt * contacts[c] * (motion[c] + next[c]);
+  std::copy_n(next, 6, motion);
+  std::copy_n(pose, pose_width, &state->pose[pose_width * i]);
+  BodyUpdate update;
+  update.velocity = triple(next);
+  if (looks) look_at(i, update, report);
+}
+
+/// One that is lost does not count.
+void BodyPass::look_at(std::size_t i, const BodyUpdate& next, BodyReport& report) const {
+  if (state->lost(i)) return;
+  const Body& body = model->bodies[i];
+  const Vec3 relative = Vec3(next.velocity.x, next.velocity.y, next.velocity.z) - base_velocity_next;
+  double step = dt * relative.norm();
+  if (!body.held(3)) {
+    const Triple<double> omega = spin(body, pose_rotation(&state->pose[pose_width * i]), next.momentum);
+    step += quaternion_reach * 0.5 * dt * std::sqrt(dot(omega, omega)) * body.radius;
+  }
+  report.fastest = std::max(report.fastest, step);
+  report.farthest = std::max(report.farthest, moved_since(*model, *state, state->searched, i, base_displacement_next));
+}
+
 void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   const Body& body = model->bodies[i];
   double* pose = &state->pose[pose_width * i];
@@ -271,7 +322,7 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
     const Quat<double> turned = normalised(rotate(q, spin(body, half, next.momentum), dt));
     pose[3] = turned.w, pose[4] = turned.v.x, pose[5] = turned.v.y, pose[6] = turned.v.z;
   }
-  report.search |= moved_since(*model, *state, state->searched, i, base_displacement_next) > search_distance;
+  if (looks) look_at(i, next, report);
   if (body.held(3)) return;
   const double speed2 = dot(next.velocity, next.velocity);
   if (runs_away(i, speed2) && report.runaway < 0) report.runaway = std::int32_t(i);
@@ -323,11 +374,26 @@ Lanes lanes_moved(const LaneRows& pose, const LaneRows& from, const Vec3& base, 
   return square_root(d2) + quaternion_reach * square_root(r2) * radius;
 }
 
+/// As BodyPass::look_at(), of those that move side by side.
+void look_at_lanes(const BodyPass& pass, std::size_t first, int count, const Triple<Lanes>& velocity,
+                   const Lanes& half_turn2, const LaneRows& pose, BodyReport& report) {
+  const BodyBatch& batch = pass.batches[first / lane_count];
+  const LaneRows from = load_searched(&pass.state->searched[searched_width * first], count);
+  const LaneMask counts = without(batch.free, less(splat(0.0), from.r[7]));
+  const Vec3& ground = pass.base_velocity_next;
+  const Triple<Lanes> relative = {velocity.x - ground.x(), velocity.y - ground.y(), velocity.z - ground.z()};
+  const Lanes step =
+      pass.dt * square_root(dot(relative, relative)) + quaternion_reach * square_root(half_turn2) * batch.radius;
+  const Lanes distance = lanes_moved(pose, from, pass.base_displacement_next, batch.radius);
+  report.fastest = std::max(report.fastest, largest(select(counts, step, splat(0.0))));
+  report.farthest = std::max(report.farthest, largest(select(counts, distance, splat(0.0))));
+}
+
 }  // namespace
 
 /// Free bodies of the batch that begins at `first`; returns which it has moved: none where one turns too fast for the
 /// series of rotate().
-LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, Steps& steps, BodyReport& report) const {
+LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& report) const {
   const int count = int(std::min<std::size_t>(lane_count, end - first));
   const BodyBatch& batch = batches[first / lane_count];
   LaneRows sum, motion = load_rows(&state->motion[motion_width * first], count),
@@ -372,12 +438,7 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, Steps& steps, 
   for (int c = 0; c < 3; ++c) pose.r[c] += dt * moved[c];
   pose.r[3] = norm * turned.w;
   pose.r[4] = norm * turned.v.x, pose.r[5] = norm * turned.v.y, pose.r[6] = norm * turned.v.z;
-  const Vec3& ground_next = base_velocity_next;
-  const Triple<Lanes> relative = {velocity.x - ground_next.x(), velocity.y - ground_next.y(),
-                                  velocity.z - ground_next.z()};
-  const Lanes none = splat(0.0);
-  steps.speed2 = larger(steps.speed2, select(batch.free, dot(relative, relative), none));
-  steps.turn2 = larger(steps.turn2, select(batch.free, batch.radius * batch.radius * angle2, none));
+  if (looks) look_at_lanes(*this, first, count, velocity, angle2, pose, report);
   const Lanes speed2 = dot(velocity, velocity);
   const LaneMask runs = without(batch.free, less(speed2, splat(most_speed2)));
   if (any(runs) && report.runaway < 0)
@@ -397,48 +458,17 @@ void BodyPass::fetch_motion(std::size_t first) const {
   fetch(&state->motion[motion_width * first], lane_count * motion_width * sizeof(double));
 }
 
-/// Of those that move side by side: lost ones and held ones do not count.
-double BodyPass::farthest(std::size_t begin, std::size_t end) const {
-  Lanes farthest = splat(0.0);
-  for (std::size_t first = begin; first < end; first += lane_count) {
-    const int count = int(std::min<std::size_t>(lane_count, end - first));
-    const BodyBatch& batch = batches[first / lane_count];
-    const LaneRows pose = load_rows(&state->pose[pose_width * first], count),
-                   from = load_searched(&state->searched[searched_width * first], count);
-    const LaneMask counts = without(batch.free, less(splat(0.0), from.r[7]));
-    const Lanes distance = lanes_moved(pose, from, base_displacement_next, batch.radius);
-    farthest = larger(farthest, select(counts, distance, splat(0.0)));
-  }
-  return largest(farthest);
-}
-
-/// A step takes a body no farther than its velocity relative to the ground and half its turn say, so that places are
-/// only compared where these, added up over the steps, allow that one has come far enough.
-bool BodyPass::far_enough(std::size_t begin, std::size_t end, const Steps& steps) const {
-  constexpr double rounding = 1e-12;  // of a step's place, m, and of what is added up, share
-  if (!way) return farthest(begin, end) > search_distance;
-  double& most = way[begin / lane_count];
-  const double step = dt * std::sqrt(largest(steps.speed2)) + quaternion_reach * std::sqrt(largest(steps.turn2));
-  most = (1.0 + rounding) * (most + step) + rounding;
-  if (most <= search_distance) return false;
-  most = farthest(begin, end);
-  return most > search_distance;
-}
-
 BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
   BodyReport report;
-  Steps steps;
   const bool side_by_side = local == 0.0 && !loads;  // these two act on bodies one by one
   for (std::size_t first = begin; first < end; first += lane_count) {
     const std::size_t next = std::min(end, first + lane_count);
     fetch_constants(first + 2 * lane_count);
     const LaneMask moved =
-        side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, steps, report) : LaneMask{};
+        side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, report) : LaneMask{};
     for (std::size_t i = first; i < next; ++i)
-      if (!moved[int(i - first)]) move_body(i, report);
-    if (any(without(batches[first / lane_count].free, moved))) steps.turn2 = splat(HUGE_VAL);
+      if (!moved[int(i - first)]) still_next && model->still_of[i] >= 0 ? move_still(i, report) : move_body(i, report);
   }
-  if (side_by_side) report.search |= far_enough(begin, end, steps);
   return report;
 }
 

@@ -35,15 +35,22 @@ struct BodyUpdate {
 };
 
 struct BodyReport {
-  bool search = false;        // some body has moved far enough for a new search of contacts
+  // Where they were looked at: how far a body has moved since its place was noted, and how far one goes in a step, m.
+  double farthest = 0.0, fastest = 0.0;
   std::int32_t runaway = -1;  // lowest body whose velocity is not finite or past any sense
   void merge(const BodyReport& other) {
-    search |= other.search;
+    farthest = std::max(farthest, other.farthest);
+    fastest = std::max(fastest, other.fastest);
     if (other.runaway >= 0 && (runaway < 0 || other.runaway < runaway)) runaway = other.runaway;
   }
 };
 
 struct Energies;
+
+/// Where Model::still are at one step, and how fast at the half step before it; rows as State::pose and State::motion.
+struct StillPlaces {
+  Array<double> pose, motion;
+};
 
 struct BodyPass {
   const Model* model = nullptr;
@@ -57,10 +64,7 @@ struct BodyPass {
   double dt = 0.0;                                  // s
   double mass_rate = 0.0;                           // 1/s, Rayleigh
   double local = 0.0;                               // Cundall
-  double search_distance = 1e300;                   // m
-  // m, of the tile whose bodies begin with each batch: how far one may have moved at most since its place was noted.
-  // Infinite until that has been looked at, and whenever bodies have been put elsewhere. None: looked at each time.
-  double* way = nullptr;
+  bool looks = false;                               // at where bodies are by the end of the step, see BodyReport
   const Array<std::int32_t>* drive = nullptr;  // of each body, which of drive_velocity is its own or -1; empty: none
   std::vector<Vec3> drive_velocity;            // relative to the ground, at the next half step
   const LoadsAtWork* loads = nullptr;          // none: nothing beside gravity
@@ -68,6 +72,8 @@ struct BodyPass {
   Vec3 base_velocity_now = Vec3::Zero();       // at the last half step
   Vec3 base_velocity_next = Vec3::Zero();      // at the next half step
   Vec3 base_displacement_next = Vec3::Zero();  // at the next step
+  // Of Model::still at the next step and half step; none: the state's bodies are moved one by one.
+  const StillPlaces *still_now = nullptr, *still_next = nullptr;
 
   /// Of a fixed body at the next half step.
   Vec3 prescribed_velocity(std::size_t body) const {
@@ -77,24 +83,26 @@ struct BodyPass {
   BodyUpdate update(std::size_t body) const;
   void turn(std::size_t body, Triple<double> moment, BodyUpdate& update) const;
   BodyUpdate held_update(std::size_t body, const Triple<double>& patches, const Triple<double>& moment) const;
+  /// Work of what holds or drives the still bodies that a tile's joints touch, on those joints over the step, J.
+  double support_work(const Tile& tile) const;
   /// Moves the bodies [begin, end); `begin` is the first of a batch.
   BodyReport bodies(std::size_t begin, std::size_t end) const;
 
  private:
   Lanes wrench_sum(std::size_t body) const;
   bool runs_away(std::size_t body, double speed2) const;
+  Lanes contact_sum(std::size_t body, Lanes sum) const;
   void move_body(std::size_t body, BodyReport& report) const;
-  /// Of the bodies that moved side by side the largest squares of velocity relative to the ground, m2/s2, and of half
-  /// the turn times radius, m2.
-  struct Steps {
-    Lanes speed2 = splat(0.0), turn2 = splat(0.0);
-  };
+  void move_still(std::size_t body, BodyReport& report) const;
   void fetch_constants(std::size_t first) const;
   void fetch_motion(std::size_t first) const;
-  LaneMask move_lanes(std::size_t first, std::size_t end, Steps& steps, BodyReport& report) const;
-  double farthest(std::size_t begin, std::size_t end) const;
-  bool far_enough(std::size_t begin, std::size_t end, const Steps& steps) const;
+  LaneMask move_lanes(std::size_t first, std::size_t end, BodyReport& report) const;
+  void look_at(std::size_t body, const BodyUpdate& next, BodyReport& report) const;
 };
+
+/// Work over a step of what holds or drives a still body on which joints put this force (N), J; velocities (m/s) at
+/// both half steps.
+double holding_work(const double* force, const double* velocity_now, const double* velocity_next, double dt);
 
 /// Work of the loads on a body over half a step at this velocity and angular momentum, J.
 double load_work(const BodyPass& pass, std::size_t body, const BodyUpdate& next, const Triple<double>& velocity,

@@ -125,6 +125,7 @@ Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::siz
   for (std::int32_t i = tile.first_joint; i < tile.end_joint; ++i)
     if (!in_tile_energy(model, state, std::size_t(i))) add_patch(std::size_t(i));
 
+  e.external_work += state.support_work[index];
   for (std::int32_t i = tile.first_body; i < tile.end_body; ++i) add_body(stepper, pass, std::size_t(i), e);
   const std::vector<std::int32_t>& of_interface = state.interface.first_batch;
   add_losses(state.interface_memory, std::size_t(of_interface[index]), std::size_t(of_interface[index + 1]), e);

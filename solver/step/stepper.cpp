@@ -27,6 +27,8 @@ Vec3 base_acceleration(const GroundMotion* motion, double time) {
 
 namespace {
 
+constexpr std::int64_t most_unseen = 16;  // steps
+
 /// The fill's tiles come after those of the bodies, whose patches with the fill are read by neither.
 void add_fill(const Model& model, const State& state, Dependencies& order) {
   constexpr double interface_cost = 2.0, tet_cost = 1.5;  // of eight, against a batch of joints
@@ -112,13 +114,35 @@ BodyPass Stepper::body_pass() const {
   pass.dt = dt;
   pass.mass_rate = damping.mass_rate;
   pass.local = damping.local;
-  pass.search_distance = search_distance;
   if (!loads.none()) pass.loads = &loads;
   pass.drive = &drive;
   pass.drive_velocity.assign(drives.size(), Vec3::Zero());
   pass.base_velocity_now = state->base_velocity();
   pass.base_displacement_next = state->base_displacement();
   return pass;
+}
+
+StillPlaces Stepper::still_places() const {
+  StillPlaces places;
+  for (const std::int32_t body : model->still) {
+    const double* pose = &state->pose[pose_width * std::size_t(body)];
+    const double* moves = &state->motion[motion_width * std::size_t(body)];
+    places.pose.insert(places.pose.end(), pose, pose + pose_width);
+    places.motion.insert(places.motion.end(), moves, moves + motion_width);
+  }
+  return places;
+}
+
+void Stepper::move_still(const BodyPass& pass, const StillPlaces& now, StillPlaces& next) const {
+  next = now;
+  for (std::size_t i = 0; i < model->still.size(); ++i) {
+    const Vec3 velocity = pass.prescribed_velocity(std::size_t(model->still[i]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      next.motion[motion_width * i + c] = velocity[Eigen::Index(c)];
+      next.motion[motion_width * i + 3 + c] = 0.0;
+      next.pose[pose_width * i + c] += dt * velocity[Eigen::Index(c)];
+    }
+  }
 }
 
 PatchPass Stepper::patch_pass() {
@@ -208,10 +232,17 @@ void add_fill_work(RoundWork& work, FillPass& fill, std::size_t body_tiles, std:
   };
   work.before_first = shared(nullptr, [&](std::size_t tile) { fill.volumes(tile); });
   work.before_second = shared(nullptr, [&](std::size_t tile) { fill.means(tile); });
-  work.first =
-      shared(work.first, [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill = fill.stresses(tile); });
-  work.second =
-      shared(work.second, [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill.merge(fill.nodes(tile)); });
+  const auto one_step = [](std::function<void(std::size_t, int)> of_bodies) {  // a fill has rounds of one step
+    return [of_bodies = std::move(of_bodies)](std::size_t tile) { of_bodies(tile, 0); };
+  };
+  const auto any_step = [](std::function<void(std::size_t)> of_tile) {
+    return [of_tile = std::move(of_tile)](std::size_t tile, int) { of_tile(tile); };
+  };
+  std::function<void(std::size_t)> first = shared(
+      one_step(work.first), [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill = fill.stresses(tile); });
+  std::function<void(std::size_t)> second = shared(one_step(work.second), [&, body_tiles](std::size_t tile) {
+    found[body_tiles + tile].fill.merge(fill.nodes(tile));
+  });
   if (costs) {
     const auto timed_tile = [&, body_tiles, costs](auto of_bodies, double TileCost::*sum) {
       return [=, &found](std::size_t tile) {
@@ -223,20 +254,47 @@ void add_fill_work(RoundWork& work, FillPass& fill, std::size_t body_tiles, std:
     };
     work.before_first = timed_tile(work.before_first, &TileCost::volumes);
     work.before_second = timed_tile(work.before_second, &TileCost::volumes);
-    work.first = timed_tile(work.first, &TileCost::patches);
-    work.second = timed_tile(work.second, &TileCost::bodies);
+    first = timed_tile(first, &TileCost::patches);
+    second = timed_tile(second, &TileCost::bodies);
   }
+  work.first = any_step(first), work.second = any_step(second);
   work.between = shared(
       work.between, [&, body_tiles](std::size_t tile) { energies[body_tiles + tile] = energies_of_fill(fill, tile); });
 }
 
 /// The bodies have moved: so do the scalars.
-void finish_step(State& state, double dt, BodyPass& bodies) {
+void finish_step(State& state, double dt, const BodyPass& bodies) {
   state.time() += dt;
   ++state.step();
   state.base_velocity() = bodies.base_velocity_next;
   state.base_displacement() = bodies.base_displacement_next;
-  bodies.base_velocity_now = bodies.base_velocity_next;
+}
+
+/// Steps from `step` on until the next multiple of `every`.
+std::int64_t until_multiple(std::int64_t step, std::int64_t every) {
+  return every - step % every;
+}
+
+/// Steps in which no body comes as far as `distance` (m), even if the fastest doubles its speed, and falls.
+std::int64_t steps_within(double distance, double fastest, double dt) {
+  constexpr double faster = 2.0, falling = 10.0;  // m/s2
+  std::int64_t steps = most_unseen;
+  while (steps > 1 && !(double(steps) * (faster * fastest + falling * double(steps) * dt * dt) <= distance)) --steps;
+  return steps;
+}
+
+/// What was seen of the bodies at the end of a round: whether contacts are looked for now, and when to look again.
+struct Look {
+  bool search = false;
+  std::int64_t next = 0;  // step
+};
+/// Slow bodies that stand near the distance for long would have rounds cut short: they are looked for somewhat earlier.
+Look look(const BodyReport& bodies, std::int64_t step, double distance, double dt) {
+  constexpr double early = 0.25;  // of the distance
+  constexpr std::int64_t short_of = 8;
+  const std::int64_t left = steps_within(distance - bodies.farthest, bodies.fastest, dt);
+  const bool hovers = left < short_of && steps_within(early * distance, bodies.fastest, dt) >= short_of;
+  return {bodies.farthest > distance || hovers, step + left};
 }
 
 }  // namespace
@@ -273,21 +331,43 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
   const std::size_t body_tiles = model->tiles.size(), all_tiles = body_tiles + model->fill.tiles.size();
   std::vector<Found> found(all_tiles);
   std::vector<Energies> energies(sample ? all_tiles : 0);
-  PatchPass patches = patch_pass();
-  BodyPass bodies = body_pass();
+  const auto most_steps = std::size_t(std::max(1, most_ahead));
+  std::vector<PatchPass> patches(most_steps, patch_pass());  // of each step of a round
   FillPass fill = fill_pass();
-  bodies.energies = &energies;
-  std::vector<double> way(body_batches.size(), HUGE_VAL);
-  bodies.way = way.data();
+  std::vector<BodyPass> bodies(most_steps, body_pass());
+  std::vector<StillPlaces> still(most_steps + 1, still_places());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].energies = &energies;
+    patches[i].still = still[i].pose.data();
+    bodies[i].still_now = &still[i], bodies[i].still_next = &still[i + 1];
+  }
+  std::size_t steps = 1;
   RoundKind step_kind = RoundKind::both;
-  const auto next_step = [&] {
-    move_base(*this, state->time(), bodies);
-    fill.base_displacement = bodies.base_displacement_next;
+  /// How many steps until there is something to decide.
+  const auto steps_of_round = [&](bool samples) {
+    if (samples || !model->fill.empty()) return std::int64_t(1);
+    const std::int64_t now = state->step();
+    std::int64_t most = std::min({std::int64_t(most_steps), target - now, until_multiple(now, clip_interval)});
+    if (sample) most = std::min(most, until_multiple(now, sample_every));
+    return std::min(most, std::max<std::int64_t>(1, state->look_at() - now));
+  };
+  const auto next_round = [&] {
     const bool samples = sample && state->step() % sample_every == 0;
-    patches.energies = samples ? tile_energies.data() : nullptr;
+    steps = std::size_t(steps_of_round(samples));
+    double time = state->time();
+    for (std::size_t i = 0; i < steps; ++i, time += dt) {
+      BodyPass& pass = bodies[i];
+      pass.base_velocity_now = i > 0 ? bodies[i - 1].base_velocity_next : Vec3(state->base_velocity());
+      pass.base_displacement_next = i > 0 ? bodies[i - 1].base_displacement_next : Vec3(state->base_displacement());
+      pass.looks = i + 1 == steps && state->look_at() <= state->step() + std::int64_t(steps);
+      move_base(*this, time, pass);
+      move_still(pass, still[i], still[i + 1]);
+    }
+    fill.base_displacement = bodies.front().base_displacement_next;
+    patches.front().energies = samples ? tile_energies.data() : nullptr;
     fill.energies = samples ? fill_energies.data() : nullptr;
     step_kind = samples ? RoundKind::first_only : RoundKind::both;
-    return model->fill.empty() ? step_kind : RoundKind::before;
+    return NextRound(model->fill.empty() ? step_kind : RoundKind::before, int(steps));
   };
   /// True when the team has to part.
   const auto decide = [&] {
@@ -297,7 +377,12 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
     for (const Found& f : found) all_patches.merge(f.patches), all_bodies.merge(f.bodies), all_fill.merge(f.fill);
     result.runaway_node = all_fill.runaway, result.inverted_tet = all_fill.inverted;
     const bool runs_away = all_bodies.runaway >= 0 || all_fill.runaway >= 0 || all_fill.inverted >= 0;
-    const bool searches = all_bodies.search || all_fill.search;
+    bool searches = all_fill.search;
+    if (bodies[steps - 1].looks) {
+      const Look seen = look(all_bodies, state->step(), search_distance, dt);
+      searches |= seen.search;
+      state->look_at() = seen.next;
+    }
     const bool stopped = stop && stop->load(std::memory_order_relaxed);
     const bool clip = all_patches.reclip && may_clip_at(state->step());
     result.intact = all_patches.intact;
@@ -310,44 +395,51 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
                                                           : StepOutcome::reached;
     return result.outcome != StepOutcome::reached || state->step() == target;
   };
-  const auto move_tile = [&](std::size_t tile) {
+  const auto move_tile = [&](std::size_t tile, int step) {
     const Tile& t = model->tiles[tile];
-    return bodies.bodies(std::size_t(t.first_body), std::size_t(t.end_body));
+    const BodyPass& pass = bodies[std::size_t(step)];
+    state->support_work[tile] += pass.support_work(t);
+    const BodyReport report = pass.bodies(std::size_t(t.first_body), std::size_t(t.end_body));
+    if (step == 0) found[tile].bodies = {};
+    found[tile].bodies.merge(report);
   };
   RoundWork work;
-  work.first = [&](std::size_t tile) { found[tile].patches = tile_patches(patches, tile); };
-  work.second = [&](std::size_t tile) { found[tile].bodies = move_tile(tile); };
+  work.first = [&](std::size_t tile, int step) {
+    found[tile].patches = tile_patches(patches[std::size_t(step)], tile);
+  };
+  work.second = move_tile;
   work.between = [&](std::size_t tile) {
-    energies[tile] = energies_of_tile(*this, bodies, tile);
+    energies[tile] = energies_of_tile(*this, bodies.front(), tile);
     if (before_sample) before_sample(tile);
   };
   if (costs) {
     costs->resize(all_tiles);
-    work.first = [&](std::size_t tile) {
+    work.first = [&](std::size_t tile, int step) {
       TileCost& cost = (*costs)[tile];
-      const PassReport report = timed(cost.patches, [&] { return tile_patches(patches, tile); });
+      const PassReport report = timed(cost.patches, [&] { return tile_patches(patches[std::size_t(step)], tile); });
       cost.intact += report.intact, cost.points += report.points, cost.contacts += report.contacts;
       if (!state->interface.empty())
         cost.interface +=
             lane_count * (state->interface.first_batch[tile + 1] - std::int64_t(state->interface.first_batch[tile]));
       found[tile].patches = report;
     };
-    work.second = [&](std::size_t tile) {
-      found[tile].bodies = timed((*costs)[tile].bodies, [&] { return move_tile(tile); });
+    work.second = [&](std::size_t tile, int step) {
+      timed((*costs)[tile].bodies, [&] { return move_tile(tile, step), 0; });
     };
   }
   if (!model->fill.empty()) add_fill_work(work, fill, body_tiles, found, energies, costs);
-  work.next = [&](RoundKind done) {
+  work.next = [&](RoundKind done) -> NextRound {
     if (done == RoundKind::before) return step_kind;
     if (done == RoundKind::first_only) return RoundKind::between;
     if (done == RoundKind::between) {
-      sample(bodies);
+      sample(bodies.front());
       return RoundKind::second_only;
     }
-    finish_step(*state, dt, bodies);
-    return decide() ? RoundKind::end : next_step();
+    for (std::size_t i = 0; i < steps; ++i) finish_step(*state, dt, bodies[i]);
+    still.front() = still[steps];
+    return decide() ? NextRound(RoundKind::end) : next_round();
   };
-  run_rounds(threads, order, next_step(), work);
+  run_rounds(threads, order, next_round(), work);
   return result;
 }
 
@@ -356,6 +448,10 @@ void serial_step(Stepper& s) {
   const Model& model = *s.model;
   BodyPass bodies = s.body_pass();
   move_base(s, state.time(), bodies);
+  const StillPlaces now = s.still_places();
+  StillPlaces next;
+  s.move_still(bodies, now, next);
+  bodies.still_now = &now, bodies.still_next = &next;
   s.patches_only();
   const auto add = [](double* sum, const double* wrench, double sign) {
     for (int c = 0; c < 6; ++c) sum[c] += sign * wrench[c];
@@ -363,7 +459,7 @@ void serial_step(Stepper& s) {
   std::vector<std::map<std::int32_t, std::array<double, 6>>> tile_sums(model.bodies.size());  // by tile, of each body
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Patch& p = model.joints[i];
-    const std::int32_t tile = model.tile_of(std::min(p.a, p.b));
+    const std::int32_t tile = model.tile_of_joint(p.a, p.b);
     add(tile_sums[std::size_t(p.a)][tile].data(), &s.wrenches[wrench_width * i], 1.0);
     add(tile_sums[std::size_t(p.b)][tile].data(), &s.wrenches[wrench_width * i], -1.0);
   }
@@ -380,20 +476,34 @@ void serial_step(Stepper& s) {
     if (state.interface.used(i))
       add(&sums[wrench_width * std::size_t(state.interface.patches[i].body)],
           &s.contact_wrenches[wrench_width * (state.contacts.size() + i)], 1.0);
-  // One "sum" a body, and no contacts.
+  // One "sum" a body, and no contacts but of still bodies, which do not add up what joints put on them.
   std::vector<std::int32_t> first(model.bodies.size() + 1), places(model.bodies.size());
   std::iota(first.begin(), first.end(), 0);
   std::iota(places.begin(), places.end(), 0);
-  Incidence none;
-  none.first.assign(model.bodies.size() + 1, 0);
+  Incidence of_still;
+  of_still.first.push_back(0);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const auto begin = s.incidence.contacts.begin();
+    if (model.still_of[i] >= 0)
+      of_still.contacts.insert(of_still.contacts.end(), begin + s.incidence.first[i], begin + s.incidence.first[i + 1]);
+    of_still.first.push_back(std::int32_t(of_still.contacts.size()));
+  }
   bodies.first_sum = &first;
   bodies.sum_places = &places;
   bodies.sums = sums.data();
-  bodies.incidence = &none;
-  bodies.bodies(0, model.bodies.size());
+  bodies.incidence = &of_still;
+  std::vector<double> support_work(model.tiles.size(), 0.0);
+  for (std::size_t i = 0; i < model.still.size(); ++i)
+    for (const auto& [tile, sum] : tile_sums[std::size_t(model.still[i])])
+      support_work[std::size_t(tile)] +=
+          holding_work(sum.data(), &now.motion[motion_width * i], &next.motion[motion_width * i], s.dt);
+  for (std::size_t tile = 0; tile < support_work.size(); ++tile) state.support_work[tile] += support_work[tile];
+  bodies.looks = state.look_at() <= state.step() + 1;
+  const BodyReport report = bodies.bodies(0, model.bodies.size());
   const FillPass fill = s.fill_pass();
   for (std::size_t tile = 0; tile < model.fill.tiles.size(); ++tile) fill.nodes(tile);
   finish_step(state, s.dt, bodies);
+  if (bodies.looks) state.look_at() = look(report, state.step(), s.search_distance, s.dt).next;
 }
 
 }  // namespace voussoir

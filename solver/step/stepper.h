@@ -45,6 +45,8 @@ struct Stepper {
   double dt = 0.0;  // s
   int threads = 1;
   bool shortcut = true;
+  int most_ahead = 8;  // steps between decisions, in which tiles go ahead of each other; any gives the
+                       // same bits
   const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
   double stage_start = 0.0;              // s, time of the motion's first sample
   double stage_duration = 0.0;           // s
@@ -52,7 +54,7 @@ struct Stepper {
   Array<std::int32_t> drive;             // of each body, see BodyPass
   GroundPath ground;                     // of the motion, for drives that depart from it; else empty
   LoadsAtWork loads;                     // of the stage, eased over its duration; at once in equilibrium
-  double search_distance = 1e300;        // m, see BodyPass
+  double search_distance = 1e300;  // m: a body that has moved farther since its place was noted calls for a search
   // Called for each tile of bodies, by any thread, before a sample is; none: nothing.
   std::function<void(std::size_t tile)> before_sample;
   std::vector<TileCost>* costs = nullptr;  // of each tile, added to at every step; none: nothing is timed
@@ -75,6 +77,9 @@ struct Stepper {
   /// change.
   void begin_branches();
   BodyPass body_pass() const;
+  /// Where still bodies are now, and where a pass will have taken them from there.
+  StillPlaces still_places() const;
+  void move_still(const BodyPass& pass, const StillPlaces& now, StillPlaces& next) const;
   FillPass fill_pass() const;
 
   // Scratch memory that prepare() lays out.

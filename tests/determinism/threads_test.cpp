@@ -54,6 +54,27 @@ TEST(Threads, GiveTheSameBits) {
   measured("2 or 3 threads against 1, wall of 4 x 5, 2500 steps: runs with equal state_hash", runs, equal, "runs");
 }
 
+/// How far tiles may go ahead of each other is nobody's business: not that of the contacts found either.
+TEST(Threads, GiveTheSameBitsHoweverFarTilesGoAhead) {
+  const auto hash = [](int ahead, int threads, std::int64_t piece) {
+    Bench bench(weak_wall(24, 8), undamped({0, 0, -9.81}));
+    EXPECT_TRUE(bench.balance(1e-8).converged);
+    bench.begin();
+    const GroundMotion motion = strong_motion(2.0);
+    bench.stepper.motion = &motion;
+    bench.stepper.threads = threads;
+    bench.stepper.most_ahead = ahead;
+    EXPECT_GT(bench.model.tiles.size(), 2u);
+    for (std::int64_t step = 0; step < 1500; step += piece) EXPECT_TRUE(bench.run(std::min(piece, 1500 - step)));
+    EXPECT_GT(bench.state.counters[1], 1) << "nothing was looked for";
+    return hash_arrays(bench.state.arrays());
+  };
+  const std::uint64_t alone = hash(1, 1, 1500);
+  for (const int ahead : {3, 8, 20}) EXPECT_EQ(hash(ahead, 1, 1500), alone) << ahead;
+  EXPECT_EQ(hash(8, 2, 1500), alone);
+  EXPECT_EQ(hash(8, 3, 7), alone) << "in pieces of 7 steps";
+}
+
 /// Eight threads on fewer cores take turns: fewer steps, and more threads than some passes have work for.
 TEST(Threads, GiveTheSameBitsWhenThereAreManyMoreThanCores) {
   const std::uint64_t one = shaken_wall(1, DampingSettings::Kind::maxwell, true, 150);

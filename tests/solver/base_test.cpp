@@ -112,13 +112,13 @@ void go_round(int threads, std::size_t n, int rounds) {
   std::atomic<int> wrong{0};
   int round = 1, sampled = 0;
   RoundWork work;
-  work.first = [&](std::size_t i) { wrong += ++first[i] != round; };
+  work.first = [&](std::size_t i, int) { wrong += ++first[i] != round; };
   work.between = [&](std::size_t i) { ++between[i]; };
-  work.second = [&](std::size_t i) {
+  work.second = [&](std::size_t i, int) {
     for (std::size_t before = i < 2 ? 0 : i - 2; before <= i; ++before) wrong += first[before] != round;
     wrong += ++second[i] != round;
   };
-  work.next = [&](RoundKind done) {
+  work.next = [&](RoundKind done) -> NextRound {
     if (done == RoundKind::first_only) return RoundKind::between;
     if (done == RoundKind::between) return ++sampled, RoundKind::second_only;
     if (++round > rounds) return RoundKind::end;
@@ -140,6 +140,47 @@ TEST(Rounds, EveryItemOnceAndInOrder) {
   go_round(8, 5, 500);  // more threads than items
 }
 
+/// Rounds of several steps: each item goes as far as those it reads and those that read it let it, no farther.
+void go_ahead(int threads, std::size_t n, int rounds) {
+  const Dependencies items = chain(n);
+  constexpr int steps[] = {1, 5, 8, 2, 3};
+  std::vector<int> first(n, 0), second(n, 0);
+  std::atomic<int> wrong{0}, ahead{0};
+  int round = 0, done = 0, all = 0;
+  RoundWork work;
+  work.first = [&](std::size_t i, int step) {
+    wrong += first[i]++ != done + step || second[i] != done + step;
+    for (const std::int32_t follower : items.followers[i]) wrong += second[std::size_t(follower)] != done + step;
+    if (threads == 1 && i > 0) ahead += second[0] > done + step;
+  };
+  work.second = [&](std::size_t i, int step) {
+    for (std::size_t before = i < 2 ? 0 : i - 2; before <= i; ++before) wrong += first[before] != done + step + 1;
+    wrong += second[i]++ != done + step;
+  };
+  work.next = [&](RoundKind) -> NextRound {
+    done = all;
+    if (round++ == rounds) return RoundKind::end;
+    all += steps[round % 5];
+    return {RoundKind::both, steps[round % 5]};
+  };
+  all = 4;
+  run_rounds(threads, items, {RoundKind::both, 4}, work);
+  EXPECT_EQ(wrong.load(), 0);
+  EXPECT_EQ(first, std::vector<int>(n, done));
+  EXPECT_EQ(second, std::vector<int>(n, done));
+  if (threads == 1 && n > 20) {
+    EXPECT_GT(ahead.load(), 0) << "nobody was ahead of anybody";
+  }
+}
+
+TEST(Rounds, ItemsGoAheadOfEachOther) {
+  go_ahead(1, 100, 200);
+  go_ahead(2, 100, 2000);
+  go_ahead(2, 1, 500);
+  go_ahead(3, 130, 1000);
+  go_ahead(8, 5, 300);
+}
+
 /// A runtime that grants fewer threads than asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC, a caller that is parallel
 /// already) must not leave a round waiting for threads that never came.
 TEST(Rounds, DoNotHangWhenFewerThreadsAreGranted) {
@@ -158,8 +199,8 @@ TEST(Rounds, AnExceptionBetweenThemEndsThem) {
   for (int threads : {1, 3}) {
     int ends = 0;
     RoundWork work;
-    work.first = work.second = [](std::size_t) {};
-    work.next = [&](RoundKind) -> RoundKind {
+    work.first = work.second = [](std::size_t, int) {};
+    work.next = [&](RoundKind) -> NextRound {
       if (++ends == 7) throw RunError("the disk is full");
       return RoundKind::both;
     };
@@ -173,11 +214,11 @@ TEST(Rounds, AnExceptionOfAnItemEndsThem) {
     for (const bool in_first : {true, false}) {
       std::atomic<int> calls{0};
       RoundWork work;
-      work.first = work.second = [](std::size_t) {};
-      (in_first ? work.first : work.second) = [&](std::size_t i) {
+      work.first = work.second = [](std::size_t, int) {};
+      (in_first ? work.first : work.second) = [&](std::size_t i, int) {
         if (++calls > 100 && i % 2 == 0) throw std::bad_alloc();  // several threads at once
       };
-      work.next = [](RoundKind) { return RoundKind::both; };
+      work.next = [](RoundKind) { return NextRound(RoundKind::both, 3); };
       EXPECT_THROW(run_rounds(threads, chain(10), RoundKind::both, work), std::bad_alloc);
     }
 }

@@ -179,8 +179,8 @@ TEST(ContactSlots, AreReusedAndNeverMoved) {
   EXPECT_NEAR(weight, 0.1, 1e-15);
 }
 
-/// Steps at which a search is called for, while blocks fly and turn about over a shaken base. An advance begins by
-/// comparing places and from then on adds up how far bodies may have come; of one step each, all compare places.
+/// Steps at which a search is called for, while blocks fly and turn about over a shaken base, in advances of so many
+/// steps. Places are looked at less often than that, but nobody has come farther than the distance by then.
 std::vector<std::int64_t> searched_steps(std::int64_t at_once) {
   constexpr int count = 20;
   const auto made = row_of_cubes(count, 0.5);
@@ -202,6 +202,14 @@ std::vector<std::int64_t> searched_steps(std::int64_t at_once) {
     const std::int64_t target = std::min<std::int64_t>(2000, bench.state.step() + at_once);
     if (bench.stepper.advance(target, 1, nullptr, nullptr).outcome != StepOutcome::contacts) continue;
     steps.push_back(bench.state.step());
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < bench.model.bodies.size(); ++i)
+      farthest = std::max(
+          farthest, moved_since(bench.model, bench.state, bench.state.searched, i, bench.state.base_displacement()));
+    EXPECT_LE(farthest, 1.03 * bench.stepper.search_distance) << "step " << steps.back();
+    if (!may_clip_at(steps.back())) {
+      EXPECT_GE(farthest, 0.7 * bench.stepper.search_distance) << "step " << steps.back();
+    }
     update_contacts(bench.model, bench.state, {});
     bench.stepper.prepare();
   }
