@@ -231,7 +231,7 @@ struct BatchArrays {
   Lanes *slip, *sums;
   SlidingLimits limits;
   SingleBranches<count> several;
-  bool touches_still;  // joints of the tile, bodies that PatchPass::still places
+  const Tile::StillSum *still_sums, *end_still_sums;  // of the tile, where PatchPass::still places bodies; else none
 
   BatchArrays(const PatchPass& pass, const Tile& tile)
       : batches(pass.model->batches.data()),
@@ -244,7 +244,17 @@ struct BatchArrays {
         sums(reinterpret_cast<Lanes*>(pass.sums)),
         limits(*pass.model),
         several(pass.branches),
-        touches_still(pass.still && !tile.still_sums.empty()) {}
+        still_sums(tile.still_sums.data()),
+        end_still_sums(still_sums + (pass.still ? tile.still_sums.size() : 0)) {}
+
+  /// Whether any joint of the batch touches one of those bodies.
+  [[gnu::always_inline]] bool touches_still(const JointBatch& batch) const {
+    bool touches = false;
+    for (const Tile::StillSum* one = still_sums; one != end_still_sums; ++one)
+      for (int lane = 0; lane < lane_count; ++lane)
+        touches |= (batch.sum_a[lane] == one->sum) | (batch.sum_b[lane] == one->sum);
+    return touches;
+  }
 
   Singles* last_of(std::size_t k) const { return last + 6 * k; }
   Singles* branches_of(std::size_t k) const { return branch + 6 * count * k; }
@@ -300,7 +310,7 @@ struct BatchPass {
     if (!closed && !any(live_lanes())) return nothing_left();
     PoseRows a = {in.pose, batch.a}, b = {in.pose, batch.b};
     alignas(64) double rows[2][lane_count * pose_width];
-    if (in.touches_still) a = copies(pass, batch.a, rows[0]), b = copies(pass, batch.b, rows[1]);
+    if (in.touches_still(batch)) a = copies(pass, batch.a, rows[0]), b = copies(pass, batch.b, rows[1]);
     const Jump<Lanes> jump = lanes_jump(batch, a, b);
     ahead.poses();
     if (closed) {

@@ -49,8 +49,8 @@ Work points_work(int branches, double points, bool rectangle) {
   Work w = joint_work();
   // Plastic slip s and t read and written, flags, branches read and written.
   const double bytes = (rectangle ? 0.0 : 24.0) + 32.0 + 1.0 + 2.0 * 3.0 * branches * sizeof(float);
-  // Of one that stays as it was: jump and change 11, trial 16, tractions and sums 18, opening 1, its place 2; those that
-  // yield are not counted.
+  // Of one that stays as it was: jump and change 11, trial 16, tractions and sums 18, opening 1, its place 2; those
+  // that yield are not counted.
   const double operations = 48.0 + (branches > 0 ? 18.0 * branches + 9.0 : 0.0);
   w.bytes += points * bytes + 2.0 * 5.0 * sizeof(double);  // energies, largest opening and slip
   w.operations += 20.0 + points * operations;              // limits of the law, products after the last point
@@ -60,7 +60,8 @@ Work points_work(int branches, double points, bool rectangle) {
 Work body_work(double sums) {
   const double bytes = double(sizeof(BodyBatch)) / lane_count + 2.0 * sizeof(double) * (pose_width + motion_width) +
                        sizeof(double) * wrench_width * sums + 8.0;
-  // Sums, moment and velocities 34, spins 128, rotations 59, norm 13, place 6, speed 6. Where they are is looked at every few steps.
+  // Sums, moment and velocities 34, spins 128, rotations 59, norm 13, place 6, speed 6. Where they are is looked at
+  // every few steps.
   return {bytes, 6.0 * sums + 34.0 + 128.0 + 59.0 + 13.0 + 6.0 + 6.0};
 }
 
