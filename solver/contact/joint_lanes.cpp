@@ -16,7 +16,7 @@ struct PoseRows {
   const std::int32_t* which;
 };
 
-/// Copies of eight poses, of still bodies from where those are: for batches of tiles that touch any.
+/// Copies of eight poses, of still bodies from where those are: for batches that touch any.
 [[gnu::noinline]] PoseRows copies(const PatchPass& pass, const std::int32_t* bodies, double* rows) {
   static constexpr std::int32_t in_order[lane_count] = {0, 1, 2, 3, 4, 5, 6, 7};
   for (int lane = 0; lane < lane_count; ++lane)

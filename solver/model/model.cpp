@@ -14,6 +14,11 @@ namespace {
 
 constexpr std::size_t large_model = 16384;  // bodies
 
+/// Edge of a cube as large as the block, m.
+double size_of(const Assembly& assembly, const Block& block) {
+  return std::cbrt(block.mass / assembly.materials.at(std::size_t(block.material)).density);
+}
+
 /// Along a space-filling curve. What a step of a large model reads does not fit in a cache, so its tiles go ahead of
 /// each other, several steps in one sweep; they can where neighbours are near each other in the order.
 std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
@@ -22,7 +27,7 @@ std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
   std::vector<double> sizes;
   for (const Block& block : assembly.blocks) {
     centroids.push_back(block.centroid);
-    sizes.push_back(std::cbrt(block.mass / assembly.materials.at(std::size_t(block.material)).density));
+    sizes.push_back(size_of(assembly, block));
   }
   const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
@@ -57,7 +62,7 @@ void add_bodies(const Assembly& assembly, Model& model) {
     const Material& material = assembly.materials.at(block.material);
     model.matter.push_back({material.youngs_modulus, material.shear_modulus, std::tan(material.friction_angle)});
     if (block.fixed) continue;
-    sizes.push_back(std::cbrt(block.mass / material.density));
+    sizes.push_back(size_of(assembly, block));
     // Without gravity other loads are measured by what the blocks would weigh.
     weight += block.mass * (model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm());
     ++movable;

@@ -10,6 +10,8 @@
 #include "solver/contact/search.h"
 #include "solver/step/drive.h"
 #include "solver/step/energy.h"
+#include "solver/step/look.h"
+#include "solver/step/tile_order.h"
 
 namespace voussoir {
 
@@ -24,58 +26,6 @@ Vec3 base_acceleration(const GroundMotion* motion, double time) {
   const double share = at - double(i);
   return (1.0 - share) * motion->acceleration[i] + share * motion->acceleration[i + 1];
 }
-
-namespace {
-
-constexpr std::int64_t most_unseen = 16;  // steps
-
-/// The fill's tiles come after those of the bodies, whose patches with the fill are read by neither.
-void add_fill(const Model& model, const State& state, Dependencies& order) {
-  constexpr double interface_cost = 2.0, tet_cost = 1.5;  // of eight, against a batch of joints
-  const auto tiles = std::int32_t(model.tiles.size());
-  for (const InterfaceBatch& batch : state.interface.batches) {
-    order.cost[std::size_t(batch.tile)] += interface_cost;
-    std::vector<std::int32_t>& followers = order.followers[std::size_t(batch.tile)];
-    for (const auto& corner : batch.node)
-      for (const std::int32_t node : corner) followers.push_back(tiles + node / tile_nodes);
-  }
-  for (auto& followers : order.followers) {
-    std::sort(followers.begin(), followers.end());
-    followers.erase(std::unique(followers.begin(), followers.end()), followers.end());
-  }
-  for (const FillTile& tile : model.fill.tiles) {
-    auto& followers = order.followers.emplace_back(tile.followers);
-    for (std::int32_t& follower : followers) follower += tiles;
-    order.cost.push_back(1.0 + tet_cost * (tile.end_batch - tile.first_batch));
-  }
-}
-
-/// A tile's bodies may move once no tile before it still has to read them.
-Dependencies order_of_tiles(const Model& model, const State& state) {
-  constexpr double contact_cost = 2.0;  // of eight, against a batch of joints
-  Dependencies order;
-  for (const Tile& tile : model.tiles) {
-    order.followers.push_back(tile.followers);
-    order.cost.push_back(1.0 + tile.end_batch - tile.first_batch);
-  }
-  for (const ContactBatch& batch : state.contact_batches) order.cost[std::size_t(batch.tile)] += contact_cost;
-  for (std::size_t i = 0; i < state.contacts.size(); ++i) {
-    if (!state.has_contact(i)) continue;
-    const JointBatch& batch = state.contact_batches[i / lane_count].patch;
-    const std::int32_t a = model.tile_of(batch.a[i % lane_count]), b = model.tile_of(batch.b[i % lane_count]);
-    if (a == b) continue;
-    std::vector<std::int32_t>& followers = order.followers[std::size_t(std::min(a, b))];
-    if (std::find(followers.begin(), followers.end(), std::max(a, b)) == followers.end())
-      followers.push_back(std::max(a, b));
-  }
-  add_fill(model, state, order);
-  order.waits.assign(order.followers.size(), 1);
-  for (const auto& followers : order.followers)
-    for (const std::int32_t follower : followers) ++order.waits[std::size_t(follower)];
-  return order;
-}
-
-}  // namespace
 
 void Stepper::prepare() {
   body_batches = make_body_batches(*model);
@@ -273,28 +223,6 @@ void finish_step(State& state, double dt, const BodyPass& bodies) {
 /// Steps from `step` on until the next multiple of `every`.
 std::int64_t until_multiple(std::int64_t step, std::int64_t every) {
   return every - step % every;
-}
-
-/// Steps in which no body comes as far as `distance` (m), even if the fastest doubles its speed, and falls.
-std::int64_t steps_within(double distance, double fastest, double dt) {
-  constexpr double faster = 2.0, falling = 10.0;  // m/s2
-  std::int64_t steps = most_unseen;
-  while (steps > 1 && !(double(steps) * (faster * fastest + falling * double(steps) * dt * dt) <= distance)) --steps;
-  return steps;
-}
-
-/// What was seen of the bodies at the end of a round: whether contacts are looked for now, and when to look again.
-struct Look {
-  bool search = false;
-  std::int64_t next = 0;  // step
-};
-/// Slow bodies that stand near the distance for long would have rounds cut short: they are looked for somewhat earlier.
-Look look(const BodyReport& bodies, std::int64_t step, double distance, double dt) {
-  constexpr double early = 0.25;  // of the distance
-  constexpr std::int64_t short_of = 8;
-  const std::int64_t left = steps_within(distance - bodies.farthest, bodies.fastest, dt);
-  const bool hovers = left < short_of && steps_within(early * distance, bodies.fastest, dt) >= short_of;
-  return {bodies.farthest > distance || hovers, step + left};
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "geometry/curve.h"
 #include "geometry/nearest_block.h"
 #include "solver/base/error.h"
 #include "tests/geometry/shapes.h"
@@ -31,6 +34,31 @@ TEST(FinishBlocks, FillsMassCentroidAndInertia) {
   const Box box = block_box(block);
   EXPECT_EQ(box.low, Vec3(1, 0, 0));
   EXPECT_EQ(box.high, Vec3(3, 1, 2));
+}
+
+/// Slab by slab along the longest side, whatever the curve does; each point once, and equal points in their own order.
+TEST(Curve, GoesSlabBySlab) {
+  std::vector<Vec3> points;
+  for (int z = 0; z < 6; ++z)
+    for (int x = 0; x < 20; ++x)
+      for (int twice = 0; twice < 2; ++twice) points.emplace_back(0.5 * x, 0.0, 0.5 * z);
+  const std::vector<std::int32_t> order = in_slabs(points, 1.1);
+  std::vector<std::int32_t> each(order);
+  std::sort(each.begin(), each.end());
+  ASSERT_EQ(each.size(), points.size());
+  for (std::size_t i = 0; i < each.size(); ++i) ASSERT_EQ(each[i], std::int32_t(i));
+  const auto x_of = [&](std::size_t i) { return points[std::size_t(order[i])].x(); };
+  bool goes_back = false;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    EXPECT_GE(std::floor(x_of(i) / 1.1), std::floor(x_of(i - 1) / 1.1)) << i;
+    goes_back |= x_of(i) < x_of(i - 1);
+    if (points[std::size_t(order[i])] == points[std::size_t(order[i - 1])]) {
+      EXPECT_GT(order[i], order[i - 1]);
+    }
+  }
+  EXPECT_TRUE(goes_back) << "within a slab it goes to and fro";
+  const std::vector<std::int32_t> plain = along_curve(points);
+  EXPECT_NE(plain, order);
 }
 
 /// A sensor that the survey puts a centimetre off the end is on the bridge, whatever stands against it.
