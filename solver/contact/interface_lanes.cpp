@@ -30,7 +30,7 @@ struct AffineField {
   for (int lane = 0; lane < lane_count; ++lane) {
     const Quad p = load_quad(pose + node_width * std::size_t(first[lane]));
     const Quad q = load_quad(pose + node_width * std::size_t(second[lane]));
-    rows[lane] = __builtin_shufflevector(p, q, 0, 1, 2, 3, 4, 5, 6, 7);
+    rows[lane] = pair(p, q);
   }
   transpose(rows);
   a = {rows[0], rows[1], rows[2]}, b = {rows[4], rows[5], rows[6]};
@@ -49,9 +49,9 @@ struct AffineField {
     std::memcpy(sum, &now, sizeof(now));
   };
   for (int lane = 0; lane < b.patch.count; ++lane) {
-    add(b.sum[0][lane], __builtin_shufflevector(two[lane], two[lane], 0, 1, 2, 3));
-    add(b.sum[1][lane], __builtin_shufflevector(two[lane], two[lane], 4, 5, 6, 7));
-    add(b.sum[2][lane], __builtin_shufflevector(one[lane], one[lane], 0, 1, 2, 3));
+    add(b.sum[0][lane], low(two[lane]));
+    add(b.sum[1][lane], high(two[lane]));
+    add(b.sum[2][lane], low(one[lane]));
   }
 }
 

@@ -13,8 +13,6 @@
 
 namespace voussoir {
 
-/// Four doubles: x, y, z of a node and one more.
-using Quad = double __attribute__((vector_size(32)));
 constexpr int node_width = 4;
 
 /// Eight tetrahedra of one material, a lane each; further lanes repeat the last one and put nothing on its nodes. Their

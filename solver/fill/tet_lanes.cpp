@@ -18,9 +18,9 @@ using namespace tet;
     for (int lane = 0; lane < batch.count; ++lane) {
       double* a = sums + node_width * std::size_t(batch.sum[k][lane]);
       double* b = sums + node_width * std::size_t(batch.sum[k + 1][lane]);
-      const Quad first = load_quad(a) + __builtin_shufflevector(rows[lane], rows[lane], 0, 1, 2, 3);
+      const Quad first = load_quad(a) + low(rows[lane]);
       std::memcpy(a, &first, sizeof(first));
-      const Quad second = load_quad(b) + __builtin_shufflevector(rows[lane], rows[lane], 4, 5, 6, 7);
+      const Quad second = load_quad(b) + high(rows[lane]);
       std::memcpy(b, &second, sizeof(second));
     }
   }

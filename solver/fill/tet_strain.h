@@ -26,7 +26,7 @@ struct Nodes {
     for (int lane = 0; lane < lane_count; ++lane) {
       const Quad a = load_quad(pose + node_width * std::size_t(batch.node[k][lane]));
       const Quad b = load_quad(pose + node_width * std::size_t(batch.node[k + 1][lane]));
-      rows[lane] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+      rows[lane] = pair(a, b);
     }
     transpose(rows);
     n.u[k] = {rows[0], rows[1], rows[2]}, n.mean[k] = rows[3];

@@ -1,0 +1,2 @@
+#define LANES Lanes
+#include "tests/solver/lanes_checks.h"
