@@ -43,10 +43,12 @@ double copy_bandwidth(double bytes, int threads) {
 }
 
 double multiply_add_peak(int threads) {
-  constexpr int chains = 16, rounds = 2000000;  // enough chains to hide the latency of a multiply–add
+  // Enough chains to hide the latency of a multiply–add, in as many registers as there are: 32 of eight lanes, or 16.
+  constexpr int chains = register_lanes == lane_count ? 16 : 12 * register_lanes / lane_count, rounds = 2000000;
   const double seconds = best_time(5, threads, [&](int, int) {
     Lanes x[chains];
-    for (int c = 0; c < chains; ++c) x[c] = splat(1.0 + c);
+    for (int c = 0; c < chains; ++c)
+      x[c] = splat(2.0 + c);  // not 1, which stays as it is: the compiler would leave it out
     const Lanes a = splat(0.999999), b = splat(1e-6);
     for (int i = 0; i < rounds; ++i)
       for (Lanes& one : x) one = one * a + b;

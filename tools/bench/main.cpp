@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string> scenes;
   int threads = 1;
   double seconds = 5.0;
+  std::int64_t steps = 0;  // instead, if not 0
   bool quiet = false;
   std::string keep;
 };
@@ -29,13 +30,16 @@ struct Measured {
   Progressed all;
 };
 
-/// Median over pieces of a run that lasts at least `seconds`.
-Measured measure(Running& scene, double movable, double seconds) {
+/// Median over pieces of a run of so many steps, or one that lasts at least so many seconds.
+Measured measure(Running& scene, double movable, const Options& o) {
   const auto piece = std::max<std::int64_t>(20, std::int64_t(1000000.0 / movable));
+  const auto goes_on = [&](const Measured& m, std::size_t pieces) {
+    return o.steps > 0 ? m.all.steps < o.steps : pieces < 3 || (m.all.seconds < o.seconds && pieces < 200);
+  };
   advance_scene(scene, piece / 4);  // warm caches, settled threads
   Measured m;
   std::vector<double> steps, processor;
-  while (steps.size() < 3 || (m.all.seconds < seconds && steps.size() < 200)) {
+  while (goes_on(m, steps.size())) {
     const Progressed p = advance_scene(scene, piece);
     steps.push_back(p.seconds / double(p.steps));
     processor.push_back(p.processor_seconds / double(p.steps));
@@ -90,7 +94,7 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
   Running& r = *running;
   const double movable =
       double(std::count_if(r.model.bodies.begin(), r.model.bodies.end(), [](const Body& b) { return !b.fixed; }));
-  const Measured m = measure(r, movable, o.seconds);
+  const Measured m = measure(r, movable, o);
   const std::vector<Phase> phases = step_phases(r, std::max<std::int64_t>(20, std::int64_t(300000.0 / movable)));
   Work work;
   for (const Phase& p : phases) work.bytes += p.work.bytes, work.operations += p.work.operations;
@@ -162,6 +166,8 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
   described.add_options()("help,h", "this text")("list", "the scenes")(
       "threads,j", po::value<int>()->default_value(1), "threads")("seconds", po::value<double>()->default_value(5.0),
                                                                   "least wall time a scene")(
+      "steps", po::value<std::int64_t>()->default_value(0),
+      "steps a scene at least, instead: the same for any number of threads and for any program")(
       "keep", po::value<std::string>()->default_value(""), "folder of scenes' states, to begin from another time")(
       "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
       "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")("quiet,q",
@@ -190,6 +196,8 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
   o.threads = values["threads"].as<int>();
   if (o.threads < 1) throw InputError("--threads is {}; it must be at least 1", o.threads);
   o.seconds = values["seconds"].as<double>();
+  o.steps = values["steps"].as<std::int64_t>();
+  if (o.steps < 0) throw InputError("--steps is {}; it must not be negative (0: as many as --seconds takes)", o.steps);
   o.quiet = values.count("quiet") > 0;
   o.keep = values["keep"].as<std::string>();
   folder = values["output"].as<std::string>();
