@@ -48,31 +48,16 @@ void pause_briefly() {
 constexpr int spins = 4000;  // some tens of microseconds: longer than a balanced pass's scatter, far below a time slice
 constexpr int spins_a_look = 16;
 
-/// Words that threads count down or set bits in; a thread that is alone needs no locked instructions for it, of which
-/// each item takes some twenty.
-template <class T>
-T count_down(std::atomic<T>& x, bool alone) {
-  if (!alone) return x.fetch_sub(1, std::memory_order_acq_rel);
-  const T was = x.load(std::memory_order_relaxed);
-  x.store(was - 1, std::memory_order_relaxed);
-  return was;
-}
-
 /// One bit for each item that may go on and that nobody has taken.
 class ReadyItems {
  public:
-  ReadyItems(std::size_t items, bool alone) : words_((items + bits - 1) / bits), items_(items), alone_(alone) {}
+  explicit ReadyItems(std::size_t items) : words_((items + bits - 1) / bits), items_(items) {}
 
   void set_all() {
     for (std::size_t w = 0; w < words_.size(); ++w) words_[w].fetch_or(mask(w, 0, items_), std::memory_order_seq_cst);
   }
   void set(std::size_t item) {
-    auto& word = words_[item / bits];
-    const std::uint64_t bit = std::uint64_t(1) << item % bits;
-    if (alone_)
-      word.store(word.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
-    else
-      word.fetch_or(bit, std::memory_order_seq_cst);
+    words_[item / bits].fetch_or(std::uint64_t(1) << item % bits, std::memory_order_seq_cst);
   }
   bool any() const {
     return std::any_of(words_.begin(), words_.end(), [](const auto& w) { return w.load(std::memory_order_seq_cst); });
@@ -104,14 +89,11 @@ class ReadyItems {
   }
   bool claim(std::size_t word, std::size_t at) {
     const std::uint64_t bit = std::uint64_t(1) << at;
-    if (!alone_) return words_[word].fetch_and(~bit, std::memory_order_acq_rel) & bit;
-    words_[word].store(words_[word].load(std::memory_order_relaxed) & ~bit, std::memory_order_relaxed);
-    return true;
+    return words_[word].fetch_and(~bit, std::memory_order_acq_rel) & bit;
   }
 
   std::vector<std::atomic<std::uint64_t>> words_;
   std::size_t items_;
-  bool alone_;
 };
 
 class Rounds {
@@ -119,10 +101,9 @@ class Rounds {
   Rounds(int team, const Dependencies& items, const RoundWork& work)
       : items_(items),
         work_(work),
-        alone_(team == 1),
         leaders_(items.waits.size()),
         step_(items.waits.size(), 0),
-        ready_(items.waits.size(), team == 1),
+        ready_(items.waits.size()),
         first_waits_(items.waits.size()),
         second_waits_(items.waits.size()) {
     // Neighbouring items to the same thread, by cost.
@@ -186,8 +167,8 @@ class Rounds {
   }
 
   /// Of all that an item waits for the last one resets the count: it comes again only after the item has gone on.
-  bool last_of(std::atomic<std::int32_t>& waits, std::int32_t all) const {
-    if (count_down(waits, alone_) != 1) return false;
+  static bool last_of(std::atomic<std::int32_t>& waits, std::int32_t all) {
+    if (waits.fetch_sub(1, std::memory_order_acq_rel) != 1) return false;
     waits.store(all, std::memory_order_relaxed);
     return true;
   }
@@ -218,7 +199,7 @@ class Rounds {
 
   /// The thread that finishes the last item of a round says what comes next.
   void finished() {
-    if (count_down(left_, alone_) == 1) publish(work_.next(kind_));
+    if (left_.fetch_sub(1, std::memory_order_acq_rel) == 1) publish(work_.next(kind_));
   }
 
   /// The item that failed is never finished, so nobody else says what comes next.
@@ -261,7 +242,6 @@ class Rounds {
 
   const Dependencies& items_;
   const RoundWork& work_;
-  bool alone_;
   std::vector<std::vector<std::int32_t>> leaders_;  // of each item: those that it follows
   std::vector<std::size_t> starts_;
   RoundKind kind_ = RoundKind::end;
