@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A room includes only rooms up-river of it; VTK stays in io/vtk and viz, OpenMP in solver/base, Gmsh in one file.
+# A room includes only rooms up-river of it; VTK stays in io/vtk and viz, OpenMP in solver/base, Gmsh in one file. No type
+# has the name of another.
 # Usage: check_rooms.sh SOURCE_DIR
 set -u
 cd "$1" || exit 2
@@ -26,5 +27,13 @@ if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' -
 fi
 if grep -rnE '#pragma omp' geometry solver/[!b]* io viz tools --include='*.h' --include='*.cpp'; then
   echo "OpenMP pragmas belong in solver/base"; bad=1
+fi
+# Two types of one name in one namespace: the linker would take the destructor of one for both.
+twice=$(find geometry solver io viz tools -name '*.h' -exec awk '
+  FNR == 1 { space = "" }
+  /^namespace [a-z_:]+ \{/ { space = $2 }
+  /^(struct|class) [A-Za-z0-9]+[^;]*$/ { name = $2 ~ /^alignas/ ? $3 : $2; sub(/[:{].*/, "", name); print space "::" name }' {} + | sort | uniq -d)
+if [ -n "$twice" ]; then
+  printf 'Types that stand in more than one header:\n%s\n' "$twice"; bad=1
 fi
 exit $bad

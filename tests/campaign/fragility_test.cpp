@@ -21,7 +21,7 @@ LimitState limit(double threshold) {
 /// A point per whole number: the line is ln y = 1 + 2 ln x with the residuals of the test of lines.
 TEST(Cloud, ByHand) {
   const std::vector<double> y = {1.5, 2.5, 4.5, 7.5, 9.0};
-  std::vector<Trial> trials;
+  std::vector<CloudRun> trials;
   for (std::size_t i = 0; i < y.size(); ++i)
     trials.push_back({i, std::exp(double(i)), std::exp(y[i]), false, y[i] >= 5.0});
   const CloudFit fit = fit_cloud(trials, {}, std::exp(5.0));
@@ -38,17 +38,17 @@ TEST(Cloud, ByHand) {
 
 TEST(Cloud, WhatDeterminesNoLineIsSaid) {
   EXPECT_EQ(fit_cloud({}, {}, 1.0).identified, Identified::few_demands);
-  std::vector<Trial> trials;
+  std::vector<CloudRun> trials;
   for (std::size_t i = 0; i < 6; ++i) trials.push_back({i, 2.0, 1.0 + double(i), false, false});
   EXPECT_EQ(fit_cloud(trials, {}, 1.0).identified, Identified::one_level);
-  for (Trial& t : trials) t.im = 10.0 - double(t.record);
+  for (CloudRun& t : trials) t.im = 10.0 - double(t.record);
   EXPECT_EQ(fit_cloud(trials, {}, 1.0).identified, Identified::flat);
-  for (Trial& t : trials) t.im = 1.0 + double(t.record);
+  for (CloudRun& t : trials) t.im = 1.0 + double(t.record);
   trials.push_back({6, 20.0, test::none, true, true});
   EXPECT_EQ(fit_cloud(trials, {}, 4.0).identified, Identified::yes);
   trials.back().im = 0.5;  // the weakest motion alone
   EXPECT_EQ(fit_cloud(trials, {}, 4.0).identified, Identified::collapses);
-  for (Trial& t : trials) t.demand = t.collapsed ? t.demand : 0.0;
+  for (CloudRun& t : trials) t.demand = t.collapsed ? t.demand : 0.0;
   EXPECT_EQ(fit_cloud(trials, {}, 1.0).identified, Identified::few_demands);
 }
 
@@ -81,7 +81,7 @@ TEST(Cloud, TotalProbability) {
 
 /// All that collapse lie above all that stand, which have no scatter: two steps.
 TEST(Cloud, SeparatedCollapsesAreAStep) {
-  std::vector<Trial> trials;
+  std::vector<CloudRun> trials;
   for (std::size_t i = 0; i < 6; ++i) trials.push_back({i, 1.0 + double(i), 1.0 + double(i), false, i >= 3});
   for (std::size_t i = 6; i < 8; ++i) trials.push_back({i, 24.0, test::none, true, true});
   const CloudFit fit = fit_cloud(trials, {}, 100.0);
@@ -117,8 +117,8 @@ TEST(Cloud, GivesBackWhatItWasDrawnFrom) {
 TEST(Cloud, CollapsesArePartOfTheCurve) {
   const FragilityCurve truth = {2.0, 0.4, 3.0, 0.3};
   RandomStream random(8);
-  std::vector<Trial> trials = draw({.a = 0.05 / std::pow(2.0, 1.5), .b = 1.5, .s = 0.6, .runs = 4000}, 0.05, random);
-  for (Trial& t : trials)
+  std::vector<CloudRun> trials = draw({.a = 0.05 / std::pow(2.0, 1.5), .b = 1.5, .s = 0.6, .runs = 4000}, 0.05, random);
+  for (CloudRun& t : trials)
     if (t.im >= 3.0 * std::exp(0.3 * random.normal())) t.collapsed = t.beyond = true, t.demand = test::none;
   const CloudFit fit = fit_cloud(trials, {}, 0.05);
   ASSERT_EQ(fit.identified, Identified::yes);
@@ -131,7 +131,7 @@ TEST(Cloud, CollapsesArePartOfTheCurve) {
 struct Coverage {
   int theta = 0, beta = 0, curve = 0, tries = 0;
   void add(const Fragility& f, double theta_true, double beta_true) {
-    const auto holds = [](const Band& band, double value) { return band.low <= value && value <= band.high; };
+    const auto holds = [](const CurveBand& band, double value) { return band.low <= value && value <= band.high; };
     theta += holds(f.bootstrap.theta, theta_true), beta += holds(f.bootstrap.beta, beta_true);
     const CurvePoint& p = f.curve[f.curve.size() / 2];
     curve += holds(p.band, FragilityCurve{theta_true, beta_true}.at(p.im));
@@ -177,7 +177,7 @@ TEST(Bootstrap, KeepsTheRunsOfARecordTogether) {
   int held = 0, within_errors = 0;
   constexpr int tries = 300;
   for (int k = 0; k < tries; ++k) {
-    std::vector<Trial> trials;
+    std::vector<CloudRun> trials;
     for (std::size_t r = 0; r < 40; ++r) {
       const double capacity = 2.5 * std::exp(0.45 * random.normal());
       for (double level : levels) trials.push_back({r, level, level / capacity, false, level >= capacity});
@@ -205,7 +205,7 @@ TEST(Bootstrap, IsTheSameForASeedAndAnotherForAnother) {
 
 /// Three of twelve records beyond, only just overlapping: many resamples determine no curve, which is counted.
 TEST(Bootstrap, CountsWhatIsNotIdentified) {
-  std::vector<Trial> trials;
+  std::vector<CloudRun> trials;
   for (std::size_t i = 0; i < 12; ++i)
     trials.push_back({i, 1.0 + double(i), test::none, i == 7 || i >= 10, i == 7 || i >= 10});
   const Fragility f =
@@ -229,7 +229,7 @@ TEST(Fragility, RunsWithoutAResultAreLeftOutAndCounted) {
   table.columns[1].values[5] = -0.06;  // a residual to the left
   table.columns[1].values[6] = 0.0;
   table.runs[7].case_name = "another";
-  const Selection s = select(table, "bridge", limit(0.05), "im.pga");
+  const SelectedRuns s = select(table, "bridge", limit(0.05), "im.pga");
   EXPECT_EQ(s.trials.size(), 15u);
   EXPECT_EQ(s.failed, 1u);
   EXPECT_EQ(s.missing, 1u);

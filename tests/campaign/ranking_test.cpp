@@ -53,7 +53,7 @@ CampaignTable campaign(std::uint64_t seed, bool duration, int runs = 120) {
 
 TEST(Ranking, TheBestIntensityByConstructionIsFirst) {
   const CampaignTable table = campaign(1, false);
-  const std::vector<Pairing> ranked = rank_intensities(table, "bridge", "edp.x");
+  const std::vector<MeasurePair> ranked = rank_intensities(table, "bridge", "edp.x");
   ASSERT_EQ(ranked.size(), 3u);  // duration is no intensity
   EXPECT_EQ(ranked[0].im, "im.sa_0.30");
   EXPECT_EQ(ranked[1].im, "im.pga");
@@ -69,7 +69,7 @@ TEST(Ranking, TheBestIntensityByConstructionIsFirst) {
 
 /// Where duration matters the best intensity is not sufficient, and the page can say of what.
 TEST(Ranking, WhatAnIntensityLeavesOutIsFound) {
-  const Pairing p = rank_intensities(campaign(2, true), "bridge", "edp.x")[0];
+  const MeasurePair p = rank_intensities(campaign(2, true), "bridge", "edp.x")[0];
   EXPECT_EQ(p.im, "im.sa_0.30");
   EXPECT_FALSE(p.sufficient());
   ASSERT_EQ(p.sufficiency.size(), 2u);

@@ -22,10 +22,10 @@ struct Cloud {
   double beta() const { return s / b; }
 };
 
-inline std::vector<Trial> draw(const Cloud& c, double threshold, RandomStream& random) {
-  std::vector<Trial> trials;
+inline std::vector<CloudRun> draw(const Cloud& c, double threshold, RandomStream& random) {
+  std::vector<CloudRun> trials;
   for (int i = 0; i < c.runs; ++i) {
-    Trial t;
+    CloudRun t;
     t.record = std::size_t(i);
     t.im = c.lowest * std::pow(c.highest / c.lowest, random.uniform());
     t.demand = c.a * std::pow(t.im, c.b) * std::exp(c.s * random.normal());
@@ -36,12 +36,12 @@ inline std::vector<Trial> draw(const Cloud& c, double threshold, RandomStream& r
 }
 
 /// At each of a few intensities each record has its own capacity θ exp(β N), drawn anew: runs are independent.
-inline std::vector<Trial> draw_stripes(const std::vector<double>& levels, int records, double theta, double beta,
-                                       RandomStream& random) {
-  std::vector<Trial> trials;
+inline std::vector<CloudRun> draw_stripes(const std::vector<double>& levels, int records, double theta, double beta,
+                                          RandomStream& random) {
+  std::vector<CloudRun> trials;
   for (double level : levels)
     for (int i = 0; i < records; ++i) {
-      Trial t;
+      CloudRun t;
       t.record = trials.size();
       t.im = level;
       t.demand = level / (theta * std::exp(beta * random.normal()));  // beyond 1
@@ -60,11 +60,11 @@ inline CampaignRun run_of(const std::string& name, const std::string& case_name,
 }
 
 /// A table of trials with the columns im.pga and edp.x; records r0, r1, …
-inline CampaignTable table_of(const std::vector<Trial>& trials, const std::string& case_name = "bridge") {
+inline CampaignTable table_of(const std::vector<CloudRun>& trials, const std::string& case_name = "bridge") {
   CampaignTable table;
   table.path = "table.csv";
   table.columns = {{std::string("im.pga"), {}}, {std::string("edp.x"), {}}};
-  for (const Trial& t : trials) {
+  for (const CloudRun& t : trials) {
     table.runs.push_back(run_of(fmt::format("run-{}", table.runs.size()), case_name, fmt::format("r{}", t.record),
                                 t.collapsed ? RunStatus::collapsed : RunStatus::done));
     table.columns[0].values.push_back(t.im);

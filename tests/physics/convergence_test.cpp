@@ -74,7 +74,7 @@ TEST(Convergence, ABlockLetGoIsOfSecondOrder) {
 }
 
 TEST(Convergence, TimeStepIsOfSecondOrder) {
-  const Response reference = column_response(0.0125);
+  const PulseResponse reference = column_response(0.0125);
   double before = difference(column_response(0.4), reference);
   for (double share : {0.2, 0.1}) {
     const double error = difference(column_response(share), reference);
@@ -88,7 +88,7 @@ TEST(Convergence, TimeStepIsOfSecondOrder) {
 
 /// A block that uplifts and lands: the balance still falls with the square, the motion at the coarse steps too.
 TEST(Convergence, EnergyBalanceFallsWithTheStep) {
-  const Response coarse = rocking_response(0.8), fine = rocking_response(0.2);
+  const PulseResponse coarse = rocking_response(0.8), fine = rocking_response(0.2);
   EXPECT_LT(coarse.worst_balance, 0.01);
   EXPECT_LT(fine.worst_balance, coarse.worst_balance / 10.0);
 }

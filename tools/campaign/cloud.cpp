@@ -16,8 +16,8 @@ double lognormal(double im, double theta, double beta) {
   return im < theta ? 0.0 : 1.0;
 }
 
-LognormalFit collapse_fit(std::vector<Trial> trials, const std::vector<double>& levels) {
-  for (Trial& t : trials) t.beyond = t.collapsed;
+LognormalFit collapse_fit(std::vector<CloudRun> trials, const std::vector<double>& levels) {
+  for (CloudRun& t : trials) t.beyond = t.collapsed;
   LognormalFit fit = fit_counts(counts_of(trials, levels));
   // The likelihood then grows towards a step anywhere between.
   if (fit.identified == Identified::separated) fit.theta = std::sqrt(fit.below * fit.above), fit.beta = 0.0;
@@ -57,14 +57,14 @@ double FragilityCurve::dispersion() const {
   return 0.5 * std::log(reaching(normal_cdf(1.0)) / reaching(normal_cdf(-1.0)));
 }
 
-CloudFit fit_cloud(const std::vector<Trial>& trials, const std::vector<double>& levels, double threshold) {
+CloudFit fit_cloud(const std::vector<CloudRun>& trials, const std::vector<double>& levels, double threshold) {
   CloudFit fit;
   std::vector<double> x, y, xx;
-  for (const Trial& t : trials)
+  for (const CloudRun& t : trials)
     if (!t.collapsed && t.demand > 0.0) x.push_back(std::log(t.im)), y.push_back(std::log(t.demand));
   fit.line = fit_line(x, y);
   fit.collapse = collapse_fit(trials, levels);
-  const bool any_collapsed = std::any_of(trials.begin(), trials.end(), [](const Trial& t) { return t.collapsed; });
+  const bool any_collapsed = std::any_of(trials.begin(), trials.end(), [](const CloudRun& t) { return t.collapsed; });
   if (x.size() < least_demands)
     fit.identified = Identified::few_demands;
   else if (!fit.line.known())
@@ -106,10 +106,10 @@ std::vector<double> levels_of(const std::vector<double>& im) {
   return levels;
 }
 
-std::vector<Count> counts_of(const std::vector<Trial>& trials, const std::vector<double>& levels) {
+std::vector<Count> counts_of(const std::vector<CloudRun>& trials, const std::vector<double>& levels) {
   std::vector<Count> counts;
   for (double level : levels) counts.push_back({level, 0.0, 0.0});
-  for (const Trial& t : trials) {
+  for (const CloudRun& t : trials) {
     if (levels.empty()) {
       counts.push_back({t.im, 1.0, t.beyond ? 1.0 : 0.0});
       continue;

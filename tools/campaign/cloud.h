@@ -22,7 +22,7 @@ struct FragilityCurve {
 };
 
 /// A run as a fit sees it.
-struct Trial {
+struct CloudRun {
   std::size_t record = 0;  // of the records of the selection
   double im = 0.0;         // above 0
   double demand = 0.0;     // its size, 0 or more; NaN where it collapsed
@@ -45,10 +45,10 @@ struct CloudFit {
 /// the two make up the whole (total probability: Jalayer et al. 2017, who take a logistic one). Where all that collapse
 /// lie above all that stand it is a step half-way between, in logarithms. `levels` (from levels_of(), may be empty) are
 /// for its counts. `threshold` above 0.
-CloudFit fit_cloud(const std::vector<Trial>& trials, const std::vector<double>& levels, double threshold);
+CloudFit fit_cloud(const std::vector<CloudRun>& trials, const std::vector<double>& levels, double threshold);
 
 /// A count a run, or a count a level where `levels` are given (from levels_of()).
-std::vector<Count> counts_of(const std::vector<Trial>& trials, const std::vector<double>& levels);
+std::vector<Count> counts_of(const std::vector<CloudRun>& trials, const std::vector<double>& levels);
 
 /// The few intensities that the runs share: at least four in five of them are at a level with two others, to 0.1 %, and
 /// there are at most forty levels. Empty where there are none: a cloud. `im` may hold anything above 0.

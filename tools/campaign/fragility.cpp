@@ -15,14 +15,14 @@ constexpr std::size_t curve_points = 81;
 constexpr double farthest_beyond = 3.0;  // the curve is drawn so far beyond the intensities of the runs, as a factor
 
 /// The number of a record among those met so far; runs of which no record is said stand for themselves.
-std::size_t record_number(Selection& s, const CampaignRun& run) {
+std::size_t record_number(SelectedRuns& s, const CampaignRun& run) {
   const std::string& name = run.record.empty() ? run.run : run.record;
   const auto at = std::find(s.records.begin(), s.records.end(), name);
   if (at == s.records.end()) s.records.push_back(name);
   return std::size_t(std::find(s.records.begin(), s.records.end(), name) - s.records.begin());
 }
 
-Estimate estimate(Method method, const std::vector<Trial>& trials, const std::vector<double>& levels,
+Estimate estimate(Method method, const std::vector<CloudRun>& trials, const std::vector<double>& levels,
                   double threshold) {
   return method == Method::counts ? estimate_counts(trials, levels) : estimate_cloud(trials, levels, threshold);
 }
@@ -44,7 +44,7 @@ void choose(Fragility& f) {
 /// Evenly spaced in the logarithm, over the runs and the rise of the curve, but not far beyond the runs.
 std::vector<CurvePoint> empty_curve(const Fragility& f) {
   double low = INFINITY, high = 0.0;
-  for (const Trial& t : f.selection.trials) low = std::min(low, t.im), high = std::max(high, t.im);
+  for (const CloudRun& t : f.selection.trials) low = std::min(low, t.im), high = std::max(high, t.im);
   const double rise = std::exp(2.5 * f.chosen.beta);
   const double first = std::clamp(f.chosen.theta / rise, low / farthest_beyond, low);
   const double last = std::clamp(f.chosen.theta * rise, high, high * farthest_beyond);
@@ -60,7 +60,7 @@ std::vector<CurvePoint> empty_curve(const Fragility& f) {
 
 /// From 5 to 95 %: percentiles that allow for a bias of the estimate (Efron 1981: as far as its own place among the
 /// replicates is off their middle) and for the few records behind them (Hesterberg 2015: Student's t, and n for n − 1).
-Band band_of(std::vector<double>& values, double estimate, std::size_t records) {
+CurveBand band_of(std::vector<double>& values, double estimate, std::size_t records) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const auto [first, last] = std::equal_range(values.begin(), values.end(), estimate);
@@ -71,15 +71,15 @@ Band band_of(std::vector<double>& values, double estimate, std::size_t records) 
 }
 
 void run_bootstrap(Fragility& f, const FragilitySettings& settings) {
-  const std::vector<Trial>& trials = f.selection.trials;
+  const std::vector<CloudRun>& trials = f.selection.trials;
   std::vector<std::size_t> record_of;
-  for (const Trial& t : trials) record_of.push_back(t.record);
+  for (const CloudRun& t : trials) record_of.push_back(t.record);
   const Clusters clusters = clusters_of(record_of);
   if (clusters.size() < 2) return;
   RandomStream random(settings.seed);
   std::vector<double> theta, beta;
   std::vector<std::vector<double>> at(f.curve.size());
-  std::vector<Trial> drawn;
+  std::vector<CloudRun> drawn;
   for (int i = 0; i < settings.replicates; ++i) {
     drawn.clear();
     for (std::size_t place : resampled(clusters, random)) drawn.push_back(trials[place]);
@@ -119,15 +119,15 @@ void check_limit(const CampaignTable& table, const LimitState& limit, const std:
                      limit.threshold);
 }
 
-Selection select(const CampaignTable& table, const std::string& case_name, const LimitState& limit,
-                 const std::string& im) {
-  Selection s;
+SelectedRuns select(const CampaignTable& table, const std::string& case_name, const LimitState& limit,
+                    const std::string& im) {
+  SelectedRuns s;
   const std::vector<double>& intensity = table.column(im).values;
   const NumberColumn* demand = limit.demand == collapse_demand ? nullptr : &table.column(limit.demand);
   for (std::size_t i = 0; i < table.runs.size(); ++i) {
     const CampaignRun& run = table.runs[i];
     if (run.case_name != case_name) continue;
-    Trial t;
+    CloudRun t;
     t.im = intensity[i];
     t.collapsed = run.status == RunStatus::collapsed;
     // A demand with a sign (where a keystone has moved to) counts by its size; a collapse is beyond all sizes.
@@ -150,7 +150,7 @@ Selection select(const CampaignTable& table, const std::string& case_name, const
   return s;
 }
 
-Estimate estimate_counts(const std::vector<Trial>& trials, const std::vector<double>& levels) {
+Estimate estimate_counts(const std::vector<CloudRun>& trials, const std::vector<double>& levels) {
   const LognormalFit fit = fit_counts(counts_of(trials, levels));
   Estimate e;
   e.method = Method::counts;
@@ -163,7 +163,7 @@ Estimate estimate_counts(const std::vector<Trial>& trials, const std::vector<dou
   return e;
 }
 
-Estimate estimate_cloud(const std::vector<Trial>& trials, const std::vector<double>& levels, double threshold) {
+Estimate estimate_cloud(const std::vector<CloudRun>& trials, const std::vector<double>& levels, double threshold) {
   const CloudFit fit = fit_cloud(trials, levels, threshold);
   Estimate e;
   e.method = Method::cloud;
@@ -183,7 +183,7 @@ Fragility assess(const CampaignTable& table, const std::string& case_name, const
   f.limit = limit;
   f.selection = select(table, case_name, limit, im);
   std::vector<double> intensities;
-  for (const Trial& t : f.selection.trials) intensities.push_back(t.im);
+  for (const CloudRun& t : f.selection.trials) intensities.push_back(t.im);
   f.levels = levels_of(intensities);
   f.counts = counts_of(f.selection.trials, f.levels);
   choose(f);

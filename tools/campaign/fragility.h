@@ -24,15 +24,15 @@ struct LimitState {
 void check_limit(const CampaignTable& table, const LimitState& limit, const std::string& where);
 
 /// Runs of a case that say something about a limit, and what had to be left out.
-struct Selection {
-  std::vector<Trial> trials;
+struct SelectedRuns {
+  std::vector<CloudRun> trials;
   std::vector<std::string> records;  // names
   std::size_t failed = 0, missing = 0, no_im = 0, no_demand = 0;
   std::size_t zero_demands = 0;  // among the trials: they count, but no line goes through them
   std::size_t collapsed = 0, beyond = 0;
 };
-Selection select(const CampaignTable& table, const std::string& case_name, const LimitState& limit,
-                 const std::string& im);
+SelectedRuns select(const CampaignTable& table, const std::string& case_name, const LimitState& limit,
+                    const std::string& im);
 
 enum class Method { counts, cloud };
 
@@ -47,16 +47,16 @@ struct Estimate {
   Count mixed;                                                  // of counts that differ at one level alone: that level
 };
 /// By counts, at the levels where there are any.
-Estimate estimate_counts(const std::vector<Trial>& trials, const std::vector<double>& levels);
-Estimate estimate_cloud(const std::vector<Trial>& trials, const std::vector<double>& levels, double threshold);
+Estimate estimate_counts(const std::vector<CloudRun>& trials, const std::vector<double>& levels);
+Estimate estimate_cloud(const std::vector<CloudRun>& trials, const std::vector<double>& levels, double threshold);
 
 /// From 5 to 95 % of what resampled records give.
-struct Band {
+struct CurveBand {
   double low = LognormalFit::nan, high = LognormalFit::nan;
 };
 struct CurvePoint {
   double im = 0.0, probability = 0.0;
-  Band band;
+  CurveBand band;
 };
 
 struct FragilitySettings {
@@ -66,13 +66,13 @@ struct FragilitySettings {
 
 struct Bootstrap {
   int replicates = 0, unidentified = 0;  // the second are left out of the bands
-  Band theta, beta;
+  CurveBand theta, beta;
 };
 
 struct Fragility {
   std::string case_name, im;
   LimitState limit;
-  Selection selection;
+  SelectedRuns selection;
   std::vector<double> levels;  // of the intensity, where runs share them; empty: a cloud
   std::vector<Count> counts;   // at the levels, or a run each
   Estimate chosen, other;      // other: by the other method, for comparison; of a collapse there is none (no_runs)

@@ -43,9 +43,9 @@ std::vector<std::size_t> rows_with(const CampaignTable& table, const std::string
   return rows;
 }
 
-Pairing pairing_of(const CampaignTable& table, const std::string& case_name, const std::string& im,
-                   const std::string& demand) {
-  Pairing p;
+MeasurePair pairing_of(const CampaignTable& table, const std::string& case_name, const std::string& im,
+                       const std::string& demand) {
+  MeasurePair p;
   p.im = im, p.demand = demand;
   std::vector<double> size = table.column(demand).values;
   for (double& v : size) v = std::abs(v);
@@ -72,9 +72,9 @@ double plausibility(const CampaignTable& table, const std::vector<std::string>& 
   double sum = 0.0;
   std::size_t runs = 0;
   for (const std::string& name : cases) {
-    const Selection s = select(table, name, limit, im);
+    const SelectedRuns s = select(table, name, limit, im);
     std::vector<double> im_of;
-    for (const Trial& t : s.trials) im_of.push_back(t.im);
+    for (const CloudRun& t : s.trials) im_of.push_back(t.im);
     const LognormalFit fit = fit_counts(counts_of(s.trials, levels_of(im_of)));
     runs += s.trials.size();
     if (std::isnan(fit.log_likelihood)) return -INFINITY;
@@ -172,11 +172,11 @@ DamageRanking damage_ranking(const CampaignTable& table, const std::string& case
 
 }  // namespace
 
-double Pairing::proficiency() const {
+double MeasurePair::proficiency() const {
   return line.known() && line.slope > 0.0 ? line.scatter / line.slope : INFINITY;
 }
 
-double Pairing::least_p() const {
+double MeasurePair::least_p() const {
   double least = none;
   for (const Sufficiency& s : sufficiency)
     if (!(s.p >= least)) least = s.p;
@@ -196,15 +196,15 @@ std::vector<std::string> intensities(const CampaignTable& table) {
   return found;
 }
 
-std::vector<Pairing> rank_intensities(const CampaignTable& table, const std::string& case_name,
-                                      const std::string& demand) {
-  std::vector<Pairing> pairings;
+std::vector<MeasurePair> rank_intensities(const CampaignTable& table, const std::string& case_name,
+                                          const std::string& demand) {
+  std::vector<MeasurePair> pairings;
   for (const std::string& im : intensities(table)) {
-    Pairing p = pairing_of(table, case_name, im, demand);
+    MeasurePair p = pairing_of(table, case_name, im, demand);
     if (p.line.known() && p.line.count >= least_demands) pairings.push_back(std::move(p));
   }
   std::stable_sort(pairings.begin(), pairings.end(),
-                   [](const Pairing& a, const Pairing& b) { return a.proficiency() < b.proficiency(); });
+                   [](const MeasurePair& a, const MeasurePair& b) { return a.proficiency() < b.proficiency(); });
   return pairings;
 }
 
@@ -219,7 +219,7 @@ std::string best_intensity(const CampaignTable& table, const std::vector<std::st
     double sum = 0.0;
     for (const std::string& name : cases) {
       if (demand == collapse_demand) break;
-      const Pairing p = pairing_of(table, name, im, demand);
+      const MeasurePair p = pairing_of(table, name, im, demand);
       sum += p.line.count >= least_demands ? std::log(p.proficiency()) : INFINITY;
     }
     if (demand != collapse_demand && sum < least) best = im, least = sum;

@@ -16,7 +16,7 @@ struct Sufficiency {
 };
 
 /// A measure of intensity beside a demand: ln demand = a + b ln im + scatter, over the runs that stand.
-struct Pairing {
+struct MeasurePair {
   std::string im, demand;
   Line line;  // efficiency: its scatter (Shome & Cornell 1999); practicality: its slope
   std::vector<Sufficiency> sufficiency;
@@ -30,8 +30,8 @@ struct Pairing {
 
 /// Intensities of a case for one demand, the best first: in the order of their proficiency. Columns of characteristics
 /// (duration, magnitude, distance) are no intensities. Those with fewer than five runs are left out.
-std::vector<Pairing> rank_intensities(const CampaignTable& table, const std::string& case_name,
-                                      const std::string& demand);
+std::vector<MeasurePair> rank_intensities(const CampaignTable& table, const std::string& case_name,
+                                          const std::string& demand);
 
 /// The best for a demand over these cases: the least product of proficiencies, of those that all cases have. For
 /// collapse_demand, or where no line can be drawn, the one by which the counts are most probable. Throws InputError

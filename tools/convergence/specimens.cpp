@@ -140,12 +140,12 @@ double critical(const Assembly& assembly, const SolverSettings& settings) {
 
 /// The motion after gravity, sampled sample_count times until `duration`. The number of steps at 0.8 of the critical
 /// one is rounded up to whole samples; other shares go in proportion, so that all sample at the same times.
-Response respond(const Assembly& assembly, const GroundMotion& motion, double duration, double share) {
+PulseResponse respond(const Assembly& assembly, const GroundMotion& motion, double duration, double share) {
   SolverSettings settings = undamped({0, 0, -gravity});
   settings.step.equilibrium_tolerance = 1e-10;
   const double coarsest = 0.8 * critical(assembly, settings);
   const double a_sample = std::ceil(duration / sample_count / coarsest);
-  Response response;
+  PulseResponse response;
   response.dt = duration / sample_count / std::max(1.0, std::round(a_sample * 0.8 / share));
   settings.step.time_step = response.dt;
   settings.output.history_every = duration / sample_count;
@@ -313,29 +313,29 @@ LetGo let_go(double share) {
   return result;
 }
 
-Response column_response(double share) {
+PulseResponse column_response(double share) {
   static const Assembly column = generated("column", {{"kn", 4e9}, {"ks", 1.6e9}}, 0.6, unbreakable);
   return respond(column, smooth_pulse(2.0, 0.1), 0.4, share);
 }
 
-Response rocking_response(double share) {
+PulseResponse rocking_response(double share) {
   static const Assembly block = rocking_block(1e9);
   return respond(block, smooth_pulse(3.0, 0.4), 0.8, share);
 }
 
-Response wall_response(double share, double scale) {
+PulseResponse wall_response(double share, double scale) {
   static const Assembly wall =
       generated("wall", {{"length_blocks", 4}, {"courses", 4}, {"kn", 4e9}, {"ks", 1.6e9}}, 0.4, 0.0);
   return respond(wall, smooth_pulse(6.0 * scale, 0.4), 0.6, share);
 }
 
-double peak(const Response& response) {
+double peak(const PulseResponse& response) {
   double largest = 0.0;
   for (double u : response.displacement) largest = std::max(largest, std::abs(u));
   return largest;
 }
 
-double difference(const Response& response, const Response& reference) {
+double difference(const PulseResponse& response, const PulseResponse& reference) {
   double most = 0.0;
   for (std::size_t i = 0; i < reference.displacement.size(); ++i)
     most = std::max(most, std::abs(response.displacement.at(i) - reference.displacement[i]));

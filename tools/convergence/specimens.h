@@ -50,8 +50,8 @@ double slab_loss_of_an_elastic_face(double kn);
 double exact_rocking_quarter(double width, double height, double start);
 /// The same from half of α, 0.6 × 2.4 m.
 double exact_rocking_quarter();
-/// That again, computed: time from rest to the change of sign of the tilt, with steps of 2e-6 s. Without `reclip` the joint keeps
-/// the polygon and the memory it was made with, however far the block turns.
+/// That again, computed: time from rest to the change of sign of the tilt, with steps of 2e-6 s. Without `reclip` the
+/// joint keeps the polygon and the memory it was made with, however far the block turns.
 double rocking_quarter(double kn, bool reclip);
 
 // --- Steps ---
@@ -70,21 +70,21 @@ LetGo let_go(double share);
 /// A motion under a pulse of the base: displacement of the top (mean of its blocks) relative to the base at 41 times,
 /// m, and the worst error of the energy balance. Steps are `share` of the critical one or a little less, so that halved
 /// shares give halved steps.
-struct Response {
+struct PulseResponse {
   double dt = 0.0;  // s
   std::vector<double> displacement;
   double worst_balance = 0.0;  // share of the largest term
 };
 /// Ten bonded blocks under a smooth pulse of the base: nothing breaks.
-Response column_response(double share);
+PulseResponse column_response(double share);
 /// A dry block that uplifts and lands under such a pulse.
-Response rocking_response(double share);
+PulseResponse rocking_response(double share);
 /// A dry wall of 4 × 4 blocks that opens and slides under such a pulse, `scale` times as strong.
-Response wall_response(double share, double scale = 1.0);
+PulseResponse wall_response(double share, double scale = 1.0);
 /// Largest absolute displacement, m.
-double peak(const Response& response);
+double peak(const PulseResponse& response);
 /// Largest difference from a reference at any of the times, over the reference's peak.
-double difference(const Response& response, const Response& reference);
+double difference(const PulseResponse& response, const PulseResponse& reference);
 
 // --- Load rate ---
 

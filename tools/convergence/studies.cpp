@@ -234,10 +234,10 @@ void add_responses(Study& study, Chart& chart) {
                   reference_share),
       {"Δt / critical", "bonded column of 10", "order", "rocking block", "order", "its energy balance", "order"},
       {}};
-  const Response column = column_response(reference_share), rocking = rocking_response(reference_share);
+  const PulseResponse column = column_response(reference_share), rocking = rocking_response(reference_share);
   std::vector<double> column_errors, rocking_errors, balance;
   for (std::size_t i = 0; i < step_shares.size(); ++i) {
-    const Response one = rocking_response(step_shares[i]);
+    const PulseResponse one = rocking_response(step_shares[i]);
     column_errors.push_back(difference(column_response(step_shares[i]), column));
     rocking_errors.push_back(difference(one, rocking));
     balance.push_back(one.worst_balance);
@@ -259,13 +259,14 @@ void add_wall(Study& study, Chart& chart) {
                  {"Δt / critical", "largest displacement, mm", "difference", "largest difference at any time",
                   "energy balance", "order"},
                  {}};
-  const auto add = [&](const std::string& name, const Response& one, const Response& other, const std::string& order) {
+  const auto add = [&](const std::string& name, const PulseResponse& one, const PulseResponse& other,
+                       const std::string& order) {
     table.rows.push_back({name, fmt::format("{:.3f}", 1e3 * peak(one)), percent(peak(one) / peak(other) - 1.0),
                           percent(difference(one, other)), percent(one.worst_balance), order});
   };
-  const Response reference = wall_response(reference_share);
+  const PulseResponse reference = wall_response(reference_share);
   std::vector<double> errors, balance;
-  Response last;
+  PulseResponse last;
   for (std::size_t i = 0; i < step_shares.size(); ++i) {
     last = wall_response(step_shares[i]);
     errors.push_back(difference(last, reference));

@@ -84,7 +84,7 @@ void draw_levels(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std:
 
 /// A stroke a run; a row a case, beyond above the plot, within below it.
 void draw_rug(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {
-  for (const Trial& t : f.selection.trials) {
+  for (const CloudRun& t : f.selection.trials) {
     const double x = plot.x.at(t.im), row = kRug * double(index);
     const double y = t.beyond ? plot.top - kRug - row : plot.bottom + row + 2.0;
     drawing.line(x, y, x, y + kRug - 2.0, case_colour(index), 1.2);
@@ -95,7 +95,7 @@ void draw_rug(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::si
 SvgAxis intensity_axis(const std::vector<const Fragility*>& curves) {
   std::vector<double> values;
   for (const Fragility* f : curves) {
-    for (const Trial& t : f->selection.trials) values.push_back(t.im);
+    for (const CloudRun& t : f->selection.trials) values.push_back(t.im);
     for (const CurvePoint& p : f->curve)
       if (p.probability > 0.002 && p.probability < 0.998) values.push_back(p.im);
   }
@@ -131,7 +131,7 @@ void draw_line_of(SvgDrawing& drawing, const Plot& plot, const Line& line, std::
 }
 
 void draw_runs(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {
-  for (const Trial& t : f.selection.trials) {
+  for (const CloudRun& t : f.selection.trials) {
     const std::string hint =
         fmt::format("{}, {}: {}", f.case_name, f.selection.records[t.record], with_unit(t.im, f.im));
     if (t.collapsed)
@@ -180,7 +180,7 @@ std::string curves_chart(const std::vector<const Fragility*>& curves) {
 std::string demand_chart(const std::vector<const Fragility*>& curves) {
   std::vector<double> im, demand;
   for (const Fragility* f : curves)
-    for (const Trial& t : f->selection.trials) im.push_back(t.im), demand.push_back(sized(t.demand));
+    for (const CloudRun& t : f->selection.trials) im.push_back(t.im), demand.push_back(sized(t.demand));
   if (std::none_of(demand.begin(), demand.end(), [](double v) { return v > 0.0; })) return "";
   const Fragility& first = *curves.front();
   demand.push_back(first.limit.threshold);

@@ -20,7 +20,7 @@ Cell number(double value, const char* format) {
   return {std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("–"), true};
 }
 
-Cell band_cell(const Band& band) {
+Cell band_cell(const CurveBand& band) {
   return {std::isfinite(band.low) ? fmt::format("{:.3g} – {:.3g}", band.low, band.high) : std::string("–"), true};
 }
 
@@ -38,7 +38,7 @@ std::string curves_table(const std::vector<const Fragility*>& curves) {
                                               {"by"}},
                                              "th");
   for (const Fragility* f : curves) {
-    const Selection& s = f->selection;
+    const SelectedRuns& s = f->selection;
     const auto count = [](std::size_t n) { return Cell{fmt::format("{}", n), true}; };
     text +=
         table_row({words_cell(f->case_name), count(s.trials.size()), count(s.records.size()), count(s.beyond),
@@ -77,7 +77,7 @@ std::string limit_section(const std::vector<const Fragility*>& curves) {
              "sides (dashed). Triangles at the top: collapsed.");
 }
 
-std::string sufficiency_words(const Pairing& p) {
+std::string sufficiency_words(const MeasurePair& p) {
   std::string text;
   for (const Sufficiency& s : p.sufficiency)
     text += fmt::format("{}{}: p = {:.2g}", text.empty() ? "" : ", ", measure_name(s.characteristic), s.p);
@@ -98,7 +98,7 @@ std::string ranking_table(const IntensityRanking& ranking) {
                      {"sufficiency"}},
                     "th");
   for (std::size_t i = 0; i < std::min(intensities_shown, ranking.pairings.size()); ++i) {
-    const Pairing& p = ranking.pairings[i];
+    const MeasurePair& p = ranking.pairings[i];
     text += table_row({words_cell(measure_name(p.im)),
                        {fmt::format("{}", p.line.count), true},
                        number(p.line.scatter, "{:.3f}"),

@@ -18,7 +18,7 @@ nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
-nlohmann::json band_json(const Band& band) {
+nlohmann::json band_json(const CurveBand& band) {
   return {number(band.low), number(band.high)};
 }
 
@@ -46,7 +46,7 @@ nlohmann::json estimate_json(const Estimate& e, const std::string& im) {
   return json;
 }
 
-nlohmann::json selection_json(const Selection& s) {
+nlohmann::json selection_json(const SelectedRuns& s) {
   return {{"used", s.trials.size()},     {"beyond", s.beyond},           {"collapsed", s.collapsed},
           {"records", s.records.size()}, {"failed", s.failed},           {"missing", s.missing},
           {"without_im", s.no_im},       {"without_demand", s.no_demand}};
@@ -83,7 +83,7 @@ nlohmann::json curve_json(const Fragility& f) {
 nlohmann::json ranking_json(const IntensityRanking& ranking) {
   nlohmann::json json = {{"case", ranking.case_name}, {"demand", ranking.demand}};
   json["intensities"] = nlohmann::json::array();
-  for (const Pairing& p : ranking.pairings) {
+  for (const MeasurePair& p : ranking.pairings) {
     nlohmann::json one = line_json(p.line);
     one["im"] = p.im;
     one["efficiency"] = number(p.line.scatter);
@@ -105,7 +105,7 @@ nlohmann::json damage_json(const std::string& case_name, const DamageRanking& r)
   return json;
 }
 
-std::string band_text(const Band& band) {
+std::string band_text(const CurveBand& band) {
   return std::isfinite(band.low) ? fmt::format("{:.3g} – {:.3g}", band.low, band.high) : std::string("-");
 }
 
@@ -146,7 +146,7 @@ std::string ranking_text(const IntensityRanking& ranking) {
       "\n{}: intensities for {}, the best first\n  {:<14} {:>5} {:>10} {:>12} {:>11} {:>6}  {}\n", ranking.case_name,
       ranking.demand, "", "runs", "efficiency", "practicality", "proficiency", "R²", "sufficiency");
   for (std::size_t i = 0; i < std::min(intensities_shown, ranking.pairings.size()); ++i) {
-    const Pairing& p = ranking.pairings[i];
+    const MeasurePair& p = ranking.pairings[i];
     std::string tests;
     for (const Sufficiency& s : p.sufficiency)
       tests += fmt::format("{}{} {:.2g}", tests.empty() ? "p: " : ", ", measure_name(s.characteristic), s.p);

@@ -12,7 +12,7 @@ namespace voussoir {
 /// Intensities for one demand of a case, the best first.
 struct IntensityRanking {
   std::string case_name, demand;
-  std::vector<Pairing> pairings;
+  std::vector<MeasurePair> pairings;
 };
 
 struct CaseDamage {

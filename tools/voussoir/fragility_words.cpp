@@ -31,14 +31,14 @@ std::string one_mixed_words(const Estimate& e, const std::string& column) {
 }
 
 /// The smallest and the largest intensity of the runs.
-Band im_range(const Fragility& f) {
-  Band range = {INFINITY, 0.0};
-  for (const Trial& t : f.selection.trials)
+CurveBand im_range(const Fragility& f) {
+  CurveBand range = {INFINITY, 0.0};
+  for (const CloudRun& t : f.selection.trials)
     range.low = std::min(range.low, t.im), range.high = std::max(range.high, t.im);
   return range;
 }
 
-std::string range_text(const Band& band) {
+std::string range_text(const CurveBand& band) {
   return fmt::format("{:.3g} to {:.3g}", band.low, band.high);
 }
 
@@ -62,7 +62,7 @@ void remark_on_method(const Fragility& f, std::vector<std::string>& remarks) {
   if (f.chosen.method == Method::cloud && f.cloud.curvature_p < 0.05)
     remarks.push_back(fmt::format(
         "The demands bend off a straight line (p = {:.2g}): compare with the curve by counts.", f.cloud.curvature_p));
-  const Band& band = f.bootstrap.theta;
+  const CurveBand& band = f.bootstrap.theta;
   if (f.other.identified == Identified::yes && std::isfinite(band.low) &&
       (f.other.theta < band.low || f.other.theta > band.high))
     remarks.push_back(fmt::format("The other method ({}) gives θ = {:.3g} and β = {:.2f}, outside this band.",
@@ -70,8 +70,8 @@ void remark_on_method(const Fragility& f, std::vector<std::string>& remarks) {
 }
 
 void remark_on_data(const Fragility& f, std::vector<std::string>& remarks) {
-  const Selection& s = f.selection;
-  if (const Band range = im_range(f); f.chosen.theta < range.low || f.chosen.theta > range.high)
+  const SelectedRuns& s = f.selection;
+  if (const CurveBand range = im_range(f); f.chosen.theta < range.low || f.chosen.theta > range.high)
     remarks.push_back(
         fmt::format("θ lies outside the intensities that were run, {} {}.", range_text(range), measure_unit(f.im)));
   if (s.records.size() < s.trials.size() && f.chosen.method == Method::counts)
@@ -183,7 +183,7 @@ std::vector<std::string> remarks_on(const Fragility& f) {
   return remarks;
 }
 
-std::string left_out_words(const Selection& s) {
+std::string left_out_words(const SelectedRuns& s) {
   std::vector<std::string> parts;
   const auto part = [&](std::size_t count, const char* words) {
     if (count > 0) parts.push_back(fmt::format("{} {}", count, words));

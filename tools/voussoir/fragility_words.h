@@ -27,6 +27,6 @@ std::string unknown_words(const Estimate& e, const std::string& column);
 /// What to mind with a curve, a sentence each.
 std::vector<std::string> remarks_on(const Fragility& f);
 /// "3 failed, 2 not run"; empty when none was left out.
-std::string left_out_words(const Selection& s);
+std::string left_out_words(const SelectedRuns& s);
 
 }  // namespace voussoir
