@@ -1,5 +1,5 @@
 // Eight doubles side by side: a SIMD lane is a patch (or a body). A register holds eight of them, four or two: what is
-// done to a lane is the same, and so are its bits.
+// written for a lane is the same.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -12,6 +12,11 @@ constexpr int lane_count = 8;
 using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
 /// Four doubles, half the lanes: x, y, z of a node and one more.
 using Quad = double __attribute__((vector_size(32)));
+[[gnu::always_inline]] inline Quad load_quad(const double* from) {
+  Quad q;
+  std::memcpy(&q, from, sizeof(q));
+  return q;
+}
 
 }  // namespace voussoir
 

@@ -17,12 +17,6 @@ struct AffineField {
   }
 };
 
-[[gnu::always_inline]] inline Quad load_quad(const double* from) {
-  Quad q;
-  std::memcpy(&q, from, sizeof(q));
-  return q;
-}
-
 /// What two corners of each triangle have moved.
 [[gnu::always_inline]] inline void node_moves(const double* pose, const std::int32_t* first, const std::int32_t* second,
                                               Vector& a, Vector& b) {

@@ -18,11 +18,6 @@ void FillPass::means(std::size_t tile) const {
 
 namespace {
 
-Quad quad(const double* from) {
-  Quad q;
-  std::memcpy(&q, from, sizeof(q));
-  return q;
-}
 void put(const Quad& q, double* to) {
   std::memcpy(to, &q, sizeof(q));
 }
@@ -41,12 +36,12 @@ NodeUpdate FillPass::update(std::size_t node) const {
   NodeUpdate next;
   Quad force = fill->mass[node] * Quad{gravity.x(), gravity.y(), gravity.z(), 0.0};
   for (std::int32_t i = fill->first_sum[node]; i < fill->first_sum[node + 1]; ++i)
-    force += quad(sums + node_width * std::size_t(fill->sums[std::size_t(i)]));
+    force += load_quad(sums + node_width * std::size_t(fill->sums[std::size_t(i)]));
   if (outside)
     for (std::int32_t i = (*first_of_node)[node]; i < (*first_of_node)[node + 1]; ++i)
-      force += quad(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
+      force += load_quad(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
   next.force = force;
-  const Quad before = quad(&memory->motion[node_width * node]);
+  const Quad before = load_quad(&memory->motion[node_width * node]);
   if (local > 0.0)  // Cundall: a share of the force, against the velocity
     for (int c = 0; c < 3; ++c) force[c] -= local * std::abs(force[c]) * sign(before[c]);
   const double rate = 0.5 * mass_rate * dt;
@@ -97,7 +92,7 @@ FillReport FillPass::nodes(std::size_t tile) const {
     const NodeUpdate next = update(node);
     if (damped || fill->held[node]) count_losses(*this, node, next, &memory->lost[4 * tile]);
     double* u = &memory->pose[node_width * node];
-    const Quad moved = quad(u) + dt * next.velocity;
+    const Quad moved = load_quad(u) + dt * next.velocity;
     put(next.velocity, &memory->motion[node_width * node]);
     put(moved, u);
     Floats from;

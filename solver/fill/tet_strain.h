@@ -8,12 +8,6 @@ namespace voussoir::tet {
 
 using Vector = Triple<Lanes>;
 
-[[gnu::always_inline]] inline Quad load_quad(const double* from) {
-  Quad q;
-  std::memcpy(&q, from, sizeof(q));
-  return q;
-}
-
 /// Displacements of the four corners, and the fourth number of each.
 struct Nodes {
   Vector u[4];
