@@ -3,8 +3,10 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
+#include <deque>
 #include <exception>
 #include <filesystem>
 
@@ -48,87 +50,104 @@ void pause_briefly() {
 constexpr int spins = 4000;  // some tens of microseconds: longer than a balanced pass's scatter, far below a time slice
 constexpr int spins_a_look = 16;
 
-/// One bit for each item that may go on and that nobody has taken.
+// Bytes that one core takes from another at a time. Where two share no cache that takes some hundred nanoseconds, a
+// tenth of what an item does: so what several threads write has lines of its own.
+constexpr std::size_t line = 64;
+
+/// One bit for each item of a share that may go on and that nobody has taken.
 class ReadyItems {
  public:
-  explicit ReadyItems(std::size_t items) : words_((items + bits - 1) / bits), items_(items) {}
+  explicit ReadyItems(std::size_t items) : lines_((items + bits * words - 1) / (bits * words)), items_(items) {}
 
   void set_all() {
-    for (std::size_t w = 0; w < words_.size(); ++w) words_[w].fetch_or(mask(w, 0, items_), std::memory_order_seq_cst);
+    for (std::size_t w = 0; w * bits < items_; ++w) {
+      const std::size_t unused = w * bits + bits > items_ ? w * bits + bits - items_ : 0;
+      word(w).fetch_or(~std::uint64_t(0) >> unused, std::memory_order_seq_cst);
+    }
   }
-  void set(std::size_t item) {
-    words_[item / bits].fetch_or(std::uint64_t(1) << item % bits, std::memory_order_seq_cst);
-  }
+  void set(std::size_t item) { word(item / bits).fetch_or(std::uint64_t(1) << item % bits, std::memory_order_seq_cst); }
   bool any() const {
-    return std::any_of(words_.begin(), words_.end(), [](const auto& w) { return w.load(std::memory_order_seq_cst); });
+    const auto any_of_line = [](const Line& l) {
+      return std::any_of(l.begin(), l.end(), [](const auto& w) { return w.load(std::memory_order_seq_cst); });
+    };
+    return std::any_of(lines_.begin(), lines_.end(), any_of_line);
   }
-  /// The lowest of [begin, end), −1 when there is none.
-  std::int64_t take_lowest(std::size_t begin, std::size_t end) {
-    for (std::size_t w = begin / bits; w * bits < end; ++w)
-      while (const std::uint64_t found = words_[w].load(std::memory_order_acquire) & mask(w, begin, end))
+  /// The lowest, −1 when there is none.
+  std::int64_t take_lowest() {
+    for (std::size_t w = 0; w * bits < items_; ++w)
+      while (const std::uint64_t found = word(w).load(std::memory_order_acquire))
         if (const auto at = std::size_t(__builtin_ctzll(found)); claim(w, at)) return std::int64_t(w * bits + at);
     return -1;
   }
-  std::int64_t take_highest(std::size_t begin, std::size_t end) {
-    for (std::size_t w = (end + bits - 1) / bits; w-- > begin / bits;)
-      while (const std::uint64_t found = words_[w].load(std::memory_order_acquire) & mask(w, begin, end))
+  std::int64_t take_highest() {
+    for (std::size_t w = (items_ + bits - 1) / bits; w-- > 0;)
+      while (const std::uint64_t found = word(w).load(std::memory_order_acquire))
         if (const auto at = std::size_t(bits - 1 - __builtin_clzll(found)); claim(w, at))
           return std::int64_t(w * bits + at);
     return -1;
   }
 
  private:
-  static constexpr std::size_t bits = 64;
-  /// The bits of a word that stand for [begin, end).
-  static std::uint64_t mask(std::size_t word, std::size_t begin, std::size_t end) {
-    const std::size_t from = word * bits;
-    std::uint64_t m = ~std::uint64_t(0);
-    if (begin > from) m &= begin - from < bits ? m << (begin - from) : 0;
-    if (end < from + bits) m &= end > from ? m >> (from + bits - end) : 0;
-    return m;
-  }
-  bool claim(std::size_t word, std::size_t at) {
+  static constexpr std::size_t bits = 64, words = line / sizeof(std::uint64_t);
+  struct alignas(line) Line : std::array<std::atomic<std::uint64_t>, words> {};
+
+  std::atomic<std::uint64_t>& word(std::size_t w) { return lines_[w / words][w % words]; }
+  bool claim(std::size_t w, std::size_t at) {
     const std::uint64_t bit = std::uint64_t(1) << at;
-    return words_[word].fetch_and(~bit, std::memory_order_acq_rel) & bit;
+    return word(w).fetch_and(~bit, std::memory_order_acq_rel) & bit;
   }
 
-  std::vector<std::atomic<std::uint64_t>> words_;
+  std::vector<Line> lines_;
   std::size_t items_;
+};
+
+/// The neighbouring items that are one thread's to begin with.
+struct alignas(line) Share {
+  std::size_t begin, end;
+  ReadyItems ready;
+  std::atomic<std::size_t> left{0};  // items that have not finished the round
+  Share(std::size_t first, std::size_t past) : begin(first), end(past), ready(past - first) {}
+};
+
+/// Where an item stands in a round.
+struct alignas(line) Progress {
+  std::atomic<std::int32_t> first_waits{0}, second_waits{0};
+  int step = 0;            // of the round
+  bool at_second = false;  // the stage for which it is ready
+  std::size_t share = 0;   // the thread whose it is to begin with
 };
 
 class Rounds {
  public:
   Rounds(int team, const Dependencies& items, const RoundWork& work)
-      : items_(items),
-        work_(work),
-        leaders_(items.waits.size()),
-        step_(items.waits.size(), 0),
-        ready_(items.waits.size()),
-        first_waits_(items.waits.size()),
-        second_waits_(items.waits.size()) {
+      : items_(items), work_(work), leaders_(items.waits.size()), at_(items.waits.size()) {
     // Neighbouring items to the same thread, by cost.
     double total = 0.0, sum = 0.0;
     for (double c : items.cost) total += c;
-    starts_.push_back(0);
+    std::vector<std::size_t> starts{0};
     for (std::size_t i = 0; i < items.cost.size(); ++i) {
-      while (int(starts_.size()) < team && sum >= total * double(starts_.size()) / team) starts_.push_back(i);
+      while (int(starts.size()) < team && sum >= total * double(starts.size()) / team) starts.push_back(i);
       sum += items.cost[i];
     }
-    while (int(starts_.size()) <= team) starts_.push_back(items.cost.size());
+    while (int(starts.size()) <= team) starts.push_back(items.cost.size());
+    for (std::size_t k = 0; k < std::size_t(team); ++k) {
+      shares_.emplace_back(starts[k], starts[k + 1]);
+      for (std::size_t i = starts[k]; i < starts[k + 1]; ++i) at_[i].share = k;
+    }
     for (std::size_t i = 0; i < items.followers.size(); ++i) {
-      first_waits_[i] = first_waits(i), second_waits_[i] = items.waits[i];
+      at_[i].first_waits = first_waits(i), at_[i].second_waits = items.waits[i];
       for (const std::int32_t follower : items.followers[i]) leaders_[std::size_t(follower)].push_back(std::int32_t(i));
     }
   }
 
   void begin(NextRound round) { publish(round); }
 
-  void work(int thread) {
+  void work(std::size_t thread) {
     for (;;) {
       const std::uint32_t news = news_.load(std::memory_order_acquire);
       if (over_.load(std::memory_order_acquire)) return;
       for (std::int64_t item = take(thread); item >= 0; item = take(thread)) try {
-          work_on(std::size_t(item));
+          work_on(std::size_t(item), thread);
         } catch (...) {
           fail();
         }
@@ -143,27 +162,27 @@ class Rounds {
  private:
   std::int32_t first_waits(std::size_t item) const { return 1 + std::int32_t(items_.followers[item].size()); }
 
-  std::int64_t take(int thread) {
-    const int team = int(starts_.size()) - 1;
-    std::int64_t item = ready_.take_lowest(starts_[std::size_t(thread)], starts_[std::size_t(thread) + 1]);
-    for (int i = 1; i < team && item < 0; ++i) {
-      const auto other = std::size_t((thread + i) % team);
-      item = ready_.take_highest(starts_[other], starts_[other + 1]);
+  std::int64_t take(std::size_t thread) {
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      Share& share = shares_[(thread + i) % shares_.size()];
+      const std::int64_t item = i == 0 ? share.ready.take_lowest() : share.ready.take_highest();
+      if (item >= 0) return std::int64_t(share.begin) + item;
     }
-    return item;
+    return -1;
   }
 
-  void work_on(std::size_t item) {
+  void work_on(std::size_t item, std::size_t thread) {
     const RoundKind kind = kind_;
-    if (kind == RoundKind::between) return work_.between(item), finished();
-    if (kind == RoundKind::second_only) return work_.second(item, 0), finished();
+    if (kind == RoundKind::between) return work_.between(item), finished(item);
+    if (kind == RoundKind::second_only) return work_.second(item, 0), finished(item);
+    if (at_[item].at_second) return second(item);
     if (kind == RoundKind::before)
       work_.before_first(item);
     else
-      work_.first(item, step_[item]);
-    if (kind == RoundKind::first_only) return finished();
-    first_done(item);
-    for (const std::int32_t follower : items_.followers[item]) first_done(std::size_t(follower));
+      work_.first(item, at_[item].step);
+    if (kind == RoundKind::first_only) return finished(item);
+    first_done(item, thread);
+    for (const std::int32_t follower : items_.followers[item]) first_done(std::size_t(follower), thread);
   }
 
   /// Of all that an item waits for the last one resets the count: it comes again only after the item has gone on.
@@ -173,32 +192,45 @@ class Rounds {
     return true;
   }
 
-  /// One of the first stages that the second of an item waits for.
-  void first_done(std::size_t item) {
-    if (!last_of(second_waits_[item], items_.waits[item])) return;
-    const int step = step_[item]++;
+  /// One of the first stages that the second of an item waits for. What an item reads and writes is in its own thread's
+  /// cache, so the second is left to that one.
+  void first_done(std::size_t item, std::size_t thread) {
+    Progress& at = at_[item];
+    if (!last_of(at.second_waits, items_.waits[item])) return;
+    if (at.share == thread) return second(item);
+    at.at_second = true;
+    set_ready(item);
+  }
+
+  void second(std::size_t item) {
+    Progress& at = at_[item];
+    at.at_second = false;
+    const int step = at.step++;
     if (kind_ == RoundKind::before)
       work_.before_second(item);
     else
       work_.second(item, step);
-    const bool goes_on = step + 1 < steps_;
-    finished();
-    if (!goes_on) return;  // another round may have begun
+    if (step + 1 == steps_) return finished(item);
     second_done(item);
     for (const std::int32_t leader : leaders_[item]) second_done(std::size_t(leader));
   }
 
   /// One of the second stages that the next step of an item waits for.
   void second_done(std::size_t item) {
-    if (!last_of(first_waits_[item], first_waits(item))) return;
-    ready_.set(item);
+    if (last_of(at_[item].first_waits, first_waits(item))) set_ready(item);
+  }
+
+  void set_ready(std::size_t item) {
+    Share& share = shares_[at_[item].share];
+    share.ready.set(item - share.begin);
     if (sleepers_.load(std::memory_order_seq_cst) == 0) return;
     news_.fetch_add(1, std::memory_order_release);
     news_.notify_one();
   }
 
-  /// The thread that finishes the last item of a round says what comes next.
-  void finished() {
+  /// The thread that finishes the last item of a round says what comes next; another round may have begun at return.
+  void finished(std::size_t item) {
+    if (shares_[at_[item].share].left.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
     if (left_.fetch_sub(1, std::memory_order_acq_rel) == 1) publish(work_.next(kind_));
   }
 
@@ -215,7 +247,7 @@ class Rounds {
   }
   void tell_all() {
     news_.fetch_add(1, std::memory_order_release);
-    if (starts_.size() > 2) news_.notify_all();
+    if (shares_.size() > 1) news_.notify_all();
   }
 
   /// Nobody is within an item; who takes one sees what stands here.
@@ -223,14 +255,22 @@ class Rounds {
     if (round.kind == RoundKind::end) return end();
     kind_ = round.kind;
     steps_ = round.kind == RoundKind::both ? round.steps : 1;
-    std::fill(step_.begin(), step_.end(), 0);
-    left_.store(items_.waits.size() * std::size_t(steps_), std::memory_order_relaxed);
-    ready_.set_all();
+    for (Progress& at : at_) at.step = 0;
+    std::size_t at_work = 0;
+    for (Share& share : shares_) {
+      share.left.store(share.end - share.begin, std::memory_order_relaxed);
+      at_work += share.end > share.begin;
+    }
+    left_.store(at_work, std::memory_order_relaxed);
+    for (Share& share : shares_) share.ready.set_all();
     tell_all();
   }
 
   void wait(std::uint32_t news) {
-    const auto changed = [&] { return news_.load(std::memory_order_acquire) != news || ready_.any(); };
+    const auto changed = [&] {
+      return news_.load(std::memory_order_acquire) != news ||
+             std::any_of(shares_.begin(), shares_.end(), [](const Share& s) { return s.ready.any(); });
+    };
     for (int i = 0; i < spins; ++i) {
       if (i % spins_a_look == 0 && changed()) return;
       pause_briefly();
@@ -243,14 +283,12 @@ class Rounds {
   const Dependencies& items_;
   const RoundWork& work_;
   std::vector<std::vector<std::int32_t>> leaders_;  // of each item: those that it follows
-  std::vector<std::size_t> starts_;
+  std::deque<Share> shares_;
+  std::vector<Progress> at_;  // of each item
   RoundKind kind_ = RoundKind::end;
   int steps_ = 1;
-  std::vector<int> step_;  // of each item, within the round
-  ReadyItems ready_;
-  std::vector<std::atomic<std::int32_t>> first_waits_, second_waits_;
-  alignas(64) std::atomic<std::size_t> left_{0};
-  alignas(64) std::atomic<std::uint32_t> news_{0};
+  alignas(line) std::atomic<std::size_t> left_{0};  // shares that have not finished the round
+  alignas(line) std::atomic<std::uint32_t> news_{0};
   std::atomic<int> sleepers_{0};
   std::atomic<bool> failed_{false}, over_{false};
   std::exception_ptr failure_;
@@ -261,7 +299,7 @@ class Rounds {
 void run_rounds(int threads, const Dependencies& items, NextRound begin, const RoundWork& work) {
   Rounds rounds(threads, items, work);  // if fewer threads are granted, they take the others' shares too
   rounds.begin(begin);
-  run_team(threads, [&](int thread, int) { rounds.work(thread); });
+  run_team(threads, [&](int thread, int) { rounds.work(std::size_t(thread)); });
   rounds.rethrow();
 }
 
