@@ -12,15 +12,14 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::size_t large_model = 16384;  // bodies
-
 /// Edge of a cube as large as the block, m.
 double size_of(const Assembly& assembly, const Block& block) {
   return std::cbrt(block.mass / assembly.materials.at(std::size_t(block.material)).density);
 }
 
-/// Along a space-filling curve. What a step of a large model reads does not fit in a cache, so its tiles go ahead of
-/// each other, several steps in one sweep; they can where neighbours are near each other in the order.
+/// Along a space-filling curve, slab by slab: neighbours are near each other in the order. So tiles can go ahead of
+/// each other, several steps in one sweep, where what a step reads does not fit in a cache, and few bodies are shared
+/// by two threads.
 std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
   constexpr double slab = 3.0;  // of a typical block's size
   std::vector<Vec3> centroids;
@@ -31,8 +30,7 @@ std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
   }
   const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  const std::vector<std::int32_t> order =
-      centroids.size() < large_model ? along_curve(centroids) : in_slabs(centroids, slab * *middle);
+  const std::vector<std::int32_t> order = in_slabs(centroids, slab * *middle);
   return {order.begin(), order.end()};
 }
 
@@ -164,7 +162,7 @@ void find_still(const Assembly& assembly, const std::vector<Guide>& guides, Mode
 /// Large tiles have fewer batches whose joints are not computed alike, and fewer bodies that belong to others; small
 /// ones are needed where there are few for each thread.
 std::int32_t bodies_of_tile(std::size_t bodies) {
-  return bodies >= large_model ? 128 : 64;
+  return bodies >= 1024 ? 128 : 64;
 }
 
 /// The assembly's joints in the order of their batches; returns their shapes in that of the assembly.
