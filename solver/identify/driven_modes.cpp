@@ -10,6 +10,7 @@
 
 #include "solver/base/error.h"
 #include "solver/identify/ssi.h"
+#include "solver/modal/dense_eigen.h"
 
 namespace voussoir {
 
@@ -75,8 +76,8 @@ Eigen::VectorXd line_spread(const Eigen::MatrixXd& spread, const Eigen::RowVecto
 /// Values along the leading right singular vectors: what is left out holds noise alone.
 Eigen::MatrixXcd along_leading(const Eigen::MatrixXcd& values) {
   if (values.cols() <= kept_directions) return values;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> eigen(values.adjoint() * values);
-  return values * eigen.eigenvectors().rightCols(kept_directions);
+  const auto squared = eigen_solution(Eigen::MatrixXcd(values.adjoint() * values));
+  return values * squared.vectors.rightCols(kept_directions);
 }
 
 Data weighted(const TransferFunctions& t, bool smoothed) {

@@ -1,6 +1,6 @@
 #include "solver/identify/fdd.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +8,7 @@
 #include "solver/base/error.h"
 #include "solver/identify/spectra.h"
 #include "solver/identify/subspace.h"
+#include "solver/modal/dense_eigen.h"
 
 namespace voussoir {
 
@@ -24,12 +25,12 @@ int window_samples(const Prepared& p, double seconds) {
 }
 
 void decompose(const Prepared& p, const Eigen::MatrixXcd& density, std::size_t line, Fdd& fdd) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(density);
+  const EigenSolution<Eigen::MatrixXcd> solution = eigen_solution(density);
   const Eigen::Index n = density.rows(), kept = fdd.singular.cols();
   fdd.vectors[line].resize(Eigen::Index(p.channels.size()), kept);
   for (Eigen::Index i = 0; i < kept; ++i) {
-    fdd.singular(Eigen::Index(line), i) = std::max(0.0, solver.eigenvalues()[n - 1 - i]);
-    fdd.vectors[line].col(i) = over_all_channels(p, solver.eigenvectors().col(n - 1 - i));
+    fdd.singular(Eigen::Index(line), i) = std::max(0.0, solution.values[n - 1 - i]);
+    fdd.vectors[line].col(i) = over_all_channels(p, solution.vectors.col(n - 1 - i));
   }
 }
 

@@ -1,10 +1,11 @@
 #include "solver/identify/references.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
 
 #include "solver/identify/spectra.h"
+#include "solver/modal/dense_eigen.h"
 
 namespace voussoir {
 
@@ -18,9 +19,9 @@ Eigen::MatrixXd correlation(const CrossSpectra& spectra) {
   for (std::size_t k = 2; k < spectra.density.size(); ++k) {
     const double trace = spectra.density[k].trace().real();
     if (!(trace > 0.0)) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(spectra.density[k]);
-    const Eigen::VectorXcd u = solver.eigenvectors().col(n - 1);
-    const double share = solver.eigenvalues()[n - 1] / trace;
+    const EigenSolution<Eigen::MatrixXcd> solution = eigen_solution(spectra.density[k]);
+    const Eigen::VectorXcd u = solution.vectors.col(n - 1);
+    const double share = solution.values[n - 1] / trace;
     sum += share * share * (u * u.adjoint()).real();
   }
   return sum;

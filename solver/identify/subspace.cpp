@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/modal/dense_eigen.h"
+
 namespace voussoir {
 
 namespace {
@@ -75,11 +77,11 @@ Eigen::MatrixXd strongest_columns(const Eigen::MatrixXd& h, Eigen::Index count) 
     product.selfadjointView<Eigen::Lower>().rankUpdate(h);
   else
     product.selfadjointView<Eigen::Lower>().rankUpdate(h.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product);
-  const Eigen::VectorXd values = solver.eigenvalues().reverse();
+  const EigenSolution<Eigen::MatrixXd> solution = eigen_solution(product);
+  const Eigen::VectorXd values = solution.values.reverse();
   Eigen::Index kept = 0;
   while (kept < std::min(count, n) && values[kept] > 1e-15 * values[0]) ++kept;
-  const Eigen::MatrixXd vectors = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+  const Eigen::MatrixXd vectors = solution.vectors.rowwise().reverse().leftCols(kept);
   if (wide) return vectors;
   return h * vectors * values.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }

@@ -1,6 +1,6 @@
 #include "solver/identify/transfer.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +8,7 @@
 #include "solver/base/error.h"
 #include "solver/identify/prepare.h"
 #include "solver/identify/spectra.h"
+#include "solver/modal/dense_eigen.h"
 
 namespace voussoir {
 
@@ -84,11 +85,10 @@ void solve_line(const Eigen::MatrixXcd& g, const Roles& roles, Eigen::Index line
   t.coherence.row(line).setConstant(none);
   if (size.minCoeff() > 0.0) {
     const Eigen::VectorXd over = size.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> alike(over.asDiagonal() * gxx * over.asDiagonal());
-    if (alike.eigenvalues()[0] > same_motion) {
-      const Eigen::MatrixXcd inverse = over.asDiagonal() * alike.eigenvectors() *
-                                       alike.eigenvalues().cwiseInverse().asDiagonal() *
-                                       alike.eigenvectors().adjoint() * over.asDiagonal();
+    const auto alike = eigen_solution(Eigen::MatrixXcd(over.asDiagonal() * gxx * over.asDiagonal()));
+    if (alike.values[0] > same_motion) {
+      const Eigen::MatrixXcd inverse = over.asDiagonal() * alike.vectors * alike.values.cwiseInverse().asDiagonal() *
+                                       alike.vectors.adjoint() * over.asDiagonal();
       h = gyx * inverse;
       for (Eigen::Index i = 0; i < n; ++i) {
         const double power = g(roles.outputs[std::size_t(i)], roles.outputs[std::size_t(i)]).real();

@@ -5,10 +5,11 @@
 
 #include <Spectra/SymGEigsShiftSolver.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <chrono>
 
 #include "solver/base/error.h"
+#include "solver/modal/dense_eigen.h"
 
 namespace voussoir {
 
@@ -113,10 +114,10 @@ double largest_ratio(const SparseMatrix& k, const SparseMatrix& m) {
 Eigenpairs dense(const SparseMatrix& k, const SparseMatrix& m, int count) {
   const auto start = std::chrono::steady_clock::now();
   const Eigen::MatrixXd stiffness = k, mass = m;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+  const EigenSolution<Eigen::MatrixXd> all = eigen_solution(stiffness, mass);
   Eigenpairs pairs;
-  pairs.values = solver.eigenvalues().head(count);
-  pairs.vectors = solver.eigenvectors().leftCols(count);
+  pairs.values = all.values.head(count);
+  pairs.vectors = all.vectors.leftCols(count);
   pairs.iteration_seconds = seconds_since(start);
   return pairs;
 }

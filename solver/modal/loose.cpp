@@ -1,7 +1,9 @@
 #include "solver/modal/loose.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <numeric>
+
+#include "solver/modal/dense_eigen.h"
 
 namespace voussoir {
 
@@ -48,9 +50,9 @@ OwnModes own_modes(const BlockMatrix& k, const BlockMatrix& m, const Unknowns& u
   own.free = ways(unknowns, site);
   const Eigen::MatrixXd stiffness = k.diagonal(std::int32_t(site))(own.free, own.free);
   own.mass = m.diagonal(std::int32_t(site))(own.free, own.free);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, own.mass);
-  own.values = solver.eigenvalues();
-  own.motions = solver.eigenvectors();
+  const EigenSolution<Eigen::MatrixXd> solution = eigen_solution(stiffness, own.mass);
+  own.values = solution.values;
+  own.motions = solution.vectors;
   return own;
 }
 

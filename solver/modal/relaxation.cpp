@@ -7,9 +7,10 @@
 // more: it hardly overshoots, and so little slips or opens that rest would not.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 
 #include "solver/contact/search.h"
+#include "solver/modal/dense_eigen.h"
 #include "solver/modal/equilibrium.h"
 #include "solver/modal/stiffness.h"
 
@@ -22,16 +23,14 @@ constexpr int easing_rounds = 10;         // over which weight comes on where th
 
 /// Smallest inertia (one mass, one tensor) that is at least the block of K: m 1 and J about as stiff as K's own parts.
 void least_inertia(const Matrix6& k, double size, double& mass, Mat3& inertia) {
-  using Solver3 = Eigen::SelfAdjointEigenSolver<Mat3>;
-  mass = Solver3(k.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  mass = largest_eigenvalue(k.topLeftCorner<3, 3>());
   inertia =
       k.bottomRightCorner<3, 3>() + 1e-3 * mass * size * size * Mat3::Identity();  // a body on one point turns freely
   if (!(mass > 0.0)) return;
   Matrix6 m = Matrix6::Zero();
   m.topLeftCorner<3, 3>() = mass * Mat3::Identity();
   m.bottomRightCorner<3, 3>() = inertia;
-  const double most =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(k, m, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  const double most = largest_eigenvalue(k, m);
   mass *= most, inertia *= most;
 }
 

@@ -1,17 +1,13 @@
 #include "solver/step/local_rates.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 
+#include "solver/modal/dense_eigen.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
 
 namespace {
-
-template <class M>
-double largest_eigenvalue(const M& k, const M& m) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<M>(k, m, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-}
 
 /// Without the ways that a guide holds.
 Matrix6 free_part(const Body& body, Matrix6 k) {
@@ -53,7 +49,7 @@ std::vector<Matrix6> fill_rates(const Model& model, const State& state, const st
     if (model.fill.held[i] == 7) continue;
     const std::size_t site = bodies + i;
     const Mat3 own = k.diagonal(std::int32_t(site)).topLeftCorner<3, 3>();
-    const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(own, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    const double largest = largest_eigenvalue(own);
     LocalRate& rate = rates[site];
     rate.displacement = rate.own = largest / model.fill.inertial[i];
     rate.bound = (touches[site] ? 2.0 : 1.0) * (largest + rows[site]) / model.fill.inertial[i];

@@ -1,8 +1,9 @@
 #include "solver/step/mass_scaling.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 
 #include "solver/base/error.h"
+#include "solver/modal/dense_eigen.h"
 #include "solver/modal/eigenpairs.h"
 #include "solver/modal/stiffness.h"
 
@@ -137,7 +138,7 @@ std::vector<double> frequency_shifts(const Model& model, const State& state, con
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
     if (pairs.values[i] <= pairs.zero) continue;
     const Eigen::MatrixXd part = g.topLeftCorner(i + 1, i + 1);
-    const double most = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(part, Eigen::EigenvaluesOnly).eigenvalues()[i];
+    const double most = eigenvalues(part)[i];
     shifts.push_back(1.0 - std::sqrt(std::max(0.0, 1.0 - most)));
   }
   return shifts;

@@ -1,4 +1,5 @@
 // Stones and fill together: the assembled stiffness is the derivative of the step's forces, modes and equilibrium.
+#include "solver/modal/dense_eigen.h"
 #include "tests/solver/models.h"
 #include "tools/ladder/fill_models.h"
 
@@ -46,8 +47,7 @@ TEST(FillStiffness, IsTheDerivativeOfTheForces) {
     const Eigen::VectorXd slope = 0.5 * (forces[0] - forces[1]);
     EXPECT_LT((slope - k * x).norm(), 1e-6 * (k * x).norm());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(k);
-  EXPECT_GT(solver.eigenvalues()[0], 0.0);
+  EXPECT_GT(eigenvalues(k)[0], 0.0);
 }
 
 /// A column of fill that stands on a stone: (2n − 1) c / 4 L with its mass lumped, sideways held, and the interface's
@@ -120,8 +120,7 @@ TEST(FillStiffness, NewtonIsConsistentWithFlow) {
 TEST(FillStiffness, TheCriticalStepIsThatOfTheMixedModel) {
   Bench bench(bonded_trough());
   const DenseSystem system = dense_system(bench);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(system.k, system.m);
-  const double exact = 2.0 / std::sqrt(solver.eigenvalues().maxCoeff());
+  const double exact = 2.0 / std::sqrt(eigenvalues(system.k, system.m).maxCoeff());
   EXPECT_NEAR(critical_step(bench.model, bench.state).step, exact, 3e-3 * exact);
 }
 

@@ -2,6 +2,7 @@
 #include "solver/step/critical_step.h"
 
 #include "solver/base/error.h"
+#include "solver/modal/dense_eigen.h"
 #include "solver/step/step_report.h"
 #include "tests/solver/models.h"
 
@@ -49,8 +50,7 @@ TEST(CriticalStep, OfAChainAlongItsAxis) {
 TEST(CriticalStep, OfAWallIsWithinTwoPercentOfTheDenseEigenvalue) {
   const Bench bench(generated("wall", {{"length_blocks", 5}, {"courses", 6}}));
   const DenseSystem system = dense_system(bench);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(system.k, system.m, Eigen::EigenvaluesOnly);
-  const double omega = std::sqrt(solver.eigenvalues().maxCoeff());
+  const double omega = std::sqrt(eigenvalues(system.k, system.m).maxCoeff());
   const CriticalStep critical = critical_step(bench.model, bench.state);
   EXPECT_NEAR(critical.highest, omega, 0.02 * omega);
   EXPECT_LE(critical.highest, omega * (1 + 1e-9)) << "the quotient comes from below";
@@ -78,8 +78,7 @@ TEST(CriticalStep, WithoutJointsThereIsNone) {
 
 Eigen::VectorXd dense_eigenvalues(const Bench& bench) {
   const DenseSystem system = dense_system(bench);
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(system.k, system.m, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return eigenvalues(system.k, system.m);
 }
 
 double largest_bound(const Bench& bench) {
@@ -200,8 +199,7 @@ TEST(MassScaling, RaisesOnlyTheBlockThatNeedsIt) {
   Mat3 k;
   k << 2, -1, 0, -1, 2, -1, 0, -1, 1;
   const Mat3 m = Vec3(inertial(1), inertial(2), inertial(3)).asDiagonal();
-  const double rate =
-      1e9 * Eigen::GeneralizedSelfAdjointEigenSolver<Mat3>(k, m, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  const double rate = 1e9 * largest_eigenvalue(k, m);
   EXPECT_NEAR(2 / std::sqrt(rate), wanted, 0.006 * wanted);
 }
 
