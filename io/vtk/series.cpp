@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "io/hdf5/atomic_file.h"
 #include "io/vtk/files.h"
@@ -14,6 +15,7 @@
 #include "io/vtk/grid.h"
 #include "io/vtk/quiet.h"
 #include "solver/base/error.h"
+#include "solver/base/parallel.h"
 
 namespace voussoir {
 namespace {
@@ -108,18 +110,24 @@ void VtkSeries::resume_at(double time) {
   fill_.drop_after(time);
 }
 
-void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot) {
+void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot, int threads) {
+  struct Part {
+    PvdSeries* series;
+    std::string file;
+    std::function<void(const std::string& path)> write;
+  };
+  const auto name = [&](const char* of, const char* kind) {
+    return fmt::format("{}_{:010.3f}.{}", of, snapshot.time, kind);
+  };
+  std::vector<Part> parts = {
+      {&joints_, name("joints", "vtp"), [&](const auto& path) { write_vtp(joint_polydata(assembly, snapshot), path); }},
+      {&blocks_, name("blocks", "vtu"), [&](const auto& path) { write_vtu(block_grid(assembly, snapshot), path); }}};
+  if (!snapshot.fill.empty())
+    parts.push_back(
+        {&fill_, name("fill", "vtu"), [&](const auto& path) { write_vtu(fill_grid(assembly, snapshot), path); }});
   const fs::path folder = fs::path(blocks_.path()).parent_path();
-  const std::string blocks = fmt::format("blocks_{:010.3f}.vtu", snapshot.time);
-  const std::string joints = fmt::format("joints_{:010.3f}.vtp", snapshot.time);
-  write_vtu(block_grid(assembly, snapshot), (folder / blocks).string());
-  write_vtp(joint_polydata(assembly, snapshot), (folder / joints).string());
-  blocks_.add(snapshot.time, blocks);
-  joints_.add(snapshot.time, joints);
-  if (snapshot.fill.empty()) return;
-  const std::string fill = fmt::format("fill_{:010.3f}.vtu", snapshot.time);
-  write_vtu(fill_grid(assembly, snapshot), (folder / fill).string());
-  fill_.add(snapshot.time, fill);
+  for_each(parts.size(), threads, 1, [&](std::size_t i) { parts[i].write((folder / parts[i].file).string()); });
+  for (const Part& part : parts) part.series->add(snapshot.time, part.file);
 }
 
 }  // namespace voussoir

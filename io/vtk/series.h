@@ -43,9 +43,9 @@ class VtkSeries {
   explicit VtkSeries(const std::string& run_directory);
   /// Forgets frames later than `time` (s).
   void resume_at(double time);
-  /// Writes vtk/blocks_000012.500.vtu, vtk/joints_000012.500.vtp and, with a fill, vtk/fill_000012.500.vtu, and adds
-  /// them to the series.
-  void write(const Assembly& assembly, const Snapshot& snapshot);
+  /// Writes vtk/blocks_000012.500.vtu, vtk/joints_000012.500.vtp and, with a fill, vtk/fill_000012.500.vtu, each in a
+  /// thread while there are some, and adds them to the series. Throws RunError when one cannot be written.
+  void write(const Assembly& assembly, const Snapshot& snapshot, int threads = 1);
 
   const PvdSeries& blocks() const { return blocks_; }
   const PvdSeries& joints() const { return joints_; }

@@ -390,6 +390,31 @@ TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
   EXPECT_EQ(test::files_in(other / "vtk"), 4u);
 }
 
+TEST(VtkSeries, ThreadsWriteTheSameBytes) {
+  const Assembly assembly = test::heap_on_cube();
+  const Snapshot snapshot = test::heap_flowing(assembly);
+  const Folder one, three;
+  VtkSeries(one.str()).write(assembly, snapshot, 1);
+  VtkSeries series(three.str());
+  for (int turn = 0; turn < 20; ++turn) series.write(assembly, snapshot, 3);
+  ASSERT_EQ(test::files_in(three / "vtk"), 6u);
+  for (const auto& file : std::filesystem::directory_iterator(one / "vtk"))
+    EXPECT_EQ(test::read_text(file.path().string()),
+              test::read_text(three / ("vtk/" + file.path().filename().string())))
+        << file.path();
+}
+
+TEST(VtkSeries, AFileThatCannotBeWrittenIsNamed) {
+  const Folder folder;
+  const Assembly assembly = test::two_cubes();
+  test::write_text(folder / "vtk", "no folder");
+  for (const int threads : {1, 2})
+    EXPECT_NE(message_of<RunError>([&] {
+                VtkSeries(folder.str()).write(assembly, rest_snapshot(assembly), threads);
+              }).find("vtk"),
+              std::string::npos);
+}
+
 TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
   const Folder folder;
   test::write_text(folder / "blocks.pvd", "<VTKFile type=\"Other\"></VTKFile>");

@@ -61,7 +61,7 @@ Observers RunSession::observers() {
   Observers o;
   o.history = [this](const Simulation&, const Sample& s) { append_history(s); };
   o.fields = [this](Simulation& run) {
-    vtk_.write(assembly_, make_snapshot(run.model(), run.state()));
+    vtk_.write(assembly_, make_snapshot(run.model(), run.state()), request_.threads);
     history_.flush();
   };
   o.checkpoint = [this](Simulation&, bool stage_end) { write_checkpoint(stage_end); };
@@ -242,7 +242,7 @@ RunEnd RunSession::simulate() {
     fallen_ = simulation_->state().time() > 0.0 && has_fallen();  // resumed from its last moment
     const RunEnd end = fallen_ ? RunEnd::interrupted : simulation_->run(request_.until);
     progress_.end();
-    if (fallen_) vtk_.write(assembly_, make_snapshot(simulation_->model(), simulation_->state()));
+    if (fallen_) vtk_.write(assembly_, make_snapshot(simulation_->model(), simulation_->state()), request_.threads);
     history_.flush();
     const bool stopped = end == RunEnd::interrupted && stop_flag.load() && !fallen_;
     if (end == RunEnd::interrupted && !stopped && !fallen_) write_checkpoint(false);  // --until
