@@ -98,6 +98,20 @@ TEST(Restart, GivesTheSameBitsWithOtherThreads) {
            "runs");
 }
 
+/// The state stands in the order of the model's bodies, and nothing but the version of a checkpoint says which that is.
+TEST(Restart, AnotherOrderOfBodiesNeedsAnotherVersion) {
+  Assembly assembly = stone();
+  for (int x = 0; x < 9; ++x)
+    for (int y = 0; y < 2; ++y)
+      for (int z = 0; z < 3; ++z) add_box(assembly, Vec3(1.1 * x, y, z), Vec3(1.1 * (x + 1), y + 1, z + 1), z == 0);
+  finish_blocks(assembly);
+  const std::vector<std::int64_t> of_version_10 = {
+      0,  6,  3,  9,  1,  7,  4,  10, 12, 15, 13, 16, 2,  8,  5,  11, 14, 17, 18, 21, 19, 22, 24, 27, 25, 28, 20,
+      23, 26, 29, 30, 33, 31, 34, 32, 35, 36, 39, 37, 40, 38, 41, 42, 45, 43, 46, 48, 51, 49, 52, 44, 47, 50, 53};
+  const Model model = build_model(assembly, SolverSettings{});
+  EXPECT_EQ(model.block_of_body, of_version_10) << "with another order raise the format_version of checkpoints";
+}
+
 /// What ties have yielded is in the state.
 TEST(Restart, GivesTheSameBitsWithTies) {
   Assembly assembly = weak_wall(4, 5);
