@@ -28,6 +28,7 @@ std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
     centroids.push_back(block.centroid);
     sizes.push_back(size_of(assembly, block));
   }
+  if (sizes.empty()) return {};  // a fill alone
   const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   const std::vector<std::int32_t> order = in_slabs(centroids, slab * *middle);

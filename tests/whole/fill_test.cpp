@@ -116,6 +116,8 @@ TEST(Fill, ImportAlone) {
   const Outcome seen = voussoir({"info", "heap.h5"}, there);
   EXPECT_EQ(seen.status, 0) << seen.err;
   expect_holds(seen.out, {"0 blocks", "deformable fill"});
+  folder.write("heap.toml", "[bridge]\nassembly = \"heap.h5\"\n\n[[stage]]\nkind = \"gravity\"\n");
+  EXPECT_EQ(voussoir({"step", "heap.toml"}, there).status, 0);
 }
 
 TEST(Fill, ImportInWrongUnitsDoesNotTouch) {
