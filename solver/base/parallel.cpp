@@ -10,6 +10,8 @@
 #include <exception>
 #include <filesystem>
 
+#include "solver/base/arrays.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -50,9 +52,8 @@ void pause_briefly() {
 constexpr int spins = 4000;  // some tens of microseconds: longer than a balanced pass's scatter, far below a time slice
 constexpr int spins_a_look = 16;
 
-// Bytes that one core takes from another at a time. Where two share no cache that takes some hundred nanoseconds, a
-// tenth of what an item does: so what several threads write has lines of its own.
-constexpr std::size_t line = 64;
+// Where two cores share no cache, one takes a line from the other in some hundred nanoseconds: so what several threads
+// write has lines of its own.
 
 /// One bit for each item of a share that may go on and that nobody has taken.
 class ReadyItems {
@@ -88,8 +89,8 @@ class ReadyItems {
   }
 
  private:
-  static constexpr std::size_t bits = 64, words = line / sizeof(std::uint64_t);
-  struct alignas(line) Line : std::array<std::atomic<std::uint64_t>, words> {};
+  static constexpr std::size_t bits = 64, words = cache_line / sizeof(std::uint64_t);
+  struct alignas(cache_line) Line : std::array<std::atomic<std::uint64_t>, words> {};
 
   std::atomic<std::uint64_t>& word(std::size_t w) { return lines_[w / words][w % words]; }
   bool claim(std::size_t w, std::size_t at) {
@@ -102,7 +103,7 @@ class ReadyItems {
 };
 
 /// The neighbouring items that are one thread's to begin with.
-struct alignas(line) Share {
+struct alignas(cache_line) Share {
   std::size_t begin, end;
   ReadyItems ready;
   std::atomic<std::size_t> left{0};  // items that have not finished the round
@@ -110,7 +111,7 @@ struct alignas(line) Share {
 };
 
 /// Where an item stands in a round.
-struct alignas(line) Progress {
+struct alignas(cache_line) Progress {
   std::atomic<std::int32_t> first_waits{0}, second_waits{0};
   int step = 0;            // of the round
   bool at_second = false;  // the stage for which it is ready
@@ -287,8 +288,8 @@ class Rounds {
   std::vector<Progress> at_;  // of each item
   RoundKind kind_ = RoundKind::end;
   int steps_ = 1;
-  alignas(line) std::atomic<std::size_t> left_{0};  // shares that have not finished the round
-  alignas(line) std::atomic<std::uint32_t> news_{0};
+  alignas(cache_line) std::atomic<std::size_t> left_{0};  // shares that have not finished the round
+  alignas(cache_line) std::atomic<std::uint32_t> news_{0};
   std::atomic<int> sleepers_{0};
   std::atomic<bool> failed_{false}, over_{false};
   std::exception_ptr failure_;

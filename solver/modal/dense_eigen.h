@@ -1,5 +1,5 @@
-// Eigenvalues of dense symmetric matrices by Eigen, compiled in one place: every file that does so itself takes the
-// compiler half a minute.
+// Eigenvalues of dense symmetric matrices by Eigen, compiled in one place: a file that does so itself takes the
+// compiler up to half a minute more.
 #pragma once
 #include <Eigen/Dense>
 

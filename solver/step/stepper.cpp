@@ -162,8 +162,8 @@ auto timed(double& sum, const Work& work) {
   return result;
 }
 
-/// What each tile found in a step; on lines of its own, because other threads write what its neighbours find.
-struct alignas(64) Found {
+/// What each tile found in a step.
+struct Found {
   PassReport patches;
   BodyReport bodies;
   FillReport fill;
@@ -326,7 +326,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
   const auto move_tile = [&](std::size_t tile, int step) {
     const Tile& t = model->tiles[tile];
     const BodyPass& pass = bodies[std::size_t(step)];
-    if (!t.still_sums.empty()) state->support_work[tile] += pass.support_work(t);
+    state->support_work[tile] += pass.support_work(t);
     const BodyReport report = pass.bodies(std::size_t(t.first_body), std::size_t(t.end_body));
     if (step == 0) found[tile].bodies = {};
     found[tile].bodies.merge(report);

@@ -1,0 +1,104 @@
+// The frames of a run for ParaView: which file shows which time, and the files that come with it.
+#include "io/vtk/series.h"
+
+#include <gtest/gtest.h>
+
+#include "io/vtk/files.h"
+#include "io/vtk/grid.h"
+#include "solver/base/error.h"
+#include "tests/viz/folder.h"
+#include "tests/viz/scenes.h"
+
+namespace voussoir {
+namespace {
+
+using test::Folder;
+using test::message_of;
+
+TEST(VtkSeries, ListsFramesAndForgetsLaterOnes) {
+  const Folder folder;
+  const Assembly assembly = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  VtkSeries series(folder.str());
+  for (const double t : {0.0, 0.5, 12.5}) {
+    snapshot.time = t;
+    series.write(assembly, snapshot);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "vtk/blocks_000012.500.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "vtk/joints_000012.500.vtp"));
+  VtkSeries resumed(folder.str());
+  ASSERT_EQ(resumed.blocks().frames().size(), 3u);
+  EXPECT_EQ(resumed.blocks().frames()[2].time, 12.5);
+  EXPECT_EQ(resumed.joints().frames()[1].file, "joints_000000.500.vtp");
+  resumed.resume_at(0.5);
+  EXPECT_EQ(resumed.blocks().frames().size(), 2u);
+  snapshot.time = 0.75;
+  resumed.write(assembly, snapshot);
+  snapshot.time = 0.75;  // the same frame again replaces itself
+  resumed.write(assembly, snapshot);
+  const PvdSeries blocks(folder / "vtk/blocks.pvd");
+  ASSERT_EQ(blocks.frames().size(), 3u);
+  EXPECT_EQ(blocks.frames()[2].time, 0.75);
+  EXPECT_EQ(read_vtu(blocks.file_path(blocks.frames()[2]))->GetNumberOfCells(), 2);
+}
+
+TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
+  const Folder folder;
+  const Assembly assembly = test::heap_on_cube();
+  Snapshot snapshot = test::heap_flowing(assembly);
+  VtkSeries series(folder.str());
+  for (const double t : {0.0, 0.5}) {
+    snapshot.time = t;
+    series.write(assembly, snapshot);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "vtk/fill_000000.500.vtu"));
+  VtkSeries resumed(folder.str());
+  ASSERT_EQ(resumed.fill().frames().size(), 2u);
+  EXPECT_EQ(read_vtu(resumed.fill().file_at(0.5))->GetNumberOfCells(), 4);
+  resumed.resume_at(0.25);
+  EXPECT_EQ(resumed.fill().frames().size(), 1u);
+  EXPECT_EQ(resumed.fill().file_at(0.5), "");
+  // Without a fill there is no trail of one.
+  const Folder other;
+  const Assembly cubes = test::two_cubes();
+  VtkSeries plain(other.str());
+  plain.write(cubes, rest_snapshot(cubes));
+  EXPECT_EQ(test::files_in(other / "vtk"), 4u);
+}
+
+TEST(VtkSeries, ThreadsWriteTheSameBytes) {
+  const Assembly assembly = test::heap_on_cube();
+  const Snapshot snapshot = test::heap_flowing(assembly);
+  const Folder one, three;
+  VtkSeries(one.str()).write(assembly, snapshot, 1);
+  VtkSeries series(three.str());
+  for (int turn = 0; turn < 20; ++turn) series.write(assembly, snapshot, 3);
+  ASSERT_EQ(test::files_in(three / "vtk"), 6u);
+  for (const auto& file : std::filesystem::directory_iterator(one / "vtk"))
+    EXPECT_EQ(test::read_text(file.path().string()),
+              test::read_text(three / ("vtk/" + file.path().filename().string())))
+        << file.path();
+}
+
+TEST(VtkSeries, AFileThatCannotBeWrittenIsNamed) {
+  const Folder folder;
+  const Assembly assembly = test::two_cubes();
+  test::write_text(folder / "vtk", "no folder");
+  for (const int threads : {1, 2})
+    EXPECT_NE(message_of<RunError>([&] {
+                VtkSeries(folder.str()).write(assembly, rest_snapshot(assembly), threads);
+              }).find("vtk"),
+              std::string::npos);
+}
+
+TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
+  const Folder folder;
+  test::write_text(folder / "blocks.pvd", "<VTKFile type=\"Other\"></VTKFile>");
+  EXPECT_NE(message_of<InputError>([&] { PvdSeries series(folder / "blocks.pvd"); }).find("blocks.pvd"),
+            std::string::npos);
+  test::write_text(folder / "blocks.pvd", "garbage");
+  EXPECT_THROW(PvdSeries series(folder / "blocks.pvd"), InputError);
+}
+
+}  // namespace
+}  // namespace voussoir
