@@ -39,10 +39,6 @@ Alone::~Alone() {
   omp_set_max_active_levels(levels_);
 }
 
-Range share(std::size_t n, int thread, int threads) {
-  return {n * std::size_t(thread) / std::size_t(threads), n * std::size_t(thread + 1) / std::size_t(threads)};
-}
-
 namespace {
 void pause_briefly() {
 #if defined(__x86_64__)

@@ -2,6 +2,7 @@
 // bits for any number of threads.
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -29,11 +30,9 @@ class Alone {
   int levels_;
 };
 
-/// A contiguous share of [0, n) for one thread; the shares depend on n and the thread count only.
 struct Range {
   std::size_t begin = 0, end = 0;
 };
-Range share(std::size_t n, int thread, int threads);
 
 /// Items of work in two stages: the second of an item may begin once its own first stage and those of all items before
 /// it are done. In the next step its first stage may begin once its own second stage and those of its followers are.
@@ -70,11 +69,19 @@ void run_rounds(int threads, const Dependencies& items, NextRound begin, const R
 /// one of them throws is thrown again when all have ended; of several the one of the lowest number.
 void run_team(int threads, const std::function<void(int, int)>& work);
 
-/// Runs `work(thread, range)` over contiguous shares of [0, n), in as many threads as get `least` each.
+/// Runs `work(thread, range)` over [0, n) in as many threads as get `least` each. A thread takes some in a row, and
+/// more when it has done them, because one half may take longer than the other: who does what is not the same each
+/// time.
 template <class Work>
 void share_out(std::size_t n, int threads, std::size_t least, const Work& work) {
-  const int team = int(std::clamp<std::size_t>(n / least, 1, std::size_t(std::max(1, threads))));
-  run_team(team, [&](int thread, int size) { work(thread, share(n, thread, size)); });
+  constexpr std::size_t turns = 8;  // of each thread
+  const auto team = std::clamp<std::size_t>(n / least, 1, std::size_t(std::max(1, threads)));
+  const std::size_t some = team == 1 ? n : std::max<std::size_t>(1, n / (turns * team));
+  std::atomic<std::size_t> next{0};
+  run_team(int(team), [&](int thread, int) {
+    for (std::size_t begin; (begin = next.fetch_add(some, std::memory_order_relaxed)) < n;)
+      work(thread, Range{begin, std::min(n, begin + some)});
+  });
 }
 /// The same item by item: `work(i)`.
 template <class Work>

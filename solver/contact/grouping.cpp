@@ -192,7 +192,19 @@ std::vector<std::size_t> grouped_joints(const Model& model, const State& state, 
   return order;
 }
 
-/// Contacts in slots of one kind (a tile and a number of points) change places.
+/// Slots of each kind: of a tile, and for a number of points.
+std::vector<std::vector<std::size_t>> kinds_of_slots(const State& state) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> kinds;
+  for (std::size_t slot = 0; slot < state.contacts.size(); ++slot) {
+    const ContactBatch& batch = state.contact_batches[slot / lane_count];
+    kinds[{batch.tile, batch.patch.points}].push_back(slot);
+  }
+  std::vector<std::vector<std::size_t>> slots;
+  for (auto& kind : kinds) slots.push_back(std::move(kind.second));
+  return slots;
+}
+
+/// Contacts in slots of one kind change places.
 void group_slots(State& state, const std::vector<std::size_t>& slots) {
   std::vector<Way> ways(slots.size()), after;
   std::transform(slots.begin(), slots.end(), ways.begin(),
@@ -252,12 +264,8 @@ void group_patches(Model& model, State& state, int threads) {
     joints.move_model();
     joints.move_state(state);
   });
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> kinds;
-  for (std::size_t slot = 0; slot < state.contacts.size(); ++slot) {
-    const ContactBatch& batch = state.contact_batches[slot / lane_count];
-    kinds[{batch.tile, batch.patch.points}].push_back(slot);
-  }
-  for (const auto& kind : kinds) group_slots(state, kind.second);
+  const std::vector<std::vector<std::size_t>> kinds = kinds_of_slots(state);
+  for_each(kinds.size(), threads, least_tiles_per_thread, [&](std::size_t k) { group_slots(state, kinds[k]); });
   state.grouped_at() = state.step();
 }
 

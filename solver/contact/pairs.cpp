@@ -104,7 +104,7 @@ std::vector<CellPair> near_pairs(const Model& model, const State& state, const s
     for (std::int32_t i = 0; i < bodies; ++i)
       if (stale[std::size_t(i)] && !state.lost(std::size_t(i))) place_cells(model, state, i, cells);
     const BoxIndex index(boxes_of(cells), distance);
-    share_out(std::size_t(bodies), threads, 2000, [&](int thread, Range range) {
+    share_out(std::size_t(bodies), threads, 500, [&](int thread, Range range) {
       std::vector<CellBox> own;
       std::vector<int> near;
       for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -234,7 +234,7 @@ void list_pairs(const Model& model, State& state, const std::vector<char>& stale
 
 std::vector<std::size_t> due_pairs(const Model& model, const State& state, const std::vector<char>& moved,
                                    int threads) {
-  constexpr std::size_t least_pairs_per_thread = 10000;
+  constexpr std::size_t least_pairs_per_thread = 3000;
   std::vector<std::vector<std::size_t>> found(std::size_t(std::max(1, threads)));
   share_out(pair_count(state), threads, least_pairs_per_thread, [&](int thread, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -248,6 +248,7 @@ std::vector<std::size_t> due_pairs(const Model& model, const State& state, const
   });
   std::vector<std::size_t> due;
   for (const auto& part : found) due.insert(due.end(), part.begin(), part.end());
+  std::sort(due.begin(), due.end());
   return due;
 }
 

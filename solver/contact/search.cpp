@@ -79,7 +79,7 @@ class Search {
     const double near = moved_share * skin(model_);
     const Vec3 base = state_.base_displacement();
     std::vector<char> moves(model_.bodies.size());
-    for_each(moves.size(), threads_, 5000,
+    for_each(moves.size(), threads_, 1000,
              [&](std::size_t i) { moves[i] = moved_since(model_, state_, state_.searched, i, base) > near; });
     for (std::size_t i = 0; i < moves.size(); ++i) {
       if (!moves[i]) continue;
@@ -114,21 +114,18 @@ class Search {
 
   /// Joints past their limits become contacts, or nothing where the cells have parted.
   void clip_joints() {
-    const double none[4] = {0, 0, 0, 0};
     std::vector<char> goes(model_.joints.size());
-    for_each(goes.size(), threads_, 2000, [&](std::size_t i) {
+    for_each(goes.size(), threads_, 1000, [&](std::size_t i) {
       const Patch& p = model_.joints[i];
       goes[i] = !(state_.joint.mode[i] & mode_gone) && past(p) && !stays(p);
     });
-    for (std::size_t i = 0; i < goes.size(); ++i) {
-      if (!goes[i]) continue;
-      const Patch& old = model_.joints[i];
-      if (!(state_.joint.mode[i] & mode_points)) joint_to_points(model_, state_, branches_, i);
-      const double energy = patch_energy(model_, state_, branches_, i, true).elastic;
-      energy_before_ += energy;
-      clip(old, model_.points, state_.joint, energy, none);
-      state_.joint.mode[i] |= mode_gone;
-      part(old);
+    const std::vector<std::size_t> going = marked(goes);
+    std::vector<Ended> ended(going.size());
+    for_each(going.size(), threads_, least_clipped_per_thread, [&](std::size_t k) { ended[k] = end_joint(going[k]); });
+    for (std::size_t k = 0; k < going.size(); ++k) {
+      const Patch& old = model_.joints[going[k]];
+      enter(old, std::move(ended[k]));
+      state_.joint.mode[going[k]] |= mode_gone;
       list_anew(old.a), list_anew(old.b);  // the joint was not among the pairs
     }
   }
@@ -140,26 +137,22 @@ class Search {
 
   /// Contacts past their limits are clipped anew, parted ones dropped.
   void look_at_contacts(bool clips) {
-    enum : char { stays, is_past, has_gone };
+    enum : char { stays = 0, is_past, has_gone };
     std::vector<char> what(state_.contacts.size(), stays);
-    for_each(what.size(), threads_, 2000, [&](std::size_t slot) {
+    for_each(what.size(), threads_, 500, [&](std::size_t slot) {
       if (!state_.has_contact(slot)) return;
       const Patch& p = state_.contacts[slot];
       const bool moves = moved_[std::size_t(p.a)] || moved_[std::size_t(p.b)];
       what[slot] = lost(p) ? has_gone : clips && past(p) ? is_past : moves && has_parted(slot) ? has_gone : stays;
     });
-    for (std::size_t slot = 0; slot < what.size(); ++slot) {
-      if (what[slot] == stays) continue;
-      const Patch old = state_.contacts[slot];
-      const double energy = patch_energy(model_, state_, branches_, model_.joints.size() + slot, true).elastic;
-      energy_before_ += energy;
-      follow_open_contact(state_, slot);
-      if (what[slot] == is_past)
-        clip(old, state_.contact_points, state_.contact, energy, &state_.contact_slid[4 * slot]);
-      else
-        ++update_.dropped;
-      slots_.remove(slot);
-      part(old);
+    const std::vector<std::size_t> going = marked(what);
+    std::vector<Ended> ended(going.size());
+    for_each(going.size(), threads_, least_clipped_per_thread,
+             [&](std::size_t k) { ended[k] = end_contact(going[k], what[going[k]] == is_past); });
+    for (std::size_t k = 0; k < going.size(); ++k) {
+      const Patch old = state_.contacts[going[k]];
+      slots_.remove(going[k]);
+      enter(old, std::move(ended[k]));
     }
   }
 
@@ -189,17 +182,45 @@ class Search {
     }
   }
 
-  void clip(const Patch& old, const Array<double>& points, const PatchMemory& memory, double energy,
-            const double* slid) {
+  static std::vector<std::size_t> marked(const std::vector<char>& marks) {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      if (marks[i]) places.push_back(i);
+    return places;
+  }
+
+  /// What a patch that ends held, and what takes its place: of it alone, so that threads can share this.
+  struct Ended {
+    double energy = 0.0;  // J
+    std::optional<NewContact> fresh;
+  };
+
+  Ended end_joint(std::size_t i) {
+    const double none[4] = {0, 0, 0, 0};
+    if (!(state_.joint.mode[i] & mode_points)) joint_to_points(model_, state_, branches_, i);
+    Ended ended = {patch_energy(model_, state_, branches_, i, true).elastic, {}};
+    ended.fresh = clipped(model_.joints[i], model_.points, state_.joint, ended.energy, none);
+    return ended;
+  }
+
+  Ended end_contact(std::size_t slot, bool clips) {
+    Ended ended = {patch_energy(model_, state_, branches_, model_.joints.size() + slot, true).elastic, {}};
+    follow_open_contact(state_, slot);
+    if (clips)
+      ended.fresh = clipped(state_.contacts[slot], state_.contact_points, state_.contact, ended.energy,
+                            &state_.contact_slid[4 * slot]);
+    return ended;
+  }
+
+  std::optional<NewContact> clipped(const Patch& old, const Array<double>& points, const PatchMemory& memory,
+                                    double energy, const double* slid) const {
+    if (lost(old)) return {};
     const CellPair cells = {old.a, old.b, old.cell_a, old.cell_b};
     std::optional<NewContact> fresh =
         make_contact(model_, state_, cells, placed_cell(model_, state_, old.a, old.cell_a),
                      placed_cell(model_, state_, old.b, old.cell_b), skin(model_))
             .contact;
-    if (!fresh || lost(old)) {
-      ++update_.dropped;
-      return;
-    }
+    if (!fresh) return {};
     // The same joint, elsewhere: what is left of its law is the unbonded part.
     fresh->patch.law = old.law;
     carry_over(model_, state_, old, points, memory, energy, *fresh);
@@ -207,8 +228,14 @@ class Search {
     const Vec3 before(slid[0], slid[1], slid[2]), after = before + mean_slip(state_, old, points, memory);
     std::copy(after.begin(), after.end(), fresh->slid);
     fresh->slid[3] = std::max(slid[3], before.norm() + memory.largest[largest_index(place_of(old), 1)]);
-    clipped_.push_back(std::move(*fresh));
-    ++update_.clipped;
+    return fresh;
+  }
+
+  void enter(const Patch& old, Ended ended) {
+    energy_before_ += ended.energy;
+    ++(ended.fresh ? update_.clipped : update_.dropped);
+    if (ended.fresh) clipped_.push_back(std::move(*ended.fresh));
+    part(old);
   }
 
   void add(const NewContact& contact) {
@@ -240,13 +267,16 @@ class Search {
     update_.examined += std::int64_t(due.size());
     const double least = least_pair_share * skin(model_);
     const double unseen = (2.0 * search_share + moved_share) * skin(model_);
-    for (std::size_t i = 0; i < due.size(); ++i) {
-      note_examined(model_, state_, due[i], std::max(least, found[i].apart - unseen));
-      if (!found[i].contact) continue;
-      add(*found[i].contact);
+    for_each(due.size(), threads_, 200,
+             [&](std::size_t i) { note_examined(model_, state_, due[i], std::max(least, found[i].apart - unseen)); });
+    for (const Examined& pair : found) {
+      if (!pair.contact) continue;
+      add(*pair.contact);
       ++update_.made;
     }
   }
+
+  static constexpr std::size_t least_clipped_per_thread = 3;
 
   const Model& model_;
   State& state_;

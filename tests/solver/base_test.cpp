@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <numeric>
 #include <thread>
 
 #include "solver/base/arrays.h"
@@ -43,19 +44,24 @@ TEST(HashArrays, TellsZeroFromMinusZero) {
   EXPECT_NE(hash_arrays({{"x", 1, "m", &x}}), h);
 }
 
-TEST(Share, CoversEveryIndexOnceInOrder) {
-  for (std::size_t n : {0u, 1u, 7u, 8u, 1000u})
-    for (int threads : {1, 2, 3, 8, 13}) {
-      std::size_t next = 0;
-      for (int t = 0; t < threads; ++t) {
-        const Range r = share(n, t, threads);
-        EXPECT_EQ(r.begin, next);
-        EXPECT_LE(r.begin, r.end);
-        EXPECT_LE(r.end - r.begin, n / std::size_t(threads) + 1);
-        next = r.end;
-      }
-      EXPECT_EQ(next, n);
+TEST(ShareOut, EveryItemOnce) {
+  for (const std::size_t n : {0u, 1u, 7u, 8u, 1000u})
+    for (const int threads : {1, 2, 3, 8, 13}) {
+      std::vector<int> done(n, 0);
+      std::vector<std::size_t> by(std::size_t(threads), 0);
+      share_out(n, threads, 2, [&](int thread, Range range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) ++done[i], ++by.at(std::size_t(thread));
+      });
+      EXPECT_EQ(done, std::vector<int>(n, 1)) << threads << " threads";
+      EXPECT_EQ(std::accumulate(by.begin(), by.end(), std::size_t(0)), n);
     }
+}
+
+TEST(ShareOut, NoThreadForLessThanIsWorthIt) {
+  share_out(99, 8, 50, [&](int thread, Range range) {
+    EXPECT_EQ(thread, 0);
+    EXPECT_EQ(range.end - range.begin, 99u);
+  });
 }
 
 TEST(Team, EveryThreadOnce) {

@@ -33,9 +33,10 @@ double copy_bandwidth(double bytes, int threads) {
   const int rounds = int(std::clamp(4e8 / (16.0 * double(n)), 1.0, 20000.0));
   Array<double> from(n, 1.0), to(n, 0.0);
   const double seconds = best_time(7, threads, [&](int thread, int team) {
-    const Range r = share(n, thread, team);
+    const std::size_t begin = n * std::size_t(thread) / std::size_t(team),
+                      end = n * std::size_t(thread + 1) / std::size_t(team);
     for (int i = 0; i < rounds; ++i) {
-      std::memcpy(&to[r.begin], &from[r.begin], (r.end - r.begin) * sizeof(double));
+      std::memcpy(&to[begin], &from[begin], (end - begin) * sizeof(double));
       asm volatile("" ::: "memory");
     }
   });
