@@ -8,7 +8,7 @@ namespace {
 
 /// As patch_jump().
 [[gnu::always_inline]] inline Jump<Lanes> contact_jump(const ContactBatch& c, const double* pose) {
-  const LanePoses a = gather(pose, c.patch.a), b = gather(pose, c.patch.b);
+  const LanePoses a = gather(pose, c.patch.pose_a), b = gather(pose, c.patch.pose_b);
   const Quat<Lanes> fa = a.q * Quat<Lanes>{c.patch.frame[0], load(c.patch.frame + 1)};
   Quat<Lanes> fb = b.q * Quat<Lanes>{c.frame_b[0], load(c.frame_b + 1)};
   const Lanes same = fa.w * fb.w + dot(fa.v, fb.v);
@@ -42,7 +42,7 @@ struct ContactsAhead {
   [[gnu::always_inline]] void poses() const {
     if (end - batch <= 1) return;
     const JointBatch& next = state.contact_batches[std::size_t(batch[1])].patch;
-    fetch_poses(state.pose.data(), next.a), fetch_poses(state.pose.data(), next.b);
+    fetch_poses(state.pose.data(), next.pose_a), fetch_poses(state.pose.data(), next.pose_b);
   }
 };
 

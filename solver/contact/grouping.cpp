@@ -118,8 +118,10 @@ class Joints {
                                       model_.batches.begin() + tile_.end_batch);
     for (const LaneMove& m : all_)
       move_lane(old[m.batch_from - std::size_t(tile_.first_batch)], m, model_.batches[m.batch_to]);
-    for (std::int32_t k = tile_.first_batch; k < tile_.end_batch; ++k)
-      model_.batches[std::size_t(k)].law = common_law(model_.batches[std::size_t(k)]);
+    for (std::int32_t k = tile_.first_batch; k < tile_.end_batch; ++k) {
+      JointBatch& batch = model_.batches[std::size_t(k)];
+      batch.law = common_law(batch), batch.touches_still = touches_still(model_, batch);
+    }
     move_each(moves_, 1, model_.joints.data());
     move_each(moves_, 1, model_.joint_of_patch.data());
     for (const LaneMove& m : moves_) {
@@ -158,7 +160,7 @@ class Joints {
       move(&(from.*field), &(to.*field), 1);
     for (const auto field : {&JointBatch::ss, &JointBatch::tt, &JointBatch::half_s, &JointBatch::half_t})
       move(&(from.*field), &(to.*field), 1);
-    to.a[b] = from.a[a], to.b[b] = from.b[a], to.law_of[b] = from.law_of[a];
+    to.pose_a[b] = from.pose_a[a], to.pose_b[b] = from.pose_b[a], to.law_of[b] = from.law_of[a];
     to.sum_a[b] = from.sum_a[a], to.sum_b[b] = from.sum_b[a];
   }
 

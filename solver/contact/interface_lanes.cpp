@@ -97,7 +97,7 @@ struct InterfaceAhead {
   }
   /// Of the next batch, which by then has been asked for itself.
   [[gnu::always_inline]] void stones() const {
-    if (any()) fetch_poses(state.pose.data(), state.interface.batches[k + 1].patch.a);
+    if (any()) fetch_poses(state.pose.data(), state.interface.batches[k + 1].patch.pose_a);
   }
   [[gnu::always_inline]] void nodes() const {
     if (!any()) return;
@@ -117,7 +117,7 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   const InterfaceAhead ahead{state, k};
   ahead.nodes();
   // 1. what the corners have moved in the stone's axes
-  const LanePoses stone = gather(state.pose.data(), b.patch.a);
+  const LanePoses stone = gather(state.pose.data(), b.patch.pose_a);
   const Axes<Lanes> axes = axes_of(stone.q * Quat<Lanes>{b.patch.frame[0], load(b.patch.frame + 1)}, splat(2.0));
   const Vector origin = stone.u + turn_change(stone.q, load(b.patch.arm_a));
   Vector u[3], reach[3], moved[3];

@@ -10,22 +10,23 @@ namespace voussoir {
 
 namespace {
 
-/// Where eight bodies are found: rows of poses, and which of them.
+/// Where eight poses are found: rows of poses, and where theirs begin.
 struct PoseRows {
   const double* rows;
-  const std::int32_t* which;
+  const std::int32_t* places;
 };
 
 /// Copies of eight poses, of still bodies from where those are: for batches that touch any.
-[[gnu::noinline]] PoseRows copies(const PatchPass& pass, const std::int32_t* bodies, double* rows) {
-  static constexpr std::int32_t in_order[lane_count] = {0, 1, 2, 3, 4, 5, 6, 7};
+[[gnu::noinline]] PoseRows copies(const PatchPass& pass, const std::int32_t* places, double* rows) {
+  static constexpr std::int32_t in_order[lane_count] = {0, 8, 16, 24, 32, 40, 48, 56};
+  static_assert(pose_width == 8);
   for (int lane = 0; lane < lane_count; ++lane)
-    std::copy_n(pass.pose_of(bodies[lane]), pose_width, rows + pose_width * lane);
+    std::copy_n(pass.pose_of(places[lane] / pose_width), pose_width, rows + in_order[lane]);
   return {rows, in_order};
 }
 
 [[gnu::always_inline]] inline Jump<Lanes> lanes_jump(const JointBatch& batch, PoseRows of_a, PoseRows of_b) {
-  const LanePoses a = gather(of_a.rows, of_a.which), b = gather(of_b.rows, of_b.which);
+  const LanePoses a = gather(of_a.rows, of_a.places), b = gather(of_b.rows, of_b.places);
   const Lanes same = a.q.w * b.q.w + dot(a.q.v, b.q.v);
   const Quat<Lanes> qb = {flip(b.q.w, same), {flip(b.q.v.x, same), flip(b.q.v.y, same), flip(b.q.v.z, same)}};
   const Triple<Lanes> c = cross(a.q.v, qb.v);
@@ -228,12 +229,12 @@ struct BatchArrays {
   const double* pose;
   std::uint8_t* mode;
   Singles *last, *branch;
-  Lanes *slip, *sums;
+  Lanes* slip;
+  double* sums;
   SlidingLimits limits;
   SingleBranches<count> several;
-  const Tile::StillSum *still_sums, *end_still_sums;  // of the tile, where PatchPass::still places bodies; else none
 
-  BatchArrays(const PatchPass& pass, const Tile& tile)
+  explicit BatchArrays(const PatchPass& pass)
       : batches(pass.model->batches.data()),
         final(pass.model->batches.size() - 1),
         pose(pass.state->pose.data()),
@@ -241,20 +242,9 @@ struct BatchArrays {
         last(reinterpret_cast<Singles*>(pass.state->joint.last.data())),
         branch(reinterpret_cast<Singles*>(pass.state->branch.data())),
         slip(reinterpret_cast<Lanes*>(pass.state->slip.data())),
-        sums(reinterpret_cast<Lanes*>(pass.sums)),
+        sums(pass.sums),
         limits(*pass.model),
-        several(pass.branches),
-        still_sums(tile.still_sums.data()),
-        end_still_sums(still_sums + (pass.still ? tile.still_sums.size() : 0)) {}
-
-  /// Whether any joint of the batch touches one of those bodies.
-  [[gnu::always_inline]] bool touches_still(const JointBatch& batch) const {
-    bool touches = false;
-    for (const Tile::StillSum* one = still_sums; one != end_still_sums; ++one)
-      for (int lane = 0; lane < lane_count; ++lane)
-        touches |= (batch.sum_a[lane] == one->sum) | (batch.sum_b[lane] == one->sum);
-    return touches;
-  }
+        several(pass.branches) {}
 
   Singles* last_of(std::size_t k) const { return last + 6 * k; }
   Singles* branches_of(std::size_t k) const { return branch + 6 * count * k; }
@@ -273,7 +263,7 @@ struct BatchAhead {
 
   /// Of the next batch, which by then has been asked for itself.
   [[gnu::always_inline]] void poses() const {
-    fetch_poses(in.pose, in.batches[next].a), fetch_poses(in.pose, in.batches[next].b);
+    fetch_poses(in.pose, in.batches[next].pose_a), fetch_poses(in.pose, in.batches[next].pose_b);
   }
   /// Of the one after it, in two parts.
   [[gnu::always_inline]] void constants(std::size_t part) const { fetch_part<2>(in.batches[after], part); }
@@ -308,9 +298,10 @@ struct BatchPass {
     const std::uint64_t modes = full ? all_modes() : 0;
     const bool closed = full && !(modes & in_each(mode_points | mode_gone | mode_open));
     if (!closed && !any(live_lanes())) return nothing_left();
-    PoseRows a = {in.pose, batch.a}, b = {in.pose, batch.b};
+    PoseRows a = {in.pose, batch.pose_a}, b = {in.pose, batch.pose_b};
     alignas(64) double rows[2][lane_count * pose_width];
-    if (in.touches_still(batch)) a = copies(pass, batch.a, rows[0]), b = copies(pass, batch.b, rows[1]);
+    if (batch.touches_still && pass.still)
+      a = copies(pass, batch.pose_a, rows[0]), b = copies(pass, batch.pose_b, rows[1]);
     const Jump<Lanes> jump = lanes_jump(batch, a, b);
     ahead.poses();
     if (closed) {
@@ -325,7 +316,7 @@ struct BatchPass {
       }
       if (all(surely_bear(batch, e, tension, cohesion, tangent))) return springs(jump, e, findings);
     }
-    mixed(in_memory(jump), findings);
+    mixed(pass, in, k, in_memory(jump), findings);
   }
 
  private:
@@ -374,8 +365,13 @@ struct BatchPass {
     Resultant<Lanes> resultant;  // of closed lanes alone
   };
 
+  /// Of its own, so that for the short way the compiler keeps none of this in memory.
+  [[gnu::noinline]] static void mixed(const PatchPass& p, const BatchArrays<count>& arrays, std::size_t index,
+                                      const Jump<Lanes>& jump, TileFindings& findings) {
+    BatchPass(p, arrays, index).mixed(jump, findings);
+  }
   /// A batch in which some lanes are open, gone or go point by point: those that fail the check from here on.
-  [[gnu::noinline]] void mixed(const Jump<Lanes>& jump, TileFindings& findings) const {
+  [[gnu::always_inline]] void mixed(const Jump<Lanes>& jump, TileFindings& findings) const {
     const LaneMask live = live_lanes();
     const LaneBytes modes = load_bytes(mode, batch.count);
     const LaneMask keep = pass.shortcut ? without(live, bytes_with(modes, mode_points)) : LaneMask{};
@@ -459,8 +455,8 @@ struct BatchPass {
   [[gnu::always_inline]] void add_up(const Lanes* rows, int lanes) const {
     for (int lane = 0; lane < lane_count; ++lane) {
       if (lane == lanes) break;
-      in.sums[batch.sum_a[lane]] += rows[lane];
-      in.sums[batch.sum_b[lane]] -= rows[lane];
+      *reinterpret_cast<Lanes*>(in.sums + batch.sum_a[lane]) += rows[lane];
+      *reinterpret_cast<Lanes*>(in.sums + batch.sum_b[lane]) -= rows[lane];
     }
     if (!pass.wrenches) return;
     auto* wrenches = reinterpret_cast<Lanes*>(pass.wrenches + wrench_width * batch.first_joint);
@@ -479,7 +475,7 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
   const Tile& tile = pass.model->tiles[index];
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
             pass.sums + wrench_width * std::size_t(tile.end_sum), 0.0);
-  const BatchArrays<count> arrays(pass, tile);
+  const BatchArrays<count> arrays(pass);
   TileFindings found;
   for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k)
     BatchPass<count>(pass, arrays, k).run(found);

@@ -16,18 +16,17 @@ struct LanePoses {
   Quat<Lanes> q;
 };
 
-[[gnu::always_inline]] inline LanePoses gather(const double* pose, const std::int32_t* bodies) {
+/// `places`: where the eight poses begin.
+[[gnu::always_inline]] inline LanePoses gather(const double* pose, const std::int32_t* places) {
   Lanes r[lane_count];
-  for (int lane = 0; lane < lane_count; ++lane)
-    r[lane] = *reinterpret_cast<const Lanes*>(pose + pose_width * std::size_t(bodies[lane]));
+  for (int lane = 0; lane < lane_count; ++lane) r[lane] = *reinterpret_cast<const Lanes*>(pose + places[lane]);
   transpose(r);
   return {{r[0], r[1], r[2]}, {r[3], {r[4], r[5], r[6]}}};
 }
 
-/// Asks for the poses of eight bodies, see fetch().
-[[gnu::always_inline]] inline void fetch_poses(const double* pose, const std::int32_t* bodies) {
-  for (int lane = 0; lane < lane_count; ++lane)
-    fetch(pose + pose_width * std::size_t(bodies[lane]), pose_width * sizeof(double));
+/// Asks for eight poses, see fetch().
+[[gnu::always_inline]] inline void fetch_poses(const double* pose, const std::int32_t* places) {
+  for (int lane = 0; lane < lane_count; ++lane) fetch(pose + places[lane], pose_width * sizeof(double));
 }
 
 /// Asks for one of so many parts of a record, see fetch().

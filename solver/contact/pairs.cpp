@@ -226,7 +226,7 @@ void list_pairs(const Model& model, State& state, const std::vector<char>& stale
     if (!state.has_contact(slot)) continue;
     const JointBatch& batch = state.contact_batches[slot / lane_count].patch;
     const std::size_t lane = slot % lane_count;
-    if (!stale[std::size_t(batch.a[lane])] && !stale[std::size_t(batch.b[lane])]) continue;
+    if (!stale[std::size_t(batch.body_a(lane))] && !stale[std::size_t(batch.body_b(lane))]) continue;
     if (const auto pair = find_pair(state, cells_of(state.contacts[slot])))
       state.pair_seen[searched_width * *pair + 7] = pair_has_contact;
   }

@@ -5,8 +5,6 @@
 
 namespace voussoir {
 
-constexpr int wrench_width = 8;  // force 3, moment about the world's origin 3, unused: one cache line
-
 /// What the pass found, gathered by each thread for itself and merged without regard to order.
 struct PassReport {
   bool reclip = false;      // some patch has slid or turned past its limit

@@ -35,7 +35,7 @@ InterfacePatch make_patch(const Assembly& assembly, const FillJoint& joint, cons
 
 void fill_lane(const InterfacePatch& patch, const Model& model, int lane, InterfaceBatch& batch) {
   PatchBatch& b = batch.patch;
-  b.a[lane] = patch.body;
+  b.pose_a[lane] = pose_width * patch.body;
   b.law_of[lane] = patch.law;
   b.kn[lane] = patch.kn, b.ks[lane] = patch.ks, b.area[lane] = patch.area;
   const Vec3 at = model.bodies[std::size_t(patch.body)].centroid + Vec3(patch.arm);

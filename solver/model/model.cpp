@@ -212,8 +212,8 @@ std::int32_t Model::tile_of_joint(std::int32_t a, std::int32_t b) const {
 }
 
 void fill_lane(const Patch& patch, int lane, JointBatch& batch) {
-  batch.a[lane] = patch.a;
-  batch.b[lane] = patch.b;
+  batch.pose_a[lane] = pose_width * patch.a;
+  batch.pose_b[lane] = pose_width * patch.b;
   batch.law_of[lane] = patch.law;
   for (int i = 0; i < 3; ++i) {
     batch.arm_a[i][lane] = patch.arm_a[i];
@@ -232,6 +232,14 @@ std::int32_t common_law(const PatchBatch& batch) {
   const bool same =
       std::all_of(batch.law_of, batch.law_of + lane_count, [&](auto law) { return law == *batch.law_of; });
   return same ? *batch.law_of : -1;
+}
+
+bool touches_still(const Model& model, const JointBatch& batch) {
+  bool touches = false;
+  for (std::size_t lane = 0; lane < lane_count; ++lane)
+    for (const std::int32_t body : {batch.body_a(lane), batch.body_b(lane)})
+      touches |= model.still_of[std::size_t(body)] >= 0;
+  return touches;
 }
 
 namespace {
@@ -297,6 +305,7 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
     batch.rectangles &= shape.rectangle;
   }
   batch.law = common_law(batch);
+  batch.touches_still = touches_still(model, batch);
   add_corners(model, batch);
   add_points(model, batch, shapes);
   model.batches.push_back(batch);
@@ -319,8 +328,10 @@ void place_sums(JointBatch& batch, const Tile& tile, const std::vector<std::int3
     const auto at = std::lower_bound(beyond.begin(), beyond.end(), body) - beyond.begin();
     return tile.first_sum + tile.end_body - tile.first_body + std::int32_t(at);
   };
-  for (int lane = 0; lane < lane_count; ++lane)
-    batch.sum_a[lane] = place(batch.a[lane]), batch.sum_b[lane] = place(batch.b[lane]);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    batch.sum_a[lane] = wrench_width * place(batch.body_a(lane));
+    batch.sum_b[lane] = wrench_width * place(batch.body_b(lane));
+  }
 }
 
 /// Tiles with their batches and sums; the joints are sorted by tile.

@@ -72,28 +72,35 @@ inline PatchPoint patch_corner(const Patch& p, const Array<double>& table, int i
   return {table[at], table[at + 1], 0.0};
 }
 
+constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
+constexpr int wrench_width = 8;  // force 3, moment about the world's origin 3, unused: one cache line
+
 /// Eight patches, a lane each: what every kind of them has.
 struct alignas(64) PatchBatch {
   Lanes arm_a[3], place[3], frame[4];
   Lanes kn, ks, area;
-  std::int32_t a[lane_count], law_of[lane_count];
+  std::int32_t pose_a[lane_count];  // where the pose of the first body begins in State::pose
+  std::int32_t law_of[lane_count];
   std::int32_t count = 0;        // patches in use; further lanes repeat the last one and are never written
   std::int32_t law = 0;          // of all lanes; −1: they differ
   std::int32_t first_point = 0;  // row of the tables of points
   std::int32_t points = 9;       // most of any lane; missing ones repeat the last with no weight
+  std::int32_t body_a(std::size_t lane) const { return pose_a[lane] / pose_width; }
 };
 
 /// Eight joints of the assembly: all that the intact path reads of them.
 struct alignas(64) JointBatch : PatchBatch {
-  std::int32_t b[lane_count];
-  std::int32_t sum_a[lane_count], sum_b[lane_count];  // where the tile sums the wrenches of each
+  std::int32_t pose_b[lane_count];
+  std::int32_t sum_a[lane_count], sum_b[lane_count];  // where the sums of their wrenches begin in those of all tiles
   std::int32_t first_joint = 0;
   std::int32_t first_corner = 0;  // into Model::batch_corners
   std::int32_t corners = 4;       // most of any lane
   bool rectangles = false;        // all lanes: points and corners follow from half_s and half_t
+  bool touches_still = false;     // some lane: a body of Model::still
   Lanes arm_b[3];
   Lanes ss, tt;
   Lanes half_s, half_t;  // m: the polygon lies within ±half_s, ±half_t of its centroid; a rectangle fills that
+  std::int32_t body_b(std::size_t lane) const { return pose_b[lane] / pose_width; }
 };
 
 /// Eight contacts of one tile, a lane each; free lanes are mode_gone. They differ from joints in that their bodies had
@@ -218,6 +225,8 @@ struct Model {
 void fill_lane(const Patch& patch, int lane, JointBatch& batch);
 /// The law that the lanes of a batch share, or −1.
 std::int32_t common_law(const PatchBatch& batch);
+/// Whether any lane of a batch joins a body of Model::still.
+bool touches_still(const Model& model, const JointBatch& batch);
 
 /// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError when nothing can move or
 /// a joint has no stiffness.

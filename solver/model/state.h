@@ -35,7 +35,6 @@ struct PatchMemory {
   void resize(std::size_t patches, std::size_t batches, std::size_t points);
 };
 
-constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
 constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base (of still bodies: on contacts),
                                  // loss by body damping (J)
 constexpr int searched_width = 8;

@@ -14,7 +14,7 @@ Incidence find_incidence(const Model& model, const State& state) {
   };
   const auto bodies_of = [&](std::size_t slot) {  // from the batches, which hold them closer together
     const JointBatch& batch = state.contact_batches[slot / lane_count].patch;
-    return Bodies{std::size_t(batch.a[slot % lane_count]), std::size_t(batch.b[slot % lane_count])};
+    return Bodies{std::size_t(batch.body_a(slot % lane_count)), std::size_t(batch.body_b(slot % lane_count))};
   };
   incidence.first.assign(model.bodies.size() + 1, 0);
   const Interface& interface = state.interface;
@@ -22,7 +22,7 @@ Incidence find_incidence(const Model& model, const State& state) {
     for (std::size_t i = 0; i < interface.patches.size(); ++i) {
       const PatchBatch& batch = interface.batches[i / lane_count].patch;
       if (std::int32_t(i % lane_count) < batch.count && batch.area[i % lane_count] > 0.0)
-        visit(i, std::size_t(batch.a[i % lane_count]));
+        visit(i, std::size_t(batch.body_a(i % lane_count)));
     }
   };
   each_of_fill([&](std::size_t, std::size_t body) { ++incidence.first[body + 1]; });

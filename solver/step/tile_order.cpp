@@ -40,7 +40,7 @@ Dependencies order_of_tiles(const Model& model, const State& state) {
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     if (!state.has_contact(i)) continue;
     const JointBatch& batch = state.contact_batches[i / lane_count].patch;
-    const std::int32_t a = model.tile_of(batch.a[i % lane_count]), b = model.tile_of(batch.b[i % lane_count]);
+    const std::int32_t a = model.tile_of(batch.body_a(i % lane_count)), b = model.tile_of(batch.body_b(i % lane_count));
     if (a == b) continue;
     std::vector<std::int32_t>& followers = order.followers[std::size_t(std::min(a, b))];
     if (std::find(followers.begin(), followers.end(), std::max(a, b)) == followers.end())
