@@ -116,6 +116,12 @@ class TangentInverse {
   bool by_cycles_ = false;
 };
 
+/// How much of the residual a step may leave: less than the step before left, which is what the change of the tangent
+/// leaves at least, and no less than will do at the end (after Eisenstat & Walker 1996).
+double step_tolerance(double left_before, double wanted) {
+  return std::clamp(std::max(0.3 * left_before, 0.1 * wanted), 1e-3, 2e-2);
+}
+
 /// A placement, and the out-of-balance forces of those about it, every one from the patches' state at the start.
 struct Surroundings {
   Stepper& stepper;
@@ -202,7 +208,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   Array<double> elastic_pose = state.pose, elastic_nodes = state.fill.pose;
   const int most_iterations = 40, patience = model.fill.empty() ? 6 : 15,
             trial = model.fill.empty() ? 3 : most_iterations;
-  double elastic_residual = 0.0;
+  double elastic_residual = 0.0, left = 0.03;  // left: share of the residual, by the step before
   for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
@@ -212,7 +218,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     const bool consistent = i > 0 && !model.fill.empty();
     const std::optional<Eigen::VectorXd> found =
         consistent ? consistent_step(here, inverse.factor(), r.force)
-                   : inverse.times(r.force, std::clamp(0.1 * tolerance / r.largest, 1e-3, 1e-2));
+                   : inverse.times(r.force, step_tolerance(left, tolerance / r.largest));
     if (!found) break;
     const Eigen::VectorXd& step = *found;
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
@@ -229,6 +235,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     renew = !model.fill.empty() || !(best_norm < 0.1 * norm);
     if (renew && !fresh && best_norm > 0.5 * norm) best_share = 0.0;
     r = here.moved(step, best_share);
+    left = r.force.norm() / norm;
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
     if (i == 0) elastic_pose = state.pose, elastic_nodes = state.fill.pose, elastic_residual = r.largest;

@@ -14,9 +14,6 @@ using Vector = Eigen::VectorXd;
 auto part(Vector& x, std::size_t i) {
   return x.segment<6>(Eigen::Index(6 * i));
 }
-auto part(const Vector& x, std::size_t i) {
-  return x.segment<6>(Eigen::Index(6 * i));
-}
 
 /// Calls use(entry) for each block of a row.
 template <class F>
@@ -53,6 +50,69 @@ using Two = double __attribute__((vector_size(16)));
 
 void multiply(const BlockRows& m, const Vector& x, Vector& y) {
   for (std::size_t i = 0; i < m.rows(); ++i) part(y, i) = times(m, i, x);
+}
+
+constexpr std::size_t block_width = 36, site_width = 8;
+
+/// The six rows of a column in single precision, and two numbers that belong to the next.
+using Eight = float __attribute__((vector_size(32)));
+[[gnu::always_inline]] inline Eight load(const float* from) {
+  Eight x;
+  std::memcpy(&x, from, sizeof(x));
+  return x;
+}
+[[gnu::always_inline]] inline void store(float* to, const Eight& x) {
+  std::memcpy(to, &x, sizeof(x));
+}
+
+/// Block times the six numbers of a site. Two sums, so that each waits for half as many.
+struct ColumnSums {
+  Eight even = {}, odd = {};
+  [[gnu::always_inline]] void add(const float* block, const float* x) {
+    for (int c = 0; c < 6; c += 2) even += load(block + 6 * c) * x[c], odd += load(block + 6 * (c + 1)) * x[c + 1];
+  }
+  [[gnu::always_inline]] void add_backwards(const float* block, const float* x) {
+    for (int c = 4; c >= 0; c -= 2) odd += load(block + 6 * (c + 1)) * x[c + 1], even += load(block + 6 * c) * x[c];
+  }
+};
+
+/// Σ block x of a row. Blocks some way on are asked for, which the processor would not do early enough by itself.
+[[gnu::always_inline]] inline Eight times(const SingleRows& m, std::size_t row, const float* x) {
+  constexpr std::size_t ahead = 1024, most = 7 * cache_line;  // numbers; bytes
+  const auto begin = std::size_t(m.first[row]), end = std::size_t(m.first[row + 1]);
+  fetch(&m.block[block_width * begin] + ahead, std::min(most, sizeof(float) * block_width * (end - begin)));
+  ColumnSums sums;
+  for (std::size_t at = begin; at < end; ++at)
+    sums.add(&m.block[block_width * at], x + site_width * std::size_t(m.column[at]));
+  return sums.even + sums.odd;
+}
+/// The same where rows are gone through from the last to the first: a processor reads ahead of what goes steadily
+/// downwards, not of what goes up within each row.
+[[gnu::always_inline]] inline Eight times_backwards(const SingleRows& m, std::size_t row, const float* x) {
+  ColumnSums sums;
+  for (auto at = std::size_t(m.first[row + 1]); at-- > std::size_t(m.first[row]);)
+    sums.add_backwards(&m.block[block_width * at], x + site_width * std::size_t(m.column[at]));
+  return sums.even + sums.odd;
+}
+/// Block times six numbers.
+[[gnu::always_inline]] inline Eight times(const float* block, const Eight& x) {
+  float numbers[site_width];
+  store(numbers, x);
+  ColumnSums sums;
+  sums.add(block, numbers);
+  return sums.even + sums.odd;
+}
+
+Array<float> in_singles(const Array<Matrix6>& blocks) {
+  Array<float> singles;
+  singles.reserve(block_width * blocks.size() + site_width - 6);
+  for (const Matrix6& block : blocks)
+    for (const double x : block.reshaped()) singles.push_back(float(x));
+  singles.resize(singles.size() + site_width - 6, 0.0f);
+  return singles;
+}
+SingleRows in_singles(const BlockRows& m) {
+  return {m.first, m.column, in_singles(m.block)};
 }
 
 /// Rows of a block matrix, each summed up from blocks that come in any order of columns.
@@ -221,14 +281,23 @@ BlockRows active_rows(const BlockMatrix& k, const ActiveSites& sites) {
   return rows;
 }
 
-/// Where the diagonal block of each row is.
-Array<std::int32_t> diagonal_of(const BlockRows& a) {
-  Array<std::int32_t> diagonal(a.rows());
-  for (std::size_t i = 0; i < a.rows(); ++i)
-    diagonal[i] = std::int32_t(
-        std::lower_bound(a.column.begin() + a.first[i], a.column.begin() + a.first[i + 1], std::int32_t(i)) -
-        a.column.begin());
-  return diagonal;
+/// Blocks left of the diagonal, on it and right of it.
+struct Parts {
+  BlockRows left, right;
+  Array<Matrix6> diagonal;
+};
+Parts parts_of(const BlockRows& a) {
+  Parts parts;
+  parts.left.first.push_back(0), parts.right.first.push_back(0);
+  for (std::size_t i = 0; i < a.rows(); ++i) {
+    each_of(a, i, [&](std::size_t at) {
+      if (std::size_t(a.column[at]) == i) return parts.diagonal.push_back(a.block[at]);
+      BlockRows& side = std::size_t(a.column[at]) < i ? parts.left : parts.right;
+      side.column.push_back(a.column[at]), side.block.push_back(a.block[at]);
+    });
+    for (BlockRows* side : {&parts.left, &parts.right}) side->first.push_back(std::int32_t(side->column.size()));
+  }
+  return parts;
 }
 
 /// Middles of the aggregates, m.
@@ -262,6 +331,7 @@ BlockRows smoothed(const BlockRows& a, const Array<Matrix6>& inverse, const Arra
 
 bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const std::vector<Vec3>& places) {
   constexpr std::size_t small = 60, too_large = 500;  // sites
+  constexpr std::size_t visited_twice = 3;            // from the third level on, which cost little
   levels_.clear(), unknowns_.clear();
   ActiveSites sites;
   for (std::size_t site = 0; site < k.sites(); ++site) {
@@ -272,35 +342,41 @@ bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const st
     Vector6& free = sites.free.emplace_back();
     for (int c = 0; c < 6; ++c) free[c] = unknowns.of[site][std::size_t(c)] >= 0 ? 1.0 : 0.0;
   }
-  levels_.emplace_back().a = active_rows(k, sites);
-  for (std::vector<Vec3> place = sites.place; levels_.back().a.rows() > small;) {
-    Level& level = levels_.back();
-    const std::size_t n = level.a.rows();
-    level.diagonal = diagonal_of(level.a);
-    level.inverse.resize(n);
-    for (std::size_t i = 0; i < n; ++i) level.inverse[i] = level.a.block[std::size_t(level.diagonal[i])].inverse();
+  k_ = active_rows(k, sites);
+  BlockRows coarse;
+  const BlockRows* a = &k_;
+  for (std::vector<Vec3> place = sites.place; a->rows() > small;) {
+    const std::size_t n = a->rows();
     std::int32_t count = 0;
-    const std::vector<std::int32_t> of = aggregates(level.a, count);
+    const std::vector<std::int32_t> of = aggregates(*a, count);
     if (2 * std::size_t(count) > n) break;
+    Level& level = levels_.emplace_back();
+    Array<Matrix6> inverse(n);
+    {
+      const Parts parts = parts_of(*a);
+      for (std::size_t i = 0; i < n; ++i) inverse[i] = parts.diagonal[i].inverse();
+      level.left = in_singles(parts.left), level.right = in_singles(parts.right);
+      if (levels_.size() >= visited_twice) level.diagonal = in_singles(parts.diagonal);
+    }
     const std::vector<Vec3> middle = middles(place, of, count);
     Array<Matrix6> rigid_motion(n, Matrix6::Zero());
     for (std::size_t i = 0; i < n; ++i)
       if (of[i] >= 0) rigid_motion[i] = rigid(place[i] - middle[std::size_t(of[i])]);
     if (levels_.size() == 1)
       for (std::size_t i = 0; i < n; ++i) rigid_motion[i] = (sites.free[i].asDiagonal() * rigid_motion[i]).eval();
-    level.p = smoothed(level.a, level.inverse, rigid_motion, of, count);
-    const BlockRows ap = product(level.a, level.p, std::size_t(count));
-    Level next;
-    next.a = product(transposed(level.p, std::size_t(count)), ap, std::size_t(count));
-    levels_.push_back(std::move(next));
+    const BlockRows p = smoothed(*a, inverse, rigid_motion, of, count), back = transposed(p, std::size_t(count));
+    level.inverse = in_singles(inverse), level.p = in_singles(p), level.restriction = in_singles(back);
+    for (Array<float>* vector : {&level.b, &level.x, &level.rest}) vector->assign(site_width * n, 0.0f);
+    coarse = product(back, product(*a, p, std::size_t(count)), std::size_t(count));
+    a = &coarse;
     place = middle;
   }
-  return levels_.back().a.rows() <= too_large && factor_coarsest();
+  return a->rows() <= too_large && factor_coarsest(*a);
 }
 
-bool Multigrid::factor_coarsest() {
-  const BlockRows& a = levels_.back().a;
+bool Multigrid::factor_coarsest(const BlockRows& a) {
   const auto size = Eigen::Index(6 * a.rows());
+  coarsest_b_.assign(site_width * a.rows(), 0.0f), coarsest_x_ = coarsest_b_;
   if (size == 0) return true;
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = 0; i < a.rows(); ++i)
@@ -309,52 +385,81 @@ bool Multigrid::factor_coarsest() {
   return coarsest_.info() == Eigen::Success;
 }
 
+void Multigrid::solve_coarsest() {
+  const std::size_t n = coarsest_b_.size() / site_width;
+  Vector b(Eigen::Index(6 * n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < 6; ++c) b[Eigen::Index(6 * i + c)] = coarsest_b_[site_width * i + c];
+  if (n > 0) coarsest_.solveInPlace(b);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < 6; ++c) coarsest_x_[site_width * i + c] = float(b[Eigen::Index(6 * i + c)]);
+}
+
 /// x ≈ A⁻¹ b of a level: block Gauss–Seidel forwards, the coarse correction, block Gauss–Seidel backwards; symmetric.
-void Multigrid::cycle(std::size_t at, const Vector& b, Vector& x) const {
-  if (at + 1 == levels_.size()) {
-    if (b.size() > 0) x = coarsest_.solve(b);
-    return;
-  }
-  const Level& level = levels_[at];
-  const std::size_t n = level.a.rows();
+void Multigrid::cycle(std::size_t at) {
+  if (at == levels_.size()) return solve_coarsest();
+  Level& level = levels_[at];
+  const std::size_t n = level.left.rows();
+  const float* b = level.b.data();
+  float *x = level.x.data(), *rest = level.rest.data();
+  const auto inverse_times = [&](std::size_t i, const Eight& y) { return times(&level.inverse[block_width * i], y); };
   // Forwards from nothing: what is left of the diagonal alone; what then remains is what is right of it.
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector6 left = times(level.a, std::size_t(level.a.first[i]), std::size_t(level.diagonal[i]), x);
-    part(x, i).noalias() = level.inverse[i] * (part(b, i) - left);
+  for (std::size_t i = 0; i < n; ++i)
+    store(x + site_width * i, inverse_times(i, load(b + site_width * i) - times(level.left, i, x)));
+  for (std::size_t i = 0; i < n; ++i) store(rest + site_width * i, -times(level.right, i, x));
+  const bool last = at + 1 == levels_.size();
+  Array<float>&coarse = last ? coarsest_b_ : levels_[at + 1].b, &correction = last ? coarsest_x_ : levels_[at + 1].x;
+  for (std::size_t i = 0; i < level.restriction.rows(); ++i)
+    store(&coarse[site_width * i], times(level.restriction, i, rest));
+  if (!last && !levels_[at + 1].diagonal.empty())
+    two_cycles(at + 1);
+  else
+    cycle(at + 1);
+  for (std::size_t i = 0; i < n; ++i)
+    store(x + site_width * i, load(x + site_width * i) + times(level.p, i, correction.data()));
+  for (std::size_t i = n; i-- > 0;)
+    store(x + site_width * i, inverse_times(i, load(b + site_width * i) - times_backwards(level.right, i, x) -
+                                                   times_backwards(level.left, i, x)));
+}
+
+/// A second cycle for what the first left.
+void Multigrid::two_cycles(std::size_t at) {
+  Level& level = levels_[at];
+  cycle(at);
+  level.before = level.x;
+  const float* x = level.x.data();
+  for (std::size_t i = 0; i < level.left.rows(); ++i) {
+    float* b = &level.b[site_width * i];
+    const Eight own = times(&level.diagonal[block_width * i], load(x + site_width * i));
+    store(b, load(b) - own - times(level.left, i, x) - times(level.right, i, x));
   }
-  Vector coarse = Vector::Zero(Eigen::Index(6 * levels_[at + 1].a.rows()));
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector6 right = times(level.a, std::size_t(level.diagonal[i]) + 1, std::size_t(level.a.first[i + 1]), x);
-    each_of(level.p, i, [&](std::size_t e) {
-      part(coarse, std::size_t(level.p.column[e])) -= level.p.block[e].transpose().lazyProduct(right);
-    });
-  }
-  Vector correction(coarse.size());
-  cycle(at + 1, coarse, correction);
-  for (std::size_t i = 0; i < n; ++i) part(x, i) += times(level.p, i, correction);
-  for (std::size_t i = n; i-- > 0;) {
-    const Vector6 r = part(b, i) - times(level.a, i, x);
-    part(x, i) += level.inverse[i].lazyProduct(r);
-  }
+  cycle(at);
+  for (std::size_t k = 0; k < level.x.size(); ++k) level.x[k] += level.before[k];
 }
 
 std::optional<Vector> Multigrid::solve(const Vector& b, double tolerance, int most_iterations) {
-  const Level& fine = levels_.front();
-  const auto size = Eigen::Index(6 * fine.a.rows());
+  const std::size_t n = k_.rows();
+  const auto size = Eigen::Index(6 * n);
   Vector r = Vector::Zero(size), x = r, z(size), p(size), kp(size);
   for (std::size_t i = 0; i < unknowns_.size(); ++i)
     for (std::size_t c = 0; c < 6; ++c)
       if (unknowns_[i][c] >= 0) r[Eigen::Index(6 * i + c)] = b[unknowns_[i][c]];
   const double target = tolerance * r.norm();
+  Array<float>&rough_b = levels_.empty() ? coarsest_b_ : levels_.front().b,
+  &rough_x = levels_.empty() ? coarsest_x_ : levels_.front().x;
   double before = 1.0;
   for (iterations_ = 0; r.norm() > target; ++iterations_) {
     if (iterations_ == most_iterations) return {};
-    cycle(0, r, z);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t c = 0; c < 6; ++c) rough_b[site_width * i + c] = float(r[Eigen::Index(6 * i + c)]);
+    cycle(0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t c = 0; c < 6; ++c) z[Eigen::Index(6 * i + c)] = rough_x[site_width * i + c];
     const double now = r.dot(z);
     if (!(now > 0.0)) return {};
     p = iterations_ == 0 ? z : Vector(z + now / before * p);
     before = now;
-    multiply(fine.a, p, kp);
+    multiply(k_, p, kp);
     const double share = now / p.dot(kp);
     x += share * p;
     r -= share * kp;

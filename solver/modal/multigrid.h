@@ -1,7 +1,8 @@
 // K x = b of large assemblies: conjugate gradients, preconditioned by a multigrid cycle over smoothed aggregates
 // (Vaněk, Mandel & Brezina 1996). Sites near each other make one coarse site that moves as a rigid body, so that the
 // coarse equations are again those of bodies and the next level is made as this one was. Time and memory grow with the
-// number of sites, those of a factor faster (docs/theory/equilibrium.md).
+// number of sites, those of a factor faster (docs/theory/equilibrium.md). The cycle need not be exact: single
+// precision.
 #pragma once
 #include <Eigen/Cholesky>
 #include <optional>
@@ -17,6 +18,13 @@ struct BlockRows {
   std::size_t rows() const { return first.size() - 1; }
 };
 
+/// The same in single precision: half of the memory to go through, and a column of a block in one register.
+struct SingleRows {
+  Array<std::int32_t> first, column;
+  Array<float> block;  // 36 each, column by column, and two more at the end
+  std::size_t rows() const { return first.size() - 1; }
+};
+
 class Multigrid {
  public:
   /// `k` symmetric and positive definite over the unknowns, `places` of its sites (m). False where it is not, or where
@@ -25,20 +33,26 @@ class Multigrid {
   /// x with |b − K x| ≤ tolerance |b|, or nothing if it is not found in so many iterations.
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b, double tolerance, int most_iterations);
   int iterations() const { return iterations_; }  // of the last solution
-  std::size_t levels() const { return levels_.size(); }
+  std::size_t levels() const { return levels_.size() + 1; }
 
  private:
+  /// All but the coarsest. Vectors have eight numbers a site, of which six count.
   struct Level {
-    BlockRows a;
-    Array<std::int32_t> diagonal;  // where each row has it
-    Array<Matrix6> inverse;        // of the diagonal blocks
-    BlockRows p;                   // columns: sites of the next level
+    SingleRows left, right;     // of the diagonal, so that each is gone through without gaps
+    Array<float> inverse;       // of the diagonal blocks, as those of rows
+    SingleRows p, restriction;  // columns of p: sites of the next level; restriction: p transposed
+    Array<float> b, x, rest;
+    Array<float> diagonal, before;  // where it is visited twice: blocks of rows; x of the first visit
   };
-  void cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
-  bool factor_coarsest();
+  void cycle(std::size_t level);
+  void two_cycles(std::size_t level);
+  void solve_coarsest();
+  bool factor_coarsest(const BlockRows& a);
 
+  BlockRows k_;
   std::vector<Level> levels_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
+  Array<float> coarsest_b_, coarsest_x_;
   std::vector<std::array<std::int32_t, 6>> unknowns_;  // of each site that has any
   int iterations_ = 0;
 };
