@@ -1,10 +1,16 @@
 #include "tools/bench/machine.h"
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 
 #include "solver/base/arrays.h"
+#include "solver/base/error.h"
 #include "solver/base/lanes.h"
 #include "solver/base/parallel.h"
 
@@ -58,6 +64,20 @@ double multiply_add_peak(int threads) {
     asm volatile("" ::"m"(sum));
   });
   return 2.0 * lane_count * chains * double(rounds) * threads / seconds;
+}
+
+void reserve_memory(double bytes) {
+  if (bytes <= 0.0) return;
+#if defined(__GLIBC__)
+  constexpr int never = -1;
+  mallopt(M_MMAP_MAX, 0), mallopt(M_TRIM_THRESHOLD, never);  // all in one heap, which gives nothing back
+#endif
+  constexpr std::size_t page = 4096;
+  const auto size = std::size_t(bytes);
+  char* memory = static_cast<char*>(std::malloc(size));
+  if (!memory) throw InputError("--reserve: {:.1f} GB of memory are not to be had", 1e-9 * bytes);
+  for (std::size_t at = 0; at < size; at += page) static_cast<volatile char*>(memory)[at] = 1;
+  std::free(memory);
 }
 
 }  // namespace voussoir

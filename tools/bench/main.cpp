@@ -21,6 +21,7 @@ struct Options {
   int threads = 1;
   double seconds = 5.0;
   std::int64_t steps = 0;  // instead, if not 0
+  double reserve = 0.0;    // GB
   bool quiet = false;
   std::string keep;
 };
@@ -168,7 +169,11 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
                                                                   "least wall time a scene")(
       "steps", po::value<std::int64_t>()->default_value(0),
       "steps a scene at least, instead: the same for any number of threads and for any program")(
-      "keep", po::value<std::string>()->default_value(""), "folder of scenes' states, to begin from another time")(
+      "reserve", po::value<double>()->default_value(0.0),
+      "GB of memory to take from the system before anything is timed: for large scenes on a virtual machine, whose "
+      "host "
+      "may take seconds a GB")("keep", po::value<std::string>()->default_value(""),
+                               "folder of scenes' states, to begin from another time")(
       "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
       "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")("quiet,q",
                                                                                                           "no table");
@@ -198,6 +203,9 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
   o.seconds = values["seconds"].as<double>();
   o.steps = values["steps"].as<std::int64_t>();
   if (o.steps < 0) throw InputError("--steps is {}; it must not be negative (0: as many as --seconds takes)", o.steps);
+  o.reserve = values["reserve"].as<double>();
+  if (!(o.reserve >= 0.0 && o.reserve < 1e6))
+    throw InputError("--reserve is {}; it must be a number of gigabytes, or 0", o.reserve);
   o.quiet = values.count("quiet") > 0;
   o.keep = values["keep"].as<std::string>();
   folder = values["output"].as<std::string>();
@@ -210,6 +218,7 @@ int run(int argc, char** argv) {
   const Options o = parse(argc, argv, done, folder);
   if (done) return 0;
   for (const std::string& name : o.scenes) find_scene(name);  // before anything is timed
+  reserve_memory(1e9 * o.reserve);
   const double peak = multiply_add_peak(1);
   if (!o.quiet)
     fmt::print("multiply–add peak {:.1f} Gop/s on one thread, copy bandwidth in memory {:.1f} GB/s on {} thread(s)\n",
