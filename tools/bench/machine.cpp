@@ -3,6 +3,9 @@
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 #include <algorithm>
 #include <chrono>
@@ -76,6 +79,10 @@ void reserve_memory(double bytes) {
   const auto size = std::size_t(bytes);
   char* memory = static_cast<char*>(std::malloc(size));
   if (!memory) throw InputError("--reserve: {:.1f} GB of memory are not to be had", 1e-9 * bytes);
+#if defined(__linux__)
+  const std::size_t aside = large_page - reinterpret_cast<std::uintptr_t>(memory) % large_page;
+  if (size > aside + large_page) madvise(memory + aside, (size - aside) / large_page * large_page, MADV_HUGEPAGE);
+#endif
   for (std::size_t at = 0; at < size; at += page) static_cast<volatile char*>(memory)[at] = 1;
   std::free(memory);
 }
