@@ -222,10 +222,11 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     if (!found) break;
     const Eigen::VectorXd& step = *found;
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
-    double best_norm = 1e300, best_share = 0.0;
+    double best_norm = 1e300, best_share = 0.0, tried = 0.0;
     const double norm = r.force.norm();
     for (double share = 1.0; share > 0.05; share *= 0.5) {
-      const double now = here.moved(step, share).force.norm();
+      r = here.moved(step, tried = share);
+      const double now = r.force.norm();
       if (now < best_norm) best_norm = now, best_share = share;
       if (now < (1.0 - 0.1 * share) * norm) break;
     }
@@ -234,7 +235,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     // leaves more than half is not taken.
     renew = !model.fill.empty() || !(best_norm < 0.1 * norm);
     if (renew && !fresh && best_norm > 0.5 * norm) best_share = 0.0;
-    r = here.moved(step, best_share);
+    if (best_share != tried) r = here.moved(step, best_share);
     left = r.force.norm() / norm;
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
