@@ -103,12 +103,18 @@ struct ColumnSums {
   return sums.even + sums.odd;
 }
 
+void append(const Matrix6& block, Array<float>& singles) {
+  for (const double x : block.reshaped()) singles.push_back(float(x));
+}
+/// The last block's last column is read with two numbers more.
+void end_blocks(Array<float>& singles) {
+  singles.resize(singles.size() + site_width - 6, 0.0f);
+}
 Array<float> in_singles(const Array<Matrix6>& blocks) {
   Array<float> singles;
   singles.reserve(block_width * blocks.size() + site_width - 6);
-  for (const Matrix6& block : blocks)
-    for (const double x : block.reshaped()) singles.push_back(float(x));
-  singles.resize(singles.size() + site_width - 6, 0.0f);
+  for (const Matrix6& block : blocks) append(block, singles);
+  end_blocks(singles);
   return singles;
 }
 SingleRows in_singles(const BlockRows& m) {
@@ -283,20 +289,26 @@ BlockRows active_rows(const BlockMatrix& k, const ActiveSites& sites) {
 
 /// Blocks left of the diagonal, on it and right of it.
 struct Parts {
-  BlockRows left, right;
+  SingleRows left, right;
   Array<Matrix6> diagonal;
 };
 Parts parts_of(const BlockRows& a) {
   Parts parts;
-  parts.left.first.push_back(0), parts.right.first.push_back(0);
-  for (std::size_t i = 0; i < a.rows(); ++i) {
+  const std::size_t n = a.rows(), half = (a.block.size() - n) / 2;  // it is symmetric
+  parts.diagonal.reserve(n);
+  for (SingleRows* side : {&parts.left, &parts.right}) {
+    side->first.reserve(n + 1), side->column.reserve(half), side->block.reserve(block_width * half + site_width - 6);
+    side->first.push_back(0);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
     each_of(a, i, [&](std::size_t at) {
       if (std::size_t(a.column[at]) == i) return parts.diagonal.push_back(a.block[at]);
-      BlockRows& side = std::size_t(a.column[at]) < i ? parts.left : parts.right;
-      side.column.push_back(a.column[at]), side.block.push_back(a.block[at]);
+      SingleRows& side = std::size_t(a.column[at]) < i ? parts.left : parts.right;
+      side.column.push_back(a.column[at]), append(a.block[at], side.block);
     });
-    for (BlockRows* side : {&parts.left, &parts.right}) side->first.push_back(std::int32_t(side->column.size()));
+    for (SingleRows* side : {&parts.left, &parts.right}) side->first.push_back(std::int32_t(side->column.size()));
   }
+  end_blocks(parts.left.block), end_blocks(parts.right.block);
   return parts;
 }
 
@@ -353,10 +365,10 @@ bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const st
     Level& level = levels_.emplace_back();
     Array<Matrix6> inverse(n);
     {
-      const Parts parts = parts_of(*a);
+      Parts parts = parts_of(*a);
       for (std::size_t i = 0; i < n; ++i) inverse[i] = parts.diagonal[i].inverse();
-      level.left = in_singles(parts.left), level.right = in_singles(parts.right);
       if (levels_.size() >= visited_twice) level.diagonal = in_singles(parts.diagonal);
+      level.left = std::move(parts.left), level.right = std::move(parts.right);
     }
     const std::vector<Vec3> middle = middles(place, of, count);
     Array<Matrix6> rigid_motion(n, Matrix6::Zero());
