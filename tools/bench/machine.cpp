@@ -5,6 +5,7 @@
 #endif
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 #include <algorithm>
@@ -71,6 +72,13 @@ double multiply_add_peak(int threads) {
 
 void reserve_memory(double bytes) {
   if (bytes <= 0.0) return;
+#if defined(__linux__)
+  // More than there is would be granted, and the program ended when it is written to.
+  const double all = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  if (bytes > 0.9 * all)
+    throw InputError("--reserve is {:.1f} GB; this machine has {:.1f}, ask for less than nine tenths of it",
+                     1e-9 * bytes, 1e-9 * all);
+#endif
 #if defined(__GLIBC__)
   constexpr int never = -1;
   mallopt(M_MMAP_MAX, 0), mallopt(M_TRIM_THRESHOLD, never);  // all in one heap, which gives nothing back
@@ -78,7 +86,7 @@ void reserve_memory(double bytes) {
   constexpr std::size_t page = 4096;
   const auto size = std::size_t(bytes);
   char* memory = static_cast<char*>(std::malloc(size));
-  if (!memory) throw InputError("--reserve: {:.1f} GB of memory are not to be had", 1e-9 * bytes);
+  if (!memory) throw InputError("--reserve: {:.1f} GB of memory are not to be had; ask for less", 1e-9 * bytes);
 #if defined(__linux__)
   const std::size_t aside = large_page - reinterpret_cast<std::uintptr_t>(memory) % large_page;
   if (size > aside + large_page) madvise(memory + aside, (size - aside) / large_page * large_page, MADV_HUGEPAGE);

@@ -11,8 +11,8 @@ double copy_bandwidth(double bytes, int threads);
 double multiply_add_peak(int threads);
 
 /// Takes so many bytes of memory from the system now, and keeps them for whatever the program asks for later: what the
-/// system, or the host of a virtual machine, takes to hand out memory is then not among what is timed. Where memory is
-/// not had, it ends with InputError.
+/// system, or the host of a virtual machine, takes to hand out memory is then not among what is timed. Throws
+/// InputError where there is not so much.
 void reserve_memory(double bytes);
 
 }  // namespace voussoir

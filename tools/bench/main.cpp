@@ -170,10 +170,9 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
       "steps", po::value<std::int64_t>()->default_value(0),
       "steps a scene at least, instead: the same for any number of threads and for any program")(
       "reserve", po::value<double>()->default_value(0.0),
-      "GB of memory to take from the system before anything is timed: for large scenes on a virtual machine, whose "
-      "host "
-      "may take seconds a GB")("keep", po::value<std::string>()->default_value(""),
-                               "folder of scenes' states, to begin from another time")(
+      "GB of memory to take from the system before anything is timed, for large scenes: the host of a virtual machine "
+      "may need seconds a GB to hand it out")("keep", po::value<std::string>()->default_value(""),
+                                              "folder of scenes' states, to begin from another time")(
       "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
       "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")("quiet,q",
                                                                                                           "no table");
