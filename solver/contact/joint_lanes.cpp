@@ -316,7 +316,7 @@ struct BatchPass {
       }
       if (all(surely_bear(batch, e, tension, cohesion, tangent))) return springs(jump, e, findings);
     }
-    mixed(pass, in, k, in_memory(jump), findings);
+    mixed_batch(pass, in, k, in_memory(jump), findings);
   }
 
  private:
@@ -366,8 +366,8 @@ struct BatchPass {
   };
 
   /// Of its own, so that for the short way the compiler keeps none of this in memory.
-  [[gnu::noinline]] static void mixed(const PatchPass& p, const BatchArrays<count>& arrays, std::size_t index,
-                                      const Jump<Lanes>& jump, TileFindings& findings) {
+  [[gnu::noinline]] static void mixed_batch(const PatchPass& p, const BatchArrays<count>& arrays, std::size_t index,
+                                            const Jump<Lanes>& jump, TileFindings& findings) {
     BatchPass(p, arrays, index).mixed(jump, findings);
   }
   /// A batch in which some lanes are open, gone or go point by point: those that fail the check from here on.

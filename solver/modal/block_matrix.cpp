@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "solver/base/buckets.h"
+#include "solver/modal/six.h"
+
 namespace voussoir {
 
 BlockMatrix::BlockMatrix(std::size_t sites, const std::vector<std::pair<std::int32_t, std::int32_t>>& coupled) {
@@ -9,7 +12,7 @@ BlockMatrix::BlockMatrix(std::size_t sites, const std::vector<std::pair<std::int
   all.reserve(coupled.size() + sites);
   for (std::size_t site = 0; site < sites; ++site) all.emplace_back(site, site);
   for (const auto& [a, b] : coupled) all.emplace_back(std::min(a, b), std::max(a, b));
-  std::sort(all.begin(), all.end());
+  sort_by_place(all, sites, [](const auto& pair) { return pair.first; });
   all.erase(std::unique(all.begin(), all.end()), all.end());
   first_.assign(sites + 1, 0);
   for (const auto& [column, row] : all) {
@@ -28,6 +31,50 @@ void BlockMatrix::add(std::int32_t row, std::int32_t column, const Matrix6& bloc
     blocks_[std::size_t(at)] += block;
   else
     blocks_[std::size_t(at)] += block.transpose();
+}
+
+void BlockMatrix::hold(const Unknowns& unknowns) {
+  for (std::size_t column = 0; column < sites(); ++column)
+    for (std::int32_t at = first_[column]; at < first_[column + 1]; ++at) {
+      Matrix6& block = blocks_[std::size_t(at)];
+      const auto &rows = unknowns.of[std::size_t(row_[std::size_t(at)])], &columns = unknowns.of[column];
+      for (std::size_t c = 0; c < 6; ++c) {
+        if (rows[c] < 0) block.row(Eigen::Index(c)).setZero();
+        if (columns[c] < 0) block.col(Eigen::Index(c)).setZero();
+        if (at == first_[column] && columns[c] < 0) block(Eigen::Index(c), Eigen::Index(c)) = 1.0;
+      }
+    }
+}
+
+double BlockMatrix::times(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.setZero(x.size());
+  double product = 0.0;
+  for (std::size_t column = 0; column < sites(); ++column) {
+    const double* of = x.data() + 6 * column;
+    const auto begin = std::size_t(first_[column]), end = std::size_t(first_[column + 1]);
+    Six across[6];  // of each column of the blocks below the diagonal: its products with the sites of their rows
+    for (std::size_t at = begin + 1; at < end; ++at) {
+      const double* block = blocks_[at].data();
+      const std::size_t row = 6 * std::size_t(row_[at]);
+      const Six there(x.data() + row);
+      Six sum(y.data() + row);
+      for (int c = 0; c < 6; ++c) {
+        const Six down(block + 6 * c);
+        sum.add(down, of[c]), across[c].add(down, there);
+      }
+      sum.store(y.data() + row);
+    }
+    Six own(y.data() + 6 * column);
+    Columns(blocks_[begin]).add_times(of, own);
+    double sums[6];
+    own.store(sums);
+    for (int c = 0; c < 6; ++c) {
+      sums[c] += across[c].sum();
+      product += sums[c] * of[c];  // what is before this column has added its part
+      y[Eigen::Index(6 * column) + c] = sums[c];
+    }
+  }
+  return product;
 }
 
 SparseMatrix BlockMatrix::over(const Unknowns& unknowns) const {

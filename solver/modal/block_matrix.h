@@ -21,6 +21,9 @@ class BlockMatrix {
   Matrix6& diagonal(std::int32_t site) { return blocks_[std::size_t(first_[std::size_t(site)])]; }
   const Matrix6& diagonal(std::int32_t site) const { return blocks_[std::size_t(first_[std::size_t(site)])]; }
 
+  /// Components that are no unknowns get a 1 on the diagonal and nothing beside it.
+  void hold(const Unknowns& unknowns);
+
   std::size_t sites() const { return first_.size() - 1; }
   /// Calls f(row, column, block) for all blocks of the lower triangle, row ≥ column.
   template <class F>
@@ -29,6 +32,9 @@ class BlockMatrix {
       for (std::int32_t at = first_[column]; at < first_[column + 1]; ++at)
         f(row_[std::size_t(at)], std::int32_t(column), blocks_[std::size_t(at)]);
   }
+
+  /// y = K x of six components a site; returns xᵀ K x.
+  double times(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
   /// The lower triangle over the unknowns. Those of a site must be in ascending order, and sites too.
   SparseMatrix over(const Unknowns& unknowns) const;

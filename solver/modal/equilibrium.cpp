@@ -82,6 +82,7 @@ class TangentInverse {
   bool compute(BlockMatrix k, const State& state) {
     constexpr std::size_t many = 5000;  // bodies; fewer are quicker with a factor
     k_ = std::move(k);
+    k_.hold(unknowns_);
     by_cycles_ = false;
     if (model_.fill.empty() && model_.bodies.size() >= many) {
       std::vector<Vec3> places;
@@ -99,7 +100,7 @@ class TangentInverse {
   std::optional<Eigen::VectorXd> times(const Eigen::VectorXd& b, double tolerance) {
     constexpr int most_iterations = 100;
     if (by_cycles_) {
-      if (auto x = multigrid_.solve(b, tolerance, most_iterations)) return x;
+      if (auto x = multigrid_.solve(k_, unknowns_, b, tolerance, most_iterations)) return x;
       by_cycles_ = false;
       if (!factor_.compute(k_.over(unknowns_))) return {};
     }
@@ -119,7 +120,7 @@ class TangentInverse {
 /// How much of the residual a step may leave: less than the step before left, which is what the change of the tangent
 /// leaves at least, and no less than will do at the end (after Eisenstat & Walker 1996).
 double step_tolerance(double left_before, double wanted) {
-  return std::clamp(std::max(0.3 * left_before, 0.1 * wanted), 1e-3, 2e-2);
+  return std::clamp(0.3 * std::max(left_before, wanted), 1e-3, 0.1);
 }
 
 /// A placement, and the out-of-balance forces of those about it, every one from the patches' state at the start.
@@ -208,6 +209,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   Array<double> elastic_pose = state.pose, elastic_nodes = state.fill.pose;
   const int most_iterations = 40, patience = model.fill.empty() ? 6 : 15,
             trial = model.fill.empty() ? 3 : most_iterations;
+  Eigen::VectorXd last_force, last_step;
   double elastic_residual = 0.0, left = 0.03;  // left: share of the residual, by the step before
   for (int i = 0; i < most_iterations && r.largest > tolerance && !(stop && stop->load()); ++i) {
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
@@ -216,11 +218,22 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     if (fresh && !inverse.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns), state)) break;
     const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose};
     const bool consistent = i > 0 && !model.fill.empty();
-    const std::optional<Eigen::VectorXd> found =
-        consistent ? consistent_step(here, inverse.factor(), r.force)
-                   : inverse.times(r.force, step_tolerance(left, tolerance / r.largest));
+    // What the last step with this inverse changed is known: it is taken again, by the share that leaves least, and the
+    // inverse finds what goes with the rest (Anderson 1965, one step remembered).
+    double again = 0.0;
+    Eigen::VectorXd rest = r.force;
+    if (!fresh) {
+      const Eigen::VectorXd change = r.force - last_force;
+      again = -r.force.dot(change) / change.squaredNorm();
+      rest += again * change;
+    }
+    const std::optional<Eigen::VectorXd> found = consistent
+                                                     ? consistent_step(here, inverse.factor(), rest)
+                                                     : inverse.times(rest, step_tolerance(left, tolerance / r.largest));
     if (!found) break;
-    const Eigen::VectorXd& step = *found;
+    Eigen::VectorXd step = *found;
+    if (!fresh) step += again * last_step;
+    last_force = r.force;
     // Line search on the norm of the residual; a full step first, the best of the tries if none is good.
     double best_norm = 1e300, best_share = 0.0, tried = 0.0;
     const double norm = r.force.norm();
@@ -237,6 +250,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     if (renew && !fresh && best_norm > 0.5 * norm) best_share = 0.0;
     if (best_share != tried) r = here.moved(step, best_share);
     left = r.force.norm() / norm;
+    last_step = best_share * step;
     result.iterations = i + 1;
     if (progress) progress(i + 1, r.largest);
     if (i == 0) elastic_pose = state.pose, elastic_nodes = state.fill.pose, elastic_residual = r.largest;

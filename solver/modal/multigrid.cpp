@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "solver/modal/six.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
@@ -21,35 +22,12 @@ void each_of(const BlockRows& m, std::size_t row, F use) {
   for (auto at = std::size_t(m.first[row]); at < std::size_t(m.first[row + 1]); ++at) use(at);
 }
 
-// Six rows of a column, as registers have them. Eigen's product of 6 × 6 with six is not inlined here: with it the
-// equilibrium of wall-100k took 88 instead of 77 µs a block.
-using Four = double __attribute__((vector_size(32)));
-using Two = double __attribute__((vector_size(16)));
-
-/// Σ block x of some of a row's blocks.
-[[gnu::always_inline]] inline Vector6 times(const BlockRows& m, std::size_t begin, std::size_t end, const Vector& x) {
-  Four upper = {};
-  Two lower = {};
-  for (std::size_t at = begin; at < end; ++at) {
-    const double* block = m.block[at].data();
-    const double* v = x.data() + 6 * m.column[at];
-    for (int c = 0; c < 6; ++c, block += 6) {
-      Four four;
-      Two two;
-      std::memcpy(&four, block, sizeof(four)), std::memcpy(&two, block + 4, sizeof(two));
-      upper += four * v[c], lower += two * v[c];
-    }
-  }
-  Vector6 sum;
-  sum << upper[0], upper[1], upper[2], upper[3], lower[0], lower[1];
-  return sum;
-}
-[[gnu::always_inline]] inline Vector6 times(const BlockRows& m, std::size_t row, const Vector& x) {
-  return times(m, std::size_t(m.first[row]), std::size_t(m.first[row + 1]), x);
-}
-
 void multiply(const BlockRows& m, const Vector& x, Vector& y) {
-  for (std::size_t i = 0; i < m.rows(); ++i) part(y, i) = times(m, i, x);
+  for (std::size_t i = 0; i < m.rows(); ++i) {
+    Six sum;
+    each_of(m, i, [&](std::size_t at) { Columns(m.block[at]).add_times(x.data() + 6 * m.column[at], sum); });
+    sum.store(y.data() + 6 * i);
+  }
 }
 
 constexpr std::size_t block_width = 36, site_width = 8;
@@ -172,16 +150,56 @@ BlockRows transposed(const BlockRows& m, std::size_t columns) {
   return t;
 }
 
-BlockRows product(const BlockRows& a, const BlockRows& b, std::size_t columns) {
+/// Where the product is known to be symmetric its lower triangle may be left out.
+enum class Blocks { all, upper };
+
+BlockRows product(const BlockRows& a, const BlockRows& b, std::size_t columns, Blocks wanted) {
   RowSums sums(a.rows(), columns);
   for (std::size_t i = 0; i < a.rows(); ++i) {
     each_of(a, i, [&](std::size_t p) {
-      each_of(b, std::size_t(a.column[p]),
-              [&](std::size_t q) { sums.at(b.column[q]).noalias() += a.block[p] * b.block[q]; });
+      const Columns block(a.block[p]);
+      each_of(b, std::size_t(a.column[p]), [&](std::size_t q) {
+        if (wanted == Blocks::all || std::size_t(b.column[q]) >= i) block.add_times(b.block[q], sums.at(b.column[q]));
+      });
     });
     sums.end_row();
   }
   return sums.take();
+}
+
+/// All of a symmetric matrix whose blocks each_block(use) goes through once, row by row or column by column, one of
+/// every two that mirror each other: use(row, column, block).
+template <class EachBlock>
+BlockRows mirrored(std::size_t n, const EachBlock& each_block) {
+  BlockRows rows;
+  rows.first.assign(n + 1, 0);
+  each_block([&](std::int32_t i, std::int32_t j, const Matrix6&) {
+    ++rows.first[std::size_t(i) + 1];
+    if (i != j) ++rows.first[std::size_t(j) + 1];
+  });
+  for (std::size_t i = 0; i < n; ++i) rows.first[i + 1] += rows.first[i];
+  rows.column.resize(std::size_t(rows.first.back())), rows.block.resize(rows.column.size());
+  Array<std::int32_t> next(rows.first.begin(), rows.first.end() - 1);
+  // A row has what comes of the rows (or columns) before its own first: so its columns ascend.
+  each_block([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
+    const auto at = std::size_t(next[std::size_t(i)]++);
+    rows.column[at] = j, rows.block[at] = block;
+    if (i == j) return;
+    const auto mirror = std::size_t(next[std::size_t(j)]++);
+    rows.column[mirror] = i, rows.block[mirror] = block.transpose();
+  });
+  return rows;
+}
+/// Of one whose lower triangle is there.
+BlockRows rows_of(const BlockMatrix& k) {
+  return mirrored(k.sites(), [&](const auto& use) { k.for_each(use); });
+}
+/// Of one whose upper triangle is there.
+BlockRows rows_of(const BlockRows& upper) {
+  return mirrored(upper.rows(), [&](const auto& use) {
+    for (std::size_t i = 0; i < upper.rows(); ++i)
+      each_of(upper, i, [&](std::size_t at) { use(std::int32_t(i), upper.column[at], upper.block[at]); });
+  });
 }
 
 /// Which coarse site each site belongs to, −1: none, as nothing is coupled to it. Sites are coupled where the block
@@ -231,6 +249,12 @@ Matrix6 rigid(const Vec3& arm) {
   return m;
 }
 
+/// Ways in which a site may not move.
+void hold(const std::array<std::int32_t, 6>& unknowns, Matrix6& motion) {
+  for (std::size_t c = 0; c < 6; ++c)
+    if (unknowns[c] < 0) motion.row(Eigen::Index(c)).setZero();
+}
+
 /// Largest eigenvalue of D⁻¹ A, by some steps of power iteration.
 double largest_eigenvalue(const BlockRows& a, const Array<Matrix6>& inverse) {
   Vector x(Eigen::Index(6 * a.rows())), y(x.size());
@@ -244,47 +268,6 @@ double largest_eigenvalue(const BlockRows& a, const Array<Matrix6>& inverse) {
     x.swap(y);
   }
   return 1.1 * value;
-}
-
-/// Sites with unknowns alone. A component that is prescribed has a 1 on its diagonal and nothing beside it.
-struct ActiveSites {
-  std::vector<std::int32_t> of;  // of all sites, or −1
-  std::vector<Vec3> place;       // m
-  std::vector<Vector6> free;     // 1 where a component is unknown, else 0
-};
-
-BlockRows active_rows(const BlockMatrix& k, const ActiveSites& sites) {
-  BlockRows rows;
-  const std::size_t n = sites.place.size();
-  const auto each = [&](const auto& use) {
-    k.for_each([&](std::int32_t row, std::int32_t column, const Matrix6& block) {
-      const std::int32_t i = sites.of[std::size_t(row)], j = sites.of[std::size_t(column)];
-      if (i >= 0 && j >= 0) use(i, j, block);
-    });
-  };
-  rows.first.assign(n + 1, 0);
-  each([&](std::int32_t i, std::int32_t j, const Matrix6&) {
-    ++rows.first[std::size_t(i) + 1];
-    if (i != j) ++rows.first[std::size_t(j) + 1];
-  });
-  for (std::size_t i = 0; i < n; ++i) rows.first[i + 1] += rows.first[i];
-  rows.column.resize(std::size_t(rows.first.back())), rows.block.resize(rows.column.size());
-  Array<std::int32_t> next(rows.first.begin(), rows.first.end() - 1);
-  const auto put = [&](std::int32_t i, std::int32_t j, const Matrix6& block) {
-    const auto at = std::size_t(next[std::size_t(i)]++);
-    const Vector6 &fi = sites.free[std::size_t(i)], &fj = sites.free[std::size_t(j)];
-    rows.column[at] = j;
-    rows.block[at] = fi.asDiagonal() * block * fj.asDiagonal();
-    if (i == j) rows.block[at].diagonal() += Vector6::Ones() - fi;
-  };
-  // Blocks come column by column: what is left of a row's diagonal first, then from the diagonal on.
-  each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
-    if (i != j) put(i, j, block);
-  });
-  each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
-    put(j, i, i == j ? block : Matrix6(block.transpose()));
-  });
-  return rows;
 }
 
 /// Blocks left of the diagonal, on it and right of it.
@@ -323,16 +306,16 @@ std::vector<Vec3> middles(const std::vector<Vec3>& place, const std::vector<std:
 }
 
 /// (1 − ω D⁻¹ A) times the rigid motions of the aggregates.
-BlockRows smoothed(const BlockRows& a, const Array<Matrix6>& inverse, const Array<Matrix6>& rigid_motion,
-                   const std::vector<std::int32_t>& of, std::int32_t count) {
-  const double omega = 4.0 / 3.0 / largest_eigenvalue(a, inverse);
+BlockRows smoothed(const BlockRows& a, const Array<Matrix6>& inverse, double largest_eigenvalue,
+                   const Array<Matrix6>& rigid_motion, const std::vector<std::int32_t>& of, std::int32_t count) {
+  const double omega = 4.0 / 3.0 / largest_eigenvalue;
   RowSums sums(a.rows(), std::size_t(count));
   for (std::size_t i = 0; i < a.rows(); ++i) {
     if (of[i] >= 0) sums.at(of[i]) += rigid_motion[i];
-    const Matrix6 w = omega * inverse[i];
+    const Columns w(-omega * inverse[i]);
     each_of(a, i, [&](std::size_t at) {
       const auto j = std::size_t(a.column[at]);
-      if (of[j] >= 0) sums.at(of[j]).noalias() -= w * (a.block[at] * rigid_motion[j]);
+      if (of[j] >= 0) w.add_times(block_product(a.block[at], rigid_motion[j]), sums.at(of[j]));
     });
     sums.end_row();
   }
@@ -344,20 +327,11 @@ BlockRows smoothed(const BlockRows& a, const Array<Matrix6>& inverse, const Arra
 bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const std::vector<Vec3>& places) {
   constexpr std::size_t small = 60, too_large = 500;  // sites
   constexpr std::size_t visited_twice = 3;            // from the third level on, which cost little
-  levels_.clear(), unknowns_.clear();
-  ActiveSites sites;
-  for (std::size_t site = 0; site < k.sites(); ++site) {
-    sites.of.push_back(unknowns.any(site) ? std::int32_t(sites.place.size()) : -1);
-    if (sites.of.back() < 0) continue;
-    sites.place.push_back(places[site]);
-    unknowns_.push_back(unknowns.of[site]);
-    Vector6& free = sites.free.emplace_back();
-    for (int c = 0; c < 6; ++c) free[c] = unknowns.of[site][std::size_t(c)] >= 0 ? 1.0 : 0.0;
-  }
-  k_ = active_rows(k, sites);
+  levels_.clear();
+  const BlockRows finest = rows_of(k);
   BlockRows coarse;
-  const BlockRows* a = &k_;
-  for (std::vector<Vec3> place = sites.place; a->rows() > small;) {
+  const BlockRows* a = &finest;
+  for (std::vector<Vec3> place = places; a->rows() > small;) {
     const std::size_t n = a->rows();
     std::int32_t count = 0;
     const std::vector<std::int32_t> of = aggregates(*a, count);
@@ -375,11 +349,14 @@ bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const st
     for (std::size_t i = 0; i < n; ++i)
       if (of[i] >= 0) rigid_motion[i] = rigid(place[i] - middle[std::size_t(of[i])]);
     if (levels_.size() == 1)
-      for (std::size_t i = 0; i < n; ++i) rigid_motion[i] = (sites.free[i].asDiagonal() * rigid_motion[i]).eval();
-    const BlockRows p = smoothed(*a, inverse, rigid_motion, of, count), back = transposed(p, std::size_t(count));
+      for (std::size_t i = 0; i < n; ++i) hold(unknowns.of[i], rigid_motion[i]);
+    // Of a patch between two sites each gets no less than half of what it gives both (relaxation.cpp).
+    const double largest = levels_.size() == 1 ? 2.0 : largest_eigenvalue(*a, inverse);
+    const BlockRows p = smoothed(*a, inverse, largest, rigid_motion, of, count),
+                    back = transposed(p, std::size_t(count));
     level.inverse = in_singles(inverse), level.p = in_singles(p), level.restriction = in_singles(back);
     for (Array<float>* vector : {&level.b, &level.x, &level.rest}) vector->assign(site_width * n, 0.0f);
-    coarse = product(back, product(*a, p, std::size_t(count)), std::size_t(count));
+    coarse = rows_of(product(back, product(*a, p, std::size_t(count), Blocks::all), std::size_t(count), Blocks::upper));
     a = &coarse;
     place = middle;
   }
@@ -449,37 +426,43 @@ void Multigrid::two_cycles(std::size_t at) {
   for (std::size_t k = 0; k < level.x.size(); ++k) level.x[k] += level.before[k];
 }
 
-std::optional<Vector> Multigrid::solve(const Vector& b, double tolerance, int most_iterations) {
-  const std::size_t n = k_.rows();
-  const auto size = Eigen::Index(6 * n);
-  Vector r = Vector::Zero(size), x = r, z(size), p(size), kp(size);
-  for (std::size_t i = 0; i < unknowns_.size(); ++i)
-    for (std::size_t c = 0; c < 6; ++c)
-      if (unknowns_[i][c] >= 0) r[Eigen::Index(6 * i + c)] = b[unknowns_[i][c]];
-  const double target = tolerance * r.norm();
+std::optional<Vector> Multigrid::solve(const BlockMatrix& k, const Unknowns& unknowns, const Vector& b,
+                                       double tolerance, int most_iterations) {
+  const std::size_t n = k.sites();
+  Vector r(Eigen::Index(6 * n)), x = Vector::Zero(r.size()), p = x, kp(r.size());
+  for (std::size_t i = 0; i < n; ++i) part(r, i) = part_of(b, unknowns, i);
   Array<float>&rough_b = levels_.empty() ? coarsest_b_ : levels_.front().b,
   &rough_x = levels_.empty() ? coarsest_x_ : levels_.front().x;
-  double before = 1.0;
-  for (iterations_ = 0; r.norm() > target; ++iterations_) {
+  const auto rough = [&](std::size_t i) -> Vector6 {  // of the cycle
+    return Eigen::Map<const Eigen::Matrix<float, 6, 1>>(&rough_x[site_width * i]).cast<double>();
+  };
+  const auto roughen = [&](std::size_t i, const Vector6& from) {
+    for (std::size_t c = 0; c < 6; ++c) rough_b[site_width * i + c] = float(from[Eigen::Index(c)]);
+  };
+  double left2 = r.squaredNorm(), before = 0.0;
+  const double target2 = tolerance * tolerance * left2;
+  for (std::size_t i = 0; i < n; ++i) roughen(i, part(r, i));
+  for (iterations_ = 0; left2 > target2; ++iterations_) {
     if (iterations_ == most_iterations) return {};
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t c = 0; c < 6; ++c) rough_b[site_width * i + c] = float(r[Eigen::Index(6 * i + c)]);
     cycle(0);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t c = 0; c < 6; ++c) z[Eigen::Index(6 * i + c)] = rough_x[site_width * i + c];
-    const double now = r.dot(z);
+    double now = 0.0;
+    for (std::size_t i = 0; i < n; ++i) now += part(r, i).dot(rough(i));
     if (!(now > 0.0)) return {};
-    p = iterations_ == 0 ? z : Vector(z + now / before * p);
-    before = now;
-    multiply(k_, p, kp);
-    const double share = now / p.dot(kp);
-    x += share * p;
-    r -= share * kp;
+    const double kept = iterations_ == 0 ? 0.0 : now / before;
+    for (std::size_t i = 0; i < n; ++i) part(p, i) = rough(i) + kept * part(p, i);
+    const double stiffness = k.times(p, kp);
+    if (!(stiffness > 0.0)) return {};
+    const double share = now / stiffness;
+    before = now, left2 = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      part(x, i) += share * part(p, i);
+      const Vector6 rest = part(r, i) - share * part(kp, i);
+      part(r, i) = rest, left2 += rest.squaredNorm();
+      roughen(i, rest);
+    }
   }
   Vector found(b.size());
-  for (std::size_t i = 0; i < unknowns_.size(); ++i)
-    for (std::size_t c = 0; c < 6; ++c)
-      if (unknowns_[i][c] >= 0) found[unknowns_[i][c]] = x[Eigen::Index(6 * i + c)];
+  for (std::size_t i = 0; i < n; ++i) set_part(found, unknowns, i, part(x, i));
   return found;
 }
 

@@ -27,11 +27,14 @@ struct SingleRows {
 
 class Multigrid {
  public:
-  /// `k` symmetric and positive definite over the unknowns, `places` of its sites (m). False where it is not, or where
-  /// there is no coarse level to be had that is small enough.
+  /// Levels of a `k` that is positive definite, made of patches between two sites each, and held (BlockMatrix::hold())
+  /// where there is no unknown; `places` of its sites (m). False where it is not positive definite, or where there is
+  /// no coarse level to be had that is small enough.
   bool compute(const BlockMatrix& k, const Unknowns& unknowns, const std::vector<Vec3>& places);
-  /// x with |b − K x| ≤ tolerance |b|, or nothing if it is not found in so many iterations.
-  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& b, double tolerance, int most_iterations);
+  /// x with |b − K x| ≤ tolerance |b|, or nothing if it is not found in so many iterations. `k` is held too, and may
+  /// differ a little from that of the levels.
+  std::optional<Eigen::VectorXd> solve(const BlockMatrix& k, const Unknowns& unknowns, const Eigen::VectorXd& b,
+                                       double tolerance, int most_iterations);
   int iterations() const { return iterations_; }  // of the last solution
   std::size_t levels() const { return levels_.size() + 1; }
 
@@ -49,11 +52,9 @@ class Multigrid {
   void solve_coarsest();
   bool factor_coarsest(const BlockRows& a);
 
-  BlockRows k_;
   std::vector<Level> levels_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   Array<float> coarsest_b_, coarsest_x_;
-  std::vector<std::array<std::int32_t, 6>> unknowns_;  // of each site that has any
   int iterations_ = 0;
 };
 

@@ -1,13 +1,13 @@
 #include "solver/modal/stiffness.h"
 
 #include "solver/modal/fill_stiffness.h"
+#include "solver/modal/six.h"
 #include "solver/step/body_pass.h"
 
 namespace voussoir {
 
 namespace {
 
-using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix3x6 = Eigen::Matrix<double, 3, 6>;
 
@@ -91,27 +91,37 @@ Vec3 arm_to(const Model& model, const double* pose, std::int32_t body, const Vec
   return place - model.bodies[std::size_t(body)].centroid - Vec3(pose[0], pose[1], pose[2]);
 }
 
-/// Generalised jump of a patch for small motions (du_a, dθ_a, du_b, dθ_b) of its bodies from where they are. Exact at a
-/// finite jump too, since the axes turn by the mean of the two turns and the arms end in the middle.
-Matrix6x12 jump_rows(const Model& model, const State& state, const Patch& patch) {
+/// Generalised jump of a patch for small motions (du, dθ) of each of its bodies from where they are. Exact at a finite
+/// jump too, since the axes turn by the mean of the two turns and the arms end in the middle.
+struct JumpOf {
+  Matrix6 a, b;
+};
+JumpOf jump_rows(const Model& model, const State& state, const Patch& patch) {
   const double *pa = pose_of(state, patch.a), *pb = pose_of(state, patch.b);
   const Jump<double> j = patch_jump(patch, pa, pb);
   const Mat3 to_local = axes_matrix(j).transpose();
   const Vec3 place(j.place.x, j.place.y, j.place.z);
   const Vec3 arm_a = arm_to(model, pa, patch.a, place), arm_b = arm_to(model, pb, patch.b, place);
-  Matrix6x12 rows = Matrix6x12::Zero();
-  rows.block<3, 3>(0, 0) = -to_local;
-  rows.block<3, 3>(0, 3) = to_local * skew(arm_a);  // −(dθ × arm)
-  rows.block<3, 3>(0, 6) = to_local;
-  rows.block<3, 3>(0, 9) = -to_local * skew(arm_b);
-  rows.block<3, 3>(3, 3) = -to_local;
-  rows.block<3, 3>(3, 9) = to_local;
-  return rows;
+  JumpOf of = {Matrix6::Zero(), Matrix6::Zero()};
+  of.a.block<3, 3>(0, 0) = of.a.block<3, 3>(3, 3) = -to_local;
+  of.a.block<3, 3>(0, 3) = to_local * skew(arm_a);  // −(dθ × arm)
+  of.b.block<3, 3>(0, 0) = of.b.block<3, 3>(3, 3) = to_local;
+  of.b.block<3, 3>(0, 3) = -to_local * skew(arm_b);
+  return of;
 }
 
-Matrix12 pair_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
-  const Matrix6x12 rows = jump_rows(model, state, patch_at(model, state, index));
-  return rows.transpose() * patch_stiffness(model, state, index, kind) * rows;
+/// Blocks of K that a patch adds to; rows b, columns a for both of its bodies together.
+struct PairStiffness {
+  Matrix6 a, b, ba;
+};
+PairStiffness pair_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
+  const JumpOf jump = jump_rows(model, state, patch_at(model, state, index));
+  const Matrix6 k = patch_stiffness(model, state, index, kind), a = block_product(k, jump.a),
+                b = block_product(k, jump.b);
+  const Columns to_a(jump.a.transpose()), to_b(jump.b.transpose());
+  PairStiffness pair = {Matrix6::Zero(), Matrix6::Zero(), Matrix6::Zero()};
+  to_a.add_times(a, pair.a), to_b.add_times(b, pair.b), to_b.add_times(a, pair.ba);
+  return pair;
 }
 
 /// What the forces already there do when the bodies move (docs/theory/modes.md): the patch's resultant F and couple C
@@ -152,10 +162,14 @@ Matrix12 geometric_stiffness_of_tie(const State& state, const Patch& tie, const 
   return k;
 }
 
-void add_pair(BlockMatrix& k, const Patch& patch, const Matrix12& pair) {
-  k.add(patch.a, patch.a, pair.topLeftCorner<6, 6>());
-  k.add(patch.b, patch.b, pair.bottomRightCorner<6, 6>());
-  k.add(patch.b, patch.a, pair.bottomLeftCorner<6, 6>());
+void add_pair(BlockMatrix& k, const Patch& patch, const PairStiffness& pair) {
+  k.add(patch.a, patch.a, pair.a);
+  k.add(patch.b, patch.b, pair.b);
+  k.add(patch.b, patch.a, pair.ba);
+}
+
+PairStiffness parts_of(const Matrix12& pair) {
+  return {pair.topLeftCorner<6, 6>(), pair.bottomRightCorner<6, 6>(), pair.bottomLeftCorner<6, 6>()};
 }
 
 }  // namespace
@@ -193,8 +207,8 @@ Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t inde
 }
 
 std::array<Matrix6, 2> own_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind) {
-  const Matrix12 pair = pair_stiffness(model, state, index, kind);
-  return {pair.topLeftCorner<6, 6>(), pair.bottomRightCorner<6, 6>()};
+  const PairStiffness pair = pair_stiffness(model, state, index, kind);
+  return {pair.a, pair.b};
 }
 
 BlockMatrix stiffness_blocks(const Model& model, const State& state, PatchTangent kind) {
@@ -219,8 +233,8 @@ void add_geometric_stiffness(BlockMatrix& k, const Model& model, const State& st
     if (!is_there(model, state, i)) continue;
     const double* wrench = &wrenches[wrench_width * i];
     add_pair(k, patch,
-             patch.length > 0.0 ? geometric_stiffness_of_tie(state, patch, wrench)
-                                : geometric_stiffness(model, state, patch, wrench));
+             parts_of(patch.length > 0.0 ? geometric_stiffness_of_tie(state, patch, wrench)
+                                         : geometric_stiffness(model, state, patch, wrench)));
   }
 }
 
@@ -243,24 +257,6 @@ BlockMatrix mass_blocks(const Model& model, const State& state, const Unknowns& 
   for (std::size_t i = 0; i < model.fill.nodes.size(); ++i)
     m.diagonal(std::int32_t(model.bodies.size() + i)).topLeftCorner<3, 3>() = model.fill.inertial[i] * Mat3::Identity();
   return m;
-}
-
-Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
-                               const Eigen::VectorXd& x) {
-  Eigen::VectorXd y(x.size());
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const Body& body = model.bodies[i];
-    const Mat3 r = rotation_of(state, i).toRotationMatrix();
-    Vector6 part = part_of(x, unknowns, i);
-    part.head<3>() /= body.inertial_mass;
-    part.tail<3>() = (r * (body.inverse_inertia * (r.transpose() * part.tail<3>()))).eval();
-    set_part(y, unknowns, i, part);
-  }
-  for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
-    const std::size_t site = model.bodies.size() + i;
-    set_part(y, unknowns, site, part_of(x, unknowns, site) / model.fill.inertial[i]);
-  }
-  return y;
 }
 
 }  // namespace voussoir

@@ -39,8 +39,5 @@ SparseMatrix assemble_stiffness(const Model& model, const State& state, const Un
 Matrix6 body_mass(const Model& model, const State& state, std::size_t body);
 /// Of all sites that have an unknown.
 BlockMatrix mass_blocks(const Model& model, const State& state, const Unknowns& unknowns);
-/// y = M⁻¹ x.
-Eigen::VectorXd divide_by_mass(const Model& model, const State& state, const Unknowns& unknowns,
-                               const Eigen::VectorXd& x);
 
 }  // namespace voussoir

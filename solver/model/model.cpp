@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "geometry/curve.h"
+#include "solver/base/buckets.h"
 #include "solver/base/error.h"
 #include "solver/fill/interface.h"
 
@@ -184,7 +185,8 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
     order.emplace_back(model.tile_of_joint(a, b), shape, joint.law, facing, std::min(a, b), std::max(a, b),
                        joint.cell_a, joint.cell_b, std::int64_t(i));
   }
-  std::sort(order.begin(), order.end());
+  sort_by_place(order, model.bodies.size() / std::size_t(model.tile_bodies) + 1,
+                [](const Key& key) { return std::get<0>(key); });
   model.joint_places.resize(order.size());
   for (const Key& key : order) {
     const auto index = std::size_t(std::get<8>(key));
@@ -417,7 +419,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     if (model.joints[i].length == 0.0)  // stones that a tie holds may still touch
       model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(model.joint_of_patch[i]));
-  std::sort(model.joint_by_cells.begin(), model.joint_by_cells.end());
+  sort_by_place(model.joint_by_cells, model.bodies.size(), [](const auto& joint) { return joint.first[0]; });
   model.interface = interface_patches(assembly, model);
   return model;
 }

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "solver/base/arrays.h"
+#include "solver/base/buckets.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "tests/solver/models.h"
@@ -42,6 +43,19 @@ TEST(HashArrays, TellsZeroFromMinusZero) {
   const std::uint64_t h = hash_arrays({{"x", 1, "m", &x}});
   x[0] = -0.0;
   EXPECT_NE(hash_arrays({{"x", 1, "m", &x}}), h);
+}
+
+/// Many to a place, none, and equal ones.
+TEST(SortByPlace, GivesTheOrderOfSort) {
+  for (const std::size_t n : {0u, 1u, 2u, 500u}) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> list;
+    for (std::size_t i = 0; i < n; ++i)
+      list.emplace_back(std::int32_t(i * 2654435761u % 97u % 40u), std::int32_t(i * 40503u % 11u));
+    auto sorted = list;
+    std::sort(sorted.begin(), sorted.end());
+    sort_by_place(list, 64, [](const auto& item) { return item.first; });
+    EXPECT_EQ(list, sorted) << n;
+  }
 }
 
 TEST(ShareOut, EveryItemOnce) {

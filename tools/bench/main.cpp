@@ -128,11 +128,11 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
   if (!o.quiet)
     fmt::print(
         "  contact search over all bodies {:.4g} ms, row of history {:.4g} ms, checkpoint {:.4g} ms\n"
-        "  per block: generation {:.3g} µs, model {:.3g} µs, first search {:.3g} µs, equilibrium {:.4g} µs, model and "
-        "state {:.2f} kB\n",
+        "  per block: generation {:.3g} µs, model {:.3g} µs, time step {:.3g} µs, first search {:.3g} µs, equilibrium "
+        "{:.4g} µs, model and state {:.2f} kB\n",
         1e3 * side.search, 1e3 * side.history, 1e3 * side.checkpoint, 1e6 * r.generation / movable,
-        1e6 * r.modelling / movable, 1e6 * r.search / movable, 1e6 * r.equilibrium / movable,
-        1e-3 * bytes_held(r) / movable);
+        1e6 * r.modelling / movable, 1e6 * r.choosing / movable, 1e6 * r.search / movable,
+        1e6 * r.equilibrium / movable, 1e-3 * bytes_held(r) / movable);
   return {{"blocks", movable},
           {"joints", joints},
           {"steps", m.all.steps},
@@ -155,6 +155,7 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
           {"checkpoint_seconds", side.checkpoint},
           {"generation_seconds", r.generation},
           {"model_seconds", r.modelling},
+          {"time_step_seconds", r.choosing},
           {"first_search_seconds", r.search},
           {"equilibrium_seconds", r.equilibrium},
           {"bytes_held", bytes_held(r)},

@@ -164,7 +164,9 @@ std::unique_ptr<Running> begin_scene(const Scene& scene, int threads, const std:
   r.model = build_model(r.assembly, SolverSettings{});
   r.state = initial_state(r.model);
   r.modelling = seconds_since(begin);
+  begin = Clock::now();
   const CriticalStep critical = critical_step(r.model, r.state);
+  r.choosing = seconds_since(begin);
   DampingSettings damping;
   damping.kind = scene.maxwell ? DampingSettings::Kind::maxwell : DampingSettings::Kind::none;
   r.stepper.model = &r.model;

@@ -31,8 +31,9 @@ struct Running {
   State state;
   GroundMotion motion;
   Stepper stepper;
-  double generation = 0.0, modelling = 0.0, search = 0.0, equilibrium = 0.0;  // s of wall time
-  std::string account;                                                        // of the equilibrium
+  // s of wall time; choosing: of the time step
+  double generation = 0.0, modelling = 0.0, choosing = 0.0, search = 0.0, equilibrium = 0.0;
+  std::string account;  // of the equilibrium
 };
 std::unique_ptr<Running> begin_scene(const Scene& scene, int threads, const std::string& keep = "");
 
