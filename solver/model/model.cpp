@@ -39,6 +39,8 @@ std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
 void add_bodies(const Assembly& assembly, Model& model) {
   model.block_of_body = order_of_blocks(assembly);
   model.body_of_block.resize(assembly.blocks.size());
+  model.bodies.reserve(assembly.blocks.size()), model.cells.reserve(assembly.blocks.size());
+  model.matter.reserve(assembly.blocks.size());
   std::vector<double> sizes;
   double weight = 0.0, bottom = 1e300;
   int movable = 0;
@@ -175,9 +177,12 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
                          std::int32_t, std::int64_t>;
   std::vector<Key> order;
   std::vector<PatchShape> shapes;
+  order.reserve(assembly.joints.size()), shapes.reserve(assembly.joints.size());
+  std::size_t corners = 0;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
     shapes.push_back(joint_shape(joint, i, model));
+    corners += shapes.back().corners.size();
     const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
     const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
     int facing = 2;
@@ -188,6 +193,7 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   sort_by_place(order, model.bodies.size() / std::size_t(model.tile_bodies) + 1,
                 [](const Key& key) { return std::get<0>(key); });
   model.joint_places.resize(order.size());
+  model.joints.reserve(order.size()), model.joint_of_patch.reserve(order.size()), model.corners.reserve(2 * corners);
   for (const Key& key : order) {
     const auto index = std::size_t(std::get<8>(key));
     const auto place = std::int32_t(model.joints.size());
@@ -289,6 +295,22 @@ void add_corners(Model& model, JointBatch& batch) {
   }
 }
 
+/// Room for all batches: what grows bit by bit may take twice the memory.
+void make_room(Model& model, const std::vector<PatchShape>& shapes) {
+  std::size_t batches = 0, rows = 0, corners = 0;
+  const auto tile_of = [&](std::size_t i) { return model.tile_of_joint(model.joints[i].a, model.joints[i].b); };
+  for (std::size_t first = 0, i = 0; i < model.joints.size(); first = i) {
+    std::size_t points = 0, most_corners = std::size_t(JointBatch{}.corners);
+    for (; i < model.joints.size() && i < first + lane_count && tile_of(i) == tile_of(first); ++i) {
+      points = std::max(points, shapes[std::size_t(model.joint_of_patch[i])].points.size());
+      most_corners = std::max(most_corners, std::size_t(model.joints[i].corner_count));
+    }
+    ++batches, rows += points, corners += most_corners;
+  }
+  model.batches.reserve(batches);
+  model.points.reserve(3 * lane_count * rows), model.batch_corners.reserve(2 * corners);
+}
+
 /// Eight joints from `first` on, or as many as there are before `end`; missing corners repeat the last one, missing
 /// joints the last joint.
 void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::vector<PatchShape>& shapes) {
@@ -339,6 +361,7 @@ void place_sums(JointBatch& batch, const Tile& tile, const std::vector<std::int3
 /// Tiles with their batches and sums; the joints are sorted by tile.
 void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
   const auto bodies = std::int32_t(model.bodies.size()), joints = std::int32_t(model.joints.size());
+  make_room(model, shapes);
   std::vector<std::vector<std::int32_t>> sums_of(model.bodies.size());
   std::int32_t joint = 0, sum = 0;
   for (std::int32_t first_body = 0; first_body < bodies; first_body += model.tile_bodies) {
@@ -375,6 +398,7 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
               [](const Tile::StillSum& a, const Tile::StillSum& b) { return a.which < b.which; });
     model.tiles.push_back(std::move(tile));
   }
+  model.first_sum.reserve(model.bodies.size() + 1), model.sums.reserve(std::size_t(sum));
   for (const std::vector<std::int32_t>& places : sums_of) {
     model.first_sum.push_back(std::int32_t(model.sums.size()));
     model.sums.insert(model.sums.end(), places.begin(), places.end());
@@ -385,6 +409,7 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
 /// One unbonded, frictional law for each coefficient among the materials; a new contact takes the lower of its two
 /// bodies'.
 void add_contact_laws(Model& model) {
+  model.contact_law.reserve(model.matter.size());
   for (const Model::Matter& matter : model.matter) {
     const auto same = [&](const LawConstants& law) {
       return law.kind == JointLaw::Kind::brittle && law.tension == 0.0 && law.cohesion == 0.0 &&
@@ -416,6 +441,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   model.tile_bodies = bodies_of_tile(model.bodies.size());
   find_still(assembly, settings.guides, model);
   make_tiles(model, add_joints(assembly, model));
+  model.joint_by_cells.reserve(model.joints.size());
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     if (model.joints[i].length == 0.0)  // stones that a tie holds may still touch
       model.joint_by_cells.emplace_back(cells_of(model.joints[i]), std::int32_t(model.joint_of_patch[i]));

@@ -86,6 +86,25 @@ TEST(StateArrays, EveryNumberCounts) {
   EXPECT_NE(hash_arrays(bench->state.arrays()), before);
 }
 
+/// Rectangles alone, and polygons beside them.
+TEST(BuildModel, TakesNoMoreMemoryThanItFills) {
+  for (const Assembly& assembly : {generated("wall", {{"length_blocks", 20}, {"courses", 20}}),
+                                   generated("cs1", {{"block_scale", 2.0}}), generated("arch", {})}) {
+    const Model model = build_model(assembly, undamped({0, 0, -9.81}));
+    const auto expect_full = [](const auto& list, const char* name) {
+      EXPECT_GT(list.size(), 0u) << name;
+      EXPECT_EQ(list.capacity(), list.size()) << name;
+    };
+    expect_full(model.bodies, "bodies");
+    expect_full(model.joints, "joints");
+    expect_full(model.corners, "corners");
+    expect_full(model.batches, "batches");
+    expect_full(model.batch_corners, "batch_corners");
+    expect_full(model.points, "points");
+    expect_full(model.sums, "sums");
+  }
+}
+
 TEST(InitialState, BondsAreAsTheLawsSay) {
   Bench dry(generated("column", {{"blocks", 3}, {"kn", 1e9}, {"ks", 4e8}}));
   for (std::uint8_t mode : dry.state.joint.mode) EXPECT_EQ(mode, mode_broken);
