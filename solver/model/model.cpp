@@ -169,7 +169,7 @@ std::int32_t bodies_of_tile(std::size_t bodies) {
   return bodies >= 1024 ? 128 : 64;
 }
 
-/// The assembly's joints in the order of their batches; returns their shapes in that of the assembly.
+/// The assembly's joints in the order of their batches; returns their shapes in the same.
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   // Tile, shape, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
   // in batches of their own those that go point by point hold up fewer of the others.
@@ -194,18 +194,21 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
                 [](const Key& key) { return std::get<0>(key); });
   model.joint_places.resize(order.size());
   model.joints.reserve(order.size()), model.joint_of_patch.reserve(order.size()), model.corners.reserve(2 * corners);
+  std::vector<PatchShape> in_order;
+  in_order.reserve(shapes.size());
   for (const Key& key : order) {
     const auto index = std::size_t(std::get<8>(key));
     const auto place = std::int32_t(model.joints.size());
     model.joint_places[index] = {place, place, std::get<1>(key)};
-    Patch patch = joint_patch(assembly, assembly.joints[index], shapes[index], model);
+    const PatchShape& shape = in_order.emplace_back(std::move(shapes[index]));
+    Patch patch = joint_patch(assembly, assembly.joints[index], shape, model);
     patch.first_corner = std::int32_t(model.corners.size() / 2);
-    patch.corner_count = std::int32_t(shapes[index].corners.size());
-    for (const PatchPoint& c : shapes[index].corners) model.corners.insert(model.corners.end(), {c.s, c.t});
+    patch.corner_count = std::int32_t(shape.corners.size());
+    for (const PatchPoint& c : shape.corners) model.corners.insert(model.corners.end(), {c.s, c.t});
     model.joints.push_back(patch);
     model.joint_of_patch.push_back(std::int64_t(index));
   }
-  return shapes;
+  return in_order;
 }
 
 }  // namespace
@@ -255,9 +258,7 @@ namespace {
 /// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
 void add_points(Model& model, JointBatch& batch, const std::vector<PatchShape>& shapes) {
   const std::int32_t first = batch.first_joint;
-  const auto shape_of = [&](std::int32_t joint) -> const PatchShape& {
-    return shapes[std::size_t(model.joint_of_patch[std::size_t(joint)])];
-  };
+  const auto shape_of = [&](std::int32_t joint) -> const PatchShape& { return shapes[std::size_t(joint)]; };
   std::size_t most = 0;
   for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, shape_of(first + lane).points.size());
   batch.first_point = std::int32_t(model.point_rows);
@@ -302,7 +303,7 @@ void make_room(Model& model, const std::vector<PatchShape>& shapes) {
   for (std::size_t first = 0, i = 0; i < model.joints.size(); first = i) {
     std::size_t points = 0, most_corners = std::size_t(JointBatch{}.corners);
     for (; i < model.joints.size() && i < first + lane_count && tile_of(i) == tile_of(first); ++i) {
-      points = std::max(points, shapes[std::size_t(model.joint_of_patch[i])].points.size());
+      points = std::max(points, shapes[i].points.size());
       most_corners = std::max(most_corners, std::size_t(model.joints[i].corner_count));
     }
     ++batches, rows += points, corners += most_corners;
@@ -322,7 +323,7 @@ void add_batch(Model& model, std::int32_t first, std::int32_t end, const std::ve
     const auto joint = std::size_t(first + std::min(lane, batch.count - 1));
     const Patch& patch = model.joints[joint];
     fill_lane(patch, lane, batch);
-    const PatchShape& shape = shapes[std::size_t(model.joint_of_patch[joint])];
+    const PatchShape& shape = shapes[joint];
     batch.half_s[lane] = shape.half_s;
     batch.half_t[lane] = shape.half_t;
     batch.corners = std::max(batch.corners, patch.corner_count);
