@@ -1,5 +1,5 @@
-// Products of 6 × 6 blocks, column by column as registers have them. Eigen's are not inlined where many are added up,
-// and take two numbers at a time.
+// Products of 6 × 6 blocks, column by column as registers have them: quicker than Eigen's where many are added up
+// (docs/performance.md).
 #pragma once
 #include <cstring>
 
