@@ -1,14 +1,11 @@
 #include "solver/base/parallel.h"
 
 #include <omp.h>
-#include <unistd.h>
 
 #include <array>
 #include <atomic>
-#include <cstdlib>
 #include <deque>
 #include <exception>
-#include <filesystem>
 
 #include "solver/base/arrays.h"
 
@@ -17,16 +14,6 @@
 #endif
 
 namespace voussoir {
-
-void ensure_passive_waiting(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY")) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-  // By its own path, so that the process keeps the name that users look for. execv() returns only on failure: then the
-  // default policy stays, which is slower, not wrong.
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) execv(program.c_str(), argv);
-}
 
 int available_threads() {
   return omp_get_num_procs();

@@ -10,10 +10,6 @@
 
 namespace voussoir {
 
-/// Makes waiting threads sleep instead of spin: re-executes the program once with OMP_WAIT_POLICY=passive when the
-/// variable is unset, because the runtime reads it before main() begins. Call first thing in main().
-void ensure_passive_waiting(char** argv);
-
 /// Threads the machine offers to this process (its affinity mask counts).
 int available_threads();
 

@@ -11,7 +11,7 @@
 #include <new>
 
 #include "solver/base/error.h"
-#include "solver/base/parallel.h"
+#include "solver/base/process.h"
 
 namespace voussoir {
 
@@ -26,7 +26,7 @@ int flushed(int status) {
 }  // namespace
 
 int run_program(const char* name, int (*run)(int argc, char** argv), int argc, char** argv) {
-  ensure_passive_waiting(argv);
+  begin_process(argv);
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is no reason to lose a run
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is reported like a full disk
   const auto failed = [&](const std::string& why) {

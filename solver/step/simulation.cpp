@@ -4,6 +4,7 @@
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "solver/base/process.h"
 #include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
 #include "solver/step/confirm.h"
@@ -205,6 +206,7 @@ bool Simulation::gravity(const StageSettings& stage) {
   for (std::size_t i = 0; i < model_.bodies.size(); ++i)
     for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.pose[pose_width * i + c];
   if (!equilibrium_.converged) failure_ = "no equilibrium under gravity: " + equilibrium_.account;
+  give_memory_back();  // stiffness and its inverse take several times what the steps to come need
   return equilibrium_.converged;
 }
 

@@ -45,6 +45,14 @@ TEST(CommandLine, WorksWhateverTheThreadsAreToldToDoWhileTheyWait) {
   }
 }
 
+TEST(CommandLine, WorksWhateverMemoryIsAskedForIn) {
+  for (const char* tunables : {"", "glibc.malloc.hugetlb=0", "glibc.malloc.hugetlb=1", "nonsense"}) {
+    const Outcome outcome = voussoir({"--version"}, {.environment = {{"GLIBC_TUNABLES", tunables}}});
+    EXPECT_EQ(outcome.status, 0) << tunables << outcome.err;
+    EXPECT_TRUE(outcome.out.starts_with("voussoir 0.")) << outcome.out;
+  }
+}
+
 TEST(CommandLine, NothingAskedIsAnErrorWithHelp) {
   const Outcome outcome = voussoir({});
   EXPECT_EQ(outcome.status, 2);

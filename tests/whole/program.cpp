@@ -28,8 +28,10 @@ std::vector<std::string> environment_of(const Surroundings& surroundings) {
     const std::string text = *entry;
     if (!surroundings.environment.contains(text.substr(0, text.find('=')))) list.push_back(text);
   }
-  // Unset, the program sets it and starts itself a second time, which would take half of the time of most tests.
-  if (!surroundings.environment.contains("OMP_WAIT_POLICY")) list.push_back("OMP_WAIT_POLICY=passive");
+  // Unset, the program sets them and starts itself a second time, which would take half of the time of most tests.
+  for (const auto& [name, value] :
+       {std::pair("OMP_WAIT_POLICY", "passive"), {"GLIBC_TUNABLES", "glibc.malloc.hugetlb=1"}})
+    if (!surroundings.environment.contains(name)) list.push_back(std::string(name) + "=" + value);
   for (const auto& [name, value] : surroundings.environment)
     if (!value.empty()) list.push_back(name + "=" + value);
   return list;
