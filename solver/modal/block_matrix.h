@@ -33,6 +33,14 @@ class BlockMatrix {
         f(row_[std::size_t(at)], std::int32_t(column), blocks_[std::size_t(at)]);
   }
 
+  /// Calls f(row, column, block) for all of them, which it may change.
+  template <class F>
+  void change_each(F f) {
+    for (std::size_t column = 0; column + 1 < first_.size(); ++column)
+      for (std::int32_t at = first_[column]; at < first_[column + 1]; ++at)
+        f(row_[std::size_t(at)], std::int32_t(column), blocks_[std::size_t(at)]);
+  }
+
   /// y = K x of six components a site; returns xᵀ K x.
   double times(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 

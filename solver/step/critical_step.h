@@ -1,4 +1,4 @@
-// The critical time step, 2/ω_max of the intact assembly, by power iteration on M⁻¹K.
+// The critical time step, 2/ω_max of the intact assembly, by Lanczos's method.
 #pragma once
 #include "solver/modal/unknowns.h"
 #include "solver/model/state.h"
@@ -13,7 +13,7 @@ struct CriticalStep {
   std::int64_t patch = -1;  // its patch that is strained most there
 };
 
-/// Rayleigh quotient after at most 200 power iterations, stopped when it grows by less than 1e-4 in ten. It approaches
+/// Largest Ritz value after at most 100 products with K, stopped when it grows by less than 1e-4 in five. It approaches
 /// ω_max from below; the safety factor of the step covers the rest.
 CriticalStep critical_step(const Model& model, const State& state);
 /// The same with only these unknowns, the others held.

@@ -28,7 +28,7 @@ struct StepReport {
   double at_share(double share) const;  // s, of `local`: that share of sites asks for a shorter step
 };
 
-/// Lists `count` of them. A power iteration for each and for each row of the table.
+/// Lists `count` of them. Looks for a critical step for each and for each row of the table.
 StepReport report_step(const Model& model, const State& state, int count);
 
 /// The patch of a body with the largest kn A or ks A; −1: none.
