@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/base/arrays.h"
 #include "solver/base/buckets.h"
 #include "solver/modal/six.h"
 
@@ -47,6 +48,7 @@ void BlockMatrix::hold(const Unknowns& unknowns) {
 }
 
 double BlockMatrix::times(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  constexpr std::size_t ahead = 1024;  // numbers: the processor reads on too, but not far enough
   y.setZero(x.size());
   double product = 0.0;
   for (std::size_t column = 0; column < sites(); ++column) {
@@ -55,6 +57,7 @@ double BlockMatrix::times(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     Six across[6];  // of each column of the blocks below the diagonal: its products with the sites of their rows
     for (std::size_t at = begin + 1; at < end; ++at) {
       const double* block = blocks_[at].data();
+      fetch(block + ahead, sizeof(Matrix6));
       const std::size_t row = 6 * std::size_t(row_[at]);
       const Six there(x.data() + row);
       Six sum(y.data() + row);
@@ -65,6 +68,7 @@ double BlockMatrix::times(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
       sum.store(y.data() + row);
     }
     Six own(y.data() + 6 * column);
+    fetch(blocks_[begin].data() + ahead, sizeof(Matrix6));
     Columns(blocks_[begin]).add_times(of, own);
     double sums[6];
     own.store(sums);
