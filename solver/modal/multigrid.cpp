@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "solver/modal/six.h"
 #include "solver/modal/stiffness.h"
@@ -99,27 +100,42 @@ SingleRows in_singles(const BlockRows& m) {
   return {m.first, m.column, in_singles(m.block)};
 }
 
-/// Rows of a block matrix, each summed up from blocks that come in any order of columns.
-class RowSums {
+/// A row of a block matrix, summed up from blocks that come in any order of columns, which is the order it has then.
+class RowSum {
  public:
-  RowSums(std::size_t rows, std::size_t columns) : rows_(rows), place_(columns, -1) {
-    m_.first.reserve(rows + 1);
-    m_.first.push_back(0);
-  }
+  explicit RowSum(std::size_t columns) : place_(columns, -1) {}
   Matrix6& at(std::int32_t column) {
     std::int32_t& place = place_[std::size_t(column)];
     if (place < 0) place = std::int32_t(column_.size()), column_.push_back(column), block_.push_back(Matrix6::Zero());
     return block_[std::size_t(place)];
   }
-  void end_row() {
-    order_ = column_;
-    std::sort(order_.begin(), order_.end());
-    for (const std::int32_t column : order_) {
-      m_.column.push_back(column), m_.block.push_back(block_[std::size_t(place_[std::size_t(column)])]);
-      place_[std::size_t(column)] = -1;
-    }
-    m_.first.push_back(std::int32_t(m_.column.size()));
+  const Matrix6& at(std::int32_t column) const { return block_[std::size_t(place_[std::size_t(column)])]; }
+  const std::vector<std::int32_t>& columns() const { return column_; }
+  void clear() {
+    for (const std::int32_t column : column_) place_[std::size_t(column)] = -1;
     column_.clear(), block_.clear();
+  }
+
+ private:
+  std::vector<std::int32_t> place_, column_;
+  std::vector<Matrix6> block_;
+};
+
+/// Rows one after the other, each summed up so.
+class RowSums {
+ public:
+  RowSums(std::size_t rows, std::size_t columns) : rows_(rows), row_(columns) {
+    m_.first.reserve(rows + 1);
+    m_.first.push_back(0);
+  }
+  Matrix6& at(std::int32_t column) { return row_.at(column); }
+  void end_row() {
+    order_ = row_.columns();
+    std::sort(order_.begin(), order_.end());
+    for (const std::int32_t column : order_)
+      m_.column.push_back(column), m_.block.push_back(std::as_const(row_).at(column));
+    m_.first.push_back(std::int32_t(m_.column.size()));
+    row_.clear();
     constexpr std::size_t sample = 1000;  // rows, by which the room for all is judged
     if (m_.rows() == sample) {
       const std::size_t all = m_.column.size() * (rows_ + rows_ / 8) / sample;
@@ -131,8 +147,8 @@ class RowSums {
  private:
   std::size_t rows_;
   BlockRows m_;
-  std::vector<std::int32_t> place_, column_, order_;
-  std::vector<Matrix6> block_;
+  RowSum row_;
+  std::vector<std::int32_t> order_;
 };
 
 BlockRows transposed(const BlockRows& m, std::size_t columns) {
@@ -150,16 +166,59 @@ BlockRows transposed(const BlockRows& m, std::size_t columns) {
   return t;
 }
 
-/// Where the product is known to be symmetric its lower triangle may be left out.
-enum class Blocks { all, upper };
+/// Rows of A P, each made when it is first asked for and forgotten when it has been asked for by all columns of its row
+/// of P: all together they would take several times what A does.
+class ProductRows {
+ public:
+  struct Row {
+    std::vector<std::int32_t> column;
+    std::vector<Matrix6> block;
+    std::size_t uses = 0;  // to come
+  };
+  ProductRows(const BlockRows& a, const BlockRows& p, std::size_t columns)
+      : a_(a), p_(p), sum_(columns), slot_(a.rows(), -1) {}
 
-BlockRows product(const BlockRows& a, const BlockRows& b, std::size_t columns, Blocks wanted) {
-  RowSums sums(a.rows(), columns);
-  for (std::size_t i = 0; i < a.rows(); ++i) {
-    each_of(a, i, [&](std::size_t p) {
-      const Columns block(a.block[p]);
-      each_of(b, std::size_t(a.column[p]), [&](std::size_t q) {
-        if (wanted == Blocks::all || std::size_t(b.column[q]) >= i) block.add_times(b.block[q], sums.at(b.column[q]));
+  template <class F>
+  void use_once(std::size_t i, const F& use) {
+    if (slot_[i] < 0) make(i);
+    Row& row = rows_[std::size_t(slot_[i])];
+    use(std::as_const(row));
+    if (--row.uses == 0) free_.push_back(slot_[i]);
+  }
+
+ private:
+  void make(std::size_t i) {
+    if (free_.empty()) free_.push_back(std::int32_t(rows_.size())), rows_.emplace_back();
+    slot_[i] = free_.back(), free_.pop_back();
+    each_of(a_, i, [&](std::size_t at) {
+      const Columns block(a_.block[at]);
+      each_of(p_, std::size_t(a_.column[at]),
+              [&](std::size_t q) { block.add_times(p_.block[q], sum_.at(p_.column[q])); });
+    });
+    Row& row = rows_[std::size_t(slot_[i])];
+    row.column = sum_.columns(), row.uses = std::size_t(p_.first[i + 1] - p_.first[i]);
+    row.block.clear();
+    for (const std::int32_t column : row.column) row.block.push_back(std::as_const(sum_).at(column));
+    sum_.clear();
+  }
+
+  const BlockRows &a_, &p_;
+  RowSum sum_;
+  std::vector<Row> rows_;
+  std::vector<std::int32_t> slot_, free_;  // where each row is; what others may take
+};
+
+/// The upper triangle of Pᵀ A P.
+BlockRows coarse_upper(const BlockRows& a, const BlockRows& p, const BlockRows& p_transposed) {
+  const std::size_t n = p_transposed.rows();
+  ProductRows products(a, p, n);
+  RowSums sums(n, n);
+  for (std::size_t c = 0; c < n; ++c) {
+    each_of(p_transposed, c, [&](std::size_t at) {
+      const Columns block(p_transposed.block[at]);
+      products.use_once(std::size_t(p_transposed.column[at]), [&](const ProductRows::Row& row) {
+        for (std::size_t q = 0; q < row.column.size(); ++q)
+          if (std::size_t(row.column[q]) >= c) block.add_times(row.block[q], sums.at(row.column[q]));
       });
     });
     sums.end_row();
@@ -356,7 +415,7 @@ bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const st
                     back = transposed(p, std::size_t(count));
     level.inverse = in_singles(inverse), level.p = in_singles(p), level.restriction = in_singles(back);
     for (Array<float>* vector : {&level.b, &level.x, &level.rest}) vector->assign(site_width * n, 0.0f);
-    coarse = rows_of(product(back, product(*a, p, std::size_t(count), Blocks::all), std::size_t(count), Blocks::upper));
+    coarse = rows_of(coarse_upper(*a, p, back));
     a = &coarse;
     place = middle;
   }
