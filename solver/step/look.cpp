@@ -21,7 +21,9 @@ Look look(const BodyReport& bodies, std::int64_t step, double distance, double d
   constexpr std::int64_t short_of = 8;  // steps: as many as a round may have
   const std::int64_t left = steps_within(distance - bodies.farthest, bodies.fastest, dt);
   const bool hovers = left < short_of && steps_within(early * distance, bodies.fastest, dt) >= short_of;
-  return {bodies.farthest > distance || hovers, step + left};
+  // Where a round ends anyway, if there is one before: a look elsewhere cuts one short.
+  const std::int64_t last = step + left, whole = last - last % short_of;
+  return {bodies.farthest > distance || hovers, whole > step ? whole : last};
 }
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include "solver/contact/contact_slots.h"
 #include "solver/contact/pairs.h"
+#include "solver/step/look.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
@@ -222,6 +223,19 @@ TEST(Search, BeginsWhenABodyHasComeFarEnough) {
   EXPECT_LT(steps.size(), 1000u);
   EXPECT_EQ(searched_steps(1), steps);
   EXPECT_EQ(searched_steps(7), steps);
+}
+
+/// Slow bodies: the next look comes where a round ends anyway; fast ones may not wait for that.
+TEST(Search, LooksWhereARoundEnds) {
+  BodyReport slow;
+  slow.farthest = 1e-6, slow.fastest = 1e-7;
+  EXPECT_EQ(look(slow, 32, 1e-3, 1e-4).next, 48);
+  EXPECT_EQ(look(slow, 33, 1e-3, 1e-4).next, 48);
+  EXPECT_EQ(look(slow, 39, 1e-3, 1e-4).next, 48);
+  BodyReport fast = slow;
+  fast.farthest = 0.9e-3, fast.fastest = 1e-5;  // 2 × 4 steps of it are left, and a little to fall
+  EXPECT_EQ(look(fast, 33, 1e-3, 1e-4).next, 37);
+  EXPECT_EQ(look(fast, 38, 1e-3, 1e-4).next, 40);
 }
 
 /// A spring without limits stays the spring it is, however far it turns.
