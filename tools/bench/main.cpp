@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "solver/base/error.h"
 #include "solver/base/program.h"
+#include "solver/contact/search.h"
 #include "tools/bench/machine.h"
 #include "tools/bench/phases.h"
 
@@ -31,13 +33,20 @@ struct Measured {
   Progressed all;
 };
 
+/// No fewer steps, and as many as end where patches may be clipped anew: ending elsewhere they would cut short a sweep
+/// through memory, in large scenes, whose pieces have few steps, more often than in small ones.
+std::int64_t whole_sweeps(double steps) {
+  return std::int64_t(std::ceil(steps / double(clip_interval))) * clip_interval;
+}
+
 /// Median over pieces of a run of so many steps, or one that lasts at least so many seconds.
 Measured measure(Running& scene, double movable, const Options& o) {
-  const auto piece = std::max<std::int64_t>(20, std::int64_t(1000000.0 / movable));
+  const std::int64_t piece = whole_sweeps(1000000.0 / movable);
   const auto goes_on = [&](const Measured& m, std::size_t pieces) {
     return o.steps > 0 ? m.all.steps < o.steps : pieces < 3 || (m.all.seconds < o.seconds && pieces < 200);
   };
-  advance_scene(scene, piece / 4);  // warm caches, settled threads
+  const std::int64_t now = scene.state.step();
+  advance_scene(scene, whole_sweeps(double(now + piece / 4)) - now);  // warm caches, settled threads
   Measured m;
   std::vector<double> steps, processor;
   while (goes_on(m, steps.size())) {
@@ -96,7 +105,7 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
   const double movable =
       double(std::count_if(r.model.bodies.begin(), r.model.bodies.end(), [](const Body& b) { return !b.fixed; }));
   const Measured m = measure(r, movable, o);
-  const std::vector<Phase> phases = step_phases(r, std::max<std::int64_t>(20, std::int64_t(300000.0 / movable)));
+  const std::vector<Phase> phases = step_phases(r, whole_sweeps(300000.0 / movable));
   Work work;
   for (const Phase& p : phases) work.bytes += p.work.bytes, work.operations += p.work.operations;
   const double bandwidth = copy_bandwidth(work.bytes, o.threads);
