@@ -167,7 +167,7 @@ BlockRows transposed(const BlockRows& m, std::size_t columns) {
 }
 
 /// Rows of A P, each made when it is first asked for and forgotten when it has been asked for by all columns of its row
-/// of P: all together they would take several times what A does.
+/// of P: few of them are there at a time.
 class ProductRows {
  public:
   struct Row {

@@ -26,15 +26,13 @@ std::vector<InverseRoot> inverse_roots(const Model& model, const State& state) {
   return roots;
 }
 
-/// Sᵀ K S, whose eigenvalues are those of M⁻¹ K; nothing where there is no unknown.
+/// Sᵀ K S, whose eigenvalues are those of M⁻¹ K where there are unknowns. Held components stay apart from the others: a
+/// body turns freely or not at all.
 BlockMatrix scaled_stiffness(const Model& model, const State& state, const Unknowns& unknowns) {
   BlockMatrix k = stiffness_blocks(model, state, PatchTangent::intact);
+  k.hold(unknowns);
   const std::vector<InverseRoot> roots = inverse_roots(model, state);
   k.change_each([&](std::int32_t row, std::int32_t column, Matrix6& block) {
-    for (int c = 0; c < 6; ++c) {
-      if (unknowns.of[std::size_t(row)][std::size_t(c)] < 0) block.row(c).setZero();
-      if (unknowns.of[std::size_t(column)][std::size_t(c)] < 0) block.col(c).setZero();
-    }
     const InverseRoot &left = roots[std::size_t(row)], &right = roots[std::size_t(column)];
     block.topRows<3>() *= left.mass;
     block.bottomRows<3>() = (left.inertia.transpose() * block.bottomRows<3>()).eval();

@@ -13,8 +13,8 @@ struct CriticalStep {
   std::int64_t patch = -1;  // its patch that is strained most there
 };
 
-/// Largest Ritz value after at most 100 products with K, stopped when it grows by less than 1e-4 in five. It approaches
-/// ω_max from below; the safety factor of the step covers the rest.
+/// Largest Ritz value after at most 100 products with K (and as many for its vector), stopped when it grows by less
+/// than 1e-4 in five. It approaches ω_max from below; the safety factor of the step covers the rest.
 CriticalStep critical_step(const Model& model, const State& state);
 /// The same with only these unknowns, the others held.
 CriticalStep critical_step(const Model& model, const State& state, const Unknowns& unknowns);

@@ -1,8 +1,5 @@
 #include "tools/bench/machine.h"
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 #if defined(__linux__)
 #include <sys/mman.h>
 #include <unistd.h>
@@ -78,10 +75,6 @@ void reserve_memory(double bytes) {
   if (bytes > 0.9 * all)
     throw InputError("--reserve is {:.1f} GB; this machine has {:.1f}, ask for less than nine tenths of it",
                      1e-9 * bytes, 1e-9 * all);
-#endif
-#if defined(__GLIBC__)
-  constexpr int never = -1;
-  mallopt(M_MMAP_MAX, 0), mallopt(M_TRIM_THRESHOLD, never);  // all in one heap, which gives nothing back
 #endif
   constexpr std::size_t page = 4096;
   const auto size = std::size_t(bytes);
