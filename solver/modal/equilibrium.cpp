@@ -59,16 +59,18 @@ void move_nodes(const Model& model, const Unknowns& unknowns, const Array<double
   }
 }
 
-/// K with every diagonal entry raised by a ten-millionth, so that a sliver of a mechanism does not stop Newton, and by
-/// a tenth of a thousandth of a millionth of the largest, for what nothing holds.
-BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns) {
-  constexpr double share = 1e-7;
+/// K with every diagonal entry raised by a share of itself, so that a sliver of a mechanism does not stop Newton, and by
+/// a tenth of a thousandth of a millionth of the largest, for what nothing holds. What is raised is left undone of a
+/// step, the more the higher a wall (docs/theory/equilibrium.md), so no more than that where every joint is closed and
+/// there are few mechanisms.
+BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns, PatchTangent kind) {
+  const double share = kind == PatchTangent::intact ? 1e-9 : 1e-7;
   double largest = 0.0;
   for (std::size_t site = 0; site < k.sites(); ++site)
     if (unknowns.any(site)) largest = std::max(largest, k.diagonal(std::int32_t(site)).diagonal().maxCoeff());
   for (std::size_t site = 0; site < k.sites(); ++site) {
     auto diagonal = k.diagonal(std::int32_t(site)).diagonal().array();
-    diagonal = (diagonal + share * 1e-3 * largest) * (1.0 + share);
+    diagonal = (diagonal + 1e-10 * largest) * (1.0 + share);
   }
   return k;
 }
@@ -215,7 +217,8 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     // At first nothing presses yet, so the present tangent would be nothing at all: begin with every joint closed.
     const PatchTangent tangent = i == 0 ? PatchTangent::intact : PatchTangent::present;
     const bool fresh = renew;
-    if (fresh && !inverse.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns), state)) break;
+    if (fresh && !inverse.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns, tangent), state))
+      break;
     const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose};
     const bool consistent = i > 0 && !model.fill.empty();
     // What the last step with this inverse changed is known: it is taken again, by the share that leaves least, and the

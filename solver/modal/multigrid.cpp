@@ -261,6 +261,16 @@ BlockRows rows_of(const BlockRows& upper) {
   });
 }
 
+/// With every diagonal entry raised by a ten-millionth: what a cycle in single precision takes for softer than that may
+/// not be positive any more.
+BlockRows raised(BlockRows a) {
+  for (std::size_t i = 0; i < a.rows(); ++i)
+    each_of(a, i, [&](std::size_t at) {
+      if (std::size_t(a.column[at]) == i) a.block[at].diagonal() *= 1.0 + 1e-7;
+    });
+  return a;
+}
+
 /// Which coarse site each site belongs to, −1: none, as nothing is coupled to it. Sites are coupled where the block
 /// between them is not small against their own; roots take all that they are coupled to, and what is left over goes to
 /// its strongest neighbour's.
@@ -385,9 +395,9 @@ BlockRows smoothed(const BlockRows& a, const Array<Matrix6>& inverse, double lar
 
 bool Multigrid::compute(const BlockMatrix& k, const Unknowns& unknowns, const std::vector<Vec3>& places) {
   constexpr std::size_t small = 60, too_large = 500;  // sites
-  constexpr std::size_t visited_twice = 3;            // from the third level on, which cost little
+  constexpr std::size_t visited_twice = 2;            // from the second level on, which cost little
   levels_.clear();
-  const BlockRows finest = rows_of(k);
+  const BlockRows finest = raised(rows_of(k));
   BlockRows coarse;
   const BlockRows* a = &finest;
   for (std::vector<Vec3> place = places; a->rows() > small;) {
