@@ -7,23 +7,9 @@
 #include <Eigen/Cholesky>
 #include <optional>
 
-#include "solver/modal/block_matrix.h"
+#include "solver/modal/single_rows.h"
 
 namespace voussoir {
-
-/// Six rows a site, as blocks of 6 × 6, row by row; columns ascend.
-struct BlockRows {
-  Array<std::int32_t> first, column;
-  Array<Matrix6> block;
-  std::size_t rows() const { return first.size() - 1; }
-};
-
-/// The same in single precision: half of the memory to go through, and a column of a block in one register.
-struct SingleRows {
-  Array<std::int32_t> first, column;
-  Array<float> block;  // 36 each, column by column, and two more at the end
-  std::size_t rows() const { return first.size() - 1; }
-};
 
 class Multigrid {
  public:
@@ -41,11 +27,11 @@ class Multigrid {
  private:
   /// All but the coarsest. Vectors have eight numbers a site, of which six count.
   struct Level {
-    SingleRows left, right;     // of the diagonal, so that each is gone through without gaps
-    Array<float> inverse;       // of the diagonal blocks, as those of rows
-    SingleRows p, restriction;  // columns of p: sites of the next level; restriction: p transposed
-    Array<float> b, x, rest;
-    Array<float> diagonal, before;  // where it is visited twice: blocks of rows; x of the first visit
+    SingleRows left;                // of the diagonal
+    Array<float> inverse;           // of the diagonal blocks
+    SingleRows p;                   // columns: sites of the next level
+    Array<float> b, x, rest;        // rest: what is right of the diagonal, times x
+    Array<float> diagonal, before;  // where it is visited twice: blocks on it; x of the first visit
   };
   void cycle(std::size_t level);
   void two_cycles(std::size_t level);

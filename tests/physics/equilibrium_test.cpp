@@ -36,6 +36,17 @@ TEST(Equilibrium, OfAColumnByNewton) {
   }
 }
 
+/// Of a step a diagonal raised by a share s leaves 2 s k u at a block, at the top of N blocks s N² weights.
+TEST(Equilibrium, AStepLeavesLittleOfAHighColumn) {
+  Bench bench(generated("column", {{"blocks", 700}, {"block_height", 0.4}, {"kn", 4e9}, {"ks", 1.6e9}}),
+              undamped({0, 0, -g}));
+  bench.begin();
+  std::vector<double> residuals;
+  newton_equilibrium(bench.stepper, 1e-6, nullptr, [&](int, double largest) { residuals.push_back(largest); });
+  ASSERT_FALSE(residuals.empty());
+  EXPECT_LT(residuals.front(), 1e-3);
+}
+
 TEST(Equilibrium, OfAColumnByRelaxation) {
   Bench bench(column(), undamped({0, 0, -g}));
   bench.begin();
