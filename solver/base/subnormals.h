@@ -1,5 +1,5 @@
-// Numbers too small for all of their digits (below 1.2·10⁻³⁸ in single precision), which processors take some ten times
-// as long to compute with.
+// Numbers too small for all of their digits (below 1.2·10⁻³⁸ in single precision), which processors are slow to compute
+// with (docs/performance.md).
 #pragma once
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -26,7 +26,7 @@ class NoSubnormals {
   NoSubnormals& operator=(const NoSubnormals&) = delete;
 
  private:
-  unsigned before_ = 0;
+  [[maybe_unused]] unsigned before_ = 0;
 };
 
 }  // namespace voussoir

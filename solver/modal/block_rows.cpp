@@ -80,7 +80,7 @@ BlockRows rows_of(const BlockMatrix& k) {
   return rows;
 }
 
-// S + Sᵀ with S = Σ Pᵢᵀ (½ Aᵢᵢ Pᵢ + Σ Aᵢⱼ Pⱼ), j < i: half of the products, and no row of A P need be kept.
+// S + Sᵀ with S = Σ Pᵢᵀ (½ Aᵢᵢ Pᵢ + Σ Aᵢⱼ Pⱼ), j < i: half of A, and no row of A P need be kept.
 BlockRows coarse_rows(const BlockRows& a, const BlockRows& p, std::size_t columns) {
   HalfSum half(columns, 2 * a.rows());
   RowSum product(columns);

@@ -1,5 +1,4 @@
-// Symmetric matrices between sites as rows of 6 × 6 blocks, all of them, and the product that coarse levels are made
-// of.
+// Matrices between sites as rows of 6 × 6 blocks, and the product that coarse levels are made of.
 #pragma once
 #include "solver/base/arrays.h"
 #include "solver/modal/block_matrix.h"

@@ -61,8 +61,8 @@ void move_nodes(const Model& model, const Unknowns& unknowns, const Array<double
 
 /// K with every diagonal entry raised by a share of itself, so that a sliver of a mechanism does not stop Newton, and
 /// by a tenth of a thousandth of a millionth of the largest, for what nothing holds. What is raised is left undone of a
-/// step, the more the higher a wall (docs/theory/equilibrium.md), so no more than that where every joint is closed and
-/// there are few mechanisms.
+/// step, the more the higher a wall (docs/theory/equilibrium.md), so less where every joint is closed and there are
+/// few mechanisms.
 BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns, PatchTangent kind) {
   const double share = kind == PatchTangent::intact ? 1e-9 : 1e-7;
   double largest = 0.0;

@@ -3,17 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/solver/block_numbers.h"
+
 namespace voussoir::test {
 namespace {
 
 constexpr std::int32_t sites = 5;
-
-/// Numbers between −1 and 1 that are the same each time.
-Matrix6 numbers(std::int32_t row, std::int32_t column) {
-  Matrix6 m;
-  for (int i = 0; i < 36; ++i) m.data()[i] = std::sin(1.0 + 7.3 * row + 31.7 * column + 0.9 * i);
-  return m;
-}
 
 /// Pairs in either order; site 3 has none.
 BlockMatrix some_blocks() {

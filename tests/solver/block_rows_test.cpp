@@ -5,16 +5,10 @@
 
 #include "solver/base/subnormals.h"
 #include "solver/modal/single_rows.h"
+#include "tests/solver/block_numbers.h"
 
 namespace voussoir::test {
 namespace {
-
-/// Numbers between −1 and 1 that are the same each time.
-Matrix6 numbers(std::int32_t row, std::int32_t column) {
-  Matrix6 m;
-  for (int i = 0; i < 36; ++i) m.data()[i] = std::sin(1.0 + 7.3 * row + 31.7 * column + 0.9 * i);
-  return m;
-}
 
 /// Site 3 has no pair.
 BlockMatrix symmetric_blocks() {
