@@ -108,8 +108,8 @@ struct LaneMask {
   std::memcpy(bytes, &packed, lane_count);
 }
 
-/// The same of four records of four pairs. Both ways of picking every other pair are one instruction that keeps what it
-/// reads.
+/// Rows become columns: four records of four pairs of numbers. Picking every other pair, the even or the odd ones, is
+/// one instruction that overwrites neither of what it reads.
 [[gnu::always_inline]] inline void transpose_pairs(Lanes (&r)[4]) {
   const auto even = [](Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13); };
   const auto odd = [](Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15); };
