@@ -1,6 +1,7 @@
 #include "solver/contact/grouping.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 
@@ -41,6 +42,20 @@ constexpr double worth_grouping = 0.9;  // of the present cost, or less
 struct LaneMove {
   std::size_t from = 0, to = 0;  // places in the list of patches
   std::size_t batch_from = 0, batch_to = 0, lane_from = 0, lane_to = 0;
+  std::size_t source = 0;  // where batch_from is in Moves::sources
+};
+
+struct Moves {
+  std::vector<LaneMove> lanes;
+  std::vector<std::size_t> sources;  // batches that lanes are taken from
+
+  void find_sources() {
+    for (const LaneMove& m : lanes) sources.push_back(m.batch_from);
+    std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+    for (LaneMove& m : lanes)
+      m.source = std::size_t(std::lower_bound(sources.begin(), sources.end(), m.batch_from) - sources.begin());
+  }
 };
 
 /// Rows of a table that hold eight patches side by side: those of one batch.
@@ -50,26 +65,35 @@ struct Rows {
 
 /// Lanes of a table of rows with so many columns. A patch with fewer rows than its batch repeats the last one.
 template <class T, class RowsOf>
-void move_rows(const std::vector<LaneMove>& moves, std::size_t columns, const RowsOf& rows_of, T* table) {
-  std::vector<T> taken;
-  const auto each = [&](const LaneMove& m, const auto& visit) {
-    const Rows from = rows_of(m.batch_from), to = rows_of(m.batch_to);
-    for (std::size_t r = 0; r < to.count; ++r)
-      for (std::size_t c = 0; c < columns; ++c)
-        visit(lane_count * (columns * (from.first + std::min(r, from.count - 1)) + c) + m.lane_from,
-              lane_count * (columns * (to.first + r) + c) + m.lane_to);
-  };
-  for (const LaneMove& m : moves) each(m, [&](std::size_t from, std::size_t) { taken.push_back(table[from]); });
-  auto next = taken.begin();
-  for (const LaneMove& m : moves) each(m, [&](std::size_t, std::size_t to) { table[to] = *next++; });
+void move_rows(const Moves& moves, std::size_t columns, const RowsOf& rows_of, T* table) {
+  const std::size_t width = lane_count * columns;
+  std::vector<T> old;  // rows of all sources
+  std::vector<std::size_t> first;
+  std::size_t size = 0;
+  for (const std::size_t batch : moves.sources) first.push_back(size), size += width * rows_of(batch).count;
+  old.reserve(size);
+  for (const std::size_t batch : moves.sources) {
+    const Rows rows = rows_of(batch);
+    old.insert(old.end(), table + width * rows.first, table + width * (rows.first + rows.count));
+  }
+  for (const LaneMove& m : moves.lanes) {
+    const std::size_t has = columns * rows_of(m.batch_from).count;
+    const Rows rows = rows_of(m.batch_to);
+    const T* from = old.data() + first[m.source] + m.lane_from;
+    T* to = table + width * rows.first + m.lane_to;
+    const std::size_t end = columns * rows.count, common = std::min(has, end);
+    for (std::size_t i = 0; i < common; ++i) to[lane_count * i] = from[lane_count * i];
+    for (std::size_t i = common; i < end; ++i) to[lane_count * i] = from[lane_count * (has - columns + i % columns)];
+  }
 }
 
 template <class T>
-void move_each(const std::vector<LaneMove>& moves, std::size_t width, T* list) {
+void move_each(const Moves& moves, std::size_t width, T* list) {
   std::vector<T> taken;
-  for (const LaneMove& m : moves) taken.insert(taken.end(), list + width * m.from, list + width * (m.from + 1));
+  taken.reserve(width * moves.lanes.size());
+  for (const LaneMove& m : moves.lanes) taken.insert(taken.end(), list + width * m.from, list + width * (m.from + 1));
   auto next = taken.begin();
-  for (const LaneMove& m : moves) {
+  for (const LaneMove& m : moves.lanes) {
     std::copy_n(next, width, list + width * m.to);
     next += std::ptrdiff_t(width);
   }
@@ -80,7 +104,7 @@ Rows one_each(std::size_t batch) {
 }
 
 template <class RowsOf>
-void move_memory(const std::vector<LaneMove>& moves, const RowsOf& rows_of, std::size_t branches, PatchMemory& memory) {
+void move_memory(const Moves& moves, const RowsOf& rows_of, std::size_t branches, PatchMemory& memory) {
   move_rows(moves, 2, rows_of, memory.point.data());
   move_rows(moves, 2, rows_of, memory.point_rest.data());
   move_rows(moves, 1, rows_of, memory.broken.data());
@@ -97,15 +121,19 @@ class Joints {
   /// `order`: for each place of the tile the place whose joint goes there.
   Joints(Model& model, const Tile& tile, const std::vector<std::size_t>& order) : model_(model), tile_(tile) {
     const auto first = std::size_t(tile.first_joint), batch = std::size_t(tile.first_batch);
-    const auto add = [&](std::vector<LaneMove>& moves, std::size_t from, std::size_t to) {
+    const auto add = [&](Moves& moves, std::size_t from, std::size_t to) {
       const std::size_t a = from - first, b = to - first;
       if (a != b)
-        moves.push_back({from, to, batch + a / lane_count, batch + b / lane_count, a % lane_count, b % lane_count});
+        moves.lanes.push_back(
+            {from, to, batch + a / lane_count, batch + b / lane_count, a % lane_count, b % lane_count});
     };
     for (std::size_t i = 0; i < order.size(); ++i) add(moves_, order[i], first + i);
+    moves_.find_sources();
     all_ = moves_;
     if (order.empty() || order.back() == first + order.size() - 1) return;
-    for (std::size_t i = order.size(); i % lane_count; ++i) add(all_, order.back(), first + i);
+    const std::size_t last = order.size() - 1, source = moves_.lanes.back().source;
+    for (std::size_t i = order.size(); i % lane_count; ++i)
+      add(all_, order[last], first + i), all_.lanes.back().source = source;
   }
 
   void move_model() const {
@@ -114,17 +142,17 @@ class Joints {
     };
     move_rows(all_, 3, points(), model_.points.data());
     move_rows(all_, 2, corners, reinterpret_cast<double*>(model_.batch_corners.data()));
-    const std::vector<JointBatch> old(model_.batches.begin() + tile_.first_batch,
-                                      model_.batches.begin() + tile_.end_batch);
-    for (const LaneMove& m : all_)
-      move_lane(old[m.batch_from - std::size_t(tile_.first_batch)], m, model_.batches[m.batch_to]);
+    std::vector<JointBatch> old;
+    old.reserve(all_.sources.size());
+    for (const std::size_t k : all_.sources) old.push_back(model_.batches[k]);
+    for (const LaneMove& m : all_.lanes) move_lane(old[m.source], m, model_.batches[m.batch_to]);
     for (std::int32_t k = tile_.first_batch; k < tile_.end_batch; ++k) {
       JointBatch& batch = model_.batches[std::size_t(k)];
       batch.law = common_law(batch), batch.touches_still = touches_still(model_, batch);
     }
     move_each(moves_, 1, model_.joints.data());
     move_each(moves_, 1, model_.joint_of_patch.data());
-    for (const LaneMove& m : moves_) {
+    for (const LaneMove& m : moves_.lanes) {
       Patch& patch = model_.joints[m.to];
       patch.batch = std::int32_t(m.batch_to), patch.lane = std::int32_t(m.lane_to);
       patch.first_point = model_.batches[m.batch_to].first_point;
@@ -166,31 +194,33 @@ class Joints {
 
   Model& model_;
   const Tile& tile_;
-  std::vector<LaneMove> moves_, all_;  // all: and lanes past the last joint, which repeat it
+  Moves moves_, all_;  // all: and lanes past the last joint, which repeat it
 };
 
 /// Places of a tile's joints in the order in which they share batches best; none where that is not worth it.
 std::vector<std::size_t> grouped_joints(const Model& model, const State& state, const Tile& tile) {
-  const auto first = std::size_t(tile.first_joint), end = std::size_t(tile.end_joint);
-  std::vector<Way> ways(end - first);
-  std::transform(&state.joint.mode[first], &state.joint.mode[0] + end, ways.begin(), way_of_joint);
-  std::vector<std::pair<std::uint64_t, std::size_t>> keys;  // shape, way, place as built; place now
-  std::uint64_t reversed = 0, shape = 0;
-  for (std::size_t i = first; i < end; ++i) {
-    const JointPlace& at = model.joint_places[std::size_t(model.joint_of_patch[i])];
+  const auto first = std::size_t(tile.first_joint), count = std::size_t(tile.end_joint) - first;
+  std::vector<Way> ways(count), after;
+  std::transform(&state.joint.mode[first], &state.joint.mode[first] + count, ways.begin(), way_of_joint);
+  std::vector<const JointPlace*> places(count);
+  for (std::size_t i = 0; i < count; ++i) places[i] = &model.joint_places[std::size_t(model.joint_of_patch[first + i])];
+  std::vector<std::pair<std::uint64_t, std::size_t>> keys(count);  // run of one shape, way, place as built; place now
+  std::uint64_t runs = 0, reversed = 0;
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end, ++runs, reversed ^= 3) {
     // Shapes lie one after the other. Each begins with the way that the one before ends with, so that the batch they
     // share has one way.
-    if (i > first && std::uint64_t(at.shape) != shape) reversed ^= 3;
-    shape = std::uint64_t(at.shape);
-    const auto kind = shape << 2 | (std::uint64_t(ways[i - first]) ^ reversed);
-    keys.emplace_back(kind << 32 | std::uint64_t(at.first), i);
+    std::array<std::size_t, 4> like{};
+    for (; end < count && places[end]->shape == places[begin]->shape; ++end) {
+      const auto way = std::uint64_t(ways[end]) ^ reversed;
+      ++like[way];
+      keys[end] = {(runs << 2 | way) << 32 | std::uint64_t(places[end]->first), first + end};
+    }
+    for (std::uint64_t way = 0; way < like.size(); ++way) after.insert(after.end(), like[way], Way(way ^ reversed));
   }
+  if (cost_of(after) > worth_grouping * cost_of(ways)) return {};
   std::sort(keys.begin(), keys.end());
-  const double before = cost_of(ways);
   std::vector<std::size_t> order;
-  std::vector<Way> after;
-  for (const auto& key : keys) order.push_back(key.second), after.push_back(ways[key.second - first]);
-  if (cost_of(after) > worth_grouping * before) order.clear();
+  for (const auto& key : keys) order.push_back(key.second);
   return order;
 }
 
@@ -216,11 +246,13 @@ void group_slots(State& state, const std::vector<std::size_t>& slots) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ways[i] < ways[j]; });
   for (const std::size_t i : order) after.push_back(ways[i]);
   if (cost_of(after) > worth_grouping * cost_of(ways)) return;
-  std::vector<LaneMove> moves;
+  Moves moves;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const std::size_t from = slots[order[i]], to = slots[i];
-    if (from != to) moves.push_back({from, to, from / lane_count, to / lane_count, from % lane_count, to % lane_count});
+    if (from != to)
+      moves.lanes.push_back({from, to, from / lane_count, to / lane_count, from % lane_count, to % lane_count});
   }
+  moves.find_sources();
   const auto rows_of = [&](std::size_t k) {
     const JointBatch& batch = state.contact_batches[k].patch;
     return Rows{std::size_t(batch.first_point), std::size_t(batch.points)};
@@ -235,14 +267,14 @@ void group_slots(State& state, const std::vector<std::size_t>& slots) {
     return std::size_t(2 * state.contact_batches[slot / lane_count].first_corner) + corners * (slot % lane_count);
   };
   std::vector<double> taken;
-  for (const LaneMove& m : moves) {
+  for (const LaneMove& m : moves.lanes) {
     const auto at = state.contact_corners.begin() + std::ptrdiff_t(corner_of(m.from));
     taken.insert(taken.end(), at, at + std::ptrdiff_t(corners));
   }
-  for (std::size_t i = 0; i < moves.size(); ++i)
-    std::copy_n(&taken[corners * i], corners, &state.contact_corners[corner_of(moves[i].to)]);
+  for (std::size_t i = 0; i < moves.lanes.size(); ++i)
+    std::copy_n(&taken[corners * i], corners, &state.contact_corners[corner_of(moves.lanes[i].to)]);
   move_each(moves, 1, state.contacts.data());
-  for (const LaneMove& m : moves) {
+  for (const LaneMove& m : moves.lanes) {
     Patch& patch = state.contacts[m.to];
     patch.batch = std::int32_t(m.batch_to), patch.lane = std::int32_t(m.lane_to);
     if (patch.point_count > 0) {
