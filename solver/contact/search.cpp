@@ -1,6 +1,7 @@
 #include "solver/contact/search.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "solver/base/parallel.h"
 #include "solver/contact/contact_slots.h"
@@ -57,10 +58,10 @@ class Search {
         moved_(model.bodies.size(), 0),
         stale_(model.bodies.size(), 0) {}
 
-  ContactUpdate run(bool clip) {
+  ContactUpdate run(std::span<const std::int32_t> past) {
     find_moved();
-    if (clip) clip_joints();
-    look_at_contacts(clip);
+    clip_joints(past);
+    look_at_contacts(past);
     if (any_stale_) list_pairs(model_, state_, stale_, threads_);
     for (const NewContact& contact : clipped_) add(contact);
     examine(due_pairs(model_, state_, moved_, threads_));
@@ -112,14 +113,18 @@ class Search {
     return past_limits(model_, p, patch_jump(p, &state_.pose[pose_width * p.a], &state_.pose[pose_width * p.b]));
   }
 
-  /// Joints past their limits become contacts, or nothing where the cells have parted.
-  void clip_joints() {
-    std::vector<char> goes(model_.joints.size());
-    for_each(goes.size(), threads_, 1000, [&](std::size_t i) {
-      const Patch& p = model_.joints[i];
-      goes[i] = !(state_.joint.mode[i] & mode_gone) && past(p) && !stays(p);
+  /// Joints of these tiles past their limits become contacts, or nothing where the cells have parted.
+  void clip_joints(std::span<const std::int32_t> tiles) {
+    std::vector<std::vector<std::size_t>> of_tile(tiles.size());
+    for_each(tiles.size(), threads_, 2, [&](std::size_t t) {
+      const Tile& tile = model_.tiles[std::size_t(tiles[t])];
+      for (auto i = std::size_t(tile.first_joint); i < std::size_t(tile.end_joint); ++i) {
+        const Patch& p = model_.joints[i];
+        if (!(state_.joint.mode[i] & mode_gone) && past(p) && !stays(p)) of_tile[t].push_back(i);
+      }
     });
-    const std::vector<std::size_t> going = marked(goes);
+    std::vector<std::size_t> going;
+    for (const auto& joints : of_tile) going.insert(going.end(), joints.begin(), joints.end());
     std::vector<Ended> ended(going.size());
     for_each(going.size(), threads_, least_clipped_per_thread, [&](std::size_t k) { ended[k] = end_joint(going[k]); });
     for (std::size_t k = 0; k < going.size(); ++k) {
@@ -135,15 +140,18 @@ class Search {
     return model_.laws[std::size_t(p.law)].kind == JointLaw::Kind::elastic || p.length > 0.0;
   }
 
-  /// Contacts past their limits are clipped anew, parted ones dropped.
-  void look_at_contacts(bool clips) {
+  /// Contacts of these tiles past their limits are clipped anew, parted ones dropped wherever they are.
+  void look_at_contacts(std::span<const std::int32_t> tiles) {
+    std::vector<char> clips(model_.tiles.size(), 0);
+    for (const std::int32_t tile : tiles) clips[std::size_t(tile)] = 1;
     enum : char { stays = 0, is_past, has_gone };
     std::vector<char> what(state_.contacts.size(), stays);
     for_each(what.size(), threads_, 500, [&](std::size_t slot) {
       if (!state_.has_contact(slot)) return;
       const Patch& p = state_.contacts[slot];
       const bool moves = moved_[std::size_t(p.a)] || moved_[std::size_t(p.b)];
-      what[slot] = lost(p) ? has_gone : clips && past(p) ? is_past : moves && has_parted(slot) ? has_gone : stays;
+      const bool clip = clips[std::size_t(state_.contact_batches[slot / lane_count].tile)] && past(p);
+      what[slot] = lost(p) ? has_gone : clip ? is_past : moves && has_parted(slot) ? has_gone : stays;
     });
     const std::vector<std::size_t> going = marked(what);
     std::vector<Ended> ended(going.size());
@@ -292,14 +300,21 @@ class Search {
 
 }  // namespace
 
-ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip, int threads) {
-  ContactUpdate update = Search(model, state, branches, threads).run(clip);
-  const InterfaceUpdate fill = update_interface(model, state, branches, clip, threads);
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches,
+                              std::span<const std::int32_t> past, int threads) {
+  ContactUpdate update = Search(model, state, branches, threads).run(past);
+  const InterfaceUpdate fill = update_interface(model, state, branches, !past.empty(), threads);
   update.moved = update.changed() || fill.made + fill.dropped > 0;
   update.made += fill.made, update.clipped += fill.clipped, update.dropped += fill.dropped;
   update.bodies.insert(update.bodies.end(), fill.bodies.begin(), fill.bodies.end());
   update.nodes = fill.nodes;
   return update;
+}
+
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip, int threads) {
+  std::vector<std::int32_t> tiles(clip ? model.tiles.size() : 0);
+  std::iota(tiles.begin(), tiles.end(), 0);
+  return update_contacts(model, state, branches, tiles, threads);
 }
 
 }  // namespace voussoir

@@ -1,6 +1,8 @@
 // Contacts that appear and change during a run. A patch exists before its bodies touch: as soon as they come within the
 // skin, with its gap, so that the law itself sees them meet and no step needs a narrow phase.
 #pragma once
+#include <span>
+
 #include "solver/contact/patch_kernel.h"
 
 namespace voussoir {
@@ -59,9 +61,12 @@ inline bool may_clip_at(std::int64_t step) {
 }
 
 /// Looks for new contacts around the bodies that have moved since they were last looked at, and drops contacts of
-/// theirs that have parted; with `clip` all patches that have slid or turned past their limits are clipped anew (force
-/// and moment carried over). Decided by the state alone, whatever the number of threads. Afterwards
-/// Stepper::prepare_contacts() must be called where patches have moved.
+/// theirs that have parted; in the tiles `past`, in order, patches that have slid or turned past their limits are
+/// clipped anew (force and moment carried over). Decided by the state and `past` alone, whatever the number of threads.
+/// Afterwards Stepper::prepare_contacts() must be called where patches have moved.
+ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches,
+                              std::span<const std::int32_t> past, int threads = 1);
+/// With `clip` wherever a patch is past its limits.
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip = true,
                               int threads = 1);
 

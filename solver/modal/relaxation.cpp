@@ -156,7 +156,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
         a.outcome == StepOutcome::runaway || largest_displacement(model, start, state.pose) > limits.displacement;
     if (result.lost) break;
     if (a.outcome == StepOutcome::contacts) {
-      const ContactUpdate update = update_contacts(model, state, relaxing.damping.branches, a.reclip, relaxing.threads);
+      const ContactUpdate update = update_contacts(model, state, relaxing.damping.branches, a.past, relaxing.threads);
       if (update.made + update.clipped > 0) choose_inertia(true, state, model);
       relaxing.prepare();
       now = out_of_balance(relaxing, unknowns);

@@ -309,8 +309,7 @@ void Simulation::begin_stage(const StageSettings& stage) {
 
 void Simulation::change_contacts() {
   const Timed timed(costs_.searches);
-  const ContactUpdate update =
-      update_contacts(model_, state_, stepper_.damping.branches, last_.reclip, stepper_.threads);
+  const ContactUpdate update = update_contacts(model_, state_, stepper_.damping.branches, last_.past, stepper_.threads);
   const bool groups = state_.step() - state_.grouped_at() >= grouping_interval;
   if (groups) group_patches(model_, state_, stepper_.threads);
   if (update.moved || groups) stepper_.prepare_contacts();

@@ -315,7 +315,9 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
     const bool clip = all_patches.reclip && may_clip_at(state->step());
     result.intact = all_patches.intact;
     result.points = all_patches.points;
-    result.reclip = clip;
+    result.past.clear();
+    for (std::size_t tile = 0; clip && tile < body_tiles; ++tile)
+      if (found[tile].patches.reclip) result.past.push_back(std::int32_t(tile));
     result.runaway_body = all_bodies.runaway;
     result.outcome = runs_away                            ? StepOutcome::runaway
                      : clip || searches                   ? StepOutcome::contacts

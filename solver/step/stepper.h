@@ -24,7 +24,7 @@ struct Advance {
   StepOutcome outcome = StepOutcome::reached;
   std::int32_t runaway_body = -1;
   std::int32_t runaway_node = -1, inverted_tet = -1;  // of the fill's mesh
-  bool reclip = false;                                // contacts: because a patch has slid or turned past its limit
+  std::vector<std::int32_t> past;                     // contacts: tiles in which a patch has passed its limits
   std::int64_t intact = 0, points = 0;                // patches of the last step on either path
 };
 

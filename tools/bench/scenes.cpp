@@ -206,7 +206,7 @@ Progressed advance_scene(Running& r, std::int64_t steps) {
     if (a.outcome != StepOutcome::contacts) continue;
     const auto searching = Clock::now();
     const ContactUpdate update =
-        update_contacts(r.model, r.state, r.stepper.damping.branches, a.reclip, r.stepper.threads);
+        update_contacts(r.model, r.state, r.stepper.damping.branches, a.past, r.stepper.threads);
     const bool groups = r.state.step() - r.state.grouped_at() >= grouping_interval;
     if (groups) group_patches(r.model, r.state, r.stepper.threads);
     if (update.changed() || groups) r.stepper.prepare_contacts();
