@@ -1,6 +1,8 @@
 // What a contact search looks at, and where the contacts it finds live.
 #include "solver/contact/search.h"
 
+#include <map>
+
 #include "solver/contact/contact_slots.h"
 #include "solver/contact/pairs.h"
 #include "solver/step/look.h"
@@ -236,6 +238,81 @@ TEST(Search, LooksWhereARoundEnds) {
   fast.farthest = 0.9e-3, fast.fastest = 1e-5;  // 2 × 4 steps of it are left, and a little to fall
   EXPECT_EQ(look(fast, 33, 1e-3, 1e-4).next, 37);
   EXPECT_EQ(look(fast, 38, 1e-3, 1e-4).next, 40);
+}
+
+/// The pass says in which tiles a patch has slid too far, and only there is it looked for.
+TEST(Search, ClipsWhereThePassHasFoundReason) {
+  constexpr int count = 150;
+  const auto made = row_of_cubes(count, 0.2);
+  Bench& bench = *made;
+  const int moved[] = {10, 140};
+  for (const int i : moved) bench.place(i, {0, 0.06, 0}, Eigen::Quaterniond::Identity());
+  update_contacts(bench.model, bench.state, {}, false);
+  bench.stepper.prepare();
+  const Advance a = bench.stepper.advance(2 * clip_interval, 1, nullptr, nullptr);
+  ASSERT_EQ(a.outcome, StepOutcome::contacts);
+  EXPECT_EQ(bench.state.step(), clip_interval);
+  ASSERT_EQ(a.past.size(), 2u);
+  const auto joint_of = [&](int cube) {
+    for (std::size_t i = 0; i < bench.model.joints.size(); ++i)
+      if (bench.model.joints[i].a == bench.body(cube) || bench.model.joints[i].b == bench.body(cube)) return i;
+    return bench.model.joints.size();
+  };
+  const auto gone = [&](int cube) { return (bench.state.joint.mode[joint_of(cube)] & mode_gone) != 0; };
+  const auto in_tile = [&](int cube, std::int32_t tile) {
+    const auto joint = std::int32_t(joint_of(cube));
+    return bench.model.tiles[std::size_t(tile)].first_joint <= joint &&
+           joint < bench.model.tiles[std::size_t(tile)].end_joint;
+  };
+  const int first = in_tile(moved[0], a.past[0]) ? 0 : 1;
+  EXPECT_TRUE(in_tile(moved[first], a.past[0]) && in_tile(moved[1 - first], a.past[1]));
+  EXPECT_EQ(update_contacts(bench.model, bench.state, {}, std::vector{a.past[0]}).clipped, 1);
+  EXPECT_TRUE(gone(moved[first]) && !gone(moved[1 - first]));
+  EXPECT_EQ(update_contacts(bench.model, bench.state, {}, std::vector{a.past[1]}).clipped, 1);
+  EXPECT_TRUE(gone(moved[1 - first]));
+}
+
+/// Where a few bodies have gone elsewhere the list becomes that of all bodies listed from nothing, and what other pairs
+/// know of each other stays theirs.
+TEST(Search, ListsWhatListingAllWould) {
+  constexpr int count = 30;
+  const auto made = row_of_cubes(count, 0.03);
+  Bench& bench = *made;
+  State& state = bench.state;
+  const std::size_t bodies = bench.model.bodies.size();
+  list_pairs(bench.model, state, std::vector<char>(bodies, 1), 1);
+  std::mt19937 random(3);
+  std::size_t gone = 0, fresh = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::map<CellPair, float> known;
+    for (std::size_t i = 0; i < state.pair_cells.size() / 4; ++i) {
+      const std::int32_t* c = &state.pair_cells[4 * i];
+      state.pair_seen[searched_width * i + 7] = known[{c[0], c[1], c[2], c[3]}] = 0.001f * float(i + 1);
+    }
+    std::vector<char> stale(bodies, 0);
+    for (int k = 0; k < 1 + round % 3; ++k) {
+      const int cube = 1 + int(random() % count);
+      bench.place(cube, {0.53 * double(random() % 5) - 1.06, 0.6 * double(random() % 3), 0.51 * double(random() % 3)},
+                  Eigen::Quaterniond::Identity());
+      stale[std::size_t(bench.body(cube))] = 1;
+    }
+    list_pairs(bench.model, state, stale, 1 + round % 2);
+    State anew = state;
+    anew.pair_cells.clear(), anew.pair_seen.clear();
+    list_pairs(bench.model, anew, std::vector<char>(bodies, 1), 1);
+    ASSERT_EQ(state.pair_cells, anew.pair_cells) << round;
+    ASSERT_EQ(state.pair_seen.size(), anew.pair_seen.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < state.pair_cells.size() / 4; ++i) {
+      const std::int32_t* c = &state.pair_cells[4 * i];
+      const auto at = known.find({c[0], c[1], c[2], c[3]});
+      ASSERT_EQ(state.pair_seen[searched_width * i + 7], at == known.end() ? pair_is_new : at->second) << round;
+      kept += at != known.end();
+    }
+    gone += known.size() - kept, fresh += state.pair_cells.size() / 4 - kept;
+  }
+  EXPECT_GT(gone, 100u);
+  EXPECT_GT(fresh, 100u);
 }
 
 /// A spring without limits stays the spring it is, however far it turns.
