@@ -1,9 +1,11 @@
 #include "solver/contact/pairs.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "geometry/neighbours.h"
 #include "solver/base/parallel.h"
+#include "solver/contact/lane_points.h"
 #include "solver/contact/search.h"
 
 namespace voussoir {
@@ -17,6 +19,19 @@ std::size_t pair_count(const State& state) {
 CellPair cells_at(const State& state, std::size_t pair) {
   const std::int32_t* c = &state.pair_cells[4 * pair];
   return {c[0], c[1], c[2], c[3]};
+}
+
+/// The numbers below `count` that `look` adds for its range, in order.
+template <class Look>
+std::vector<std::size_t> found_in_order(std::size_t count, int threads, std::size_t least_per_thread,
+                                        const Look& look) {
+  std::vector<std::vector<std::size_t>> found(std::size_t(std::max(1, threads)));
+  share_out(count, threads, least_per_thread,
+            [&](int thread, Range range) { look(range, found[std::size_t(thread)]); });
+  std::vector<std::size_t> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 /// The first of the first `count` listed pairs that is not before these cells.
@@ -143,32 +158,53 @@ Sides sides(const Model& model, std::int32_t a, std::int32_t b) {
   return model.bodies[std::size_t(a)].radius >= model.bodies[std::size_t(b)].radius ? Sides{a, b} : Sides{b, a};
 }
 
+template <class T>
 struct RelativePlace {
-  Triple<double> centre;  // m
-  Quat<double> turn;
+  Triple<T> centre;  // m
+  Quat<T> turn;
 };
-RelativePlace relative_place(const Model& model, const State& state, const Sides& s) {
-  const double *pf = &state.pose[pose_width * std::size_t(s.frame)],
-               *pm = &state.pose[pose_width * std::size_t(s.moving)];
-  const Vec3 &xf = model.bodies[std::size_t(s.frame)].centroid, &xm = model.bodies[std::size_t(s.moving)].centroid;
-  const Quat<double> qf = {pf[3], {pf[4], pf[5], pf[6]}}, qm = {pm[3], {pm[4], pm[5], pm[6]}};
-  const Triple<double> d = {xm.x() - xf.x() + (pm[0] - pf[0]), xm.y() - xf.y() + (pm[1] - pf[1]),
-                            xm.z() - xf.z() + (pm[2] - pf[2])};
-  return {turn_back(qf, d), Quat<double>{qf.w, {-qf.v.x, -qf.v.y, -qf.v.z}} * qm};
+/// `apart`: from the centroid of the one to that of the other as built; both have moved by u and turned by q since.
+template <class T>
+RelativePlace<T> relative_place(const Triple<T>& apart, const Triple<T>& u_frame, const Quat<T>& q_frame,
+                                const Triple<T>& u_moving, const Quat<T>& q_moving) {
+  return {turn_back(q_frame, apart + (u_moving - u_frame)),
+          Quat<T>{q_frame.w, {-q_frame.v.x, -q_frame.v.y, -q_frame.v.z}} * q_moving};
 }
 
-/// How far any point of the moving body has come in the frame's since the pair was examined: an upper bound, m.
-double moved_since_examined(const Model& model, const State& state, const Sides& s, const float* seen) {
-  const RelativePlace now = relative_place(model, state, s);
-  const double d[3] = {now.centre.x - seen[0], now.centre.y - seen[1], now.centre.z - seen[2]};
-  const double q[4] = {now.turn.w, now.turn.v.x, now.turn.v.y, now.turn.v.z};
-  double same = 0.0, other = 0.0;  // a quaternion and its negative are the same turn
-  for (int c = 0; c < 4; ++c) {
-    same += (q[c] - seen[3 + c]) * (q[c] - seen[3 + c]);
-    other += (q[c] + seen[3 + c]) * (q[c] + seen[3 + c]);
+Vec3 apart_as_built(const Model& model, const Sides& s) {
+  return model.bodies[std::size_t(s.moving)].centroid - model.bodies[std::size_t(s.frame)].centroid;
+}
+
+/// How far any point of the moving body has come in the frame's since each of eight pairs was examined, and how far it
+/// may: upper bounds, m.
+struct PairMotion {
+  Lanes moved, allowed;
+};
+PairMotion motion_since_examined(const Model& model, const State& state, const std::size_t* pairs) {
+  std::int32_t frame[lane_count], moving[lane_count];
+  Lanes seen[lane_count], radius;
+  Triple<Lanes> apart;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const std::int32_t* cells = &state.pair_cells[4 * pairs[lane]];
+    const Sides s = sides(model, cells[0], cells[1]);
+    frame[lane] = pose_width * s.frame, moving[lane] = pose_width * s.moving;
+    const Vec3 d = apart_as_built(model, s);
+    apart.x[lane] = d.x(), apart.y[lane] = d.y(), apart.z[lane] = d.z();
+    radius[lane] = model.bodies[std::size_t(s.moving)].radius;
+    seen[lane] = widen(*reinterpret_cast<const Singles*>(&state.pair_seen[searched_width * pairs[lane]]));
   }
-  return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) +
-         quaternion_reach * std::sqrt(std::min(same, other)) * model.bodies[std::size_t(s.moving)].radius;
+  transpose(seen);
+  const LanePoses f = gather(state.pose.data(), frame), m = gather(state.pose.data(), moving);
+  const RelativePlace<Lanes> now = relative_place(apart, f.u, f.q, m.u, m.q);
+  const Triple<Lanes> d = now.centre - Triple<Lanes>{seen[0], seen[1], seen[2]};
+  const Lanes turn[4] = {now.turn.w, now.turn.v.x, now.turn.v.y, now.turn.v.z};
+  Lanes same = splat(0.0), other = splat(0.0);  // a quaternion and its negative are the same turn
+  for (int c = 0; c < 4; ++c) {
+    same += (turn[c] - seen[3 + c]) * (turn[c] - seen[3 + c]);
+    other += (turn[c] + seen[3 + c]) * (turn[c] + seen[3 + c]);
+  }
+  const Lanes turned = square_root(select(less(same, other), same, other));
+  return {square_root(dot(d, d)) + quaternion_reach * turned * radius, seen[7]};
 }
 
 }  // namespace
@@ -179,40 +215,95 @@ bool past_list(const Model& model, const State& state, std::size_t body) {
 
 namespace {
 
-void put_pair(State& state, std::size_t to, const CellPair& cells, const float* seen) {
-  std::copy(cells.begin(), cells.end(), &state.pair_cells[4 * to]);
-  std::copy(seen, seen + searched_width, &state.pair_seen[searched_width * to]);
-}
-void move_pair(State& state, std::size_t from, std::size_t to) {
-  if (from == to) return;
-  put_pair(state, to, cells_at(state, from), &state.pair_seen[searched_width * from]);
+/// What becomes of a list when some of its pairs leave and others come in.
+struct ListChange {
+  std::vector<std::size_t> removed;  // places, in order
+  std::vector<CellPair> added;       // in order
+  std::vector<std::size_t> before;   // for each of these the place of the listed pair that it precedes
+};
+
+/// The places of all pairs of stale bodies.
+std::vector<std::size_t> stale_places(const State& state, const std::vector<char>& stale, int threads) {
+  constexpr std::size_t least_pairs_per_thread = 20000;
+  return found_in_order(pair_count(state), threads, least_pairs_per_thread, [&](Range range, auto& found) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      if (stale[std::size_t(state.pair_cells[4 * i])] || stale[std::size_t(state.pair_cells[4 * i + 1])])
+        found.push_back(i);
+  });
 }
 
-/// The list without the pairs of stale bodies, and with fresh ones, sorted like it, in their places; what is known of a
-/// fresh pair is kept. In place: the list has megabytes, and few pairs change.
-void merge_pairs(State& state, const std::vector<char>& stale, const std::vector<CellPair>& fresh) {
-  std::vector<CellPair> added;
-  std::size_t kept = 0;
-  auto next = fresh.begin();
-  for (std::size_t i = 0; i < pair_count(state); ++i) {
-    const CellPair here = cells_at(state, i);
-    for (; next != fresh.end() && *next < here; ++next) added.push_back(*next);
-    const bool known = next != fresh.end() && !(here < *next);
-    if (known) ++next;
-    if (known || !(stale[std::size_t(here[0])] || stale[std::size_t(here[1])])) move_pair(state, i, kept++);
-  }
-  added.insert(added.end(), next, fresh.end());
-  constexpr float unseen[searched_width] = {0, 0, 0, 1, 0, 0, 0, pair_is_new};
-  std::size_t to = kept + added.size();
-  state.pair_cells.resize(4 * to), state.pair_seen.resize(searched_width * to);
-  while (!added.empty()) {  // from the end
-    --to;
-    if (kept > 0 && added.back() < cells_at(state, kept - 1)) {
-      move_pair(state, --kept, to);
+/// The pairs of stale bodies are to be `fresh`, sorted like the list.
+ListChange find_change(const State& state, const std::vector<std::size_t>& listed, const std::vector<CellPair>& fresh) {
+  ListChange change;
+  auto at = listed.begin();
+  const auto remove_before = [&](const CellPair& cells) {
+    for (; at != listed.end() && cells_at(state, *at) < cells; ++at) change.removed.push_back(*at);
+  };
+  for (const CellPair& cells : fresh) {
+    remove_before(cells);
+    if (at != listed.end() && cells_at(state, *at) == cells) {
+      ++at;  // what it knows is kept
     } else {
-      put_pair(state, to, added.back(), unseen);
-      added.pop_back();
+      change.added.push_back(cells);
+      change.before.push_back(lower_bound_pair(state, cells, pair_count(state)));
     }
+  }
+  change.removed.insert(change.removed.end(), at, listed.end());
+  return change;
+}
+
+/// Pairs begin … end go to `to`.
+struct BlockMove {
+  std::size_t begin, end, to;
+};
+
+/// What stays, in pieces between what leaves and what comes in.
+std::vector<BlockMove> moves_of(const ListChange& change, std::size_t count) {
+  std::vector<BlockMove> moves;
+  std::size_t begin = 0, to = 0, added = 0, removed = 0;
+  const auto stay_until = [&](std::size_t end) {
+    if (end > begin) moves.push_back({begin, end, to}), to += end - begin;
+    begin = end;
+  };
+  while (added < change.added.size() || removed < change.removed.size()) {
+    const std::size_t next_in = added < change.added.size() ? change.before[added] : count;
+    const std::size_t next_out = removed < change.removed.size() ? change.removed[removed] : count;
+    stay_until(std::min(next_in, next_out));
+    if (next_in <= next_out)
+      ++to, ++added;
+    else
+      ++begin, ++removed;
+  }
+  stay_until(count);
+  return moves;
+}
+
+template <class T>
+void move_block(std::size_t width, const BlockMove& m, Array<T>& list) {
+  std::memmove(&list[width * m.to], &list[width * m.begin], width * (m.end - m.begin) * sizeof(T));
+}
+
+/// In place: the list has megabytes, and few pairs change. Pieces that go down one after the other from the first on,
+/// then those that go up from the last on: none overwrites what has still to move.
+void apply_change(State& state, const ListChange& change) {
+  const std::size_t count = pair_count(state), next = count + change.added.size() - change.removed.size();
+  const std::vector<BlockMove> moves = moves_of(change, count);
+  state.pair_cells.resize(4 * std::max(count, next)), state.pair_seen.resize(searched_width * std::max(count, next));
+  const auto move = [&](const BlockMove& m) {
+    move_block(4, m, state.pair_cells), move_block(searched_width, m, state.pair_seen);
+  };
+  for (auto m = moves.begin(); m != moves.end(); ++m)
+    if (m->to < m->begin) move(*m);
+  for (auto m = moves.rbegin(); m != moves.rend(); ++m)
+    if (m->to > m->begin) move(*m);
+  state.pair_cells.resize(4 * next), state.pair_seen.resize(searched_width * next);
+  constexpr float unseen[searched_width] = {0, 0, 0, 1, 0, 0, 0, pair_is_new};
+  auto removed = change.removed.begin();
+  for (std::size_t i = 0; i < change.added.size(); ++i) {
+    while (removed != change.removed.end() && *removed < change.before[i]) ++removed;
+    const std::size_t to = change.before[i] + i - std::size_t(removed - change.removed.begin());
+    std::copy(change.added[i].begin(), change.added[i].end(), &state.pair_cells[4 * to]);
+    std::copy(unseen, unseen + searched_width, &state.pair_seen[searched_width * to]);
   }
 }
 
@@ -221,7 +312,8 @@ void merge_pairs(State& state, const std::vector<char>& stale, const std::vector
 void list_pairs(const Model& model, State& state, const std::vector<char>& stale, int threads) {
   for (std::size_t i = 0; i < stale.size(); ++i)
     if (stale[i]) note_place(state, i, state.listed);
-  merge_pairs(state, stale, near_pairs(model, state, stale, threads));
+  const std::vector<CellPair> fresh = near_pairs(model, state, stale, threads);
+  apply_change(state, find_change(state, stale_places(state, stale, threads), fresh));
   for (std::size_t slot = 0; slot < state.contacts.size(); ++slot) {
     if (!state.has_contact(slot)) continue;
     const JointBatch& batch = state.contact_batches[slot / lane_count].patch;
@@ -235,26 +327,36 @@ void list_pairs(const Model& model, State& state, const std::vector<char>& stale
 std::vector<std::size_t> due_pairs(const Model& model, const State& state, const std::vector<char>& moved,
                                    int threads) {
   constexpr std::size_t least_pairs_per_thread = 3000;
-  std::vector<std::vector<std::size_t>> found(std::size_t(std::max(1, threads)));
-  share_out(pair_count(state), threads, least_pairs_per_thread, [&](int thread, Range range) {
+  return found_in_order(pair_count(state), threads, least_pairs_per_thread, [&](Range range, auto& found) {
+    std::size_t asked[lane_count];
+    int count = 0;
+    const auto ask = [&] {
+      for (int lane = count; lane < lane_count; ++lane) asked[lane] = asked[0];
+      const PairMotion motion = motion_since_examined(model, state, asked);
+      const LaneMask due = less(motion.allowed, motion.moved) & LaneMask::first(count);
+      for (int lane = 0; any(due) && lane < count; ++lane)
+        if (due[lane]) found.push_back(asked[lane]);
+      count = 0;
+    };
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const std::int32_t a = state.pair_cells[4 * i], b = state.pair_cells[4 * i + 1];
-      if (!(moved[std::size_t(a)] || moved[std::size_t(b)])) continue;
-      const float* seen = &state.pair_seen[searched_width * i];
-      if (seen[7] >= pair_has_contact) continue;
-      if (seen[7] < 0.0f || moved_since_examined(model, state, sides(model, a, b), seen) > double(seen[7]))
-        found[std::size_t(thread)].push_back(i);
+      const bool moves = moved[std::size_t(state.pair_cells[4 * i])] || moved[std::size_t(state.pair_cells[4 * i + 1])];
+      if (!moves || state.pair_seen[searched_width * i + 7] >= pair_has_contact) continue;
+      asked[count++] = i;
+      if (count == lane_count) ask();
     }
+    if (count > 0) ask();
   });
-  std::vector<std::size_t> due;
-  for (const auto& part : found) due.insert(due.end(), part.begin(), part.end());
-  std::sort(due.begin(), due.end());
-  return due;
 }
 
 void note_examined(const Model& model, State& state, std::size_t pair, double allowed) {
   const CellPair c = cells_at(state, pair);
-  const RelativePlace now = relative_place(model, state, sides(model, c[0], c[1]));
+  const Sides s = sides(model, c[0], c[1]);
+  const Vec3 d = apart_as_built(model, s);
+  const double *f = &state.pose[pose_width * std::size_t(s.frame)],
+               *m = &state.pose[pose_width * std::size_t(s.moving)];
+  const RelativePlace<double> now =
+      relative_place<double>({d.x(), d.y(), d.z()}, {f[0], f[1], f[2]}, {f[3], {f[4], f[5], f[6]}}, {m[0], m[1], m[2]},
+                             {m[3], {m[4], m[5], m[6]}});
   const double row[8] = {now.centre.x, now.centre.y, now.centre.z, now.turn.w,
                          now.turn.v.x, now.turn.v.y, now.turn.v.z, allowed};
   for (int k = 0; k < 8; ++k) state.pair_seen[searched_width * pair + std::size_t(k)] = float(row[k]);

@@ -79,13 +79,18 @@ class Search {
     if (!model_.contact.search) return;
     const double near = moved_share * skin(model_);
     const Vec3 base = state_.base_displacement();
-    std::vector<char> moves(model_.bodies.size());
-    for_each(moves.size(), threads_, 1000,
-             [&](std::size_t i) { moves[i] = moved_since(model_, state_, state_.searched, i, base) > near; });
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      if (!moves[i]) continue;
-      mark(std::int32_t(i));
-      if (fallen_out(i)) state_.searched[searched_width * i + 7] = 1.0f, list_anew(std::int32_t(i));
+    enum : char { stays = 0, moves, strays, falls_out };
+    std::vector<char> what(model_.bodies.size());
+    for_each(what.size(), threads_, 1000, [&](std::size_t i) {
+      if (moved_since(model_, state_, state_.searched, i, base) <= near) return;
+      note_place(state_, i, state_.searched);
+      what[i] = fallen_out(i) ? falls_out : past_list(model_, state_, i) ? strays : moves;
+    });
+    for (std::size_t i = 0; i < what.size(); ++i) {
+      if (what[i] == stays) continue;
+      moved_[i] = 1;
+      if (what[i] == falls_out) state_.searched[searched_width * i + 7] = 1.0f;
+      if (what[i] != moves) list_anew(std::int32_t(i));
     }
   }
 
@@ -265,7 +270,7 @@ class Search {
     }
     placed.place(threads_);
     std::vector<Examined> found(due.size());
-    for_each(due.size(), threads_, 50, [&](std::size_t i) {
+    for_each(due.size(), threads_, 10, [&](std::size_t i) {
       const auto [a, b, cell_a, cell_b] = cells[i];
       // Bodies that a live patch holds within its limits cannot come at each other unseen: their other cells wait until
       // they touch.
