@@ -1,6 +1,8 @@
 #include "solver/contact/pairs.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 #include "geometry/neighbours.h"
@@ -101,6 +103,41 @@ std::vector<Box> boxes_of(const std::vector<CellBox>& cells) {
   return boxes;
 }
 
+/// Cells of a coarse grid near which there is some box: a quick no for nearly all bodies where boxes are few.
+class NearMask {
+ public:
+  /// Spheres of this radius (m) or less are asked for, and may come within `distance` (m) of a box.
+  NearMask(const std::vector<Box>& boxes, double radius, double distance) : width_(2.0 * radius), near_(places, 0) {
+    for (const Box& box : boxes) {
+      const Vec3 from = box.low.array() - (radius + distance), to = box.high.array() + (radius + distance);
+      if (!(((to - from) / width_).array().ceil().prod() < double(places))) {
+        near_.assign(places, 1);
+        return;
+      }
+      const Cell low = cell_of(from), high = cell_of(to);
+      for (std::int64_t x = low[0]; x <= high[0]; ++x)
+        for (std::int64_t y = low[1]; y <= high[1]; ++y)
+          for (std::int64_t z = low[2]; z <= high[2]; ++z) near_[place_of({x, y, z})] = 1;
+    }
+  }
+  bool may_meet(const Vec3& centre) const { return near_[place_of(cell_of(centre))]; }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  static constexpr std::size_t places = 1 << 14;  // cells share them: that makes a few more to be looked at
+  Cell cell_of(const Vec3& x) const {
+    Cell cell;
+    for (int c = 0; c < 3; ++c) cell[std::size_t(c)] = std::int64_t(std::floor(x[c] / width_));
+    return cell;
+  }
+  static std::size_t place_of(const Cell& c) {
+    return (std::size_t(c[0]) * 73856093u ^ std::size_t(c[1]) * 19349663u ^ std::size_t(c[2]) * 83492791u) % places;
+  }
+
+  double width_;
+  std::vector<char> near_;
+};
+
 /// Pairs of cells of different bodies, one of them stale and one of them free, whose boxes come near; sorted.
 std::vector<CellPair> near_pairs(const Model& model, const State& state, const std::vector<char>& stale, int threads) {
   const double distance = list_margin * skin(model);
@@ -118,7 +155,10 @@ std::vector<CellPair> near_pairs(const Model& model, const State& state, const s
   if (std::count(stale.begin(), stale.end(), 1) < bodies / 4) {
     for (std::int32_t i = 0; i < bodies; ++i)
       if (stale[std::size_t(i)] && !state.lost(std::size_t(i))) place_cells(model, state, i, cells);
-    const BoxIndex index(boxes_of(cells), distance);
+    const std::vector<Box> boxes = boxes_of(cells);
+    const BoxIndex index(boxes, distance);
+    const double usual = 1.5 * model.typical_size;  // radius; of most blocks 0.9
+    const NearMask mask(boxes, usual, distance);
     share_out(std::size_t(bodies), threads, 500, [&](int thread, Range range) {
       std::vector<CellBox> own;
       std::vector<int> near;
@@ -126,6 +166,7 @@ std::vector<CellPair> near_pairs(const Model& model, const State& state, const s
         const float* p = &state.listed[searched_width * i];
         const Vec3 centre = model.bodies[i].centroid + Vec3(p[0], p[1], p[2]);
         const double radius = 1.000001 * model.bodies[i].radius, reach = radius + distance;
+        if (radius <= usual && !mask.may_meet(centre)) continue;
         own.clear();
         index.near({centre.array() - radius, centre.array() + radius}, near);
         for (const int k : near) {

@@ -31,7 +31,7 @@ class PlacedCells {
   }
   void place(int threads) {
     cells_.resize(which_.size());
-    for_each(which_.size(), threads, 200,
+    for_each(which_.size(), threads, 20,
              [&](std::size_t i) { cells_[i] = placed_cell(model_, state_, which_[i].first, which_[i].second); });
   }
   const Convex& of(std::int32_t body, std::int32_t cell) const {
