@@ -18,11 +18,21 @@ double size_of(const Assembly& assembly, const Block& block) {
   return std::cbrt(block.mass / assembly.materials.at(std::size_t(block.material)).density);
 }
 
+/// How thick the slabs of the blocks' order are, m. In thick ones fewer bodies are shared by two threads; but tiles
+/// that go ahead of each other need a slab in a cache for each step, so where many blocks stand side by side they are
+/// thinner.
+double slab_thickness(const std::vector<Vec3>& centroids, double block_size) {
+  constexpr double thinnest = 1.4, thickest = 3.0;  // of a typical block's size
+  constexpr double most = 640;                      // blocks in a slab; eight steps of them are some 6 MB
+  const Box box = bounding_box(centroids);
+  const double length_of_most = most / double(centroids.size()) * (box.high - box.low).maxCoeff();
+  return std::clamp(length_of_most, thinnest * block_size, thickest * block_size);
+}
+
 /// Along a space-filling curve, slab by slab: neighbours are near each other in the order. So tiles can go ahead of
 /// each other, several steps in one sweep, where what a step reads does not fit in a cache, and few bodies are shared
 /// by two threads.
 std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
-  constexpr double slab = 3.0;  // of a typical block's size
   std::vector<Vec3> centroids;
   std::vector<double> sizes;
   for (const Block& block : assembly.blocks) {
@@ -32,7 +42,7 @@ std::vector<std::int64_t> order_of_blocks(const Assembly& assembly) {
   if (sizes.empty()) return {};  // a fill alone
   const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  const std::vector<std::int32_t> order = in_slabs(centroids, slab * *middle);
+  const std::vector<std::int32_t> order = in_slabs(centroids, slab_thickness(centroids, *middle));
   return {order.begin(), order.end()};
 }
 
