@@ -124,7 +124,7 @@ class NearMask {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  static constexpr std::size_t places = 1 << 14;  // cells share them: that makes a few more to be looked at
+  static constexpr std::size_t places = 1 << 14;  // shared by cells (hash of Teschner et al. 2003)
   Cell cell_of(const Vec3& x) const {
     Cell cell;
     for (int c = 0; c < 3; ++c) cell[std::size_t(c)] = std::int64_t(std::floor(x[c] / width_));
