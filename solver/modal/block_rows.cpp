@@ -60,9 +60,15 @@ void RowSum::clear() {
 }
 
 BlockRows rows_of(const BlockMatrix& k) {
+  // Beside what is held there is nothing: were it taken for something, the ground would couple all that stands on it.
+  const auto each = [&](const auto& use) {
+    k.for_each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
+      if (i == j || !block.isZero(0.0)) use(i, j, block);
+    });
+  };
   BlockRows rows;
   rows.first.assign(k.sites() + 1, 0);
-  k.for_each([&](std::int32_t i, std::int32_t j, const Matrix6&) {
+  each([&](std::int32_t i, std::int32_t j, const Matrix6&) {
     ++rows.first[std::size_t(i) + 1];
     if (i != j) ++rows.first[std::size_t(j) + 1];
   });
@@ -70,7 +76,7 @@ BlockRows rows_of(const BlockMatrix& k) {
   rows.column.resize(std::size_t(rows.first.back())), rows.block.resize(rows.column.size());
   Array<std::int32_t> next(rows.first.begin(), rows.first.end() - 1);
   // A row has what comes of the columns before its own first: so its columns ascend.
-  k.for_each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
+  each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
     const auto at = std::size_t(next[std::size_t(i)]++);
     rows.column[at] = j, rows.block[at] = block;
     if (i == j) return;

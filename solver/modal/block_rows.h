@@ -32,7 +32,7 @@ class RowSum {
   std::vector<Matrix6> block_;
 };
 
-/// All of a matrix of which `k` has one block for each pair of sites.
+/// All of a matrix of which `k` has one block for each pair of sites, less blocks of nothing but zeros.
 BlockRows rows_of(const BlockMatrix& k);
 /// Pᵀ A P of a symmetric A; P has so many columns.
 BlockRows coarse_rows(const BlockRows& a, const BlockRows& p, std::size_t columns);

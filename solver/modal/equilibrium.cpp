@@ -76,7 +76,7 @@ BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns, PatchTangent 
 }
 
 /// The inverse of a tangent: by multigrid in a large assembly of blocks alone, while that finds what is asked for, else
-/// by a factor.
+/// by a factor if that does not take longer than a thousand steps of relaxation would (some 0.2 ms a body).
 class TangentInverse {
  public:
   TangentInverse(const Model& model, const Unknowns& unknowns) : model_(model), unknowns_(unknowns) {}
@@ -96,7 +96,7 @@ class TangentInverse {
         multigrid_ = {};
       }
     }
-    return by_cycles_ || factor_.compute(k_.over(unknowns_));
+    return by_cycles_ || compute_factor();
   }
   /// K⁻¹ b, with an error of `tolerance` |b| in K x; exact where by a factor.
   std::optional<Eigen::VectorXd> times(const Eigen::VectorXd& b, double tolerance) {
@@ -104,18 +104,29 @@ class TangentInverse {
     if (by_cycles_) {
       if (auto x = multigrid_.solve(k_, unknowns_, b, tolerance, most_iterations)) return x;
       by_cycles_ = false;
-      if (!factor_.compute(k_.over(unknowns_))) return {};
+      if (!compute_factor()) return {};
     }
     return factor_.solve(b);
   }
   const Factor& factor() const { return factor_; }
+  /// What stood in the way of a factor, or nothing.
+  const std::string& remark() const { return remark_; }
 
  private:
+  bool compute_factor() {
+    const double most = model_.fill.empty() ? 5e6 * double(model_.bodies.size()) : 1e300;
+    if (factor_.compute(k_.over(unknowns_), most)) return true;
+    if (factor_.operations() > most)
+      remark_ = fmt::format(" (conjugate gradients did not converge, and a factor would take {:.1e} operations)",
+                            factor_.operations());
+    return false;
+  }
   const Model& model_;
   const Unknowns& unknowns_;
   BlockMatrix k_{0, {}};
   Multigrid multigrid_;
   Factor factor_;
+  std::string remark_;
   bool by_cycles_ = false;
 };
 
@@ -274,8 +285,9 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   }
   stop_motion(state);
   result.account =
-      fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
-                  result.converged ? "converged" : "did not converge", result.iterations, result.residual);
+      fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight{}",
+                  result.converged ? "converged" : "did not converge", result.iterations, result.residual,
+                  result.converged ? "" : inverse.remark());
   return result;
 }
 

@@ -45,7 +45,7 @@ Factor::Factor() {
   cholesky_.cholmod().print = 0;
 }
 
-bool Factor::compute(const SparseMatrix& a) {
+bool Factor::compute(const SparseMatrix& a, double most_operations) {
   const Turn turn;
   const auto same = [](const std::vector<int>& known, const int* begin, Eigen::Index n) {
     return known.size() == std::size_t(n) && std::equal(known.begin(), known.end(), begin);
@@ -59,6 +59,7 @@ bool Factor::compute(const SparseMatrix& a) {
     outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1);
     inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   }
+  if (operations() > most_operations) return false;
   cholesky_.factorize(a);
   return !lacked_memory() && cholesky_.info() == Eigen::Success;
 }

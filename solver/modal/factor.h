@@ -11,11 +11,13 @@ namespace voussoir {
 class Factor {
  public:
   Factor();
-  /// `a` holds its lower triangle. False when it is not positive definite, or memory runs out.
-  bool compute(const SparseMatrix& a);
+  /// `a` holds its lower triangle. False when it is not positive definite, memory runs out, or it would take more than
+  /// so many operations, of which a core has some 25e9 a second.
+  bool compute(const SparseMatrix& a, double most_operations = 1e300);
   bool lacked_memory();
   /// a⁻¹ x, of as many columns as x has.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const;
+  double operations() { return cholesky_.cholmod().fl; }  // known as soon as the pattern is analysed
   double entries() { return cholesky_.cholmod().lnz; }
   double bytes() { return double(cholesky_.cholmod().memory_usage); }
 

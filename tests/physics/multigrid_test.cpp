@@ -80,6 +80,18 @@ TEST(Multigrid, HoldsWhereJointsAreGone) {
   expect_factors_solution(k, number_unknowns(bench.model), bench.model, 100);
 }
 
+/// Of a fine bridge it takes minutes and more memory than there is, where relaxation takes one.
+TEST(Factor, IsNotBegunWhereItWouldTakeTooLong) {
+  const Bench bench(wall(10, 10), undamped({0, 0, -g}));
+  const SparseMatrix k =
+      assemble_stiffness(bench.model, bench.state, number_unknowns(bench.model), PatchTangent::intact);
+  Factor factor;
+  EXPECT_FALSE(factor.compute(k, 1e3));
+  EXPECT_FALSE(factor.lacked_memory());
+  EXPECT_GT(factor.operations(), 1e3);
+  EXPECT_TRUE(factor.compute(k, factor.operations()));
+}
+
 int iterations_of(int side) {
   const Bench bench(wall(side, side), undamped({0, 0, -g}));
   const Unknowns unknowns = number_unknowns(bench.model);

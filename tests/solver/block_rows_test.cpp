@@ -56,6 +56,20 @@ TEST(BlockRows, HaveBothOfEachPair) {
   EXPECT_EQ(rows.block.size(), 5u + 2 * 4u);
 }
 
+/// Or the ground, which a wide base stands on, would couple all coarse sites along it with each other.
+TEST(BlockRows, HaveNothingBesideWhatIsHeld) {
+  BlockMatrix k = symmetric_blocks();
+  Unknowns unknowns;
+  for (std::int32_t site = 0; site < 5; ++site)
+    unknowns.of.push_back(site == 2 ? std::array<std::int32_t, 6>{-1, -1, -1, -1, -1, -1}
+                                    : std::array<std::int32_t, 6>{0, 1, 2, 3, 4, 5});
+  k.hold(unknowns);
+  const BlockRows rows = rows_of(k);
+  EXPECT_EQ(rows.block.size(), 5u + 2 * 2u);
+  EXPECT_EQ(rows.first[3] - rows.first[2], 1);
+  EXPECT_EQ(rows.block[std::size_t(rows.first[2])], Matrix6(Matrix6::Identity()));
+}
+
 TEST(BlockRows, CoarseOnesAreTheProduct) {
   const BlockRows a = rows_of(symmetric_blocks()), p = prolongation(), coarse = coarse_rows(a, p, 3);
   expect_columns_ascend(coarse);
