@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 namespace voussoir {
 namespace {
@@ -250,7 +249,9 @@ Convex make_convex(const Polyhedron& shape) {
   Convex out;
   out.vertices = shape.vertices;
   out.faces = shape.faces;
-  std::set<std::pair<int, int>> edges;
+  out.planes.reserve(shape.faces.size());
+  std::vector<std::pair<int, int>> sides;  // of all faces: each edge twice
+  sides.reserve(4 * shape.faces.size());
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     Plane plane = face_plane(shape, static_cast<int>(f));
     // A support plane even where a sliver of a face has a poor normal; a plane inside the body would tell of a
@@ -258,9 +259,11 @@ Convex make_convex(const Polyhedron& shape) {
     if (plane.normal.squaredNorm() > 0.5) plane.offset = extent(shape.vertices, plane.normal).high;
     out.planes.push_back(plane);
     const auto& face = shape.faces[f];
-    for (std::size_t i = 0; i < face.size(); ++i) edges.insert(std::minmax({face[i], face[(i + 1) % face.size()]}));
+    for (std::size_t i = 0; i < face.size(); ++i) sides.push_back(std::minmax({face[i], face[(i + 1) % face.size()]}));
   }
-  out.edges.assign(edges.begin(), edges.end());
+  std::sort(sides.begin(), sides.end());
+  out.edges.assign(sides.begin(), std::unique(sides.begin(), sides.end()));
+  out.directions.reserve(3);  // of a cuboid
   for (const auto& [i, j] : out.edges) {
     const Vec3 edge = shape.vertices[j] - shape.vertices[i];
     if (edge.norm() < k_tie) continue;

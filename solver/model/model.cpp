@@ -66,7 +66,7 @@ void add_bodies(const Assembly& assembly, Model& model) {
     for (const Polyhedron& cell : block.cells)
       for (const Vec3& v : cell.vertices) body.radius = std::max(body.radius, (v - block.centroid).norm());
     model.bodies.push_back(body);
-    model.cells.emplace_back();
+    model.cells.emplace_back().reserve(block.cells.size());
     for (const Polyhedron& cell : block.cells) {
       model.cells.back().push_back(make_convex(cell));
       for (const Vec3& v : cell.vertices) bottom = std::min(bottom, v.dot(model.up));
@@ -179,7 +179,8 @@ std::int32_t bodies_of_tile(std::size_t bodies) {
   return bodies >= 1024 ? 128 : 64;
 }
 
-/// The assembly's joints in the order of their batches; returns their shapes in the same.
+/// The assembly's joints in the order of their batches; returns their shapes in the same, without corners, which the
+/// model has by then, and rectangles without points: memory for each by itself takes longer than the rest of the shape.
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   // Tile, shape, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
   // in batches of their own those that go point by point hold up fewer of the others.
@@ -188,22 +189,29 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   std::vector<Key> order;
   std::vector<PatchShape> shapes;
   order.reserve(assembly.joints.size()), shapes.reserve(assembly.joints.size());
-  std::size_t corners = 0;
+  std::vector<PatchPoint> corners;  // of all joints as they come
+  std::vector<std::size_t> first_corner;
+  corners.reserve(4 * assembly.joints.size()), first_corner.reserve(assembly.joints.size() + 1);
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const Joint& joint = assembly.joints[i];
     shapes.push_back(joint_shape(joint, i, model));
-    corners += shapes.back().corners.size();
-    const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
+    first_corner.push_back(corners.size());
+    corners.insert(corners.end(), shapes[i].corners.begin(), shapes[i].corners.end());
     const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
+    shapes[i].corners = {};
+    if (shapes[i].rectangle) shapes[i].points = {};
+    const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
     order.emplace_back(model.tile_of_joint(a, b), shape, joint.law, facing, std::min(a, b), std::max(a, b),
                        joint.cell_a, joint.cell_b, std::int64_t(i));
   }
+  first_corner.push_back(corners.size());
   sort_by_place(order, model.bodies.size() / std::size_t(model.tile_bodies) + 1,
                 [](const Key& key) { return std::get<0>(key); });
   model.joint_places.resize(order.size());
-  model.joints.reserve(order.size()), model.joint_of_patch.reserve(order.size()), model.corners.reserve(2 * corners);
+  model.joints.reserve(order.size()), model.joint_of_patch.reserve(order.size()),
+      model.corners.reserve(2 * corners.size());
   std::vector<PatchShape> in_order;
   in_order.reserve(shapes.size());
   for (const Key& key : order) {
@@ -213,8 +221,9 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
     const PatchShape& shape = in_order.emplace_back(std::move(shapes[index]));
     Patch patch = joint_patch(assembly, assembly.joints[index], shape, model);
     patch.first_corner = std::int32_t(model.corners.size() / 2);
-    patch.corner_count = std::int32_t(shape.corners.size());
-    for (const PatchPoint& c : shape.corners) model.corners.insert(model.corners.end(), {c.s, c.t});
+    patch.corner_count = std::int32_t(first_corner[index + 1] - first_corner[index]);
+    for (std::size_t c = first_corner[index]; c < first_corner[index + 1]; ++c)
+      model.corners.insert(model.corners.end(), {corners[c].s, corners[c].t});
     model.joints.push_back(patch);
     model.joint_of_patch.push_back(std::int64_t(index));
   }
@@ -265,18 +274,27 @@ bool touches_still(const Model& model, const JointBatch& batch) {
 
 namespace {
 
+std::vector<PatchPoint> points_of(const PatchShape& shape, const Model& model) {
+  return shape.rectangle ? rectangle_points(shape, model.contact.points_per_side) : shape.points;
+}
+
+std::size_t point_count(const PatchShape& shape, const Model& model) {
+  const auto per_side = std::size_t(model.contact.points_per_side);
+  return shape.rectangle ? per_side * per_side : shape.points.size();
+}
+
 /// Points of a batch's joints side by side; missing points and lanes repeat the last with no weight.
 void add_points(Model& model, JointBatch& batch, const std::vector<PatchShape>& shapes) {
   const std::int32_t first = batch.first_joint;
   const auto shape_of = [&](std::int32_t joint) -> const PatchShape& { return shapes[std::size_t(joint)]; };
   std::size_t most = 0;
-  for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, shape_of(first + lane).points.size());
+  for (int lane = 0; lane < batch.count; ++lane) most = std::max(most, point_count(shape_of(first + lane), model));
   batch.first_point = std::int32_t(model.point_rows);
   batch.points = std::int32_t(most);
   model.point_rows += most;
   model.points.resize(3 * lane_count * model.point_rows);
   for (int lane = 0; lane < lane_count; ++lane) {
-    const std::vector<PatchPoint>& points = shape_of(first + std::min(lane, batch.count - 1)).points;
+    const std::vector<PatchPoint> points = points_of(shape_of(first + std::min(lane, batch.count - 1)), model);
     Patch place;
     place.first_point = batch.first_point, place.stride = lane_count, place.lane = lane;
     for (int i = 0; i < batch.points; ++i) {
@@ -313,7 +331,7 @@ void make_room(Model& model, const std::vector<PatchShape>& shapes) {
   for (std::size_t first = 0, i = 0; i < model.joints.size(); first = i) {
     std::size_t points = 0, most_corners = std::size_t(JointBatch{}.corners);
     for (; i < model.joints.size() && i < first + lane_count && tile_of(i) == tile_of(first); ++i) {
-      points = std::max(points, shapes[i].points.size());
+      points = std::max(points, point_count(shapes[i], model));
       most_corners = std::max(most_corners, std::size_t(model.joints[i].corner_count));
     }
     ++batches, rows += points, corners += most_corners;
@@ -369,17 +387,29 @@ void place_sums(JointBatch& batch, const Tile& tile, const std::vector<std::int3
   }
 }
 
+/// Where each body's sums are.
+void list_sums(const std::vector<std::int32_t>& body_of_sum, Model& model) {
+  model.first_sum.assign(model.bodies.size() + 1, 0);
+  for (const std::int32_t body : body_of_sum) ++model.first_sum[std::size_t(body) + 1];
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) model.first_sum[i + 1] += model.first_sum[i];
+  model.sums.resize(body_of_sum.size());
+  auto next = model.first_sum;
+  for (std::size_t sum = 0; sum < body_of_sum.size(); ++sum)
+    model.sums[std::size_t(next[std::size_t(body_of_sum[sum])]++)] = std::int32_t(sum);
+}
+
 /// Tiles with their batches and sums; the joints are sorted by tile.
 void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
   const auto bodies = std::int32_t(model.bodies.size()), joints = std::int32_t(model.joints.size());
   make_room(model, shapes);
-  std::vector<std::vector<std::int32_t>> sums_of(model.bodies.size());
-  std::int32_t joint = 0, sum = 0;
+  std::vector<std::int32_t> body_of_sum;
+  body_of_sum.reserve(2 * model.bodies.size());
+  std::int32_t joint = 0;
   for (std::int32_t first_body = 0; first_body < bodies; first_body += model.tile_bodies) {
     Tile tile;
     tile.first_body = first_body;
     tile.end_body = std::min(bodies, first_body + model.tile_bodies);
-    tile.first_sum = sum;
+    tile.first_sum = std::int32_t(body_of_sum.size());
     tile.first_joint = joint;
     while (joint < joints &&
            model.tile_of_joint(model.joints[std::size_t(joint)].a, model.joints[std::size_t(joint)].b) ==
@@ -387,7 +417,7 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
       ++joint;
     tile.end_joint = joint;
     const std::vector<std::int32_t> beyond = bodies_beyond(model, tile);
-    tile.end_sum = sum + tile.end_body - first_body + std::int32_t(beyond.size());
+    tile.end_sum = tile.first_sum + tile.end_body - first_body + std::int32_t(beyond.size());
     tile.first_batch = std::int32_t(model.batches.size());
     for (std::int32_t i = tile.first_joint; i < joint; i += lane_count) add_batch(model, i, joint, shapes);
     tile.end_batch = std::int32_t(model.batches.size());
@@ -395,8 +425,8 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
       place_sums(model.batches[std::size_t(k)], tile, beyond);
     const auto add_sum = [&](std::int32_t body) {
       const std::int32_t which = model.still_of[std::size_t(body)];
-      if (which >= 0) tile.still_sums.push_back({which, sum});
-      sums_of[std::size_t(body)].push_back(sum++);
+      if (which >= 0) tile.still_sums.push_back({which, std::int32_t(body_of_sum.size())});
+      body_of_sum.push_back(body);
       return which < 0;
     };
     for (std::int32_t body = first_body; body < tile.end_body; ++body) add_sum(body);
@@ -409,12 +439,7 @@ void make_tiles(Model& model, const std::vector<PatchShape>& shapes) {
               [](const Tile::StillSum& a, const Tile::StillSum& b) { return a.which < b.which; });
     model.tiles.push_back(std::move(tile));
   }
-  model.first_sum.reserve(model.bodies.size() + 1), model.sums.reserve(std::size_t(sum));
-  for (const std::vector<std::int32_t>& places : sums_of) {
-    model.first_sum.push_back(std::int32_t(model.sums.size()));
-    model.sums.insert(model.sums.end(), places.begin(), places.end());
-  }
-  model.first_sum.push_back(std::int32_t(model.sums.size()));
+  list_sums(body_of_sum, model);
 }
 
 /// One unbonded, frictional law for each coefficient among the materials; a new contact takes the lower of its two

@@ -17,6 +17,7 @@ std::vector<PatchPoint> tensor_rule(const std::vector<Vec2>& p, int per_side) {
   const LineRule rule = lobatto_rule(per_side);
   const Vec2 e = p[1] - p[0], f = p[3] - p[0], twist = p[0] - p[1] + p[2] - p[3];
   std::vector<PatchPoint> points;
+  points.reserve(std::size_t(per_side * per_side));
   for (int i = 0; i < per_side; ++i)
     for (int j = 0; j < per_side; ++j) {
       const double x = 0.5 + 0.5 * rule.x[i], y = 0.5 + 0.5 * rule.x[j];
@@ -24,15 +25,6 @@ std::vector<PatchPoint> tensor_rule(const std::vector<Vec2>& p, int per_side) {
       const Vec2 dx = e + y * twist, dy = f + x * twist;
       points.push_back({at.x(), at.y(), rule.w[i] * rule.w[j] * (dx.x() * dy.y() - dx.y() * dy.x())});
     }
-  return points;
-}
-
-/// The same on the rectangle (±a, ±b).
-std::vector<PatchPoint> rectangle_rule(double a, double b, double area, int per_side) {
-  const LineRule rule = lobatto_rule(per_side);
-  std::vector<PatchPoint> points;
-  for (int i = 0; i < per_side; ++i)
-    for (int j = 0; j < per_side; ++j) points.push_back({a * rule.x[i], b * rule.x[j], rule.w[i] * rule.w[j] * area});
   return points;
 }
 
@@ -87,6 +79,17 @@ LineRule lobatto_rule(int n) {
   throw InputError("points_per_side is {}; it must be 3, 4 or 5", n);
 }
 
+std::vector<PatchPoint> rectangle_points(const PatchShape& rectangle, int per_side) {
+  const LineRule rule = lobatto_rule(per_side);
+  std::vector<PatchPoint> points;
+  points.reserve(std::size_t(per_side * per_side));
+  for (int i = 0; i < per_side; ++i)
+    for (int j = 0; j < per_side; ++j)
+      points.push_back(
+          {rectangle.half_s * rule.x[i], rectangle.half_t * rule.x[j], rule.w[i] * rule.w[j] * rectangle.area});
+  return points;
+}
+
 std::vector<PatchPoint> moment_points(const PatchShape& shape) {
   const double s = std::sqrt(shape.ss / shape.area), t = std::sqrt(shape.tt / shape.area), w = 0.25 * shape.area;
   return {{s, t, w}, {-s, t, w}, {-s, -t, w}, {s, -t, w}};
@@ -105,6 +108,7 @@ PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side)
   const Vec3 s0 = (longest - normal * normal.dot(longest)).normalized();
   const Vec3 t0 = normal.cross(s0);
   std::vector<Vec2> p;
+  p.reserve(polygon.size()), shape.corners.reserve(polygon.size());
   for (const Vec3& v : polygon) p.emplace_back(s0.dot(v - mean), t0.dot(v - mean));
   const Moments about_mean = moments(p);
   shape.area = about_mean.area;
@@ -132,7 +136,7 @@ PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side)
     return std::abs(v.x()) > shape.half_s - slack && std::abs(v.y()) > shape.half_t - slack;
   };
   shape.rectangle = p.size() == 4 && std::all_of(p.begin(), p.end(), fills);
-  shape.points = shape.rectangle ? rectangle_rule(shape.half_s, shape.half_t, shape.area, per_side)
+  shape.points = shape.rectangle ? rectangle_points(shape, per_side)
                  : p.size() == 4 ? tensor_rule(p, per_side)
                                  : fan_rule(p);
   return shape;
