@@ -198,8 +198,9 @@ std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
     first_corner.push_back(corners.size());
     corners.insert(corners.end(), shapes[i].corners.begin(), shapes[i].corners.end());
     const std::int32_t shape = shapes[i].rectangle ? 0 : std::int32_t(shapes[i].corners.size());
-    shapes[i].corners = {};
-    if (shapes[i].rectangle) shapes[i].points = {};
+    using Points = std::vector<PatchPoint>;  // = {} would keep their memory
+    shapes[i].corners = Points();
+    if (shapes[i].rectangle) shapes[i].points = Points();
     const std::int32_t a = model.body_of_block[joint.a], b = model.body_of_block[joint.b];
     int facing = 2;
     joint.normal.cwiseAbs().maxCoeff(&facing);
