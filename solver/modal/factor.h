@@ -12,7 +12,7 @@ class Factor {
  public:
   Factor();
   /// `a` holds its lower triangle. False when it is not positive definite, memory runs out, or it would take more than
-  /// so many operations, of which a core has some 25e9 a second.
+  /// so many operations, of which a core did 13e9 to 27e9 a second (docs/theory/equilibrium.md).
   bool compute(const SparseMatrix& a, double most_operations = 1e300);
   bool lacked_memory();
   /// a⁻¹ x, of as many columns as x has.

@@ -36,7 +36,7 @@ struct PatchShape {
 /// with `per_side` = 3, 4 or 5 points a side, every other polygon with m sides the fan rule of 2 m + 1 points.
 PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side);
 
-/// The rule's points on a rectangle, as patch_shape() has them: the points of nine joints in ten need not be kept.
+/// The rule's points on a rectangle, as patch_shape() has them: so they need not be kept.
 std::vector<PatchPoint> rectangle_points(const PatchShape& rectangle, int per_side);
 
 /// Four points of equal weight at (±√(∫s²/A), ±√(∫t²/A)): exact for quadratics on any polygon, because it has the area,

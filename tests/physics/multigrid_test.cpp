@@ -80,7 +80,7 @@ TEST(Multigrid, HoldsWhereJointsAreGone) {
   expect_factors_solution(k, number_unknowns(bench.model), bench.model, 100);
 }
 
-/// Of a fine bridge it takes minutes and more memory than there is, where relaxation takes one.
+/// Of a fine bridge it takes longer than relaxation, and gigabytes.
 TEST(Factor, IsNotBegunWhereItWouldTakeTooLong) {
   const Bench bench(wall(10, 10), undamped({0, 0, -g}));
   const SparseMatrix k =
