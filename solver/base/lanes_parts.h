@@ -9,6 +9,7 @@
 namespace voussoir {
 
 #if defined(__AVX2__)
+#define VOUSSOIR_REGISTERS_OF_FOUR
 constexpr int register_lanes = 4;
 #else
 constexpr int register_lanes = 2;

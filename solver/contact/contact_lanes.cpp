@@ -95,9 +95,10 @@ struct ContactPass {
                                             TileEnergy* energy) {
     const LaneStrength strength = unbonded();
     const PointRows rows(pass.model->rule, pass.state->contact_points, batch.patch);
-    PointsPass<count, true> all(batch.patch, strength, RigidField(gaps), pass.branches, active, leaving,
-                                RigidField(change), energy != nullptr, memory);
-    LanePoints found = all.run(rows);
+    const RigidField<Lanes> now = rigid_field(gaps), since = rigid_field(change);
+    const PointsTask<count, RigidField<Lanes>> task = {batch.patch, strength, pass.branches,     now,   since,
+                                                       active,      leaving,  energy != nullptr, memory};
+    LanePoints found = pass_points<true>(task, rows);
     found.opening = splat(0.0);  // the gap of a contact that was found apart is no opening: it keeps what it was handed
     note_points(found, active, k, memory);
     note_open(active & found.all_open & found.all_broken);

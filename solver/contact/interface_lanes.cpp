@@ -9,11 +9,19 @@ namespace {
 using Vector = Triple<Lanes>;
 
 /// What an affine jump displaces at a point of the patch.
+template <class L>
 struct AffineField {
-  Vector middle, along_s, along_t;
-  [[gnu::always_inline]] Vector at(Lanes s, Lanes t) const {
+  Triple<L> middle, along_s, along_t;
+  [[gnu::always_inline]] Triple<L> at(L s, L t) const {
     return {middle.x + s * along_s.x + t * along_t.x, middle.y + s * along_s.y + t * along_t.y,
             middle.z + s * along_s.z + t * along_t.z};
+  }
+  template <class Side>
+  [[gnu::always_inline]] AffineField<typename Side::Numbers> part() const {
+    const auto of = [](const Triple<L>& v) {
+      return Triple<typename Side::Numbers>{Side::of(v.x), Side::of(v.y), Side::of(v.z)};
+    };
+    return {of(middle), of(along_s), of(along_t)};
   }
 };
 
@@ -72,10 +80,12 @@ struct ShapeFunctions {
 struct MomentRows {
   const InterfaceBatch& batch;
   Lanes area() const { return batch.patch.area; }
-  [[gnu::always_inline]] void each(const AffineField& jump, const AffineField& change, const auto& visit) const {
+  template <class Side>
+  [[gnu::always_inline]] void each(const auto& jump, const auto& change, const auto& visit) const {
+    using L = typename Side::Numbers;
     for (int i = 0; i < batch.patch.points; ++i) {
-      const Lanes* p = batch.point[i % 2];
-      const RowPlace at = {i < 2 ? p[0] : -p[0], i < 2 ? p[1] : -p[1], splat(0.25)};
+      const L s = Side::of(batch.point[i % 2][0]), t = Side::of(batch.point[i % 2][1]);
+      const RowPlace<L> at = {i < 2 ? s : -s, i < 2 ? t : -t, Side::splat(0.25)};
       visit(i, at, jump.at(at.s, at.t), change.at(at.s, at.t));
     }
   }
@@ -129,8 +139,8 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
   }
   ahead.constants(0);
   const ShapeFunctions shape(b);
-  const AffineField jump = {shape.combine(moved, 0), shape.combine(moved, 1), shape.combine(moved, 2)};
-  AffineField change = jump;
+  const AffineField<Lanes> jump = {shape.combine(moved, 0), shape.combine(moved, 1), shape.combine(moved, 2)};
+  AffineField<Lanes> change = jump;
   auto* last = reinterpret_cast<Singles*>(&memory.last[9 * lane_count * k]);
   for (Vector* part : {&change.middle, &change.along_s, &change.along_t}) {
     Lanes* now = &part->x;
@@ -143,9 +153,10 @@ bool batch_of(const PatchPass& pass, std::size_t k, TileEnergy* energy) {
 
   ahead.constants(1);
   // 2. tractions
-  PointsPass<count, false, AffineField> points(b.patch, strengths(*pass.model, b.patch), jump, pass.branches, used,
-                                               LaneMask{}, change, energy != nullptr, memory);
-  const LanePoints found = points.run(MomentRows{b});
+  const LaneStrength law = strengths(*pass.model, b.patch);
+  const PointsTask<count, AffineField<Lanes>> task = {b.patch, law,        pass.branches,     jump,  change,
+                                                      used,    LaneMask{}, energy != nullptr, memory};
+  const LanePoints found = pass_points<false>(task, MomentRows{b});
   ahead.constants(2);
   note_points(found, used, k, memory);
   if (energy) {

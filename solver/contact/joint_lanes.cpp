@@ -439,9 +439,10 @@ struct BatchPass {
     PatchMemory& memory = pass.state->joint;
     ahead.notes(memory);
     const PointRows rows_of_points(pass.model->rule, pass.model->points, batch);
-    PointsPass<count, false> points(batch, strength, RigidField(jump), pass.branches, active, LaneMask{},
-                                    RigidField(change), pass.energies != nullptr, memory);
-    const LanePoints found = points.run(rows_of_points);
+    const RigidField<Lanes> now = rigid_field(jump), since = rigid_field(change);
+    const PointsTask<count, RigidField<Lanes>> task = {
+        batch, strength, pass.branches, now, since, active, LaneMask{}, pass.energies != nullptr, memory};
+    const LanePoints found = pass_points<false>(task, rows_of_points);
     note_points(found, active, k, memory);
     findings.elastic += select(active, found.elastic, splat(0.0));
     findings.stored += select(active, found.stored, splat(0.0));

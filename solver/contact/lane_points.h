@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "solver/base/lane_sides.h"
 #include "solver/contact/patch_kernel.h"
 #include "solver/contact/wrench.h"
 
@@ -78,18 +79,21 @@ struct LaneStrength {
 }
 
 /// What the point path found of its lanes.
-struct LanePoints {
-  Resultant<Lanes> resultant{};
-  Lanes friction{}, fracture{}, work{}, opening{}, slip2{}, elastic{}, stored{};
-  LaneMask all_open, all_broken;
+template <class L, class M>
+struct FoundPoints {
+  Resultant<L> resultant{};
+  L friction{}, fracture{}, work{}, opening{}, slip2{}, elastic{}, stored{};
+  M all_open, all_broken;
   bool yields = false;  // some point of some lane: without it there is no friction, fracture or new slip
 };
+using LanePoints = FoundPoints<Lanes, LaneMask>;
 
 constexpr int rows_ahead = 6;  // what is kept of a row is asked for so much earlier, see fetch()
 
 /// One point of eight patches, and its share of PointRows::area().
+template <class L>
 struct RowPlace {
-  Lanes s, t, weight;
+  L s, t, weight;
 };
 
 /// Points of a batch: from its rectangles, or from the table.
@@ -106,21 +110,22 @@ struct PointRows {
   Lanes area() const { return batch.rectangles ? batch.area : splat(1.0); }
 
   /// visit(row, place, jump there, its change)
-  template <class Field>
+  template <class Side, class Field>
   [[gnu::always_inline]] void each(const Field& jump, const Field& change, const auto& visit) const {
+    using L = typename Side::Numbers;
     if (batch.rectangles) {
       for (int i = 0, along = 0; along < rule.count; ++along) {
-        const Lanes s = rule.x[along] * batch.half_s;
+        const L s = rule.x[along] * Side::of(batch.half_s);
         const auto u = jump.line(s), du = change.line(s);
         for (int across = 0; across < rule.count; ++across, ++i) {
-          const Lanes t = rule.x[across] * batch.half_t;
-          visit(i, RowPlace{s, t, splat(rule.w[along] * rule.w[across])}, u.at(t), du.at(t));
+          const L t = rule.x[across] * Side::of(batch.half_t);
+          visit(i, RowPlace<L>{s, t, Side::splat(rule.w[along] * rule.w[across])}, u.at(t), du.at(t));
         }
       }
     } else {
       for (int i = 0; i < batch.points; ++i) {
         fetch(table + 3 * (i + rows_ahead), 3 * sizeof(Lanes));
-        const RowPlace at = {table[3 * i], table[3 * i + 1], table[3 * i + 2]};
+        const RowPlace<L> at = {Side::of(table[3 * i]), Side::of(table[3 * i + 1]), Side::of(table[3 * i + 2])};
         visit(i, at, jump.at(at.s, at.t), change.at(at.s, at.t));
       }
     }
@@ -129,29 +134,38 @@ struct PointRows {
 
 /// What brittle Mohr–Coulomb (BrittleLaw, solver/model/laws.h) asks of one point of eight patches before anything is
 /// changed.
+template <class L, class M>
 struct LaneTrial {
-  Triple<Lanes> u, du;  // jump, and its change since the pass before
-  Triple<Lanes> now;    // elastic jump of trial
-  Lanes plastic_n, plastic_s, plastic_t;
-  Lanes shear2, limit;  // m², m: square of its shear, and what of it friction holds
-  LaneMask was_broken, was_open, breaks, open, slides;
-  LaneMask yields;  // in these the state of the point changes: it slides, breaks, opens or closes
+  Triple<L> u, du;  // jump, and its change since the pass before
+  Triple<L> now;    // elastic jump of trial
+  L plastic_n, plastic_s, plastic_t;
+  L shear2, limit;  // m², m: square of its shear, and what of it friction holds
+  M was_broken, was_open, breaks, open, slides;
+  M yields;  // in these the state of the point changes: it slides, breaks, opens or closes
 };
 
 /// How eight rigid patches move over their planes: what they displace at a point of them, gaps included.
+template <class L>
 struct RigidField {
-  Lanes n, s, t, rn, rs, rt;
-  explicit RigidField(const Jump<Lanes>& j) : n(j.n), s(j.s), t(j.t), rn(j.rn), rs(j.rs), rt(j.rt) {}
-  explicit RigidField(const Lanes* change)
-      : n(change[0]), s(change[1]), t(change[2]), rn(change[3]), rs(change[4]), rt(change[5]) {}
-  [[gnu::always_inline]] Triple<Lanes> at(Lanes x, Lanes y) const { return line(x).at(y); }
+  L n, s, t, rn, rs, rt;
+  [[gnu::always_inline]] Triple<L> at(L x, L y) const { return line(x).at(y); }
 
   struct Line {
-    Lanes n, s, t, rn, rs;
-    [[gnu::always_inline]] Triple<Lanes> at(Lanes y) const { return {n + rs * y, s - rn * y, t}; }
+    L n, s, t, rn, rs;
+    [[gnu::always_inline]] Triple<L> at(L y) const { return {n + rs * y, s - rn * y, t}; }
   };
-  [[gnu::always_inline]] Line line(Lanes x) const { return {n - rt * x, s, t + rn * x, rn, rs}; }
+  [[gnu::always_inline]] Line line(L x) const { return {n - rt * x, s, t + rn * x, rn, rs}; }
+  template <class Side>
+  [[gnu::always_inline]] RigidField<typename Side::Numbers> part() const {
+    return {Side::of(n), Side::of(s), Side::of(t), Side::of(rn), Side::of(rs), Side::of(rt)};
+  }
 };
+[[gnu::always_inline]] inline RigidField<Lanes> rigid_field(const Jump<Lanes>& j) {
+  return {j.n, j.s, j.t, j.rn, j.rs, j.rt};
+}
+[[gnu::always_inline]] inline RigidField<Lanes> rigid_field(const Lanes* c) {
+  return {c[0], c[1], c[2], c[3], c[4], c[5]};
+}
 
 /// Several branches are a correction of some per cent: in single precision, as they are kept. They lose 1 − e of
 /// themselves, because e itself, near one, would be rounded to another relaxation time.
@@ -161,73 +175,106 @@ struct SingleBranches {
   explicit SingleBranches(const Branches& of) {
     for (int k = 0; k < count; ++k) fade[k] = singles(1.0 - of.e[k]), gain[k] = singles(of.g[k]);
   }
-  [[gnu::always_inline]] Singles next(int k, Singles then, Singles step) const {
-    return then + (gain[k] * step - fade[k] * then);
+  template <class Side = WholeSide>
+  [[gnu::always_inline]] auto next(int k, typename Side::Floats then, typename Side::Floats step) const {
+    return typename Side::Floats(then + (Side::of(gain[k]) * step - Side::of(fade[k]) * then));
   }
 };
 
-/// The points of eight patches whose jump is `jump`, and has changed by `change` since the pass before: any field that
-/// is affine over the patch. Most points stay as they were, closed and elastic or open: only a row in which some lane
-/// does not asks for more. `contacts`: lanes may be `following`, which were wholly open in the pass before: their
-/// plastic slip was the jump.
-template <int count, bool contacts, class Field = RigidField>
-struct PointsPass {
+/// What a pass over the points of eight patches is asked: their jump is `jump`, and has changed by `change` since the
+/// pass before, any fields that are affine over the patch. Lanes may be `following`, which were wholly open in the pass
+/// before: their plastic slip was the jump.
+template <int count, class Field>
+struct PointsTask {
+  const PatchBatch& batch;
+  const LaneStrength& law;
   const Branches& branches;
-  LaneStrength law;
+  const Field &jump, &change;
+  LaneMask active, following;
+  bool energies;
+  PatchMemory& memory;
+  bool dilates = any(less(splat(0.0), law.dilation));
+  SingleBranches<count> several{branches};
+
+  Lanes* plastic() const { return reinterpret_cast<Lanes*>(memory.point.data()) + 2 * first(); }
+  Lanes* rest() const { return reinterpret_cast<Lanes*>(memory.point_rest.data()) + 2 * first(); }
+  Singles* kept() const { return reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * first(); }
+  std::uint8_t* broken() const { return &memory.broken[lane_count * first()]; }
+  std::size_t first() const { return std::size_t(batch.first_point); }
+};
+
+/// Rows of lanes, of which a side is taken.
+template <class Side, class Row>
+struct SideRows {
+  Row* all;
+  [[gnu::always_inline]] auto& operator[](int i) const { return Side::of(all[i]); }
+};
+
+/// One side of the lanes of such a task, point by point. Most points stay as they were, closed and elastic or open:
+/// only a row in which some lane does not asks for more. `contacts`: lanes may be following.
+template <class Side, int count, bool contacts, class Field>
+struct PointsPass {
+  using Lanes = typename Side::Numbers;
+  using Singles = typename Side::Floats;
+  using LaneMask = typename Side::Mask;
+  using Place = RowPlace<Lanes>;
+  using Trial = LaneTrial<Lanes, LaneMask>;
+  using Found = FoundPoints<Lanes, LaneMask>;
+
+  const Branches& branches;
+  const SingleBranches<count>& several;
   Field jump, change;
   LaneMask active, following;
   bool energies, dilates;
   Lanes kn, ks;
   Lanes opens, bond, bond_slope, grip, grip_slope;  // of the law, as jumps: see set_limits()
-  Lanes ease;                                       // slip for each metre of shear beyond its limit
-  Lanes *plastic, *rest;
-  Singles* kept;
+  Lanes dilation, ease;                             // the latter: slip for each metre of shear beyond its limit
+  SideRows<Side, voussoir::Lanes> plastic, rest;
+  SideRows<Side, voussoir::Singles> kept;
   std::uint8_t* broken;
-  SingleBranches<count> several;
 
-  [[gnu::always_inline]] PointsPass(const PatchBatch& b, const LaneStrength& strength, const Field& now,
-                                    const Branches& of, LaneMask which, LaneMask follow, const Field& since,
-                                    bool with_energies, PatchMemory& memory)
-      : branches(of),
-        law(strength),
-        jump(now),
-        change(since),
-        active(which),
-        following(follow),
-        energies(with_energies),
-        dilates(any(less(splat(0.0), strength.dilation))),
-        kn(b.kn),
-        ks(b.ks),
-        plastic(reinterpret_cast<Lanes*>(memory.point.data()) + 2 * std::size_t(b.first_point)),
-        rest(reinterpret_cast<Lanes*>(memory.point_rest.data()) + 2 * std::size_t(b.first_point)),
-        kept(reinterpret_cast<Singles*>(memory.point_branch.data()) + 3 * count * std::size_t(b.first_point)),
-        broken(&memory.broken[lane_count * std::size_t(b.first_point)]),
-        several(of) {
-    set_limits();
+  [[gnu::always_inline]] explicit PointsPass(const auto& task)
+      : branches(task.branches),
+        several(task.several),
+        jump(task.jump.template part<Side>()),
+        change(task.change.template part<Side>()),
+        active(Side::of(task.active)),
+        following(Side::of(task.following)),
+        energies(task.energies),
+        dilates(task.dilates),
+        kn(Side::of(task.batch.kn)),
+        ks(Side::of(task.batch.ks)),
+        dilation(Side::of(task.law.dilation)),
+        plastic{task.plastic()},
+        rest{task.rest()},
+        kept{task.kept()},
+        broken(task.broken() + Side::first_lane) {
+    set_limits(task.law);
   }
 
-  [[gnu::always_inline]] LanePoints run(const auto& rows) const {
+  [[gnu::always_inline]] Found run(const auto& rows) const {
     Sums sum;
     sum.all_open = sum.all_broken = active;
-    rows.each(
+    rows.template each<Side>(
         jump, change,
-        [&](int i, const RowPlace& at, const Triple<Lanes>& u, const Triple<Lanes>& du) __attribute__((always_inline)) {
+        [&](int i, const Place& at, const Triple<Lanes>& u, const Triple<Lanes>& du) __attribute__((always_inline)) {
           fetch_row(i + rows_ahead);
-          const LaneTrial trial = try_point(i, u, du);
+          const Trial trial = try_point(i, u, du);
           if (any(trial.yields))
             sum.yields = true, yield(i, at, trial, sum);
           else
             stay(i, at, trial, sum);
         });
-    return total(sum, rows.area());
+    const voussoir::Lanes area = rows.area();
+    return total(sum, Side::of(area));
   }
 
  private:
   /// Sums over the points, of jumps and without what all points of a patch have in common.
-  struct Sums : LanePoints {
+  struct Sums : Found {
     Lanes work_n{}, work_s{}, elastic_n{}, elastic_s{};
   };
-  [[gnu::always_inline]] LanePoints total(Sums& sum, Lanes area) const {
+  [[gnu::always_inline]] Found total(Sums& sum, Lanes area) const {
     const Lanes n = kn * area, s = ks * area;
     Resultant<Lanes>& q = sum.resultant;
     q.n *= n, q.sn *= n, q.tn *= n;
@@ -241,24 +288,27 @@ struct PointsPass {
 
   /// The law in elastic jumps: a bond breaks beyond the opening `opens`, and beyond the shear `bond` − `bond_slope` n;
   /// what is left slides beyond `grip` − `grip_slope` n.
-  [[gnu::always_inline]] void set_limits() {
+  [[gnu::always_inline]] void set_limits(const LaneStrength& law) {
     const Lanes soft = 1.0 / ks, softer = kn * soft;
-    opens = law.tension / kn;
-    bond = soft * law.cohesion, bond_slope = softer * law.tangent;
-    grip = soft * law.residual_cohesion, grip_slope = softer * law.residual_tangent;
-    ease = dilates ? 1.0 / (1.0 + grip_slope * law.dilation) : splat(1.0);
+    opens = Side::of(law.tension) / kn;
+    bond = soft * Side::of(law.cohesion), bond_slope = softer * Side::of(law.tangent);
+    grip = soft * Side::of(law.residual_cohesion), grip_slope = softer * Side::of(law.residual_tangent);
+    ease = dilates ? 1.0 / (1.0 + grip_slope * dilation) : splat(1.0);
   }
 
-  /// Asks for what is kept of a row to come, of this batch or of the next.
+  [[gnu::always_inline]] static Lanes splat(double x) { return Side::splat(x); }
+
+  /// Asks for what is kept of a row to come, of this batch or of the next; once for both sides.
   [[gnu::always_inline]] void fetch_row(int i) const {
-    fetch(plastic + 2 * i, 2 * sizeof(Lanes));
-    fetch(kept + 3 * count * i, 3 * count * sizeof(Singles));
+    if constexpr (Side::first_lane != 0) return;
+    fetch(plastic.all + 2 * i, 2 * sizeof(voussoir::Lanes));
+    fetch(kept.all + 3 * count * i, 3 * count * sizeof(voussoir::Singles));
     fetch(broken + lane_count * i, lane_count);
   }
 
-  [[gnu::always_inline]] LaneTrial try_point(int i, const Triple<Lanes>& u, const Triple<Lanes>& du) const {
+  [[gnu::always_inline]] Trial try_point(int i, const Triple<Lanes>& u, const Triple<Lanes>& du) const {
     const Lanes zero = splat(0.0);
-    LaneTrial e;
+    Trial e;
     e.u = u;
     e.du = du;
     e.plastic_n = dilates ? rest[2 * i] : zero;
@@ -268,7 +318,7 @@ struct PointsPass {
       e.plastic_t = select(following, e.u.z - e.du.z, e.plastic_t);
     }
     e.now = {e.u.x - e.plastic_n, e.u.y - e.plastic_s, e.u.z - e.plastic_t};
-    const LaneBytes flags = load_bytes(broken + lane_count * i);
+    const auto flags = Side::load_bytes(broken + lane_count * i);
     e.was_broken = bytes_with(flags, 1), e.was_open = bytes_with(flags, 2);
     e.shear2 = e.now.y * e.now.y + e.now.z * e.now.z;
     e.limit = grip - grip_slope * e.now.x;
@@ -285,7 +335,7 @@ struct PointsPass {
   }
 
   /// Every lane goes on as it was.
-  [[gnu::always_inline]] void stay(int i, const RowPlace& at, const LaneTrial& e, Sums& sum) const {
+  [[gnu::always_inline]] void stay(int i, const Place& at, const Trial& e, Sums& sum) const {
     store_lanes(active & e.open, e.u.y, plastic[2 * i]);
     store_lanes(active & e.open, e.u.z, plastic[2 * i + 1]);
     const Lanes zero = splat(0.0);
@@ -295,19 +345,19 @@ struct PointsPass {
   }
 
   /// Some slide, break, open or close; every lane computes all it might need.
-  [[gnu::always_inline]] void yield(int i, const RowPlace& at, const LaneTrial& e, Sums& sum) const {
+  [[gnu::always_inline]] void yield(int i, const Place& at, const Trial& e, Sums& sum) const {
     const Lanes zero = splat(0.0), w = at.weight;
     const auto [n0, s0, t0] = e.now;
     const LaneMask elastic = ~(e.open | e.slides | e.breaks);
     const Lanes shear = square_root(e.shear2);
     const Lanes slip = select(e.slides, (shear - e.limit) * ease, zero);
     const Lanes keep = select(e.slides, 1.0 - slip / shear, splat(1.0));
-    const Triple<Lanes> now = {select(e.open, zero, n0 - slip * law.dilation), select(e.open, zero, keep * s0),
+    const Triple<Lanes> now = {select(e.open, zero, n0 - slip * dilation), select(e.open, zero, keep * s0),
                                select(e.open, zero, keep * t0)};
     const Triple<Lanes> before = e.now - e.du;
     const Lanes moved_s = e.plastic_s + select(e.open, s0, (1.0 - keep) * s0);
     const Lanes moved_t = e.plastic_t + select(e.open, t0, (1.0 - keep) * t0);
-    if (dilates) store_lanes(active, select(e.open, zero, e.plastic_n + slip * law.dilation), rest[2 * i]);
+    if (dilates) store_lanes(active, select(e.open, zero, e.plastic_n + slip * dilation), rest[2 * i]);
     store_lanes(active, moved_s, plastic[2 * i]);
     store_lanes(active, moved_t, plastic[2 * i + 1]);
     sum.slip2 = larger(sum.slip2, select(e.open, zero, moved_s * moved_s + moved_t * moved_t));
@@ -317,7 +367,7 @@ struct PointsPass {
                              ((now.y + before.y) * e.du.y + (now.z + before.z) * e.du.z -
                               (now.y * now.y + now.z * now.z) + (before.y * before.y + before.z * before.z));
     const Lanes lost_normal = 0.5 * kn * ((now.x + before.x) * e.du.x - now.x * now.x + before.x * before.x);
-    sum.friction += select(without(e.was_broken, elastic), w * (lost_shear + kn * now.x * law.dilation * slip), zero);
+    sum.friction += select(without(e.was_broken, elastic), w * (lost_shear + kn * now.x * dilation * slip), zero);
     sum.fracture += select(e.breaks, w * (lost_shear + lost_normal), zero);
     store_flags((active & (e.was_broken | e.breaks)) | without(e.was_broken, active),
                 (active & e.open) | without(e.was_open, active), broken + lane_count * i);
@@ -325,8 +375,8 @@ struct PointsPass {
   }
 
   /// What points at an elastic jump of `now` do. The branches of lanes that are not `live` are emptied.
-  [[gnu::always_inline]] void act(int i, const RowPlace& at, const LaneTrial& e, const Triple<Lanes>& now,
-                                  LaneMask live, Sums& sum) const {
+  [[gnu::always_inline]] void act(int i, const Place& at, const Trial& e, const Triple<Lanes>& now, LaneMask live,
+                                  Sums& sum) const {
     const Lanes w = at.weight;
     Triple<Lanes> v = now;
     if constexpr (count > 0) {
@@ -334,7 +384,7 @@ struct PointsPass {
       const LaneMask was_apart = e.was_broken & less(e.du.x, e.now.x);
       const Triple<Lanes> twice = advance(i, live, e.du, select(was_apart, now.x, e.du.x), v);
       sum.work_n += w * (twice.x * e.du.x), sum.work_s += w * (twice.y * e.du.y + twice.z * e.du.z);
-      if (energies) sum.stored += w * stored(kept + 3 * count * i);
+      if (energies) sum.stored += w * stored(3 * count * i);
     }
     if (energies) sum.elastic_n += w * (now.x * now.x), sum.elastic_s += w * (now.y * now.y + now.z * now.z);
     add_tractions(at.s, at.t, w * v.x, w * v.y, w * v.z, sum.resultant);
@@ -356,12 +406,12 @@ struct PointsPass {
   /// A single branch may be that of Rayleigh damping, which is stiff and forgets at once: in double precision.
   [[gnu::always_inline]] Triple<Lanes> advance_one(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
                                                    Triple<Lanes>& v) const {
-    Singles* row = kept + 3 * i;
+    const int row = 3 * i;
     const auto one = [&](int c, Lanes step, Lanes& viscous) {
-      const Lanes then = widen(row[c]);
+      const Lanes then = widen(kept[row + c]);
       const Lanes now = select(live, branches.e[0] * then + branches.g[0] * step, splat(0.0));
       viscous += now;
-      store_lanes(active, narrow(now), row[c]);
+      store_lanes(active, narrow(now), kept[row + c]);
       return then + now;
     };
     return {one(0, step_n, v.x), one(1, du.y, v.y), one(2, du.z, v.z)};
@@ -371,22 +421,22 @@ struct PointsPass {
                                                        Triple<Lanes>& v) const {
     const Singles step[3] = {narrow(step_n), narrow(du.y), narrow(du.z)};
     Singles before[3], now[3];
-    Singles* row = kept + 3 * count * i;
+    int row = 3 * count * i;
     for (int k = 0; k < count; ++k)
       for (int c = 0; c < 3; ++c, ++row) {
-        const Singles then = *row, q = within(live, several.next(k, then, step[c]));
+        const Singles then = kept[row], q = within(live, several.template next<Side>(k, then, step[c]));
         before[c] = k == 0 ? then : before[c] + then;
         now[c] = k == 0 ? q : now[c] + q;
-        store_lanes(active, q, *row);
+        store_lanes(active, q, kept[row]);
       }
     v.x += widen(now[0]), v.y += widen(now[1]), v.z += widen(now[2]);
     return {widen(before[0] + now[0]), widen(before[1] + now[1]), widen(before[2] + now[2])};
   }
 
-  [[gnu::always_inline]] Lanes stored(const Singles* row) const {
+  [[gnu::always_inline]] Lanes stored(int row) const {
     Lanes sum = splat(0.0);
     for (int k = 0; k < count; ++k) {
-      const Lanes n = widen(row[3 * k]), x = widen(row[3 * k + 1]), y = widen(row[3 * k + 2]);
+      const Lanes n = widen(kept[row + 3 * k]), x = widen(kept[row + 3 * k + 1]), y = widen(kept[row + 3 * k + 2]);
       sum += branches.stored[k] * (kn * n * n + ks * (x * x + y * y));
     }
     return sum;
@@ -399,6 +449,32 @@ struct PointsPass {
     q.ss += s * ts, q.ts += t * ts, q.st += s * tt, q.tt += t * tt;
   }
 };
+
+/// What a side found, put with what the others did.
+template <class Side>
+[[gnu::always_inline]] inline void take_side(const auto& found, LanePoints& all) {
+  const auto& q = found.resultant;
+  Resultant<Lanes>& sum = all.resultant;
+  Side::of(sum.n) = q.n, Side::of(sum.s) = q.s, Side::of(sum.t) = q.t;
+  Side::of(sum.sn) = q.sn, Side::of(sum.tn) = q.tn, Side::of(sum.st) = q.st, Side::of(sum.ts) = q.ts;
+  Side::of(sum.ss) = q.ss, Side::of(sum.tt) = q.tt;
+  Side::of(all.friction) = found.friction, Side::of(all.fracture) = found.fracture, Side::of(all.work) = found.work;
+  Side::of(all.opening) = found.opening, Side::of(all.slip2) = found.slip2;
+  Side::of(all.elastic) = found.elastic, Side::of(all.stored) = found.stored;
+  Side::of(all.all_open) = found.all_open, Side::of(all.all_broken) = found.all_broken;
+  all.yields |= found.yields;
+}
+
+template <bool contacts, int count, class Field>
+[[gnu::always_inline]] inline LanePoints pass_points(const PointsTask<count, Field>& task, const auto& rows) {
+  LanePoints all;
+  each_side([&](auto side) __attribute__((always_inline)) {
+    using Side = decltype(side);
+    using SideField = decltype(task.jump.template part<Side>());
+    take_side<Side>(PointsPass<Side, count, contacts, SideField>(task).run(rows), all);
+  });
+  return all;
+}
 
 /// Energies, largest opening and slip of the lanes that went point by point.
 [[gnu::always_inline]] inline void note_points(const LanePoints& found, LaneMask active, std::size_t batch,
