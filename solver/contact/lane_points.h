@@ -78,7 +78,7 @@ struct LaneStrength {
   return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)]) : mixed_strengths(model, batch);
 }
 
-/// What the point path found of its lanes.
+/// What the point path found of its lanes: numbers L and masks M of all of them or of a side (lane_sides.h).
 template <class L, class M>
 struct FoundPoints {
   Resultant<L> resultant{};
@@ -211,7 +211,7 @@ struct SideRows {
 };
 
 /// One side of the lanes of such a task, point by point. Most points stay as they were, closed and elastic or open:
-/// only a row in which some lane does not asks for more. `contacts`: lanes may be following.
+/// only a row in which some lane does not asks for more. Within, Lanes, Singles and LaneMask are those of the side.
 template <class Side, int count, bool contacts, class Field>
 struct PointsPass {
   using Lanes = typename Side::Numbers;
@@ -465,6 +465,7 @@ template <class Side>
   all.yields |= found.yields;
 }
 
+/// All lanes of a task, side after side; `contacts`: some may be following.
 template <bool contacts, int count, class Field>
 [[gnu::always_inline]] inline LanePoints pass_points(const PointsTask<count, Field>& task, const auto& rows) {
   LanePoints all;
