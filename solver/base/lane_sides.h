@@ -20,6 +20,16 @@ struct WholeSide {
   }
   [[gnu::always_inline]] static Lanes splat(double x) { return voussoir::splat(x); }
   [[gnu::always_inline]] static LaneBytes load_bytes(const std::uint8_t* bytes) { return voussoir::load_bytes(bytes); }
+
+  /// Records of eight numbers, one a lane, and the numbers lane by lane.
+  static constexpr int lanes = lane_count;
+  [[gnu::always_inline]] static void to_lanes(const Lanes (&record)[lane_count], Lanes (&number)[lane_count]) {
+    for (int i = 0; i < lane_count; ++i) number[i] = record[i];
+    transpose(number);
+  }
+  [[gnu::always_inline]] static void to_records(const Lanes (&number)[lane_count], Lanes (&record)[lane_count]) {
+    to_lanes(number, record);
+  }
 };
 
 #if defined(VOUSSOIR_REGISTERS_OF_FOUR)
@@ -30,7 +40,8 @@ using HalfFloats = float __attribute__((vector_size(16)));
 struct HalfBytes {
   HalfMask of_lane;
 };
-using parts::any, parts::at_most, parts::larger, parts::less, parts::select, parts::square_root;
+using parts::any, parts::at_most, parts::flip, parts::larger, parts::less, parts::magnitude, parts::select,
+    parts::square_root;
 
 template <bool upper>
 struct HalfSide {
@@ -58,6 +69,20 @@ struct HalfSide {
     std::int32_t four;
     std::memcpy(&four, bytes, sizeof(four));
     return {HalfMask(_mm256_cvtepu8_epi64(_mm_cvtsi32_si128(four)))};
+  }
+
+  static constexpr int lanes = 4;
+  [[gnu::always_inline]] static void to_lanes(const Lanes (&record)[4], Numbers (&number)[lane_count]) {
+    Numbers low[4], high[4];
+    for (int i = 0; i < 4; ++i) low[i] = record[i].low, high[i] = record[i].high;
+    parts::transpose(low), parts::transpose(high);
+    for (int i = 0; i < 4; ++i) number[i] = low[i], number[i + 4] = high[i];
+  }
+  [[gnu::always_inline]] static void to_records(const Numbers (&number)[lane_count], Lanes (&record)[4]) {
+    Numbers low[4], high[4];
+    for (int i = 0; i < 4; ++i) low[i] = number[i], high[i] = number[i + 4];
+    parts::transpose(low), parts::transpose(high);
+    for (int i = 0; i < 4; ++i) record[i] = {low[i], high[i]};
   }
 };
 

@@ -25,24 +25,40 @@ struct PoseRows {
   return {rows, in_order};
 }
 
-[[gnu::always_inline]] inline Jump<Lanes> lanes_jump(const JointBatch& batch, PoseRows of_a, PoseRows of_b) {
-  const LanePoses a = gather(of_a.rows, of_a.places), b = gather(of_b.rows, of_b.places);
-  const Lanes same = a.q.w * b.q.w + dot(a.q.v, b.q.v);
-  const Quat<Lanes> qb = {flip(b.q.w, same), {flip(b.q.v.x, same), flip(b.q.v.y, same), flip(b.q.v.z, same)}};
-  const Triple<Lanes> c = cross(a.q.v, qb.v);
-  const Quat<Lanes> relative = {magnitude(same),
-                                {a.q.w * qb.v.x - qb.w * a.q.v.x + c.x, a.q.w * qb.v.y - qb.w * a.q.v.y + c.y,
-                                 a.q.w * qb.v.z - qb.w * a.q.v.z + c.z}};
-  const Quat<Lanes> sum = Quat<Lanes>{a.q.w + qb.w, a.q.v + qb.v} * Quat<Lanes>{batch.frame[0], load(batch.frame + 1)};
-  const Triple<Lanes> move_a = a.u + turn_change(a.q, load(batch.arm_a));
-  const Triple<Lanes> move_b = b.u + turn_change(b.q, load(batch.arm_b));
-  return local_jump(move_b - move_a, move_a + move_b, load(batch.place), relative, sum);
+template <class Side>
+[[gnu::always_inline]] inline Jump<typename Side::Numbers> side_jump(const JointBatch& batch, PoseRows of_a,
+                                                                     PoseRows of_b) {
+  using L = typename Side::Numbers;
+  const PosesOf<L> a = gather<Side>(of_a.rows, of_a.places), b = gather<Side>(of_b.rows, of_b.places);
+  const L same = a.q.w * b.q.w + dot(a.q.v, b.q.v);
+  const Quat<L> qb = {flip(b.q.w, same), {flip(b.q.v.x, same), flip(b.q.v.y, same), flip(b.q.v.z, same)}};
+  const Triple<L> c = cross(a.q.v, qb.v);
+  const Quat<L> relative = {magnitude(same),
+                            {a.q.w * qb.v.x - qb.w * a.q.v.x + c.x, a.q.w * qb.v.y - qb.w * a.q.v.y + c.y,
+                             a.q.w * qb.v.z - qb.w * a.q.v.z + c.z}};
+  const Quat<L> sum =
+      Quat<L>{a.q.w + qb.w, a.q.v + qb.v} * Quat<L>{Side::of(batch.frame[0]), load<Side>(batch.frame + 1)};
+  const Triple<L> move_a = a.u + turn_change(a.q, load<Side>(batch.arm_a));
+  const Triple<L> move_b = b.u + turn_change(b.q, load<Side>(batch.arm_b));
+  return local_jump(move_b - move_a, move_a + move_b, load<Side>(batch.place), relative, sum);
+}
+
+/// Calls f(a number of the one, the same of the other) for all numbers of two jumps.
+[[gnu::always_inline]] inline void each_number(auto& one, auto& other, const auto& f) {
+  const auto three = [&](auto& v, auto& w) { f(v.x, w.x), f(v.y, w.y), f(v.z, w.z); };
+  f(one.n, other.n), f(one.s, other.s), f(one.t, other.t);
+  f(one.rn, other.rn), f(one.rs, other.rs), f(one.rt, other.rt);
+  f(one.cosine, other.cosine), f(one.share, other.share);
+  three(one.axes.x, other.axes.x), three(one.axes.y, other.axes.y), three(one.axes.z, other.axes.z);
+  three(one.place, other.place);
 }
 
 /// The elastic generalised jump of the intact path.
-struct LaneElastic {
-  Lanes u[6];  // n, s, t, θn, θs, θt
+template <class L>
+struct ElasticOf {
+  L u[6];  // n, s, t, θn, θs, θt
 };
+using LaneElastic = ElasticOf<Lanes>;
 
 struct LaneCheck {
   LaneMask admissible, open;
@@ -79,15 +95,16 @@ struct LaneCheck {
   return check;
 }
 
-/// Whether all lanes bear the largest normal and the largest shear jump there are in their rectangles, as most do: then
-/// every point of theirs is elastic.
-[[gnu::always_inline]] inline LaneMask surely_bear(const JointBatch& batch, const LaneElastic& e, Lanes tension,
-                                                   Lanes cohesion, Lanes tangent) {
-  const Lanes a = batch.half_s, b = batch.half_t;
-  const Lanes turned = magnitude(e.u[4]) * b + magnitude(e.u[5]) * a;
-  const Lanes s = magnitude(e.u[1]) + magnitude(e.u[3]) * b, t = magnitude(e.u[2]) + magnitude(e.u[3]) * a;
-  const Lanes sigma = batch.kn * (e.u[0] + turned), limit = cohesion - sigma * tangent;
-  return at_most(sigma, tension) & at_most(batch.ks * batch.ks * (s * s + t * t), limit * limit);
+/// Whether the lanes of a side bear the largest normal and the largest shear jump there are in their rectangles, as
+/// most do: then every point of theirs is elastic.
+template <class Side, class L>
+[[gnu::always_inline]] inline auto surely_bear(const JointBatch& batch, const ElasticOf<L>& e, L tension, L cohesion,
+                                               L tangent) {
+  const L a = Side::of(batch.half_s), b = Side::of(batch.half_t), kn = Side::of(batch.kn), ks = Side::of(batch.ks);
+  const L turned = magnitude(e.u[4]) * b + magnitude(e.u[5]) * a;
+  const L s = magnitude(e.u[1]) + magnitude(e.u[3]) * b, t = magnitude(e.u[2]) + magnitude(e.u[3]) * a;
+  const L sigma = kn * (e.u[0] + turned), limit = cohesion - sigma * tangent;
+  return at_most(sigma, tension) & at_most(ks * ks * (s * s + t * t), limit * limit);
 }
 
 /// The elastic traction field is affine and the admissible set convex: the corners decide for the whole polygon, and
@@ -171,16 +188,19 @@ template <int count>
   return sum;
 }
 
-[[gnu::always_inline]] inline Resultant<Lanes> lanes_resultant(const JointBatch& b, const LaneElastic& v) {
-  const Lanes zero = splat(0.0);
-  Resultant<Lanes> q;
-  q.n = b.kn * b.area * v.u[0];
-  q.s = b.ks * b.area * v.u[1];
-  q.t = b.ks * b.area * v.u[2];
-  q.sn = -(b.kn * b.ss) * v.u[5];
-  q.tn = b.kn * b.tt * v.u[4];
-  q.st = b.ks * b.ss * v.u[3];
-  q.ts = -(b.ks * b.tt) * v.u[3];
+template <class Side = WholeSide>
+[[gnu::always_inline]] inline auto lanes_resultant(const JointBatch& b, const ElasticOf<typename Side::Numbers>& v) {
+  using L = typename Side::Numbers;
+  const L zero = Side::splat(0.0), kn = Side::of(b.kn), ks = Side::of(b.ks), area = Side::of(b.area),
+          ss = Side::of(b.ss), tt = Side::of(b.tt);
+  Resultant<L> q;
+  q.n = kn * area * v.u[0];
+  q.s = ks * area * v.u[1];
+  q.t = ks * area * v.u[2];
+  q.sn = -(kn * ss) * v.u[5];
+  q.tn = kn * tt * v.u[4];
+  q.st = ks * ss * v.u[3];
+  q.ts = -(ks * tt) * v.u[3];
   q.ss = zero;
   q.tt = zero;
   return q;
@@ -200,6 +220,41 @@ void add_energy(const Branches& branches, const JointBatch& b, const LaneElastic
   }
   elastic += select(closed, springs, splat(0.0));
   stored += select(closed, rest, splat(0.0));
+}
+
+/// The same for a side whose lanes all are closed and were: adds the branches to `e`, the elastic jump.
+template <class Side, int count>
+[[gnu::always_inline]] inline void advance_side(const Branches& branches, const SingleBranches<count>& several,
+                                                const JointBatch& batch, Singles* kept,
+                                                const typename Side::Numbers* du, ElasticOf<typename Side::Numbers>& e,
+                                                typename Side::Numbers& work) {
+  using L = typename Side::Numbers;
+  using F = typename Side::Floats;
+  const L kn = Side::of(batch.kn), ks = Side::of(batch.ks), area = Side::of(batch.area), ss = Side::of(batch.ss),
+          tt = Side::of(batch.tt);
+  const L stiffness[6] = {kn * area, ks * area, ks * area, ks * (ss + tt), kn * tt, kn * ss};
+  L done = Side::splat(0.0);
+  for (int c = 0; c < 6; ++c) {
+    L twice;
+    if constexpr (count == 1) {  // it may be stiff and forget at once, see PointsPass::advance_one()
+      F& row = Side::of(kept[c]);
+      const L then = widen(row), q = branches.e[0] * then + branches.g[0] * du[c];
+      e.u[c] += q, twice = then + q, row = narrow(q);
+    } else {
+      const F step = narrow(du[c]);
+      F before{}, now{};
+      for (int k = 0; k < count; ++k) {
+        F& row = Side::of(kept[count * c + k]);
+        const F then = row, q = several.template next<Side>(k, then, step);
+        before = k == 0 ? then : before + then;
+        now = k == 0 ? q : now + q;
+        row = q;
+      }
+      e.u[c] += widen(now), twice = widen(before + now);
+    }
+    done += stiffness[c] * (twice * du[c]);
+  }
+  work += 0.5 * done;
 }
 
 /// Patches that are wholly open and broken go back to the intact path: their plastic slip is a rigid field again.
@@ -302,20 +357,17 @@ struct BatchPass {
     alignas(64) double rows[2][lane_count * pose_width];
     if (batch.touches_still && pass.still)
       a = copies(pass, batch.pose_a, rows[0]), b = copies(pass, batch.pose_b, rows[1]);
-    const Jump<Lanes> jump = lanes_jump(batch, a, b);
+    Jump<Lanes> jump;
+    bool bear = closed;
+    each_side([&](auto side) __attribute__((always_inline)) {
+      using Side = decltype(side);
+      const auto j = side_jump<Side>(batch, a, b);
+      each_number(
+          j, jump, [](const auto& x, Lanes& of) __attribute__((always_inline)) { Side::of(of) = x; });
+      if (bear) bear = bears<Side>(j, modes);
+    });
     ahead.poses();
-    if (closed) {
-      LaneElastic e = elastic_of(jump, modes & in_each(mode_slid));
-      const LawConstants& law = pass.model->laws[std::size_t(batch.law)];
-      Lanes tension = splat(law.most_tension), cohesion = splat(law.most_cohesion), tangent = splat(law.slope);
-      if (modes & in_each(mode_broken)) {
-        const LaneMask broken = bytes_with(load_bytes(mode), mode_broken);
-        tension = select(broken, splat(-1e-300), tension);  // where nothing presses they are open
-        cohesion = select(broken, splat(law.residual_cohesion), cohesion);
-        tangent = select(broken, splat(law.residual_tan_friction), tangent);
-      }
-      if (all(surely_bear(batch, e, tension, cohesion, tangent))) return springs(jump, e, findings);
-    }
+    if (bear) return springs(jump, modes & in_each(mode_slid), findings);
     mixed_batch(pass, in, k, in_memory(jump), findings);
   }
 
@@ -331,32 +383,70 @@ struct BatchPass {
     return without(LaneMask::first(batch.count), bytes_with(load_bytes(mode, batch.count), mode_gone));
   }
 
-  [[gnu::always_inline]] LaneElastic elastic_of(const Jump<Lanes>& jump, bool slid) const {
-    LaneElastic e = {{jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt}};
+  template <class Side = WholeSide>
+  [[gnu::always_inline]] auto elastic_of(const Jump<typename Side::Numbers>& jump, bool slid) const {
+    ElasticOf<typename Side::Numbers> e = {{jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt}};
     if (slid)
-      for (int c = 0; c < 3; ++c) e.u[c + 1] -= in.slip_of(k)[c];
+      for (int c = 0; c < 3; ++c) e.u[c + 1] -= Side::of(in.slip_of(k)[c]);
     return e;
   }
 
-  /// All lanes are springs, and were: nothing of theirs changes but the last jump and the branches.
-  [[gnu::always_inline]] void springs(const Jump<Lanes>& jump, LaneElastic e, TileFindings& findings) const {
-    const LaneMask every = LaneMask::first(lane_count);
-    Lanes change[6];
-    note_change(jump, LaneMask{}, in.last_of(k), change);
-    ahead.constants(0);
-    const LaneElastic elastic = e;
-    if constexpr (count > 0)
-      e = advance_lanes<count>(pass.branches, in.several, batch, e, every, LaneMask{}, every, in.branches_of(k),
-                               findings.work, change);
+  /// Whether all lanes of a side of a closed batch bear for sure.
+  template <class Side>
+  [[gnu::always_inline]] bool bears(const Jump<typename Side::Numbers>& jump, std::uint64_t modes) const {
+    const auto e = elastic_of<Side>(jump, modes & in_each(mode_slid));
+    const LawConstants& law = pass.model->laws[std::size_t(batch.law)];
+    auto tension = Side::splat(law.most_tension), cohesion = Side::splat(law.most_cohesion),
+         tangent = Side::splat(law.slope);
+    if (modes & in_each(mode_broken)) {
+      const auto broken = bytes_with(Side::load_bytes(mode + Side::first_lane), mode_broken);
+      tension = select(broken, Side::splat(-1e-300), tension);  // where nothing presses they are open
+      cohesion = select(broken, Side::splat(law.residual_cohesion), cohesion);
+      tangent = select(broken, Side::splat(law.residual_tan_friction), tangent);
+    }
+    return !any(~surely_bear<Side>(batch, e, tension, cohesion, tangent));
+  }
+
+  /// All lanes are springs, and were: nothing of theirs changes but the last jump and the branches. Side by side.
+  [[gnu::always_inline]] void springs(const Jump<Lanes>& jump, bool slid, TileFindings& findings) const {
+    each_side([&](auto side) __attribute__((always_inline)) {
+      using Side = decltype(side);
+      spring_side<Side>(jump, slid, findings);
+    });
     if (pass.energies)
-      add_energy<count>(pass.branches, batch, elastic, every, in.branches_of(k), findings.elastic, findings.stored);
-    ahead.constants(1);
-    const auto wrench = WorldWrench<Lanes>::of_springs(lanes_resultant(batch, e), jump);
-    const WrenchRows wrenches(wrench.force, wrench.moment);
-    add_up(wrenches.row, lane_count);
+      add_energy<count>(pass.branches, batch, elastic_of(jump, slid), LaneMask::first(lane_count), in.branches_of(k),
+                        findings.elastic, findings.stored);
     ahead.memory();
-    findings.reclip |= past_limits(in.limits, batch.area, jump);
     findings.intact += lane_count;
+  }
+  template <class Side>
+  [[gnu::always_inline]] void spring_side(const Jump<Lanes>& all, bool slid, TileFindings& findings) const {
+    using L = typename Side::Numbers;
+    Jump<L> jump;
+    each_number(
+        jump, all, [](L & x, const Lanes& of) __attribute__((always_inline)) { x = Side::of(of); });
+    auto e = elastic_of<Side>(jump, slid);
+    const L now[6] = {jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt};
+    L change[6];
+    for (int c = 0; c < 6; ++c) {
+      auto& last = Side::of(in.last_of(k)[c]);
+      const auto rounded = narrow(now[c]);
+      change[c] = widen(typename Side::Floats(rounded - last));
+      last = rounded;
+    }
+    if constexpr (Side::first_lane == 0) ahead.constants(0);
+    if constexpr (count > 0)
+      advance_side<Side, count>(pass.branches, in.several, batch, in.branches_of(k), change, e,
+                                Side::of(findings.work));
+    if constexpr (Side::first_lane + Side::lanes == lane_count) ahead.constants(1);
+    const auto wrench = WorldWrench<L>::of_springs(lanes_resultant<Side>(batch, e), jump);
+    const L zero = Side::splat(0.0);
+    const L numbers[lane_count] = {wrench.force.x,  wrench.force.y,  wrench.force.z, wrench.moment.x,
+                                   wrench.moment.y, wrench.moment.z, zero,           zero};
+    Lanes rows[Side::lanes];
+    Side::to_records(numbers, rows);
+    add_up(rows, Side::first_lane, Side::lanes);
+    Side::of(findings.reclip) = Side::of(findings.reclip) | past_limits<Side>(in.limits, Side::of(batch.area), jump);
   }
 
   /// What the check left of intact lanes: those that stay, and those of them that carry load.
@@ -395,7 +485,7 @@ struct BatchPass {
     for (int lane = 0; any(others) && lane < batch.count; ++lane)
       if (others[lane]) point_patch(pass, std::size_t(batch.first_joint + lane), rows + wrench_width * lane);
     ahead.memory();
-    add_up(reinterpret_cast<const Lanes*>(rows), batch.count);
+    add_up(reinterpret_cast<const Lanes*>(rows), 0, batch.count);
     findings.reclip |= without(live, strength.tie) & past_limits(in.limits, batch.area, jump);
     findings.intact += count_of(intact.stays);
     findings.points += count_of(points);
@@ -453,15 +543,15 @@ struct BatchPass {
   }
 
   /// Adds the wrenches to the sums of their bodies, joint by joint.
-  [[gnu::always_inline]] void add_up(const Lanes* rows, int lanes) const {
-    for (int lane = 0; lane < lane_count; ++lane) {
-      if (lane == lanes) break;
-      *reinterpret_cast<Lanes*>(in.sums + batch.sum_a[lane]) += rows[lane];
-      *reinterpret_cast<Lanes*>(in.sums + batch.sum_b[lane]) -= rows[lane];
+  [[gnu::always_inline]] void add_up(const Lanes* rows, int first, int lanes) const {
+    for (int i = 0; i < lane_count; ++i) {
+      if (i == lanes) break;
+      *reinterpret_cast<Lanes*>(in.sums + batch.sum_a[first + i]) += rows[i];
+      *reinterpret_cast<Lanes*>(in.sums + batch.sum_b[first + i]) -= rows[i];
     }
     if (!pass.wrenches) return;
-    auto* wrenches = reinterpret_cast<Lanes*>(pass.wrenches + wrench_width * batch.first_joint);
-    for (int lane = 0; lane < lane_count && lane < lanes; ++lane) wrenches[lane] = rows[lane];
+    auto* wrenches = reinterpret_cast<Lanes*>(pass.wrenches + wrench_width * batch.first_joint) + first;
+    for (int i = 0; i < lane_count && i < lanes; ++i) wrenches[i] = rows[i];
   }
 
   /// Of a batch without live lanes, whose wrenches are none.

@@ -8,20 +8,26 @@
 
 namespace voussoir {
 
-[[gnu::always_inline]] inline Triple<Lanes> load(const Lanes* x) {
-  return {x[0], x[1], x[2]};
+template <class Side = WholeSide>
+[[gnu::always_inline]] inline Triple<typename Side::Numbers> load(const Lanes* x) {
+  return {Side::of(x[0]), Side::of(x[1]), Side::of(x[2])};
 }
 
-struct LanePoses {
-  Triple<Lanes> u;
-  Quat<Lanes> q;
+template <class L>
+struct PosesOf {
+  Triple<L> u;
+  Quat<L> q;
 };
+using LanePoses = PosesOf<Lanes>;
 
 /// `places`: where the eight poses begin.
-[[gnu::always_inline]] inline LanePoses gather(const double* pose, const std::int32_t* places) {
-  Lanes r[lane_count];
-  for (int lane = 0; lane < lane_count; ++lane) r[lane] = *reinterpret_cast<const Lanes*>(pose + places[lane]);
-  transpose(r);
+template <class Side = WholeSide>
+[[gnu::always_inline]] inline PosesOf<typename Side::Numbers> gather(const double* pose, const std::int32_t* places) {
+  Lanes record[Side::lanes];
+  typename Side::Numbers r[lane_count];
+  for (int lane = 0; lane < Side::lanes; ++lane)
+    record[lane] = *reinterpret_cast<const Lanes*>(pose + places[Side::first_lane + lane]);
+  Side::to_lanes(record, r);
   return {{r[0], r[1], r[2]}, {r[3], {r[4], r[5], r[6]}}};
 }
 
@@ -531,14 +537,20 @@ struct SlidingLimits {
       : slip2(splat(model.contact.reclip_slip * model.contact.reclip_slip)),
         least_area(splat(model.least_slip_area())),
         turn2(splat(model.turn_limit2())) {}
-  [[gnu::always_inline]] Lanes slip_limit2(Lanes area) const { return slip2 * larger(area, least_area); }
+  template <class Side = WholeSide>
+  [[gnu::always_inline]] auto slip_limit2(typename Side::Numbers area) const {
+    return typename Side::Numbers(Side::of(slip2) * larger(area, Side::of(least_area)));
+  }
 };
 
 /// Lanes that have slid or turned past their limits.
-[[gnu::always_inline]] inline LaneMask past_limits(const SlidingLimits& limits, Lanes area, const Jump<Lanes>& j) {
-  const Lanes slip = j.s * j.s + j.t * j.t;
-  const Lanes turn = j.rn * j.rn + j.rs * j.rs + j.rt * j.rt;
-  return less(limits.slip_limit2(area), slip) | less(limits.turn2, turn);
+template <class Side = WholeSide>
+[[gnu::always_inline]] inline auto past_limits(const SlidingLimits& limits, typename Side::Numbers area,
+                                               const Jump<typename Side::Numbers>& j) {
+  using L = typename Side::Numbers;
+  const L slip = j.s * j.s + j.t * j.t;
+  const L turn = j.rn * j.rn + j.rs * j.rs + j.rt * j.rt;
+  return less(limits.template slip_limit2<Side>(area), slip) | less(Side::of(limits.turn2), turn);
 }
 
 inline double sum_of(Lanes x) {
