@@ -1,6 +1,6 @@
-// How many of eight lanes a long kernel takes at a time. Where registers hold four, all eight need twice as many as
-// there are, and most of what is in hand goes through memory (docs/performance.md): there the kernel goes through the
-// lower half of the lanes and then through the upper. What it computes for a lane is the same.
+// How many of eight lanes a long kernel takes at a time. Where registers hold four it goes through the lower half of
+// the lanes and then through the upper: less of what is in hand is kept in memory, and what is rare in a lane holds up
+// three others instead of seven (docs/performance.md). What it computes for a lane is the same.
 #pragma once
 #include "solver/base/lanes.h"
 
@@ -95,6 +95,9 @@ struct HalfSide {
 [[gnu::always_inline]] inline HalfMask without(HalfMask a, HalfMask b) {
   return a & ~b;
 }
+[[gnu::always_inline]] inline bool all(HalfMask m) {
+  return !any(~m);
+}
 [[gnu::always_inline]] inline HalfMask bytes_with(HalfBytes bytes, int bits) {
   return (bytes.of_lane & std::int64_t(bits)) != 0;
 }
@@ -119,6 +122,26 @@ struct HalfSide {
 }
 
 #endif
+
+/// Masks that are known beforehand, of any side: what they leave out is not even compiled.
+struct EveryLane {};
+struct NoLane {};
+template <class L>
+[[gnu::always_inline]] inline L select(EveryLane, L a, L) {
+  return a;
+}
+template <class L>
+[[gnu::always_inline]] inline L select(NoLane, L, L b) {
+  return b;
+}
+template <class L>
+[[gnu::always_inline]] inline L within(EveryLane, L x) {
+  return x;
+}
+template <class L>
+[[gnu::always_inline]] inline void store_lanes(EveryLane, L x, L& to) {
+  to = x;
+}
 
 /// Calls f(side) for each of the sides that together are all lanes.
 template <class F>

@@ -159,6 +159,9 @@ template <class H, class T>
   return Masks{at_most(a.low, b.low), at_most(a.high, b.high)};
 }
 template <class M, class H, class T>
+requires requires(M m) {
+  m.low;
+}
 [[gnu::always_inline]] inline Both<H, T> select(M m, Both<H, T> a, Both<H, T> b) {
   return {select(m.low, a.low, b.low), select(m.high, a.high, b.high)};
 }

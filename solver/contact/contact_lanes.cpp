@@ -78,7 +78,7 @@ struct ContactPass {
     const LaneMask leaving = without(was_open, still), active = without(live, still);
     for (int lane = 0; any(leaving) && lane < lane_count; ++lane)
       if (leaving[lane]) mode[lane] &= std::uint8_t(~mode_open);
-    note_change(j, LaneMask{}, reinterpret_cast<Singles*>(&memory.last[last_index(k, 0)]), change);
+    note_change<WholeSide>(j, EveryLane{}, reinterpret_cast<Singles*>(&memory.last[last_index(k, 0)]), change);
     ahead.constants(1);
     Triple<Lanes> force{}, moment{};
     if (any(active)) {

@@ -144,47 +144,51 @@ template <class Side, class L>
 
 /// The branches of one generalised jump follow its change `du`, those of lanes that are not closed relax; adds their q
 /// to `viscous` and returns the sum of q at both ends of the step. Lanes to keep are written.
-template <int count>
-[[gnu::always_inline]] inline Lanes advance_jump(const Branches& branches, const SingleBranches<count>& several,
-                                                 Lanes du, LaneMask closed, LaneMask keep, Singles* kept,
-                                                 Lanes& viscous) {
+template <class Side, int count>
+[[gnu::always_inline]] inline auto advance_jump(const Branches& branches, const SingleBranches<count>& several,
+                                                typename Side::Numbers du, auto closed, auto keep, Singles* kept,
+                                                typename Side::Numbers& viscous) {
+  using L = typename Side::Numbers;
+  using F = typename Side::Floats;
   if constexpr (count == 1) {  // it may be stiff and forget at once, see PointsPass::advance_one()
-    const Lanes then = widen(*kept);
-    const Lanes q = select(closed, branches.e[0] * then + branches.g[0] * du, splat(0.0));
+    const L then = widen(Side::of(*kept));
+    const L q = select(closed, L(branches.e[0] * then + branches.g[0] * du), Side::splat(0.0));
     viscous += q;
-    store_lanes(keep, narrow(q), *kept);
-    return then + q;
+    store_lanes(keep, narrow(q), Side::of(*kept));
+    return L(then + q);
+  } else {
+    const F step = narrow(du);
+    F before{}, now{};
+    for (int k = 0; k < count; ++k, ++kept) {
+      const F then = Side::of(*kept), q = within(closed, several.template next<Side>(k, then, step));
+      before = k == 0 ? then : before + then;
+      now = k == 0 ? q : now + q;
+      store_lanes(keep, q, Side::of(*kept));
+    }
+    viscous += widen(now);
+    return L(widen(F(before + now)));
   }
-  const Singles step = narrow(du);
-  Singles before{}, now{};
-  for (int k = 0; k < count; ++k, ++kept) {
-    const Singles then = *kept, q = within(closed, several.next(k, then, step));
-    before = k == 0 ? then : before + then;
-    now = k == 0 ? q : now + q;
-    store_lanes(keep, q, *kept);
-  }
-  viscous += widen(now);
-  return widen(before + now);
 }
 
 /// Elastic plus viscous generalised jump; the branches of lanes that close start from nothing. Adds the work done on
 /// them, by the mean of their tractions at both ends of the step.
-template <int count>
-[[gnu::always_inline]] inline LaneElastic advance_lanes(const Branches& branches, const SingleBranches<count>& several,
-                                                        const JointBatch& batch, const LaneElastic& e, LaneMask closed,
-                                                        LaneMask was_open, LaneMask keep, Singles* kept, Lanes& work,
-                                                        const Lanes* du) {
-  LaneElastic sum = e;
-  const Lanes stiffness[6] = {batch.kn * batch.area, batch.ks * batch.area,
-                              batch.ks * batch.area, batch.ks * (batch.ss + batch.tt),
-                              batch.kn * batch.tt,   batch.kn * batch.ss};
-  Lanes done = splat(0.0);
+template <class Side, int count>
+[[gnu::always_inline]] inline auto advance_lanes(const Branches& branches, const SingleBranches<count>& several,
+                                                 const JointBatch& batch, const ElasticOf<typename Side::Numbers>& e,
+                                                 auto closed, auto was_open, auto keep, Singles* kept,
+                                                 typename Side::Numbers& work, const typename Side::Numbers* du) {
+  using L = typename Side::Numbers;
+  ElasticOf<L> sum = e;
+  const L kn = Side::of(batch.kn), ks = Side::of(batch.ks), area = Side::of(batch.area), ss = Side::of(batch.ss),
+          tt = Side::of(batch.tt);
+  const L stiffness[6] = {kn * area, ks * area, ks * area, ks * (ss + tt), kn * tt, kn * ss};
+  L done = Side::splat(0.0);
   for (int c = 0; c < 6; ++c) {
-    const Lanes change = select(was_open, e.u[c], du[c]);
-    const Lanes twice = advance_jump<count>(branches, several, change, closed, keep, kept + count * c, sum.u[c]);
+    const L change = select(was_open, e.u[c], du[c]);
+    const L twice = advance_jump<Side, count>(branches, several, change, closed, keep, kept + count * c, sum.u[c]);
     done += stiffness[c] * (twice * du[c]);
   }
-  work += select(keep, 0.5 * done, splat(0.0));
+  work += select(keep, L(0.5 * done), Side::splat(0.0));
   return sum;
 }
 
@@ -220,41 +224,6 @@ void add_energy(const Branches& branches, const JointBatch& b, const LaneElastic
   }
   elastic += select(closed, springs, splat(0.0));
   stored += select(closed, rest, splat(0.0));
-}
-
-/// The same for a side whose lanes all are closed and were: adds the branches to `e`, the elastic jump.
-template <class Side, int count>
-[[gnu::always_inline]] inline void advance_side(const Branches& branches, const SingleBranches<count>& several,
-                                                const JointBatch& batch, Singles* kept,
-                                                const typename Side::Numbers* du, ElasticOf<typename Side::Numbers>& e,
-                                                typename Side::Numbers& work) {
-  using L = typename Side::Numbers;
-  using F = typename Side::Floats;
-  const L kn = Side::of(batch.kn), ks = Side::of(batch.ks), area = Side::of(batch.area), ss = Side::of(batch.ss),
-          tt = Side::of(batch.tt);
-  const L stiffness[6] = {kn * area, ks * area, ks * area, ks * (ss + tt), kn * tt, kn * ss};
-  L done = Side::splat(0.0);
-  for (int c = 0; c < 6; ++c) {
-    L twice;
-    if constexpr (count == 1) {  // it may be stiff and forget at once, see PointsPass::advance_one()
-      F& row = Side::of(kept[c]);
-      const L then = widen(row), q = branches.e[0] * then + branches.g[0] * du[c];
-      e.u[c] += q, twice = then + q, row = narrow(q);
-    } else {
-      const F step = narrow(du[c]);
-      F before{}, now{};
-      for (int k = 0; k < count; ++k) {
-        F& row = Side::of(kept[count * c + k]);
-        const F then = row, q = several.template next<Side>(k, then, step);
-        before = k == 0 ? then : before + then;
-        now = k == 0 ? q : now + q;
-        row = q;
-      }
-      e.u[c] += widen(now), twice = widen(before + now);
-    }
-    done += stiffness[c] * (twice * du[c]);
-  }
-  work += 0.5 * done;
 }
 
 /// Patches that are wholly open and broken go back to the intact path: their plastic slip is a rigid field again.
@@ -404,7 +373,7 @@ struct BatchPass {
       cohesion = select(broken, Side::splat(law.residual_cohesion), cohesion);
       tangent = select(broken, Side::splat(law.residual_tan_friction), tangent);
     }
-    return !any(~surely_bear<Side>(batch, e, tension, cohesion, tangent));
+    return all(surely_bear<Side>(batch, e, tension, cohesion, tangent));
   }
 
   /// All lanes are springs, and were: nothing of theirs changes but the last jump and the branches. Side by side.
@@ -426,26 +395,16 @@ struct BatchPass {
     each_number(
         jump, all, [](L & x, const Lanes& of) __attribute__((always_inline)) { x = Side::of(of); });
     auto e = elastic_of<Side>(jump, slid);
-    const L now[6] = {jump.n, jump.s, jump.t, jump.rn, jump.rs, jump.rt};
     L change[6];
-    for (int c = 0; c < 6; ++c) {
-      auto& last = Side::of(in.last_of(k)[c]);
-      const auto rounded = narrow(now[c]);
-      change[c] = widen(typename Side::Floats(rounded - last));
-      last = rounded;
-    }
+    note_change<Side>(jump, EveryLane{}, in.last_of(k), change);
     if constexpr (Side::first_lane == 0) ahead.constants(0);
     if constexpr (count > 0)
-      advance_side<Side, count>(pass.branches, in.several, batch, in.branches_of(k), change, e,
-                                Side::of(findings.work));
+      e = advance_lanes<Side, count>(pass.branches, in.several, batch, e, EveryLane{}, NoLane{}, EveryLane{},
+                                     in.branches_of(k), Side::of(findings.work), change);
     if constexpr (Side::first_lane + Side::lanes == lane_count) ahead.constants(1);
     const auto wrench = WorldWrench<L>::of_springs(lanes_resultant<Side>(batch, e), jump);
-    const L zero = Side::splat(0.0);
-    const L numbers[lane_count] = {wrench.force.x,  wrench.force.y,  wrench.force.z, wrench.moment.x,
-                                   wrench.moment.y, wrench.moment.z, zero,           zero};
-    Lanes rows[Side::lanes];
-    Side::to_records(numbers, rows);
-    add_up(rows, Side::first_lane, Side::lanes);
+    const WrenchRows<Side> wrenches(wrench.force, wrench.moment);
+    add_up(wrenches.row, Side::first_lane, Side::lanes);
     Side::of(findings.reclip) = Side::of(findings.reclip) | past_limits<Side>(in.limits, Side::of(batch.area), jump);
   }
 
@@ -468,7 +427,11 @@ struct BatchPass {
     const LaneStrength strength = strengths(*pass.model, batch);
     Lanes change[6];  // of the jump since the pass before
     // point_patch() keeps the last jump of its lanes itself.
-    note_change(jump, without(live, keep | strength.brittle), in.last_of(k), change);
+    const LaneMask left = without(live, keep | strength.brittle);
+    if (any(left))
+      note_change<WholeSide>(jump, ~left, in.last_of(k), change);
+    else
+      note_change<WholeSide>(jump, EveryLane{}, in.last_of(k), change);
     ahead.constants(0);
     Intact intact;
     if (any(keep)) intact = intact_lanes(jump, change, strength, modes, keep, findings);
@@ -506,8 +469,8 @@ struct BatchPass {
     const LaneMask stays = open | closed;
     const LaneElastic elastic = e;
     if constexpr (count > 0)
-      e = advance_lanes<count>(pass.branches, in.several, batch, e, closed, was_open, stays, in.branches_of(k),
-                               findings.work, change);
+      e = advance_lanes<WholeSide, count>(pass.branches, in.several, batch, e, closed, was_open, stays,
+                                          in.branches_of(k), findings.work, change);
     if (pass.energies)
       add_energy<count>(pass.branches, batch, elastic, closed, in.branches_of(k), findings.elastic, findings.stored);
     return {stays, closed, lanes_resultant(batch, e)};

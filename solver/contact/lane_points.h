@@ -503,30 +503,31 @@ template <bool contacts, int count, class Field>
           select(m, a.ts, b.ts), select(m, a.ss, b.ss), select(m, a.tt, b.tt)};
 }
 
-/// Wrenches of eight patches as rows of wrench_width numbers.
+/// Wrenches of a side's patches as rows of wrench_width numbers.
+template <class Side = WholeSide>
 struct WrenchRows {
-  Lanes row[lane_count];
-  [[gnu::always_inline]] WrenchRows(const Triple<Lanes>& f, const Triple<Lanes>& m)
-      : row{f.x, f.y, f.z, m.x, m.y, m.z, Lanes{}, Lanes{}} {
-    transpose(row);
+  using L = typename Side::Numbers;
+  Lanes row[Side::lanes];
+  [[gnu::always_inline]] WrenchRows(const Triple<L>& f, const Triple<L>& m) {
+    const L numbers[lane_count] = {f.x, f.y, f.z, m.x, m.y, m.z, L{}, L{}};
+    Side::to_records(numbers, row);
   }
 };
 [[gnu::always_inline]] inline void store_wrenches(const Triple<Lanes>& f, const Triple<Lanes>& m, double* rows) {
-  const WrenchRows wrenches(f, m);
+  const WrenchRows<> wrenches(f, m);
   std::memcpy(rows, wrenches.row, sizeof(wrenches.row));
 }
 
-/// Puts `now` in the place of the last jump and returns how it has changed, of jumps rounded to single precision, so
-/// that the changes add up to the jump; lanes of `others` keep their last jump.
-[[gnu::always_inline]] inline void note_change(const Jump<Lanes>& j, LaneMask others, Singles* last, Lanes* change) {
-  const Lanes now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
+/// Puts `j` in the place of the last jump and returns how it has changed, of jumps rounded to single precision, so that
+/// the changes add up to the jump; only lanes of `noted` are written.
+template <class Side>
+[[gnu::always_inline]] inline void note_change(const Jump<typename Side::Numbers>& j, auto noted, Singles* last,
+                                               typename Side::Numbers* change) {
+  const typename Side::Numbers now[6] = {j.n, j.s, j.t, j.rn, j.rs, j.rt};
   for (int c = 0; c < 6; ++c) {
-    const Singles rounded = narrow(now[c]);
-    change[c] = widen(rounded - last[c]);
-    if (any(others))
-      store_lanes(~others, rounded, last[c]);
-    else
-      last[c] = rounded;
+    const typename Side::Floats rounded = narrow(now[c]);
+    change[c] = widen(typename Side::Floats(rounded - Side::of(last[c])));
+    store_lanes(noted, rounded, Side::of(last[c]));
   }
 }
 
