@@ -7,7 +7,7 @@
 
 #include "geometry/neighbours.h"
 #include "solver/base/parallel.h"
-#include "solver/contact/lane_points.h"
+#include "solver/contact/lane_patches.h"
 #include "solver/contact/search.h"
 
 namespace voussoir {
