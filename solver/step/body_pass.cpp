@@ -56,7 +56,7 @@ Array<BodyBatch> make_body_batches(const Model& model) {
     const Mat3& m = body.inverse_inertia;
     const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
     for (int c = 0; c < 6; ++c) batch.inverse_inertia[c][lane] = entries[c];
-    if (i < n && !body.fixed) batch.free |= without(LaneMask::first(int(lane) + 1), LaneMask::first(int(lane)));
+    batch.free[lane] = i < n && !body.fixed ? 1.0 : 0.0;
   }
   return batches;
 }
@@ -379,7 +379,7 @@ void look_at_lanes(const BodyPass& pass, std::size_t first, int count, const Tri
                    const Lanes& half_turn2, const LaneRows& pose, BodyReport& report) {
   const BodyBatch& batch = pass.batches[first / lane_count];
   const LaneRows from = load_searched(&pass.state->searched[searched_width * first], count);
-  const LaneMask counts = without(batch.free, less(splat(0.0), from.r[7]));
+  const LaneMask counts = without(batch.are_free(), less(splat(0.0), from.r[7]));
   const Vec3& ground = pass.base_velocity_next;
   const Triple<Lanes> relative = {velocity.x - ground.x(), velocity.y - ground.y(), velocity.z - ground.z()};
   const Lanes step =
@@ -396,6 +396,7 @@ void look_at_lanes(const BodyPass& pass, std::size_t first, int count, const Tri
 LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& report) const {
   const int count = int(std::min<std::size_t>(lane_count, end - first));
   const BodyBatch& batch = batches[first / lane_count];
+  const LaneMask free = batch.are_free();
   LaneRows sum, motion = load_rows(&state->motion[motion_width * first], count),
                 pose = load_rows(&state->pose[pose_width * first], count);
   for (int lane = 0; lane < lane_count; ++lane)
@@ -430,7 +431,7 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   const Triple<Lanes> whole_turn =
       splat(0.5 * dt) * voussoir::turn(half, times(batch.inverse_inertia, turn_back(half, own)));
   const Lanes angle2 = dot(whole_turn, whole_turn);
-  if (any(without(batch.free, less(larger(angle2, first_angle2), splat(series_limit))))) return {};
+  if (any(without(free, less(larger(angle2, first_angle2), splat(series_limit))))) return {};
   const Quat<Lanes> turned = q * short_exponential(whole_turn, angle2);
   const Lanes norm = 1.5 - 0.5 * (turned.w * turned.w + dot(turned.v, turned.v));  // a unit but for rounding
   const Lanes moved[6] = {velocity.x, velocity.y, velocity.z, momentum.x, momentum.y, momentum.z};
@@ -440,13 +441,13 @@ LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& re
   pose.r[4] = norm * turned.v.x, pose.r[5] = norm * turned.v.y, pose.r[6] = norm * turned.v.z;
   if (looks) look_at_lanes(*this, first, count, velocity, angle2, pose, report);
   const Lanes speed2 = dot(velocity, velocity);
-  const LaneMask runs = without(batch.free, less(speed2, splat(most_speed2)));
+  const LaneMask runs = without(free, less(speed2, splat(most_speed2)));
   if (any(runs) && report.runaway < 0)
     for (int lane = count; lane-- > 0;)
       if (runs[lane] && runs_away(first + std::size_t(lane), speed2[lane])) report.runaway = std::int32_t(first) + lane;
-  store_rows(motion, batch.free, &state->motion[motion_width * first]);
-  store_rows(pose, batch.free, &state->pose[pose_width * first]);
-  return batch.free;
+  store_rows(motion, free, &state->motion[motion_width * first]);
+  store_rows(pose, free, &state->pose[pose_width * first]);
+  return free;
 }
 
 /// What a batch to come reads of its own, if there is one; in two parts (see fetch()).
@@ -465,7 +466,7 @@ BodyReport BodyPass::bodies(std::size_t begin, std::size_t end) const {
     const std::size_t next = std::min(end, first + lane_count);
     fetch_constants(first + 2 * lane_count);
     const LaneMask moved =
-        side_by_side && any(batches[first / lane_count].free) ? move_lanes(first, next, report) : LaneMask{};
+        side_by_side && any(batches[first / lane_count].are_free()) ? move_lanes(first, next, report) : LaneMask{};
     for (std::size_t i = first; i < next; ++i)
       if (!moved[int(i - first)]) still_next && model->still_of[i] >= 0 ? move_still(i, report) : move_body(i, report);
   }
