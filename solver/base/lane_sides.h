@@ -1,7 +1,9 @@
-// How many of eight lanes a long kernel takes at a time. Where registers hold four it goes through the lower half of
-// the lanes and then through the upper: less of what is in hand is kept in memory, and what is rare in a lane holds up
-// three others instead of seven (docs/performance.md). What it computes for a lane is the same.
+// How many of eight lanes a long kernel takes at a time. Where registers hold four, or two, it goes through the lanes
+// register by register: less of what is in hand is kept in memory, and what is rare in a lane holds up three others, or
+// one, instead of seven (docs/performance.md). What it computes for a lane is the same.
 #pragma once
+#include <type_traits>
+
 #include "solver/base/lanes.h"
 
 namespace voussoir {
@@ -32,93 +34,130 @@ struct WholeSide {
   }
 };
 
-#if defined(VOUSSOIR_REGISTERS_OF_FOUR)
+#if defined(VOUSSOIR_LANES_IN_PARTS)
 
-using HalfNumbers = parts::Register;
-using HalfMask = parts::RegisterMask;
-using HalfFloats = float __attribute__((vector_size(16)));
-struct HalfBytes {
-  HalfMask of_lane;
+using SideNumbers = parts::Register;
+using SideMask = parts::RegisterMask;
+using SideFloats = float __attribute__((vector_size(4 * register_lanes)));
+using SideBits = std::int32_t __attribute__((vector_size(4 * register_lanes)));
+struct SideBytes {
+  SideMask of_lane;
 };
 using parts::any, parts::at_most, parts::flip, parts::larger, parts::less, parts::magnitude, parts::select,
     parts::square_root;
 
-template <bool upper>
-struct HalfSide {
-  using Numbers = HalfNumbers;
-  using Floats = HalfFloats;
-  using Mask = HalfMask;
-  static constexpr int first_lane = upper ? 4 : 0;
+constexpr int register_count = lane_count / register_lanes;
+/// Calls f(number) for each of the registers that make all lanes.
+template <class F>
+[[gnu::always_inline]] inline void each_register(const F& f) {
+  f(std::integral_constant<int, 0>{}), f(std::integral_constant<int, 1>{});
+  if constexpr (register_count == 4) f(std::integral_constant<int, 2>{}), f(std::integral_constant<int, 3>{});
+}
 
-  template <class Half, class T>
-  [[gnu::always_inline]] static const Half& of(const parts::Both<Half, T>& all) {
-    return upper ? all.high : all.low;
+/// The lanes of one register.
+template <int which>
+struct RegisterSide {
+  using Numbers = SideNumbers;
+  using Floats = SideFloats;
+  using Mask = SideMask;
+  static constexpr int lanes = register_lanes, first_lane = which * lanes;
+
+  template <class T>
+  [[gnu::always_inline]] static auto& of(T& all) {
+    return register_of<which, register_count>(all);
   }
-  template <class Half, class T>
-  [[gnu::always_inline]] static Half& of(parts::Both<Half, T>& all) {
-    return upper ? all.high : all.low;
-  }
-  [[gnu::always_inline]] static const Mask& of(const LaneMask& all) { return upper ? all.high : all.low; }
-  [[gnu::always_inline]] static Mask& of(LaneMask& all) { return upper ? all.high : all.low; }
   [[gnu::always_inline]] static const Floats& of(const Singles& all) {
-    return reinterpret_cast<const Floats*>(&all)[upper];
+    return reinterpret_cast<const Floats*>(&all)[which];
   }
-  [[gnu::always_inline]] static Floats& of(Singles& all) { return reinterpret_cast<Floats*>(&all)[upper]; }
+  [[gnu::always_inline]] static Floats& of(Singles& all) { return reinterpret_cast<Floats*>(&all)[which]; }
   [[gnu::always_inline]] static Numbers splat(double x) { return x - Numbers{}; }
-  [[gnu::always_inline]] static HalfBytes load_bytes(const std::uint8_t* bytes) {
-    std::int32_t four;
-    std::memcpy(&four, bytes, sizeof(four));
-    return {HalfMask(_mm256_cvtepu8_epi64(_mm_cvtsi32_si128(four)))};
+  [[gnu::always_inline]] static SideBytes load_bytes(const std::uint8_t* bytes) {
+    using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
+    Bytes few;
+    std::memcpy(&few, bytes, sizeof(few));
+    return {__builtin_convertvector(few, Mask)};
   }
 
-  static constexpr int lanes = 4;
-  [[gnu::always_inline]] static void to_lanes(const Lanes (&record)[4], Numbers (&number)[lane_count]) {
-    Numbers low[4], high[4];
-    for (int i = 0; i < 4; ++i) low[i] = record[i].low, high[i] = record[i].high;
-    parts::transpose(low), parts::transpose(high);
-    for (int i = 0; i < 4; ++i) number[i] = low[i], number[i + 4] = high[i];
+  [[gnu::always_inline]] static void to_lanes(const Lanes (&record)[lanes], Numbers (&number)[lane_count]) {
+    each_register([&](auto k) __attribute__((always_inline)) {
+      Numbers square[lanes];
+      for (int i = 0; i < lanes; ++i) square[i] = register_of<k, register_count>(record[i]);
+      parts::transpose(square);
+      for (int i = 0; i < lanes; ++i) number[lanes * k + i] = square[i];
+    });
   }
-  [[gnu::always_inline]] static void to_records(const Numbers (&number)[lane_count], Lanes (&record)[4]) {
-    Numbers low[4], high[4];
-    for (int i = 0; i < 4; ++i) low[i] = number[i], high[i] = number[i + 4];
-    parts::transpose(low), parts::transpose(high);
-    for (int i = 0; i < 4; ++i) record[i] = {low[i], high[i]};
+  [[gnu::always_inline]] static void to_records(const Numbers (&number)[lane_count], Lanes (&record)[lanes]) {
+    each_register([&](auto k) __attribute__((always_inline)) {
+      Numbers square[lanes];
+      for (int i = 0; i < lanes; ++i) square[i] = number[lanes * k + i];
+      parts::transpose(square);
+      for (int i = 0; i < lanes; ++i) register_of<k, register_count>(record[i]) = square[i];
+    });
+  }
+
+ private:
+  /// The register of that number among the `count` that these numbers are in.
+  template <int i, int count, class T>
+  [[gnu::always_inline]] static auto& register_of(T& all) {
+    if constexpr (count == 1)
+      return all;
+    else if constexpr (i < count / 2)
+      return register_of<i, count / 2>(all.low);
+    else
+      return register_of<i - count / 2, count / 2>(all.high);
   }
 };
 
-[[gnu::always_inline]] inline HalfNumbers widen(HalfFloats x) {
+#if defined(__AVX2__)
+[[gnu::always_inline]] inline SideNumbers widen(SideFloats x) {
   return _mm256_cvtps_pd(x);
 }
-[[gnu::always_inline]] inline HalfFloats narrow(HalfNumbers x) {
+[[gnu::always_inline]] inline SideFloats narrow(SideNumbers x) {
   return _mm256_cvtpd_ps(x);
 }
-[[gnu::always_inline]] inline HalfMask without(HalfMask a, HalfMask b) {
+#else
+[[gnu::always_inline]] inline SideNumbers widen(SideFloats x) {
+  return parts::widen(__builtin_shufflevector(x, SideFloats{}, 0, 1, 2, 3)).low;
+}
+[[gnu::always_inline]] inline SideFloats narrow(SideNumbers x) {
+  return __builtin_convertvector(x, SideFloats);
+}
+#endif
+[[gnu::always_inline]] inline SideMask without(SideMask a, SideMask b) {
   return a & ~b;
 }
-[[gnu::always_inline]] inline bool all(HalfMask m) {
+[[gnu::always_inline]] inline bool all(SideMask m) {
   return !any(~m);
 }
-[[gnu::always_inline]] inline HalfMask bytes_with(HalfBytes bytes, int bits) {
-  return (bytes.of_lane & std::int64_t(bits)) != 0;
+[[gnu::always_inline]] inline SideMask bytes_with(SideBytes bytes, int bits) {
+  return parts::not_zero(bytes.of_lane & std::int64_t(bits));
 }
-[[gnu::always_inline]] inline HalfFloats of_floats(HalfMask m) {
-  using Ints = std::int32_t __attribute__((vector_size(32)));
-  return HalfFloats(__builtin_shufflevector(Ints(m), Ints(m), 0, 2, 4, 6));
+[[gnu::always_inline]] inline SideFloats of_floats(SideMask m) {
+  using Halves = std::int32_t __attribute__((vector_size(sizeof(SideMask))));
+#if defined(__AVX2__)
+  return SideFloats(__builtin_shufflevector(Halves(m), Halves(m), 0, 2, 4, 6));
+#else
+  return SideFloats(__builtin_shufflevector(Halves(m), Halves(m), 0, 2));
+#endif
 }
-[[gnu::always_inline]] inline HalfFloats within(HalfMask m, HalfFloats x) {
-  return _mm_and_ps(of_floats(m), x);
+[[gnu::always_inline]] inline SideFloats within(SideMask m, SideFloats x) {
+  return SideFloats(SideBits(of_floats(m)) & SideBits(x));
 }
-[[gnu::always_inline]] inline void store_lanes(HalfMask m, HalfNumbers x, HalfNumbers& to) {
+[[gnu::always_inline]] inline void store_lanes(SideMask m, SideNumbers x, SideNumbers& to) {
   to = parts::select(m, x, to);
 }
-[[gnu::always_inline]] inline void store_lanes(HalfMask m, HalfFloats x, HalfFloats& to) {
+[[gnu::always_inline]] inline void store_lanes(SideMask m, SideFloats x, SideFloats& to) {
+#if defined(__AVX2__)
   to = _mm_blendv_ps(to, x, of_floats(m));
+#else
+  const auto mask = SideBits(of_floats(m));
+  to = SideFloats((mask & SideBits(x)) | (~mask & SideBits(to)));
+#endif
 }
-[[gnu::always_inline]] inline void store_flags(HalfMask first, HalfMask second, std::uint8_t* bytes) {
-  using Bytes = std::uint8_t __attribute__((vector_size(32)));
-  const auto flags = Bytes((first & 1) | (second & 2));
-  const auto four = __builtin_shufflevector(flags, flags, 0, 8, 16, 24);
-  std::memcpy(bytes, &four, sizeof(four));
+[[gnu::always_inline]] inline void store_flags(SideMask first, SideMask second, std::uint8_t* bytes) {
+  using Bytes = std::uint8_t __attribute__((vector_size(register_lanes)));
+  const auto few = __builtin_convertvector((first & 1) | (second & 2), Bytes);
+  std::memcpy(bytes, &few, sizeof(few));
 }
 
 #endif
@@ -146,9 +185,8 @@ template <class L>
 /// Calls f(side) for each of the sides that together are all lanes.
 template <class F>
 [[gnu::always_inline]] inline void each_side(const F& f) {
-#if defined(VOUSSOIR_REGISTERS_OF_FOUR)
-  f(HalfSide<false>{});
-  f(HalfSide<true>{});
+#if defined(VOUSSOIR_LANES_IN_PARTS)
+  each_register([&f](auto which) __attribute__((always_inline)) { f(RegisterSide<which>{}); });
 #else
   f(WholeSide{});
 #endif

@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
+#define VOUSSOIR_LANES_IN_PARTS
 #if defined(__AVX2__)
-#define VOUSSOIR_REGISTERS_OF_FOUR
 constexpr int register_lanes = 4;
 #else
 constexpr int register_lanes = 2;
@@ -99,6 +99,9 @@ struct Masks {
 [[gnu::always_inline]] inline Register larger(Register a, Register b) {
   return _mm256_max_pd(a, b);
 }
+[[gnu::always_inline]] inline RegisterMask not_zero(RegisterMask x) {
+  return x != 0;
+}
 [[gnu::always_inline]] inline bool any(RegisterMask m) {
   return !_mm256_testz_si256(__m256i(m), __m256i(m));
 }
@@ -114,8 +117,14 @@ struct Masks {
   r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 #else
+// By bits: "m ? a : b" compares each lane of the mask with zero first, which SSE2 cannot do at once.
 [[gnu::always_inline]] inline Register select(RegisterMask m, Register a, Register b) {
-  return m ? a : b;
+  return Register((m & RegisterMask(a)) | (~m & RegisterMask(b)));
+}
+[[gnu::always_inline]] inline RegisterMask not_zero(RegisterMask x) {
+  using Halves = std::int32_t __attribute__((vector_size(sizeof(RegisterMask))));
+  const auto set = Halves(x) != 0;
+  return RegisterMask(set | __builtin_shufflevector(set, set, 1, 0, 3, 2));
 }
 [[gnu::always_inline]] inline RegisterSingles select(RegisterSingles m, RegisterSingles a, RegisterSingles b) {
   const auto mask = RegisterMask(m);
@@ -268,22 +277,38 @@ namespace parts {
   return {RegisterMask(_mm256_cvtepi8_epi64(all)), RegisterMask(_mm256_cvtepi8_epi64(_mm_srli_si128(all, 4)))};
 }
 #else
+#if defined(__SSE2__)
+[[gnu::always_inline]] inline Both<Register, double> widen(RegisterSingles x) {
+  return {_mm_cvtps_pd(x), _mm_cvtps_pd(_mm_movehl_ps(x, x))};
+}
+[[gnu::always_inline]] inline RegisterSingles narrow(Both<Register, double> x) {
+  return _mm_movelh_ps(_mm_cvtpd_ps(x.low), _mm_cvtpd_ps(x.high));
+}
+[[gnu::always_inline]] inline LaneMask spread(std::uint64_t bytes) {
+  const auto lanes = [](__m128i x) {
+    return Masks<RegisterMask>{RegisterMask(_mm_unpacklo_epi32(x, x)), RegisterMask(_mm_unpackhi_epi32(x, x))};
+  };
+  const __m128i all = _mm_cvtsi64_si128(std::int64_t(bytes)), twice = _mm_unpacklo_epi8(all, all);
+  return {lanes(_mm_unpacklo_epi16(twice, twice)), lanes(_mm_unpackhi_epi16(twice, twice))};
+}
+#else
 [[gnu::always_inline]] inline Both<Register, double> widen(RegisterSingles x) {
   return {Register{x[0], x[1]}, Register{x[2], x[3]}};
 }
 [[gnu::always_inline]] inline RegisterSingles narrow(Both<Register, double> x) {
   return RegisterSingles{float(x.low[0]), float(x.low[1]), float(x.high[0]), float(x.high[1])};
 }
+[[gnu::always_inline]] inline LaneMask spread(std::uint64_t bytes) {
+  const auto lane = [bytes](int i) { return std::int64_t(std::int8_t(bytes >> (8 * i))); };
+  return {{RegisterMask{lane(0), lane(1)}, RegisterMask{lane(2), lane(3)}},
+          {RegisterMask{lane(4), lane(5)}, RegisterMask{lane(6), lane(7)}}};
+}
+#endif
 [[gnu::always_inline]] inline Lanes widen(Singles x) {
   return {widen(x.low), widen(x.high)};
 }
 [[gnu::always_inline]] inline Singles narrow(Lanes x) {
   return {narrow(x.low), narrow(x.high)};
-}
-[[gnu::always_inline]] inline LaneMask spread(std::uint64_t bytes) {
-  const auto lane = [bytes](int i) { return std::int64_t(std::int8_t(bytes >> (8 * i))); };
-  return {{RegisterMask{lane(0), lane(1)}, RegisterMask{lane(2), lane(3)}},
-          {RegisterMask{lane(4), lane(5)}, RegisterMask{lane(6), lane(7)}}};
 }
 #endif
 /// Of masks of doubles, those of singles.

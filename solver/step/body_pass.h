@@ -21,7 +21,7 @@ Incidence find_incidence(const Model& model, const State& state);
 struct alignas(64) BodyBatch {
   Lanes centroid[3], mass, inertial_mass, radius;
   Lanes inverse_inertia[6];  // xx, yy, zz, xy, xz, yz
-  Lanes free;                 // 1 of a free body, else 0; no mask, so that it is laid out alike for all processors
+  Lanes free;                // 1 of a free body, else 0; no mask, so that it is laid out alike for all processors
   [[gnu::always_inline]] LaneMask are_free() const { return less(splat(0.0), free); }
 };
 Array<BodyBatch> make_body_batches(const Model& model);
