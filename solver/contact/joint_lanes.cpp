@@ -53,6 +53,26 @@ template <class Side>
   three(one.place, other.place);
 }
 
+/// The same of two resultants.
+template <class One, class Other>
+requires requires(One q) {
+  q.sn;
+}
+[[gnu::always_inline]] inline void each_number(One& one, Other& other, const auto& f) {
+  f(one.n, other.n), f(one.s, other.s), f(one.t, other.t);
+  f(one.sn, other.sn), f(one.tn, other.tn), f(one.st, other.st);
+  f(one.ts, other.ts), f(one.ss, other.ss), f(one.tt, other.tt);
+}
+
+/// A side's lanes of a jump or a resultant.
+template <class Side, template <class> class Of>
+[[gnu::always_inline]] inline auto side_of(const Of<Lanes>& all) {
+  Of<typename Side::Numbers> side;
+  each_number(
+      side, all, [](auto& x, const Lanes& of) __attribute__((always_inline)) { x = Side::of(of); });
+  return side;
+}
+
 /// The elastic generalised jump of the intact path.
 template <class L>
 struct ElasticOf {
@@ -60,8 +80,9 @@ struct ElasticOf {
 };
 using LaneElastic = ElasticOf<Lanes>;
 
-struct LaneCheck {
-  LaneMask admissible, open;
+template <class M>
+struct CheckOf {
+  M admissible, open;
 };
 
 /// A copy made number by number: of one made at once the compiler would keep the original in memory too.
@@ -72,26 +93,35 @@ struct LaneCheck {
 }
 
 /// Jump at one place of the joints' planes.
-[[gnu::always_inline]] inline Triple<Lanes> jump_at(const LaneElastic& e, Lanes s, Lanes t) {
+template <class L>
+[[gnu::always_inline]] inline Triple<L> jump_at(const ElasticOf<L>& e, L s, L t) {
   return {e.u[0] + e.u[4] * t - e.u[5] * s, e.u[1] - e.u[3] * t, e.u[2] + e.u[3] * s};
 }
 
-[[gnu::always_inline]] inline void check_corner(const JointBatch& batch, const LaneElastic& e, Lanes s, Lanes t,
-                                                Lanes tension, Lanes cohesion, Lanes tangent, LaneCheck& check) {
-  const Triple<Lanes> u = jump_at(e, s, t);
-  const Lanes sigma = batch.kn * u.x;
-  const Lanes limit = cohesion - sigma * tangent;
-  const Lanes shear2 = batch.ks * batch.ks * (u.y * u.y + u.z * u.z);
-  check.admissible &= at_most(sigma, tension) & at_most(shear2, limit * limit);
-  check.open &= at_most(splat(0.0), u.x);
+/// What intact joints bear, by what is left of their bonds.
+template <class L>
+struct BearingOf {
+  L tension, cohesion, tangent;
+};
+
+template <class Side, class L, class M>
+[[gnu::always_inline]] inline void check_corner(const JointBatch& batch, const ElasticOf<L>& e, L s, L t,
+                                                const BearingOf<L>& bears, CheckOf<M>& check) {
+  const Triple<L> u = jump_at(e, s, t);
+  const L ks = Side::of(batch.ks), sigma = Side::of(batch.kn) * u.x;
+  const L limit = bears.cohesion - sigma * bears.tangent;
+  const L shear2 = ks * ks * (u.y * u.y + u.z * u.z);
+  check.admissible = check.admissible & at_most(sigma, bears.tension) & at_most(shear2, limit * limit);
+  check.open = check.open & at_most(Side::splat(0.0), u.x);
 }
 
-[[gnu::noinline]] LaneCheck check_polygons(const Model& model, const JointBatch& batch, const LaneElastic& e,
-                                           Lanes tension, Lanes cohesion, Lanes tangent, LaneMask keep) {
-  LaneCheck check = {keep, keep};
+template <class Side, class L, class M>
+[[gnu::noinline]] CheckOf<M> check_polygons(const Model& model, const JointBatch& batch, const ElasticOf<L>& e,
+                                            const BearingOf<L>& bears, M keep) {
+  CheckOf<M> check = {keep, keep};
   const Lanes* corner = &model.batch_corners[std::size_t(batch.first_corner)];
   for (int c = 0; c < batch.corners; ++c, corner += 2)
-    check_corner(batch, e, corner[0], corner[1], tension, cohesion, tangent, check);
+    check_corner<Side>(batch, e, L(Side::of(corner[0])), L(Side::of(corner[1])), bears, check);
   return check;
 }
 
@@ -109,37 +139,40 @@ template <class Side, class L>
 
 /// The elastic traction field is affine and the admissible set convex: the corners decide for the whole polygon, and
 /// those of a rectangle about it are on the safe side.
-[[gnu::always_inline]] inline LaneCheck check_corners(const Model& model, const JointBatch& batch, const LaneElastic& e,
-                                                      const LaneStrength& strength, LaneMask broken, LaneMask keep) {
-  const Lanes tension = select(broken, splat(0.0), strength.tension);
-  const Lanes cohesion = select(broken, strength.residual_cohesion, strength.cohesion);
-  const Lanes tangent = select(broken, strength.residual_tangent, strength.tangent);
-  const Lanes a = batch.half_s, b = batch.half_t;
-  LaneCheck check = {keep, keep};
-  check_corner(batch, e, a, b, tension, cohesion, tangent, check);
-  check_corner(batch, e, -a, b, tension, cohesion, tangent, check);
-  check_corner(batch, e, -a, -b, tension, cohesion, tangent, check);
-  check_corner(batch, e, a, -b, tension, cohesion, tangent, check);
+template <class Side, class L, class M>
+[[gnu::always_inline]] inline CheckOf<M> check_corners(const Model& model, const JointBatch& batch,
+                                                       const ElasticOf<L>& e, const LaneStrength& strength, M broken,
+                                                       M keep) {
+  const BearingOf<L> bears = {select(broken, Side::splat(0.0), L(Side::of(strength.tension))),
+                              select(broken, L(Side::of(strength.residual_cohesion)), L(Side::of(strength.cohesion))),
+                              select(broken, L(Side::of(strength.residual_tangent)), L(Side::of(strength.tangent)))};
+  const L a = Side::of(batch.half_s), b = Side::of(batch.half_t);
+  CheckOf<M> check = {keep, keep};
+  check_corner<Side>(batch, e, a, b, bears, check);
+  check_corner<Side>(batch, e, L(-a), b, bears, check);
+  check_corner<Side>(batch, e, L(-a), L(-b), bears, check);
+  check_corner<Side>(batch, e, a, L(-b), bears, check);
   if (batch.rectangles || !any(without(keep, check.admissible))) return check;
-  return check_polygons(model, batch, e, tension, cohesion, tangent, keep);
+  return check_polygons<Side>(model, batch, e, bears, keep);
 }
 
 /// Largest opening and the plastic slip field of patches that are wholly open.
-[[gnu::noinline]] void follow_open(const Model& model, const JointBatch& batch, const LaneElastic& e, LaneMask open,
+template <class Side, class L, class M>
+[[gnu::noinline]] void follow_open(const Model& model, const JointBatch& batch, const ElasticOf<L>& e, M open,
                                    Lanes* slip, std::uint8_t* mode, Lanes& largest) {
-  for (int c = 0; c < 3; ++c) slip[c] = select(open, slip[c] + e.u[c + 1], slip[c]);
-  Lanes most = splat(0.0);
-  const auto look_at = [&](Lanes s, Lanes t) { most = larger(jump_at(e, s, t).x, most); };
+  for (int c = 0; c < 3; ++c) store_lanes(open, L(Side::of(slip[c]) + e.u[c + 1]), Side::of(slip[c]));
+  L most = Side::splat(0.0);
+  const auto look_at = [&](L s, L t) { most = larger(jump_at(e, s, t).x, most); };
   if (batch.rectangles) {
-    const Lanes a = batch.half_s, b = batch.half_t;
+    const L a = Side::of(batch.half_s), b = Side::of(batch.half_t);
     look_at(a, b), look_at(-a, b), look_at(-a, -b), look_at(a, -b);
   } else {
     const Lanes* corner = &model.batch_corners[std::size_t(batch.first_corner)];
-    for (int c = 0; c < batch.corners; ++c, corner += 2) look_at(corner[0], corner[1]);
+    for (int c = 0; c < batch.corners; ++c, corner += 2) look_at(Side::of(corner[0]), Side::of(corner[1]));
   }
-  store_lanes(open & less(largest, most), most, largest);
-  for (int lane = 0; lane < batch.count; ++lane)
-    if (open[lane]) mode[lane] |= mode_slid;
+  store_lanes(open & less(L(Side::of(largest)), most), most, Side::of(largest));
+  for (int lane = 0; lane < Side::lanes; ++lane)
+    if (open[lane]) mode[Side::first_lane + lane] |= mode_slid;
 }
 
 /// The branches of one generalised jump follow its change `du`, those of lanes that are not closed relax; adds their q
@@ -391,9 +424,7 @@ struct BatchPass {
   template <class Side>
   [[gnu::always_inline]] void spring_side(const Jump<Lanes>& all, bool slid, TileFindings& findings) const {
     using L = typename Side::Numbers;
-    Jump<L> jump;
-    each_number(
-        jump, all, [](L & x, const Lanes& of) __attribute__((always_inline)) { x = Side::of(of); });
+    const Jump<L> jump = side_of<Side>(all);
     auto e = elastic_of<Side>(jump, slid);
     L change[6];
     note_change<Side>(jump, EveryLane{}, in.last_of(k), change);
@@ -427,11 +458,16 @@ struct BatchPass {
     const LaneStrength strength = strengths(*pass.model, batch);
     Lanes change[6];  // of the jump since the pass before
     // point_patch() keeps the last jump of its lanes itself.
-    const LaneMask left = without(live, keep | strength.brittle);
-    if (any(left))
-      note_change<WholeSide>(jump, ~left, in.last_of(k), change);
-    else
-      note_change<WholeSide>(jump, EveryLane{}, in.last_of(k), change);
+    const LaneMask left = without(live, keep | strength.brittle), noted = ~left;
+    each_side([&](auto side) __attribute__((always_inline)) {
+      using Side = decltype(side);
+      typename Side::Numbers since[6];
+      if (any(left))
+        note_change<Side>(side_of<Side>(jump), Side::of(noted), in.last_of(k), since);
+      else
+        note_change<Side>(side_of<Side>(jump), EveryLane{}, in.last_of(k), since);
+      for (int c = 0; c < 6; ++c) Side::of(change[c]) = since[c];
+    });
     ahead.constants(0);
     Intact intact;
     if (any(keep)) intact = intact_lanes(jump, change, strength, modes, keep, findings);
@@ -442,9 +478,14 @@ struct BatchPass {
     const LaneMask brittle = points & strength.brittle, others = without(points, brittle);
     leave_intact(without(points, bytes_with(modes, mode_points)));
     if (any(brittle)) by_points = point_lanes(jump, change, strength, brittle, findings);
-    const WorldWrench<Lanes> wrench(select(intact.closed, intact.resultant, select(brittle, by_points, nothing)), jump);
+    const Resultant<Lanes> resultant = select(intact.closed, intact.resultant, select(brittle, by_points, nothing));
     alignas(64) double rows[lane_count * wrench_width];
-    store_wrenches(wrench.force, wrench.moment, rows);
+    each_side([&](auto side) __attribute__((always_inline)) {
+      using Side = decltype(side);
+      const WorldWrench<typename Side::Numbers> wrench(side_of<Side>(resultant), side_of<Side>(jump));
+      const WrenchRows<Side> wrenches(wrench.force, wrench.moment);
+      std::memcpy(rows + wrench_width * Side::first_lane, wrenches.row, sizeof(wrenches.row));
+    });
     for (int lane = 0; any(others) && lane < batch.count; ++lane)
       if (others[lane]) point_patch(pass, std::size_t(batch.first_joint + lane), rows + wrench_width * lane);
     ahead.memory();
@@ -457,23 +498,35 @@ struct BatchPass {
   /// Intact lanes: checked at the corners, advanced if they stay.
   [[gnu::always_inline]] Intact intact_lanes(const Jump<Lanes>& jump, const Lanes* change, const LaneStrength& strength,
                                              LaneBytes modes, LaneMask keep, TileFindings& findings) const {
-    LaneElastic e = elastic_of(jump, any(bytes_with(modes, mode_slid)));
-    const LaneMask broken = bytes_with(modes, mode_broken);
-    const LaneCheck check = check_corners(*pass.model, batch, e, strength, broken, keep);
-    const LaneMask open = broken & check.open, closed = without(check.admissible, open);
-    if (any(open)) follow_open(*pass.model, batch, e, open, in.slip_of(k), mode, largest_openings());
-    const LaneMask was_open = keep & bytes_with(modes, mode_open);
+    const bool slid = any(bytes_with(modes, mode_slid));
+    const LaneMask broken = bytes_with(modes, mode_broken), was_open = keep & bytes_with(modes, mode_open);
+    Intact all;
+    LaneMask open;
+    each_side([&](auto side) __attribute__((always_inline)) {
+      using Side = decltype(side);
+      using L = typename Side::Numbers;
+      auto e = elastic_of<Side>(side_of<Side>(jump), slid);
+      const auto check = check_corners<Side>(*pass.model, batch, e, strength, Side::of(broken), Side::of(keep));
+      const auto opens = Side::of(broken) & check.open, closed = without(check.admissible, opens),
+                 stays = opens | closed;
+      if (any(opens)) follow_open<Side>(*pass.model, batch, e, opens, in.slip_of(k), mode, largest_openings());
+      L since[6];
+      for (int c = 0; c < 6; ++c) since[c] = Side::of(change[c]);
+      if constexpr (count > 0)
+        e = advance_lanes<Side, count>(pass.branches, in.several, batch, e, closed, Side::of(was_open), stays,
+                                       in.branches_of(k), Side::of(findings.work), since);
+      Side::of(open) = opens, Side::of(all.stays) = stays, Side::of(all.closed) = closed;
+      const auto resultant = lanes_resultant<Side>(batch, e);
+      each_number(
+          resultant, all.resultant, [](const auto& x, Lanes& of) __attribute__((always_inline)) { Side::of(of) = x; });
+    });
     if (any(open ^ was_open))
       for (int lane = 0; lane < batch.count; ++lane)
         if (keep[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_open) | (open[lane] ? mode_open : 0));
-    const LaneMask stays = open | closed;
-    const LaneElastic elastic = e;
-    if constexpr (count > 0)
-      e = advance_lanes<WholeSide, count>(pass.branches, in.several, batch, e, closed, was_open, stays,
-                                          in.branches_of(k), findings.work, change);
     if (pass.energies)
-      add_energy<count>(pass.branches, batch, elastic, closed, in.branches_of(k), findings.elastic, findings.stored);
-    return {stays, closed, lanes_resultant(batch, e)};
+      add_energy<count>(pass.branches, batch, elastic_of(jump, slid), all.closed, in.branches_of(k), findings.elastic,
+                        findings.stored);
+    return all;
   }
 
   Lanes& largest_openings() const {
