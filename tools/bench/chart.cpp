@@ -102,19 +102,21 @@ std::string chart(const std::vector<Program>& programs, const std::map<std::stri
   for (std::size_t s = 0; s < names.size(); ++s) {
     const double top = head + row * double(s) + 0.5 * gap, below = top + row - gap;
     drawing.text(label - 10.0, 0.5 * (top + below) + 4.5, names[s], {.anchor = "end"});
-    for (std::size_t p = 0; p < programs.size(); ++p) {
-      const auto cost = programs[p].cost.find(names[s]);
-      if (cost == programs[p].cost.end()) continue;
-      const double y = top + bar * double(p), end = axis.at(cost->second);
-      drawing.rectangle(label, y + 1.0, end - label, bar - 2.0, {.fill = colour_code(line_colour(p))},
-                        fmt::format("{}, {}", names[s], programs[p].name));
-      drawing.text(end + 5.0, y + bar - 3.5, fmt::format("{:.3f}", cost->second), {.size = 11.0});
-    }
     if (const auto aim = aims.find(names[s]); aim != aims.end()) {
       const double x = axis.at(std::min(aim->second, most));
       drawing.line(x, top - 3.0, x, below + 3.0, colour_code(kInk), 1.6, "4 3");
       drawing.marker(Marker::triangle, x, below + 6.0, colour_code(kInk), fmt::format("aimed for: {}", aim->second),
                      4.0);
+    }
+    for (std::size_t p = 0; p < programs.size(); ++p) {
+      const auto cost = programs[p].cost.find(names[s]);
+      if (cost == programs[p].cost.end()) continue;
+      const double y = top + bar * double(p) + 1.0, end = axis.at(cost->second), height = bar - 2.0;
+      drawing.rectangle(label, y, end - label, height, {.fill = colour_code(line_colour(p))},
+                        fmt::format("{}, {}", names[s], programs[p].name));
+      const std::string number = fmt::format("{:.3f}", cost->second);
+      drawing.rectangle(end + 2.0, y, text_width(number, 11.0) + 4.0, height, {.fill = "#ffffff"});
+      drawing.text(end + 5.0, y + bar - 4.5, number, {.size = 11.0});
     }
   }
   return drawing.finished();
