@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "solver/base/error.h"
 #include "solver/base/program.h"
@@ -91,6 +93,7 @@ std::string chart(const std::vector<Program>& programs, const std::map<std::stri
   double most = 0.0;
   for (const Program& program : programs)
     for (const auto& [scene, cost] : program.cost) most = std::max(most, cost);
+  for (const auto& [scene, aim] : aims) most = std::max(most, aim);
   const SvgAxis axis = {SvgAxis::Kind::linear, 0.0, most, label, width - 60.0};
   SvgDrawing drawing(width, bottom + foot, "What a step costs");
   draw_axis_below(drawing, axis, head, bottom, "µs per block and step");
@@ -103,7 +106,7 @@ std::string chart(const std::vector<Program>& programs, const std::map<std::stri
     const double top = head + row * double(s) + 0.5 * gap, below = top + row - gap;
     drawing.text(label - 10.0, 0.5 * (top + below) + 4.5, names[s], {.anchor = "end"});
     if (const auto aim = aims.find(names[s]); aim != aims.end()) {
-      const double x = axis.at(std::min(aim->second, most));
+      const double x = axis.at(aim->second);
       drawing.line(x, top - 3.0, x, below + 3.0, colour_code(kInk), 1.6, "4 3");
       drawing.marker(Marker::triangle, x, below + 6.0, colour_code(kInk), fmt::format("aimed for: {}", aim->second),
                      4.0);
