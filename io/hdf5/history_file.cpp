@@ -1,5 +1,7 @@
 #include "io/hdf5/history_file.h"
 
+#include <algorithm>
+
 #include "io/hdf5/h5.h"
 #include "solver/base/error.h"
 
@@ -53,16 +55,8 @@ void History::flush() {
   file.save();
 }
 
-void History::truncate_after(double value, const std::string& channel) {
-  const std::vector<double>& keys = columns_[index_of(channel)];
-  std::vector<bool> kept(keys.size());
-  for (std::size_t r = 0; r < keys.size(); ++r) kept[r] = !(keys[r] > value);
-  for (auto& column : columns_) {
-    std::size_t end = 0;
-    for (std::size_t r = 0; r < kept.size(); ++r)
-      if (kept[r]) column[end++] = column[r];
-    column.resize(end);
-  }
+void History::keep_first(std::size_t count) {
+  for (std::vector<double>& column : columns_) column.resize(std::min(column.size(), count));
 }
 
 std::size_t History::index_of(const std::string& channel) const {

@@ -29,9 +29,8 @@ class History {
   /// Writes the whole file atomically, so a reader finds the old file or the new one, never half of it. Throws
   /// RunError.
   void flush();
-  /// Drops the rows whose value in `channel` is above `value` (exactly: bits are compared, no tolerance), as a resume
-  /// does.
-  void truncate_after(double value, const std::string& channel = "time");
+  /// Drops all rows but the first `count`, as a resume does: a time says less, for stages without time end at the same.
+  void keep_first(std::size_t count);
 
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
   const std::string& path() const { return path_; }

@@ -21,7 +21,7 @@ namespace voussoir {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kSameTime = 1e-9;  // s
+constexpr double least_apart = 1e-6;  // s, between frames
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -67,15 +67,14 @@ PvdSeries::PvdSeries(std::string path) : path_(std::move(path)) {
 }
 
 void PvdSeries::add(double time, const std::string& file) {
-  std::erase_if(frames_, [&](const Frame& f) { return std::abs(f.time - time) <= kSameTime || f.file == file; });
-  const auto after =
-      std::upper_bound(frames_.begin(), frames_.end(), time, [](double t, const Frame& f) { return t < f.time; });
-  frames_.insert(after, Frame{time, file});
+  frames_.push_back({frames_.empty() ? time : std::max(time, frames_.back().time + least_apart), file});
   write();
 }
 
-void PvdSeries::drop_after(double time) {
-  if (std::erase_if(frames_, [&](const Frame& f) { return f.time > time + kSameTime; }) > 0) write();
+void PvdSeries::keep_first(std::size_t count) {
+  if (count >= frames_.size()) return;
+  frames_.resize(count);
+  write();
 }
 
 std::string PvdSeries::file_path(const Frame& frame) const {
@@ -104,10 +103,10 @@ VtkSeries::VtkSeries(const std::string& run_directory)
       joints_((fs::path(run_directory) / "vtk" / "joints.pvd").string()),
       fill_((fs::path(run_directory) / "vtk" / "fill.pvd").string()) {}
 
-void VtkSeries::resume_at(double time) {
-  blocks_.drop_after(time);
-  joints_.drop_after(time);
-  fill_.drop_after(time);
+void VtkSeries::keep_first(std::size_t count) {
+  blocks_.keep_first(count);
+  joints_.keep_first(count);
+  fill_.keep_first(count);
 }
 
 void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot, int threads) {
@@ -116,8 +115,15 @@ void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot, int th
     std::string file;
     std::function<void(const std::string& path)> write;
   };
+  const std::vector<PvdSeries::Frame>& before = blocks_.frames();
+  const auto taken = [&](const std::string& file) {
+    return std::any_of(before.begin(), before.end(), [&](const PvdSeries::Frame& f) { return f.file == file; });
+  };
+  std::string suffix;
+  for (int i = 2; taken(fmt::format("blocks_{:010.3f}{}.vtu", snapshot.time, suffix)); ++i)
+    suffix = fmt::format("_{}", i);
   const auto name = [&](const char* of, const char* kind) {
-    return fmt::format("{}_{:010.3f}.{}", of, snapshot.time, kind);
+    return fmt::format("{}_{:010.3f}{}.{}", of, snapshot.time, suffix, kind);
   };
   std::vector<Part> parts = {
       {&joints_, name("joints", "vtp"), [&](const auto& path) { write_vtp(joint_polydata(assembly, snapshot), path); }},

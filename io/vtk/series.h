@@ -20,10 +20,12 @@ class PvdSeries {
   /// Loads the frames of an existing file; a missing one means no frames. Throws InputError when it is not a .pvd.
   explicit PvdSeries(std::string path);
 
-  /// Adds a frame (one of the same time replaces it) and rewrites the file. Throws RunError when that fails.
+  /// Adds a frame and rewrites the file. Times ascend: one at the time of the frame before, or earlier, is entered a
+  /// microsecond after it, so that ParaView shows both ends of two stages that take no time. Throws RunError when that
+  /// fails.
   void add(double time, const std::string& file);
-  /// Drops the frames later than `time` (s), as when a run resumes from an earlier checkpoint, and rewrites the file.
-  void drop_after(double time);
+  /// Drops all frames but the first `count`, as when a run resumes from an earlier checkpoint, and rewrites the file.
+  void keep_first(std::size_t count);
 
   const std::vector<Frame>& frames() const { return frames_; }
   /// The file of the frame of exactly this time (s), as seen from the working folder; empty when there is none.
@@ -41,10 +43,11 @@ class PvdSeries {
 class VtkSeries {
  public:
   explicit VtkSeries(const std::string& run_directory);
-  /// Forgets frames later than `time` (s).
-  void resume_at(double time);
+  /// Forgets all frames but the first `count`.
+  void keep_first(std::size_t count);
   /// Writes vtk/blocks_000012.500.vtu, vtk/joints_000012.500.vtp and, with a fill, vtk/fill_000012.500.vtu, each in a
-  /// thread while there are some, and adds them to the series. Throws RunError when one cannot be written.
+  /// thread while there are some, and adds them to the series; another frame of the same millisecond gets _2 behind its
+  /// time. Throws RunError when one cannot be written.
   void write(const Assembly& assembly, const Snapshot& snapshot, int threads = 1);
 
   const PvdSeries& blocks() const { return blocks_; }

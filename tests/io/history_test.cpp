@@ -48,13 +48,13 @@ TEST(History, ReadableAfterEveryFlush) {
   }
 }
 
-TEST(History, TruncatedAfterATimeOrStepAndContinuedItIsTheSame) {
+TEST(History, CutBackAndContinuedItIsTheSame) {
   const Folder folder;
   History whole = make(folder / "a.h5", 50);
   History part = make(folder / "b.h5", 50);
-  part.truncate_after(whole.time()[29]);
-  EXPECT_EQ(part.rows(), 30u);
-  part.truncate_after(195.0, "step");
+  part.keep_first(60);
+  EXPECT_EQ(part.rows(), 50u);
+  part.keep_first(20);
   EXPECT_EQ(part.rows(), 20u);
   for (int i = 20; i < 50; ++i) part.append(std::vector<double>{0.1 * i, double(10 * i), 1.0 / (1 + i), -2.0 * i});
   whole.flush();

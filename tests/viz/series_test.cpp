@@ -30,16 +30,37 @@ TEST(VtkSeries, ListsFramesAndForgetsLaterOnes) {
   ASSERT_EQ(resumed.blocks().frames().size(), 3u);
   EXPECT_EQ(resumed.blocks().frames()[2].time, 12.5);
   EXPECT_EQ(resumed.joints().frames()[1].file, "joints_000000.500.vtp");
-  resumed.resume_at(0.5);
+  resumed.keep_first(2);
   EXPECT_EQ(resumed.blocks().frames().size(), 2u);
   snapshot.time = 0.75;
-  resumed.write(assembly, snapshot);
-  snapshot.time = 0.75;  // the same frame again replaces itself
   resumed.write(assembly, snapshot);
   const PvdSeries blocks(folder / "vtk/blocks.pvd");
   ASSERT_EQ(blocks.frames().size(), 3u);
   EXPECT_EQ(blocks.frames()[2].time, 0.75);
   EXPECT_EQ(read_vtu(blocks.file_path(blocks.frames()[2]))->GetNumberOfCells(), 2);
+}
+
+/// The ends of two stages that take no time, and frames less than a millisecond apart.
+TEST(VtkSeries, NoFrameTakesTheFileOfAnother) {
+  const Folder folder;
+  const Assembly assembly = test::two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  VtkSeries series(folder.str());
+  for (const double t : {0.0, 0.0, 0.0, 0.0002, 0.5}) {
+    snapshot.time = t;
+    series.write(assembly, snapshot);
+  }
+  const VtkSeries read(folder.str());
+  const std::vector<PvdSeries::Frame>& frames = read.blocks().frames();
+  ASSERT_EQ(frames.size(), 5u);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_TRUE(std::filesystem::exists(read.blocks().file_path(frames[i]))) << i;
+    EXPECT_TRUE(std::filesystem::exists(read.joints().file_at(frames[i].time))) << i;
+    if (i > 0) EXPECT_LT(frames[i - 1].time, frames[i].time);
+    if (i > 0) EXPECT_NE(frames[i - 1].file, frames[i].file);
+  }
+  EXPECT_NEAR(frames[2].time, 0.0, 3e-6);
+  EXPECT_EQ(frames[3].time, 0.0002);
 }
 
 TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
@@ -55,7 +76,7 @@ TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
   VtkSeries resumed(folder.str());
   ASSERT_EQ(resumed.fill().frames().size(), 2u);
   EXPECT_EQ(read_vtu(resumed.fill().file_at(0.5))->GetNumberOfCells(), 4);
-  resumed.resume_at(0.25);
+  resumed.keep_first(1);
   EXPECT_EQ(resumed.fill().frames().size(), 1u);
   EXPECT_EQ(resumed.fill().file_at(0.5), "");
   // Without a fill there is no trail of one.
