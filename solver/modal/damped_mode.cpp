@@ -58,7 +58,7 @@ DampedMode local(double c, double omega) {
 DampedMode damped_mode(const DampingSettings& damping, double frequency) {
   if (frequency <= 0.0) return {};
   const bool by_ratio = damping.kind != DampingSettings::Kind::local;
-  if (by_ratio && damping.ratio == 0.0) return {frequency, 0.0};
+  if (by_ratio && damping.ratio < least_damping_ratio) return {frequency, 0.0};
   const double omega = two_pi * frequency;
   switch (damping.kind) {
     case DampingSettings::Kind::maxwell:

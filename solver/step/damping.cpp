@@ -149,6 +149,13 @@ RayleighTerms rayleigh_terms(const DampingSettings& settings) {
 }
 
 DampingAtWork damping_at_work(const DampingSettings& settings, double step, double highest) {
+  const bool by_ratio =
+      settings.kind == DampingSettings::Kind::maxwell || settings.kind == DampingSettings::Kind::rayleigh;
+  if (by_ratio && settings.ratio < least_damping_ratio) {  // branches without stiffness would store q² / 0
+    DampingAtWork work;
+    work.account = "no damping (the ratio is zero)";
+    return work;
+  }
   switch (settings.kind) {
     case DampingSettings::Kind::maxwell:
       return maxwell_at_work(settings, step);

@@ -31,6 +31,9 @@ struct RayleighTerms {
 };
 RayleighTerms rayleigh_terms(const DampingSettings& settings);
 
+/// Below this share of critical there is no damping.
+constexpr double least_damping_ratio = 1e-9;
+
 /// Damping as the step uses it.
 struct DampingAtWork {
   Branches branches;

@@ -97,6 +97,22 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
 
 }  // namespace
 
+const std::vector<std::pair<const char*, double Energies::*>>& energy_terms() {
+  static const std::vector<std::pair<const char*, double Energies::*>> terms = {
+      {"kinetic", &Energies::kinetic},
+      {"gravitational", &Energies::gravitational},
+      {"elastic", &Energies::elastic},
+      {"damping_springs", &Energies::damping_springs},
+      {"friction", &Energies::friction},
+      {"fracture", &Energies::fracture},
+      {"plastic", &Energies::plastic},
+      {"joint_damping", &Energies::joint_damping},
+      {"body_damping", &Energies::body_damping},
+      {"clipping", &Energies::clipping},
+      {"external_work", &Energies::external_work}};
+  return terms;
+}
+
 PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index,
                          bool yielding) {
   if (index >= model.joints.size() && !state.has_contact(index - model.joints.size())) return {};

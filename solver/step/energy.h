@@ -1,5 +1,8 @@
 // The energy ledger, joules. What was put in equals what is stored plus what is lost, or the run is not to be believed.
 #pragma once
+#include <utility>
+#include <vector>
+
 #include "solver/step/stepper.h"
 
 namespace voussoir {
@@ -28,6 +31,9 @@ struct Energies {
     external_work += e.external_work;
   }
 };
+
+/// Every term of the ledger by its name, in the order above.
+const std::vector<std::pair<const char*, double Energies::*>>& energy_terms();
 
 /// At a sampling point of the step, or after patches_only(): positions and patches are at this step; `pass` knows the
 /// velocities to come.
