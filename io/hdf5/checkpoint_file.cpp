@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t format_version = 11;
+constexpr std::int64_t format_version = 12;
 constexpr const char* numbers_group = "header/numbers";
 
 void set_hash(h5::File& file, const std::string& name, std::uint64_t value) {

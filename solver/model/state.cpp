@@ -94,7 +94,7 @@ std::vector<NamedArray> State::arrays() {
                                   {"counters", 1, "-", &counters},
                                   {"bodies/pose", pose_width, "m, -", &pose},
                                   {"bodies/motion", motion_width, "m/s, kg m2/s, J", &motion},
-                                  {"bodies/baseline", 3, "m", &baseline},
+                                  {"bodies/baseline", pose_width, "m, -", &baseline},
                                   {"bodies/searched", searched_width, "m, -", &searched},
                                   {"bodies/listed", searched_width, "m, -", &listed},
                                   {"pairs/cells", 4, "-", &pair_cells},
@@ -214,8 +214,8 @@ State initial_state(const Model& model) {
   const std::size_t n = model.bodies.size();
   state.pose.assign(pose_width * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) state.pose[pose_width * i + 3] = 1.0;
+  state.baseline = state.pose;
   state.motion.assign(motion_width * n, 0.0);
-  state.baseline.assign(3 * n, 0.0);
   state.searched.assign(searched_width * n, 0.0f);
   for (std::size_t i = 0; i < n; ++i)
     state.searched[searched_width * i] = 1e18f;  // never looked for: as if they had come from far

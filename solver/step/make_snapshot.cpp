@@ -202,13 +202,38 @@ Snapshot make_snapshot(const Model& model, const State& state) {
   return snapshot;
 }
 
+void set_baseline(State& state) {
+  state.baseline = state.pose;
+  for (std::size_t i = 0; i < state.baseline.size(); i += pose_width)
+    for (std::size_t c = 0; c < 3; ++c) state.baseline[i + c] -= state.base_displacement()[Eigen::Index(c)];
+}
+
+namespace {
+
+/// How far a pose has taken a point that is `arm` (m, reference axes) from the centroid.
+Vec3 moved_by(const double* pose, const Vec3& arm) {
+  return Vec3(pose) + vector(turn_change(pose_rotation(pose), Triple<double>{arm.x(), arm.y(), arm.z()}));
+}
+
+}  // namespace
+
+Vec3 displacement_since_built(const Model& model, const State& state, std::int64_t block, const Vec3& position) {
+  const std::int32_t body = model.body_of_block[block];
+  return moved_by(pose_of(state, body), position - model.bodies[body].centroid) - state.base_displacement();
+}
+
 Vec3 relative_displacement(const Model& model, const State& state, std::int64_t block, const Vec3& position) {
   const std::int32_t body = model.body_of_block[block];
-  const double* p = pose_of(state, body);
-  const Vec3 arm = position - model.bodies[body].centroid;
-  const Triple<double> turned = turn_change(pose_rotation(p), Triple<double>{arm.x(), arm.y(), arm.z()});
-  const double* from = &state.baseline[3 * std::size_t(body)];
-  return Vec3(p[0] - from[0], p[1] - from[1], p[2] - from[2]) + vector(turned) - state.base_displacement();
+  return displacement_since_built(model, state, block, position) -
+         moved_by(&state.baseline[pose_width * std::size_t(body)], position - model.bodies[body].centroid);
+}
+
+Vec3 relative_rotation(const Model& model, const State& state, std::int64_t block) {
+  const auto body = std::size_t(model.body_of_block[std::size_t(block)]);
+  const double* from = &state.baseline[pose_width * body];
+  const Eigen::AngleAxisd turn(rotation_of(state, body) *
+                               Eigen::Quaterniond(from[3], from[4], from[5], from[6]).conjugate());
+  return turn.angle() * turn.axis();
 }
 
 }  // namespace voussoir

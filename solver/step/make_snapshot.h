@@ -8,8 +8,17 @@ namespace voussoir {
 /// Contacts found during the run follow the assembly's joints.
 Snapshot make_snapshot(const Model& model, const State& state);
 
+/// Displacements and rotations count from the present placement, relative to the base, from now on.
+void set_baseline(State& state);
+
+/// Displacement (m) relative to the base, since the assembly as built, of a point that was at `position` in it.
+Vec3 displacement_since_built(const Model& model, const State& state, std::int64_t block, const Vec3& position);
+
 /// Displacement (m) relative to the base and to the last gravity stage of a point that was at `position` in the
-/// assembly.
+/// assembly. As an instrument would show it that was set to zero when the last gravity stage ended.
 Vec3 relative_displacement(const Model& model, const State& state, std::int64_t block, const Vec3& position);
+
+/// Rotation vector (rad) of a block, world axes, since the end of the last gravity stage.
+Vec3 relative_rotation(const Model& model, const State& state, std::int64_t block);
 
 }  // namespace voussoir

@@ -140,7 +140,7 @@ TEST(Equilibrium, AnArchStands) {
   for (std::size_t i = 0; i < simulation.model().bodies.size(); ++i)
     for (int c = 0; c < 3; ++c)
       most = std::max(most, std::abs(simulation.state().pose[pose_width * i + std::size_t(c)] -
-                                     simulation.state().baseline[3 * i + std::size_t(c)]));
+                                     simulation.state().baseline[pose_width * i + std::size_t(c)]));
   EXPECT_LT(most, 1e-6);
 }
 

@@ -83,7 +83,7 @@ TEST(Standing, ATowerOfSevenBoxesStands) {
     for (std::size_t i = 0; i < simulation.model().bodies.size(); ++i)
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(simulation.state().pose[pose_width * i + std::size_t(c)],
-                    simulation.state().baseline[3 * i + std::size_t(c)], 1e-9);
+                    simulation.state().baseline[pose_width * i + std::size_t(c)], 1e-9);
   }
 }
 
