@@ -1,13 +1,16 @@
 // A run that was stopped, in whatever way, and gone on with equals one that never was.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <random>
 
+#include "tests/solver/measured.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -127,6 +130,21 @@ TEST(Resume, AnInterruptLosesNoStep) {
   EXPECT_GT(std::stod(names.back()), 0.1) << names.back();
 }
 
+/// Starts or goes on with the run `parts` and kills it after so many seconds; whether it was still at work.
+bool killed_after(const Folder& folder, const std::string& parts, double seconds) {
+  const std::vector<std::string> words =
+      exists(folder / (parts + "/case.toml"))
+          ? std::vector<std::string>{"resume", parts, "--no-pictures", "-q"}
+          : std::vector<std::string>{"run", "wall.toml", "-o", parts, "--no-pictures", "-q"};
+  Program program(words, {.folder = folder.path()});
+  ::usleep(useconds_t(1e6 * seconds));
+  program.send(SIGKILL);
+  const Outcome outcome = program.wait();
+  EXPECT_TRUE(outcome.signal == SIGKILL || outcome.status == 0) << outcome.status << " " << outcome.err;
+  return outcome.signal == SIGKILL;
+}
+
+/// Six kills a run; VOUSSOIR_KILLED_RUNS (1) says in how many runs.
 TEST(Resume, AfterKillAtAnyMoment) {
   Folder folder;
   write_wall(folder, shaken);
@@ -136,24 +154,20 @@ TEST(Resume, AfterKillAtAnyMoment) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> moment(0.0, 0.7 * whole);
+  const char* asked = std::getenv("VOUSSOIR_KILLED_RUNS");
+  const int runs = asked ? std::atoi(asked) : 1;
   int kills = 0;
-  for (int attempt = 0; attempt < 6; ++attempt) {
-    const bool begun = exists(folder / "parts/case.toml");
-    const std::vector<std::string> words =
-        begun ? std::vector<std::string>{"resume", "parts", "--no-pictures", "-q"}
-              : std::vector<std::string>{"run", "wall.toml", "-o", "parts", "--no-pictures", "-q"};
-    Program program(words, {.folder = folder.path()});
-    ::usleep(useconds_t(1e6 * moment(random)));
-    program.send(SIGKILL);
-    const Outcome outcome = program.wait();
-    ASSERT_TRUE(outcome.signal == SIGKILL || outcome.status == 0) << outcome.status << " " << outcome.err;
-    kills += outcome.signal == SIGKILL;
+  for (int run = 0; run < runs; ++run) {
+    const std::string parts = "parts" + std::to_string(run);
+    for (int attempt = 0; attempt < 6; ++attempt) kills += killed_after(folder, parts, moment(random));
+    if (!exists(folder / (parts + "/case.toml"))) run_whole(folder, "wall.toml", parts);
+    const Outcome last = resume(folder, parts, {"-j", "2"});
+    ASSERT_EQ(last.status, 0) << last.err;
+    expect_same_run(folder / "whole", folder / parts);
   }
   EXPECT_GT(kills, 0);
-  if (!exists(folder / "parts/case.toml")) run_whole(folder, "wall.toml", "parts");
-  const Outcome last = resume(folder, "parts", {"-j", "2"});
-  ASSERT_EQ(last.status, 0) << last.err;
-  expect_same_run(folder / "whole", folder / "parts");
+  measured("Runs killed and gone on with that equal one never stopped", runs, HasFailure() ? 0.0 : runs,
+           fmt::format("runs, {} kills", kills));
 }
 
 TEST(Resume, ARunKilledBeforeItsFirstCheckpointStartsFromTheBeginning) {
