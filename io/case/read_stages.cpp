@@ -160,8 +160,9 @@ void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
       table.fail("drive",
                  "has no meaning in a " + name + " stage, which takes no time: drive in a free or motion stage");
   }
-  if (kind != StageSettings::Kind::gravity && table.has("method"))
-    table.fail("method", "belongs to a gravity stage: remove it");
+  if (kind != StageSettings::Kind::gravity)
+    for (const char* key : {"method", "allow_motion"})
+      if (table.has(key)) table.fail(key, "belongs to a gravity stage: remove it");
   if (kind != StageSettings::Kind::collapse)
     for (const char* key : {"to", "tilt", "tolerance", "displacement", "confirm"})
       if (table.has(key)) table.fail(key, "belongs to a collapse stage: set kind = \"collapse\" or remove it");
@@ -182,7 +183,8 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
     stage.kind = StageSettings::Kind(table.required_word("kind", stage_kinds()));
     refuse_foreign_keys(table, stage.kind);
     if (stage.kind == StageSettings::Kind::gravity)
-      stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0));
+      stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0)),
+      stage.allow_motion = table.flag("allow_motion", false);
     if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, stage, source);
     if (stage.timed()) read_drives(table, stage), read_placements(table, stage);

@@ -206,7 +206,10 @@ void write_stages(TomlText& out, const Case& c) {
     out.heading("[[stage]]");
     out.set("kind", stage_kinds()[std::size_t(stage.kind)]);
     out.set("label", stage.label);
-    if (stage.kind == StageSettings::Kind::gravity) out.set("method", gravity_methods()[std::size_t(stage.method)]);
+    if (stage.kind == StageSettings::Kind::gravity) {
+      out.set("method", gravity_methods()[std::size_t(stage.method)]);
+      out.set_flag("allow_motion", stage.allow_motion);
+    }
     if (stage.timed()) out.set("duration", stage.duration);
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
     write_drives(out, stage.drives);

@@ -205,6 +205,13 @@ OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns) {
   return r;
 }
 
+void look_at_rest(Stepper& stepper, const std::function<void()>& look) {
+  const PatchBackup backup(*stepper.state);
+  stepper.patches_only();
+  look();
+  backup.restore(*stepper.state);
+}
+
 double out_of_balance(Stepper& stepper) {
   const PatchBackup backup(*stepper.state);
   const double largest = out_of_balance(stepper, number_unknowns(*stepper.model)).largest;

@@ -17,7 +17,8 @@ struct Equilibrium {
   std::int64_t steps = 0;  // relaxation
   double residual = 0.0;   // largest out-of-balance force over the weight of an average block
   double first_residual = 0.0;
-  std::string account;  // one line for the log
+  std::string account;    // one line for the log
+  Array<double> earlier;  // of a relaxation: rows of State::pose in its second quarter or third, to see what moves
 };
 
 /// Out-of-balance force and moment of every free body (N, N m), and the largest as below.
@@ -27,6 +28,10 @@ struct OutOfBalance {
 };
 /// From a patch pass at the present placement; the patches remember it.
 OutOfBalance out_of_balance(Stepper& stepper, const Unknowns& unknowns);
+
+/// Evaluates the patches at the present placement, so that the stepper's passes hold their forces, calls `look`, and
+/// leaves no trace in the state. The stepper must have no damping branches.
+void look_at_rest(Stepper& stepper, const std::function<void()>& look);
 
 /// Largest out-of-balance force of a free body (moments over the typical block size count too) over the average weight;
 /// leaves no trace in the state.

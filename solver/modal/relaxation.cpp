@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <utility>
 
 #include "solver/contact/search.h"
 #include "solver/modal/dense_eigen.h"
@@ -136,11 +137,14 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   const std::int64_t first = state.step();
   const Array<double> start = state.pose;
   const double time = state.time();
+  Array<double> latest = start;
+  std::int64_t kept_at = round_steps;
 
   Equilibrium result;
   result.relaxed = true;
   OutOfBalance now = out_of_balance(relaxing, unknowns);
   result.residual = result.first_residual = now.largest;
+  result.earlier = start;
   // Soil that is overshot flows and tears its joints open: with a fill the weight comes on little by little.
   const Vec3 gravity = model.gravity;
   int round = model.fill.empty() ? easing_rounds : 0;
@@ -155,6 +159,10 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
     result.lost =
         a.outcome == StepOutcome::runaway || largest_displacement(model, start, state.pose) > limits.displacement;
     if (result.lost) break;
+    if (state.step() - first >= 2 * kept_at) {  // every time the number of steps has doubled
+      kept_at = state.step() - first;
+      result.earlier = std::exchange(latest, state.pose);
+    }
     if (a.outcome == StepOutcome::contacts) {
       const ContactUpdate update = update_contacts(model, state, relaxing.damping.branches, a.past, relaxing.threads);
       if (update.made + update.clipped > 0) choose_inertia(true, state, model);
@@ -172,6 +180,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   result.steps = state.step() - first;
   state.step() = first;  // relaxation is no time
   state.time() = time;
+  state.look_at() = state.grouped_at() = first;  // nor are its looks: who has moved is asked at the next step
   stop_motion(state);
   stepper.prepare();
   result.account =

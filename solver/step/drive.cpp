@@ -47,12 +47,13 @@ void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Mo
     }
 }
 
-std::vector<std::string> names_held(const SolverSettings& settings) {
-  std::set<std::string> names;
-  for (const Guide& guide : settings.guides) names.insert(guide.group);
-  for (const StageSettings& stage : settings.stages)
-    for (const Drive& drive : stage.drives) names.insert(drive.group);
-  return {names.begin(), names.end()};
+std::vector<std::string> names_held(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const auto& [name, blocks] : assembly.groups)
+    if (!blocks.empty() &&
+        std::ranges::all_of(blocks, [&](std::int64_t b) { return assembly.blocks[std::size_t(b)].fixed; }))
+      names.push_back(name);
+  return names;
 }
 
 namespace {

@@ -25,8 +25,8 @@ void check_drives(const Assembly& assembly, const std::vector<StageSettings>& st
 /// Lets fixed bodies move where guides say so. Throws InputError for groups that are not there or not fixed.
 void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Model& model);
 
-/// Names of the groups that are guided or driven, each once, in the order of their names.
-std::vector<std::string> names_held(const SolverSettings& settings);
+/// Names of the groups of fixed blocks alone, guided and driven ones among them, in the order of their names.
+std::vector<std::string> names_held(const Assembly& assembly);
 
 /// The same for placements: of free blocks, in stages that begin from rest (the first, or after one without time).
 void check_placements(const Assembly& assembly, const std::vector<StageSettings>& stages);

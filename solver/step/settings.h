@@ -85,6 +85,7 @@ struct StageSettings {
   enum class Method { automatic, newton, relaxation };  // gravity only
   Kind kind = Kind::gravity;
   Method method = Method::automatic;
+  bool allow_motion = false;          // gravity: an equilibrium is one wherever stones come to rest
   double duration = 0.0;              // s; motion and free
   GroundMotion motion;                // motion only: scaled, in m/s2
   std::vector<Drive> drives;          // motion and free; no group twice

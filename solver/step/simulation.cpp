@@ -11,6 +11,7 @@
 #include "solver/step/critical_step.h"
 #include "solver/step/drive.h"
 #include "solver/step/loads.h"
+#include "solver/step/make_snapshot.h"
 #include "solver/step/runaway.h"
 #include "solver/step/step_report.h"
 
@@ -49,6 +50,16 @@ int useful_threads(int wanted, const Model& model) {
   return std::clamp(wanted, 1, most);
 }
 
+/// Diagonal of the box about all bodies, m.
+double extent(const Model& model) {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const Body& body : model.bodies) {
+    low = low.cwiseMin(body.centroid - Vec3::Constant(body.radius));
+    high = high.cwiseMax(body.centroid + Vec3::Constant(body.radius));
+  }
+  return (high - low).norm();
+}
+
 }  // namespace
 
 Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers)
@@ -63,7 +74,7 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
   check_placements(assembly, settings_.stages);
   for (std::size_t i = 0; i < settings_.stages.size(); ++i)
     loads_at_work(assembly, model_, {}, loads_at({}, settings_.stages[i], model_.gravity, 1.0));
-  held_groups_ = names_held(settings_);
+  held_groups_ = names_held(assembly);
   stepper_.model = &model_;
   stepper_.state = &state_;
   stepper_.shortcut = settings.step.intact_shortcut;
@@ -185,6 +196,8 @@ void Simulation::choose_step() {
 
 bool Simulation::gravity(const StageSettings& stage) {
   const Timed timed(costs_.equilibrium);
+  equilibrium_ = {};  // whatever an earlier stage has found
+  const Standing before = standing_of(model_, state_);
   stepper_.damping = DampingAtWork{};
   set_branches(model_, state_, 0);
   const double tolerance = settings_.step.equilibrium_tolerance;
@@ -198,16 +211,48 @@ bool Simulation::gravity(const StageSettings& stage) {
   }
   if (!equilibrium_.converged && !stopped() && stage.method != StageSettings::Method::newton) {
     if (by_itself && model_.fill.empty()) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
-    equilibrium_ = relax(stepper_, tolerance, RelaxationLimits{}, observers_.stop, [&](std::int64_t step, double r) {
+    RelaxationLimits limits;
+    limits.displacement = extent(model_);  // what has gone so far falls, and would for ever
+    equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
     log(equilibrium_.account);
   }
-  for (std::size_t i = 0; i < model_.bodies.size(); ++i)
-    for (int c = 0; c < 3; ++c) state_.baseline[3 * i + c] = state_.pose[pose_width * i + c];
-  if (!equilibrium_.converged) failure_ = "no equilibrium under gravity: " + equilibrium_.account;
   give_memory_back();  // stiffness and its inverse take several times what the steps to come need
-  return equilibrium_.converged;
+  if (stopped()) return false;
+  if (!stayed(stage, before)) return false;
+  set_baseline(state_);
+  return true;
+}
+
+/// Whether there is an equilibrium, and where the joints held the stones; else the failure names those that move.
+bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
+  constexpr std::size_t named = 3;
+  if (!equilibrium_.converged) {
+    const Array<double>& from = equilibrium_.earlier.empty() ? before.pose : equilibrium_.earlier;
+    moving_ = farthest_moved(model_, from, state_, named);
+    failure_ = fmt::format("no equilibrium under gravity: {}{}{}", equilibrium_.account,
+                           moving_.empty() ? "" : "\nOn their way, in the last steps:",
+                           moved_text(*assembly_, model_, moving_, from, state_));
+    return false;
+  }
+  std::vector<std::int32_t> moved = moved_away(*assembly_, model_, before, state_);
+  if (moved.empty()) return true;
+  const std::size_t count = moved.size();
+  moved.resize(std::min(count, named));
+  const std::string words =
+      fmt::format("{} stone{} moved away from where {} joints held {} ({}):{}", count, count == 1 ? "" : "s",
+                  count == 1 ? "its" : "their", count == 1 ? "it" : "them",
+                  "against a neighbour by more than 5 % of the smaller one's size, or turned by more than 3°",
+                  moved_text(*assembly_, model_, moved, before.pose, state_));
+  if (stage.allow_motion) {
+    log(words);
+    return true;
+  }
+  moving_ = moved;
+  failure_ = "the assembly does not stand as it was built: it came to rest, but " + words +
+             "\nSet allow_motion = true in this [[stage]] to go on from there, or mend what holds these stones";
+  return false;
 }
 
 /// True unless stopped: an assembly that bears the whole load is an answer too.
@@ -344,23 +389,42 @@ Vec3 Simulation::reaction(const BodyPass& pass, const std::string& group) const 
   return sum;
 }
 
-void Simulation::sample(const BodyPass& pass) {
-  const Timed timed(costs_.history);
+Sample Simulation::take_sample(const BodyPass& pass) const {
   Sample s;
   s.time = state_.time();
+  s.stage = position_.stage;
   s.energies = compute_energies(stepper_, pass);
+  s.base_displacement = state_.base_displacement();
+  s.contacts = state_.contact_count();
+  s.broken_shares = lost_bonds_.shares();
+  for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
+  return s;
+}
+
+/// The row of a stage that takes no time: what balances in the end. Its balance of energy is none: what a relaxation
+/// loses by damping of its own choice is in no ledger.
+void Simulation::sample_at_rest() {
+  const Timed timed(costs_.history);
+  if (!observers_.history) return;
+  look_at_rest(stepper_, [this] {
+    for (std::size_t tile = 0; tile < model_.tiles.size(); ++tile) lost_bonds_.count(model_, state_, tile);
+    observers_.history(*this, take_sample(stepper_.body_pass()));
+  });
+}
+
+void Simulation::sample(const BodyPass& pass) {
+  const Timed timed(costs_.history);
+  Sample s = take_sample(pass);
   const Energies& e = s.energies;
   for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.plastic,
                       e.joint_damping, e.body_damping, std::abs(e.external_work)})
     state_.largest_energy() = std::max(state_.largest_energy(), term);
   if (state_.largest_energy() > 0.0) s.balance_error = (e.total() - state_.starting_energy()) / state_.largest_energy();
   worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));
-  if (!(std::abs(s.balance_error) < runaway_balance)) exploded_ = true;
-  s.base_displacement = state_.base_displacement();
+  if (exploded_.empty()) exploded_ = not_finite_text(*assembly_, stepper_, e);
+  if (exploded_.empty() && !(std::abs(s.balance_error) < runaway_balance))
+    exploded_ = fmt::format("the energy balance is off by {:.3g} times its largest term", std::abs(s.balance_error));
   s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.stage_start);
-  s.contacts = state_.contact_count();
-  s.broken_shares = lost_bonds_.shares();
-  for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
   if (observers_.history) observers_.history(*this, s);
 }
 
@@ -413,14 +477,11 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     last_ = stepper_.advance(
         state_.step() + piece, every, [&](const BodyPass& pass) { sample(pass); }, observers_.stop);
     costs_.steps += seconds_since(begun) - (costs_.history - sampled);
-    if (last_.outcome == StepOutcome::runaway || exploded_) {
-      failure_ = last_.outcome == StepOutcome::runaway
-                     ? fmt::format("at t = {:.4f} s {}", state_.time(), runaway_text(*assembly_, model_, state_, last_))
-                     : fmt::format(
-                           "at t = {:.4f} s the energy balance is off by {:.0f} times its largest term; lower "
-                           "[analysis] safety "
-                           "or time_step",
-                           state_.time(), worst_balance_);
+    if (last_.outcome == StepOutcome::runaway || !exploded_.empty()) {
+      failure_ =
+          fmt::format("at t = {:.4f} s {}", state_.time(),
+                      last_.outcome == StepOutcome::runaway ? runaway_text(*assembly_, model_, state_, last_)
+                                                            : exploded_ + "; lower [analysis] safety or time_step");
       return RunEnd::failed;
     }
     if (last_.outcome == StepOutcome::contacts) change_contacts();
@@ -457,7 +518,12 @@ RunEnd Simulation::run(double until) {
     if (position_.stage_begun == 0.0) begin_stage(stage);
     if (!stage.timed()) {
       const bool done = stage.kind == StageSettings::Kind::gravity ? gravity(stage) : collapse(stage);
-      if (!done) return stopped() ? RunEnd::interrupted : RunEnd::failed;
+      if (!done && stopped()) return RunEnd::interrupted;
+      sample_at_rest();
+      if (!done) {
+        write_fields();  // where it has gone
+        return RunEnd::failed;
+      }
     } else {
       const RunEnd end = timed(stage, until);
       if (end != RunEnd::finished) return end;

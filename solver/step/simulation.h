@@ -11,6 +11,7 @@
 #include "solver/step/damage.h"
 #include "solver/step/energy.h"
 #include "solver/step/mass_scaling.h"
+#include "solver/step/moved.h"
 #include "solver/step/stepper.h"
 
 namespace voussoir {
@@ -35,6 +36,7 @@ struct Sample {
   double balance_error = 0.0;  // of the energy balance, over the largest term so far
   Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
   std::int64_t contacts = 0;
+  std::int64_t stage = 0;             // index in the settings
   std::vector<double> broken_shares;  // of the bonds of bonded_components()
   std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
 };
@@ -85,8 +87,10 @@ class Simulation {
   const RunPosition& position() const { return position_; }
   const SolverSettings& settings() const { return settings_; }
   const std::string& failure() const { return failure_; }  // after RunEnd::failed
+  /// After RunEnd::failed in a gravity stage: the bodies that are on their way, or that have come to rest elsewhere.
+  const std::vector<std::int32_t>& moving() const { return moving_; }
   const Equilibrium& equilibrium() const { return equilibrium_; }
-  /// Groups that are guided or driven: whose reactions a Sample holds.
+  /// Groups of fixed blocks, guided and driven ones among them: whose reactions a Sample holds.
   const std::vector<std::string>& held_groups() const { return held_groups_; }
   const Collapse& collapse() const { return collapse_; }        // of a collapse stage, empty without
   const MassScaling& mass_scaling() const { return scaling_; }  // once the step is chosen
@@ -101,6 +105,7 @@ class Simulation {
  private:
   void begin_stage(const StageSettings& stage);
   bool gravity(const StageSettings& stage);
+  bool stayed(const StageSettings& stage, const Standing& before);
   bool collapse(const StageSettings& stage);
   void impose(const StageSettings& stage);
   void place(const StageSettings& stage);
@@ -109,7 +114,9 @@ class Simulation {
   bool stopped() const;
   RunEnd timed(const StageSettings& stage, double until);
   void change_contacts();
+  Sample take_sample(const BodyPass& pass) const;
   void sample(const BodyPass& pass);
+  void sample_at_rest();
   bool scales_mass() const;
   void scale();
   void scale_and_say();
@@ -131,12 +138,13 @@ class Simulation {
   Collapse collapse_;
   std::vector<std::string> held_groups_;
   std::string failure_;
+  std::vector<std::int32_t> moving_;
   Advance last_;
   RunCosts costs_;
   ContactBound bound_;
   LostBonds lost_bonds_;
   double worst_balance_ = 0.0;
-  bool exploded_ = false;
+  std::string exploded_;  // why the ledger is not to be believed; empty while it is
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;
   double started_time_ = 0.0;
 };

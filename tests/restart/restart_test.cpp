@@ -7,6 +7,7 @@
 #include "solver/motion/synthesis.h"
 #include "solver/step/make_snapshot.h"
 #include "solver/step/simulation.h"
+#include "tests/restart/copy_state.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
@@ -33,17 +34,6 @@ SolverSettings shaken(DampingSettings::Kind damping) {
   settings.damping.kind = damping;
   settings.stages = {gravity, first, pause, second};
   return settings;
-}
-
-/// Copies the state's arrays, as a checkpoint would.
-void copy_state(const Model& model, State& from, State& to) {
-  const auto source = from.arrays();
-  const auto target = to.arrays();
-  ASSERT_EQ(source.size(), target.size());
-  for (std::size_t i = 0; i < source.size(); ++i)
-    std::visit([&](auto* values) { *values = *std::get<std::remove_const_t<decltype(values)>>(source[i].data); },
-               target[i].data);
-  to.unpack(model);
 }
 
 std::uint64_t in_one_go(const Assembly& assembly, const SolverSettings& settings, int threads) {

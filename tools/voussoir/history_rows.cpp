@@ -9,22 +9,6 @@ namespace voussoir {
 
 namespace {
 
-const std::vector<std::pair<std::string, double Energies::*>>& energy_columns() {
-  static const std::vector<std::pair<std::string, double Energies::*>> columns = {
-      {"kinetic", &Energies::kinetic},
-      {"gravitational", &Energies::gravitational},
-      {"elastic", &Energies::elastic},
-      {"damping_springs", &Energies::damping_springs},
-      {"friction", &Energies::friction},
-      {"fracture", &Energies::fracture},
-      {"plastic", &Energies::plastic},
-      {"joint_damping", &Energies::joint_damping},
-      {"body_damping", &Energies::body_damping},
-      {"clipping", &Energies::clipping},
-      {"external_work", &Energies::external_work}};
-  return columns;
-}
-
 /// Mean over the group's blocks of the displacement of their centroids relative to base and gravity state.
 double group_displacement(const Simulation& run, const DemandPoint& point) {
   const std::vector<std::int64_t>& blocks = run.assembly().groups.at(point.group);
@@ -32,12 +16,6 @@ double group_displacement(const Simulation& run, const DemandPoint& point) {
   for (std::int64_t b : blocks)
     sum += relative_displacement(run.model(), run.state(), b, run.assembly().blocks[b].centroid)[point.axis];
   return sum / double(blocks.size());
-}
-
-/// Rotation vector of a sensor's block since the reference placement, rad.
-Vec3 sensor_rotation(const Simulation& run, const Sensor& sensor) {
-  const Eigen::AngleAxisd turn(rotation_of(run.state(), std::size_t(run.model().body_of_block[sensor.block])));
-  return turn.angle() * turn.axis();
 }
 
 }  // namespace
@@ -69,8 +47,8 @@ std::vector<DemandPoint> demand_points(const Assembly& assembly) {
 }
 
 std::vector<Channel> history_channels(const Assembly& assembly, const std::vector<std::string>& held_groups) {
-  std::vector<Channel> channels = {{"time", "s"}};
-  for (const auto& column : energy_columns()) channels.push_back({"energy/" + column.first, "J"});
+  std::vector<Channel> channels = {{"time", "s"}, {"stage", "-"}};
+  for (const auto& term : energy_terms()) channels.push_back({std::string("energy/") + term.first, "J"});
   channels.push_back({"energy/balance_error", "-"});
   for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/displacement_{}", axis), "m"});
   for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/acceleration_{}", axis), "m/s2"});
@@ -80,6 +58,7 @@ std::vector<Channel> history_channels(const Assembly& assembly, const std::vecto
     channels.push_back({fmt::format("damage/{}/broken_share", component_names()[std::size_t(component)]), "-"});
   for (const Sensor& sensor : assembly.sensors) {
     channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
+    channels.push_back({"sensors/" + sensor.id + "/since_built", "m"});
     channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
     for (char axis : {'x', 'y', 'z'})
       channels.push_back({fmt::format("sensors/{}/rotation_{}", sensor.id, axis), "rad"});
@@ -90,8 +69,8 @@ std::vector<Channel> history_channels(const Assembly& assembly, const std::vecto
 }
 
 std::vector<double> history_row(const Simulation& run, const Sample& s) {
-  std::vector<double> row = {s.time};
-  for (const auto& column : energy_columns()) row.push_back(s.energies.*column.second);
+  std::vector<double> row = {s.time, double(s.stage + 1)};
+  for (const auto& term : energy_terms()) row.push_back(s.energies.*term.second);
   row.push_back(s.balance_error);
   for (int c = 0; c < 3; ++c) row.push_back(s.base_displacement[c]);
   for (int c = 0; c < 3; ++c) row.push_back(s.base_acceleration[c]);
@@ -101,8 +80,10 @@ std::vector<double> history_row(const Simulation& run, const Sample& s) {
   for (const Sensor& sensor : run.assembly().sensors) {
     const Vec3 u = relative_displacement(run.model(), run.state(), sensor.block, sensor.position);
     row.push_back(sensor.direction.dot(u));
+    row.push_back(
+        sensor.direction.dot(displacement_since_built(run.model(), run.state(), sensor.block, sensor.position)));
     row.push_back(sensor_velocity(run, sensor));
-    const Vec3 turn = sensor_rotation(run, sensor);
+    const Vec3 turn = relative_rotation(run.model(), run.state(), sensor.block);
     for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
   }
   for (const Vec3& reaction : s.reactions) row.insert(row.end(), reaction.begin(), reaction.end());

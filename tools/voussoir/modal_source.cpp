@@ -95,9 +95,10 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   source.damaged = true;
   source.name = fs::path(run).filename().string();
   source.about = fmt::format("{} at t = {:.3f} s, joints as they are", source.name, header.time);
+  // Between two stages what acts is what the one before has left.
+  const std::int64_t at = header.numbers["stage_begun"] > 0.0 ? header.stage : header.stage - 1;
   const auto stages = std::int64_t(source.c.settings.stages.size());
-  source.loads =
-      loads_after(source.c.settings.stages, std::size_t(std::clamp(header.stage, std::int64_t(0), stages - 1)));
+  if (at >= 0) source.loads = loads_after(source.c.settings.stages, std::size_t(std::min(at, stages - 1)));
 }
 
 void load_case(ModalSource& source, const std::string& file) {

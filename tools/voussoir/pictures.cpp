@@ -1,6 +1,8 @@
 // The pictures every finished run leaves behind.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "io/records/curve.h"
 #include "tools/voussoir/history_rows.h"
 #include "tools/voussoir/run_session.h"
@@ -50,6 +52,24 @@ void draw_mechanism(const std::string& images, const Simulation& run, const Snap
   o.hide = {};
   o.title = fmt::format("Beyond multiplier {:.4g}", run.collapse().multiplier);
   render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
+}
+
+/// The outline of where stones were, and the way they go: the farthest by three quarters of a block, whatever it went.
+void draw_way(const std::string& file, const Simulation& run, const Snapshot& snapshot) {
+  const Model& model = run.model();
+  const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
+  const double shown = 0.75 * model.typical_size / std::max(moved, 1e-12);
+  RenderOptions o;
+  o.colour = "displacement";
+  const double digit = std::pow(10.0, std::floor(std::log10(shown)) - 1.0);  // the second one
+  o.amplification = std::min(std::round(shown / digit) * digit, 1e4);
+  o.undeformed = true;
+  o.cracks = false;
+  o.title = "Stones on their way:";
+  for (const std::int32_t body : run.moving())
+    o.title +=
+        fmt::format("{} {}", body == run.moving().front() ? " blocks" : ",", model.block_of_body[std::size_t(body)]);
+  render_picture(run.assembly(), snapshot, o, file);
 }
 
 Series channel(const History& history, const std::string& name, const std::string& path, double factor) {
@@ -117,6 +137,15 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
     for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
     return {};
   } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn
+    return e.what();
+  }
+}
+
+std::string draw_moving(const std::string& directory, const Simulation& run, const Snapshot& snapshot) {
+  try {
+    draw_way(directory + "/images/moving.png", run, snapshot);
+    return {};
+  } catch (const std::exception& e) {
     return e.what();
   }
 }

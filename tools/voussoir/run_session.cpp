@@ -117,6 +117,8 @@ void RunSession::write_checkpoint(bool stage_end) {
       {"stiffest_node", p.stiffest_node},
       {"stage_begun", p.stage_begun},
       {"worst_balance", simulation_->worst_balance()},
+      {"history_rows", double(history_.rows())},
+      {"frames", double(vtk_.blocks().frames().size())},
       {"equilibrium_converged", e.converged ? 1.0 : 0.0},
       {"newton_iterations", double(e.iterations)},
       {"relaxation_steps", double(e.steps)},
@@ -136,7 +138,7 @@ void RunSession::resume() {
     throw InputError("{} has no checkpoint to resume from; start again with voussoir run and --overwrite",
                      request_.directory);
   if (files.empty()) {  // ended before its first checkpoint: nothing has been begun
-    vtk_.resume_at(-1.0);
+    vtk_.keep_first(0);
     log("no checkpoint yet: starting from the beginning");
     return;
   }
@@ -182,8 +184,8 @@ void RunSession::go_on_from(CheckpointHeader& header) {
   simulation_->restore(p);
   simulation_->note_balance(header.numbers["worst_balance"]);
   if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
-  history_.truncate_after(std::nextafter(header.time, -1.0));  // the row of this very step is sampled again
-  vtk_.resume_at(header.time);
+  history_.keep_first(std::size_t(header.numbers["history_rows"]));
+  vtk_.keep_first(std::size_t(header.numbers["frames"]));
 }
 
 namespace {
@@ -281,6 +283,12 @@ int RunSession::run() {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   if (end == RunEnd::failed) {
     end_ = SessionEnd::failed;
+    if (request_.pictures && !simulation_->moving().empty()) {
+      const std::string missing =
+          draw_moving(request_.directory, *simulation_, make_snapshot(simulation_->model(), simulation_->state()));
+      log(missing.empty() ? fmt::format("where stones have gone: {}", path("images/moving.png"))
+                          : "no picture: " + missing);
+    }
     throw RunError("{}\nThe last good checkpoints are in {}", simulation_->failure(), path("checkpoints"));
   }
   if (fallen_) {

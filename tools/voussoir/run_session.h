@@ -75,4 +75,7 @@ class RunSession {
 std::string make_pictures(const std::string& directory, const Case& c, const Simulation& run, const Snapshot& snapshot,
                           const History& history);
 
+/// Stones on their way after a stage without time has failed, in DIR/images/moving.png. Returns as above.
+std::string draw_moving(const std::string& directory, const Simulation& run, const Snapshot& snapshot);
+
 }  // namespace voussoir

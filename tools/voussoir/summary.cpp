@@ -122,7 +122,7 @@ nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
   return json;
 }
 
-/// Of each guided or driven group: what held it along x, y and z (N) at most, at least and at the end.
+/// Of each group of fixed blocks: what held it along x, y and z (N) at most, at least and at the end.
 nlohmann::json reactions_json(const std::vector<std::string>& groups, const History& history) {
   nlohmann::json json = nlohmann::json::object();
   for (const std::string& group : groups)
@@ -132,6 +132,27 @@ nlohmann::json reactions_json(const std::vector<std::string>& groups, const Hist
       json[group][std::string(1, axis)] = {
           {"highest", std::ranges::max(f)}, {"lowest", std::ranges::min(f)}, {"last", f.back()}};
     }
+  return json;
+}
+
+/// Of each stage that has rows, at its last: time (s), reactions (N) and sensors' displacements (m), since the last
+/// gravity stage's end and since all was built.
+nlohmann::json stages_json(const Simulation& run, const History& history) {
+  nlohmann::json json = nlohmann::json::array();
+  const std::vector<StageSettings>& stages = run.settings().stages;
+  const std::vector<double>& numbers = history.values("stage");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i + 1 < numbers.size() && numbers[i + 1] == numbers[i]) continue;
+    const auto stage = std::size_t(numbers[i]);
+    nlohmann::json one = {{"stage", stage}, {"label", stages.at(stage - 1).label}, {"time", history.time()[i]}};
+    for (const std::string& group : run.held_groups())
+      for (char axis : {'x', 'y', 'z'})
+        one["reactions"][group].push_back(history.values(fmt::format("reactions/{}_{}", group, axis))[i]);
+    for (const Sensor& sensor : run.assembly().sensors)
+      for (const char* channel : {"displacement", "since_built"})
+        one["sensors"][sensor.id][channel] = history.values("sensors/" + sensor.id + "/" + channel)[i];
+    json.push_back(std::move(one));
+  }
   return json;
 }
 
@@ -199,11 +220,10 @@ nlohmann::json fill_json(const FillMesh& mesh, const Snapshot& snapshot) {
 }  // namespace
 
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
-  nlohmann::json json = {{"demand", demand_json(run.assembly(), history)},
-                         {"sensors", sensors_json(run.assembly(), history)},
-                         {"reactions", reactions_json(run.held_groups(), history)},
-                         {"damage", damage_json(run.assembly(), snapshot)},
-                         {"hinges", hinges_json(run.assembly(), snapshot)}};
+  nlohmann::json json = {
+      {"demand", demand_json(run.assembly(), history)},          {"sensors", sensors_json(run.assembly(), history)},
+      {"reactions", reactions_json(run.held_groups(), history)}, {"stages", stages_json(run, history)},
+      {"damage", damage_json(run.assembly(), snapshot)},         {"hinges", hinges_json(run.assembly(), snapshot)}};
   if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
   if (nlohmann::json ties = ties_json(snapshot); !ties.empty()) json["ties"] = std::move(ties);
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
