@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "geometry/fill_gmsh.h"
 #include "geometry/fill_import.h"
 #include "io/hdf5/assembly_file.h"
+#include "io/msh/msh_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 
@@ -102,7 +102,7 @@ int import_fill(const options::variables_map& values) {
   const std::size_t known = assembly.materials.size();
   const std::int32_t material = find_material(values, assembly);
   const FillInterface interface = interface_of(values);
-  FillMesh mesh = read_gmsh(file, positive(values, "scale"));
+  FillMesh mesh = read_msh(file, positive(values, "scale"));
   FillJointReport report;
   try {
     report = put_fill(assembly, std::move(mesh), material, interface);
