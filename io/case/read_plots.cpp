@@ -20,7 +20,8 @@ MeasuredCurve read_measured(TableReader& table, const Case& c) {
   curve.file = relative_to(c.path, file);
   curve.label = table.text("label", std::filesystem::path(file).stem().string());
   table.finish();
-  if (std::filesystem::is_regular_file(curve.file)) {
+  std::error_code ignored;  // nor is a name that cannot be looked up
+  if (std::filesystem::is_regular_file(curve.file, ignored)) {
     curve.text = read_text(curve.file);
     parse_curve(curve.text, curve.file);
   }

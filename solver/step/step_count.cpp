@@ -11,7 +11,7 @@ constexpr double least_cost = 1e-6;  // s of wall time: a step of two or three b
 constexpr double day = 86400.0, year = 365.25 * day;
 
 std::string wall_time(double seconds) {
-  return seconds > year ? fmt::format("{:.2g} years", seconds / year) : fmt::format("{:.2g} days", seconds / day);
+  return seconds > year ? fmt::format("{:.3g} years", seconds / year) : fmt::format("{:.3g} days", seconds / day);
 }
 
 }  // namespace
