@@ -36,17 +36,26 @@ Function* look_up(const char* name) {
   return function;
 }
 
+/// Before hours of meshing. The bridges have about twenty tetrahedra in a cube of the longest edge.
+void check_size(const FillSpace& space, double edge) {
+  constexpr double in_a_cube = 20.0, most = 2e7;
+  double volume = 0.0;
+  for (const Box& box : space.boxes) volume += (box.high - box.low).prod();
+  const double tets = in_a_cube * volume / (edge * edge * edge);
+  if (!(tets <= most))
+    throw InputError(
+        "[bridge] a fill of up to {:.3g} m3 in tetrahedra with edges of {:g} m is about {:.1g} of them, expected at "
+        "most "
+        "{:g}: choose a larger fill_edge",
+        volume, edge, tets, most);
+}
+
 }  // namespace
 
 FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing) {
+  check_size(space, meshing.edge);
   FillMesh out;
   look_up<void(const FillSpace&, const FillMeshing&, FillMesh&)>("voussoir_mesh_fill")(space, meshing, out);
-  return out;
-}
-
-FillMesh read_gmsh(const std::string& path, double scale) {
-  FillMesh out;
-  look_up<void(const std::string&, double, FillMesh&)>("voussoir_read_gmsh")(path, scale, out);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Tetrahedra from Gmsh: meshing the space of a fill, and meshes made elsewhere. All use of Gmsh is behind this header.
+// Tetrahedra from Gmsh: meshing the space of a fill. All use of Gmsh is behind this header; files are read by io/msh.
 #pragma once
 #include <string>
 #include <vector>
@@ -26,11 +26,5 @@ struct FillMeshing {
 /// of material 0; the same bits for the same input. Where the bound of the edges cannot be kept they are as long as
 /// fill_quality() says. Throws RunError when Gmsh fails.
 FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing = {});
-
-/// Reads the 4-node tetrahedra of a Gmsh file (.msh, version 2.2 or 4.1) with `scale` m per unit; points, lines and
-/// surfaces are passed over. Nodes in the order of the file, oriented, with the surface; every tetrahedron of material
-/// 0. Throws InputError for another kind of file, other solid elements, none at all, or a mesh that check_fill()
-/// refuses.
-FillMesh read_gmsh(const std::string& path, double scale = 1.0);
 
 }  // namespace voussoir

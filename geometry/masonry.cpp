@@ -4,12 +4,25 @@
 #include <cmath>
 #include <ranges>
 
+#include "solver/base/error.h"
+
 namespace voussoir {
 
 namespace {
 
 /// Thickness in m below which a piece of a polygon is rounding, not masonry: its neighbours then touch across it.
 constexpr double kNothing = 1e-7;
+
+/// Blocks of one layout, which take some kilobytes each before there is a model of them.
+constexpr double kMostStones = 2e6;
+
+void check_number(double stones) {
+  if (!(stones <= kMostStones))
+    throw InputError(
+        "[bridge] asks for {:.3g} blocks, expected at most {:g}: make them larger (block_scale, or the sizes of the "
+        "blocks), or the structure smaller",
+        stones, kMostStones);
+}
 
 double perimeter(const Polygon& polygon) {
   double sum = 0.0;
@@ -230,6 +243,7 @@ void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& 
   if ((high - low).minCoeff() <= 0.0) return;
   const std::vector<double> z = split(low.z(), high.z(), unit.size.z());
   const Vec3 counts = ((high - low).cwiseQuotient(unit.size)).array().round().max(1.0);
+  check_number(double(layout.stones.size()) + counts.prod());
   const Vec3 nominal = (high - low).cwiseQuotient(counts);
   for (std::size_t k = 0; k + 1 < z.size(); ++k) {
     const std::vector<double> y = split(low.y(), high.y(), unit.size.y());
@@ -244,6 +258,7 @@ void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& 
 }
 
 void lay_stone(Layout& layout, std::vector<Polyhedron> cells, const Unit& unit, const Vec3& nominal, bool was_cut) {
+  check_number(double(layout.stones.size()) + 1.0);
   Stone stone;
   stone.cells = std::move(cells);
   stone.component = unit.component;

@@ -32,12 +32,16 @@ class Strips {
       width += (box.high[axis] - box.low[axis] + reach_) / double(boxes.size());
     }
     const double most = std::max(1.0, std::sqrt(double(boxes.size())));
-    count_ = int(std::clamp((high - low) / std::max(2.0 * width, 1e-300), 1.0, most));
+    const double wide = (high - low) / std::max(2.0 * width, 1e-300);
+    count_ = wide > 1.0 ? int(std::min(wide, most)) : 1;  // 1 for what is no number, too
     from_ = low;
     size_ = (high - low) / count_;
   }
   int count() const { return count_; }
-  int at(double x) const { return size_ > 0.0 ? int(std::clamp((x - from_) / size_, 0.0, count_ - 1.0)) : 0; }
+  int at(double x) const {
+    const double strip = (x - from_) / size_;
+    return strip > 0.0 && size_ > 0.0 ? int(std::min(strip, count_ - 1.0)) : 0;
+  }
   int first(const Box& box) const { return at(box.low[axis_]); }
   /// With a little more than the distance asked for, against rounding.
   int last(const Box& box) const { return std::max(first(box), at(box.high[axis_] + reach_ + 1e-6 * size_)); }

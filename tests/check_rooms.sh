@@ -20,7 +20,7 @@ forbid "viz" "tools/" "viz is up-river of tools"
 forbid "tools/ladder" "viz/|io/vtk/|tools/(voussoir|bench)/" "tools/ladder is up-river of the programs and knows no pictures"
 forbid "tools/campaign" "viz/|io/vtk/|tools/(voussoir|bench|blind|convergence|ladder)/" "tools/campaign is up-river of the programs and knows no pictures"
 forbid "geometry solver io viz tools" "tests/" "nothing but tests includes tests"
-forbid "geometry solver io/case io/hdf5 io/records io/measured tools" "vtk" "VTK belongs in io/vtk and viz"
+forbid "geometry solver io/case io/hdf5 io/msh io/records io/measured tools" "vtk" "VTK belongs in io/vtk and viz"
 forbid "geometry solver/model solver/contact solver/fill solver/effects solver/motion solver/step solver/modal solver/identify solver/diagnosis io viz tools" "omp\.h" "OpenMP belongs in solver/base"
 if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^geometry/gmsh/mesher\.cpp:'; then
   echo "Gmsh belongs in geometry/gmsh/mesher.cpp"; bad=1

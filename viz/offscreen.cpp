@@ -2,7 +2,10 @@
 
 #include <vtkImageData.h>
 #include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+
+#include <span>
 
 #include "io/hdf5/atomic_file.h"
 #include "io/vtk/folder.h"
@@ -55,14 +58,14 @@ void write_png(vtkRenderWindow* window, const std::string& path) {
   grab->Update();
   const auto picture = averaged(grab->GetOutput());
   make_folder_of(path);
-  write_atomically(path, [&](const std::string& temporary) {
-    auto writer = vtkSmartPointer<vtkPNGWriter>::New();
-    writer->SetFileName(temporary.c_str());
-    writer->SetInputData(picture);
-    writer->Write();
-    if (writer->GetErrorCode() != 0)
-      throw RunError("{}: cannot be written; is the disk full, or the folder closed to you?", path);
-  });
+  // In memory first: what is wrong with a disk, VTK says in its own words and on the terminal.
+  auto writer = vtkSmartPointer<vtkPNGWriter>::New();
+  writer->WriteToMemoryOn();
+  writer->SetInputData(picture);
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (writer->GetErrorCode() != 0 || !bytes) throw RunError("{}: VTK could not put the picture together", path);
+  write_atomically(path, std::as_bytes(std::span(bytes->GetPointer(0), std::size_t(bytes->GetNumberOfValues()))));
 }
 
 }  // namespace voussoir

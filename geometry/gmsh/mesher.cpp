@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 
 #include "geometry/fill_gmsh.h"
@@ -38,15 +37,13 @@ class GmshLibrary {
   static void set(const char* option, double value) { gmsh::option::setNumber(option, value); }
 };
 
-/// Does some work with Gmsh; what it throws becomes an `Error` with its own words between `before` and `after`.
-template <class Error, class Work>
+/// Does some work with Gmsh; what it throws becomes a RunError with its own words between `before` and `after`.
+template <class Work>
 auto with_gmsh(const std::string& before, const std::string& after, Work&& work) {
   std::string reason;
   try {
     const GmshLibrary gmsh_is_ready;
     return work();
-  } catch (const InputError&) {
-    throw;
   } catch (const std::exception& error) {
     reason = error.what();
   } catch (const std::string& error) {
@@ -54,7 +51,7 @@ auto with_gmsh(const std::string& before, const std::string& after, Work&& work)
   } catch (...) {
     reason = "it does not say why";
   }
-  throw Error("{}: {}; {}", before, reason.empty() ? "it does not say why" : reason, after);
+  throw RunError("{}: {}; {}", before, reason.empty() ? "it does not say why" : reason, after);
 }
 
 bool reaches(const Ring& ring, const Box& box) {
@@ -190,22 +187,6 @@ FillSection take_section(const std::vector<Part>& parts) {
   return section;
 }
 
-/// The tetrahedra that Gmsh holds, with the nodes that they use.
-FillMesh take_mesh(double scale) {
-  std::vector<std::size_t> elements, corners;
-  gmsh::model::mesh::getElementsByType(4, elements, corners);
-  const std::map<std::size_t, Vec3> places = take_nodes();
-  const std::map<std::size_t, std::int32_t> own = own_numbers(corners);
-  FillMesh mesh;
-  for (const auto& [number, index] : own) mesh.nodes.push_back(scale * places.at(number));
-  for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
-    mesh.tets.push_back({own.at(corners[i]), own.at(corners[i + 1]), own.at(corners[i + 2]), own.at(corners[i + 3])});
-  }
-  mesh.material.assign(mesh.tets.size(), 0);
-  orient_tets(mesh);
-  return mesh;
-}
-
 std::vector<Side> outline_of(const std::pair<int, int>& face) {
   DimTags curves;
   gmsh::model::getBoundary({face}, curves, false, false);
@@ -258,76 +239,23 @@ void ask_for(double size) {
   GmshLibrary::set("Mesh.Algorithm", 6);  // frontal-Delaunay
 }
 
-/// Whether the text at the beginning of the file is that of a Gmsh mesh. Anything else Gmsh might take for a script.
-void check_beginning(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError("cannot read {}: there is no such file, or it may not be read", path);
-  std::string word, version;
-  file >> word >> version;
-  if (word != "$MeshFormat") {
-    throw InputError(
-        "{} is not a Gmsh mesh: it begins with \"{}\", expected \"$MeshFormat\"; save it from Gmsh as "
-        "version 4.1 or 2.2",
-        path, word.substr(0, 40));
-  }
-  if (!version.starts_with("2") && !version.starts_with("4")) {
-    throw InputError("{} is a Gmsh mesh of version {}; save it as version 4.1 or 2.2 (gmsh FILE -save -format msh41)",
-                     path, version.substr(0, 10));
-  }
-}
-
-/// Solid elements must be 4-node tetrahedra (Gmsh's type 4).
-void check_elements(const std::string& path) {
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 3);
-  for (const int type : types) {
-    if (type == 4) continue;
-    std::string name;
-    int dimension = 0, order = 0, nodes = 0, primary = 0;
-    std::vector<double> local;
-    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, primary);
-    throw InputError(
-        "{}: it holds elements \"{}\" of {} nodes; the fill takes 4-node tetrahedra only: mesh it with "
-        "Mesh.ElementOrder = 1 and without recombination",
-        path, name, nodes);
-  }
-  if (types.empty()) {
-    throw InputError(
-        "{}: it holds no tetrahedra (elements on points, lines and surfaces do not count): mesh its "
-        "volumes (gmsh FILE -3)",
-        path);
-  }
-}
-
 FillMesh mesh(const FillSpace& space, const FillMeshing& meshing) {
   std::vector<double> ends;
   for (const Box& box : space.boxes) ends.push_back(box.low.y()), ends.push_back(box.high.y());
   const double layer = meshing.layer_share * meshing.edge;
   const double bound = section_bound(ends, meshing.edge, layer);
   FillSection section;
-  with_gmsh<RunError>("the fill could not be meshed by Gmsh",
-                      "try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
-                        const std::vector<Part> parts = add_section(space);
-                        add_lattice(parts, bound);
-                        divide_lines(bound);
-                        ask_for(meshing.rim_share * bound);
-                        gmsh::model::mesh::generate(2);
-                        section = take_section(parts);
-                      });
+  with_gmsh("the fill could not be meshed by Gmsh",
+            "try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
+              const std::vector<Part> parts = add_section(space);
+              add_lattice(parts, bound);
+              divide_lines(bound);
+              ask_for(meshing.rim_share * bound);
+              gmsh::model::mesh::generate(2);
+              section = take_section(parts);
+            });
   shorten_edges(section, (1.0 + 1e-12) * bound);
   return sweep(section, meshing.edge, layer);
-}
-
-FillMesh read(const std::string& path, double scale) {
-  check_beginning(path);
-  FillMesh mesh = with_gmsh<InputError>(path, "the file is damaged, or not a mesh: save it anew from Gmsh", [&] {
-    gmsh::merge(path);
-    check_elements(path);
-    return take_mesh(scale);
-  });
-  check_fill(mesh, path);
-  find_surface(mesh);
-  return mesh;
 }
 
 }  // namespace
@@ -339,8 +267,5 @@ extern "C" {
 [[gnu::visibility("default")]] void voussoir_mesh_fill(const voussoir::FillSpace& space,
                                                        const voussoir::FillMeshing& meshing, voussoir::FillMesh& out) {
   out = voussoir::mesh(space, meshing);
-}
-[[gnu::visibility("default")]] void voussoir_read_gmsh(const std::string& path, double scale, voussoir::FillMesh& out) {
-  out = voussoir::read(path, scale);
 }
 }

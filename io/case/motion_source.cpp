@@ -8,6 +8,7 @@
 #include "io/hdf5/atomic_file.h"
 #include "io/records/sets.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 #include "solver/motion/baseline.h"
 
 namespace voussoir {
@@ -81,8 +82,9 @@ void read_record(TableReader& stage, const std::string& path, MotionSource& sour
     if (names[axis].empty()) continue;
     any = true;
     source.files[axis] = relative_to(path, names[axis]);
-    if (!std::filesystem::is_regular_file(source.files[axis]))
-      stage.fail("record", fmt::format("is \"{}\": there is no such file", source.files[axis]));
+    std::error_code ignored;  // a name that cannot be looked up names no file
+    if (!std::filesystem::is_regular_file(source.files[axis], ignored))
+      stage.fail("record", fmt::format("is \"{}\": there is no such file", shown(source.files[axis], 300)));
     source.texts[axis] = read_text(source.files[axis]);
     const RecordFormat& format = recognise(source.texts[axis]);
     if (format.unit > 0.0 && stage.has("units"))

@@ -8,6 +8,7 @@
 #include "io/hdf5/atomic_file.h"
 #include "solver/base/arrays.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 
 namespace voussoir {
 
@@ -24,7 +25,7 @@ void read_generator(TableReader& bridge, Case& c) {
   std::vector<std::string> known;
   for (const Generator& g : generators()) known.push_back(g.name);
   if (std::find(known.begin(), known.end(), c.generator) == known.end())
-    bridge.fail("generator", fmt::format("is \"{}\"{}", c.generator, suggestion(c.generator, known)));
+    bridge.fail("generator", fmt::format("is \"{}\"{}", shown(c.generator), suggestion(c.generator, known)));
 
   const Generator& generator = find_generator(c.generator);
   c.generator_input = default_input(generator);
@@ -136,8 +137,9 @@ void read_bridge(TableReader& root, Case& c) {
     read_generator(*bridge, c);
   } else {
     c.assembly_file = relative_to(c.path, bridge->text("assembly", ""));
-    if (!std::filesystem::exists(c.assembly_file))
-      bridge->fail("assembly", fmt::format("is {}: there is no such file", c.assembly_file));
+    std::error_code ignored;  // a name that cannot be looked up names no file
+    if (!std::filesystem::exists(c.assembly_file, ignored))
+      bridge->fail("assembly", fmt::format("is {}: there is no such file", shown(c.assembly_file, 300)));
   }
   bridge->finish();
 }
@@ -154,7 +156,7 @@ void read_materials(TableReader& root, Case& c) {
     const auto found = c.generator_input.materials.find(name);
     if (found == c.generator_input.materials.end())
       materials->fail(name, fmt::format("is not a material of \"{}\"{}", c.generator, suggestion(name, known)));
-    TableReader table = materials->member(name, fmt::format("[materials.{}]", name));
+    TableReader table = materials->member(name, fmt::format("[materials.{}]", shown(name)));
     read_material(table, found->second);
   }
 }
@@ -165,19 +167,11 @@ void read_joints(TableReader& root, Case& c) {
   std::vector<std::string> known;
   for (const auto& [name, material] : c.generator_input.materials) known.push_back(name);
   for (const std::string& key : joints->keys()) {
-    TableReader table = joints->member(key, fmt::format("[joints.{}]", key));
+    TableReader table = joints->member(key, fmt::format("[joints.{}]", shown(key)));
     const auto pair = split_pair(*joints, key, known);
     if (pair[0] != pair[1] && c.generator_input.joints.contains(pair[1] + "-" + pair[0]))
       joints->fail(key, fmt::format("repeats [joints.{}-{}]: give each pair once", pair[1], pair[0]));
     read_joint(table, pair, c, c.generator_input.joints[key]);
-  }
-}
-
-toml::table parse_toml(const std::string& text, const std::string& path) {
-  try {
-    return toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    throw InputError("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description());
   }
 }
 
@@ -192,6 +186,7 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   read_joints(root, c);
   read_settings(root, c);
   read_stages(root, c, use);
+  check_amounts(root, c);
   read_sensors(root, c);
   read_effects(root, c);
   read_checks(root);                     // of no concern to a run, but a wrong one is said

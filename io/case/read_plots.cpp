@@ -20,7 +20,8 @@ MeasuredCurve read_measured(TableReader& table, const Case& c) {
   curve.file = relative_to(c.path, file);
   curve.label = table.text("label", std::filesystem::path(file).stem().string());
   table.finish();
-  if (std::filesystem::is_regular_file(curve.file)) {
+  std::error_code ignored;  // nor is a name that cannot be looked up
+  if (std::filesystem::is_regular_file(curve.file, ignored)) {
     curve.text = read_text(curve.file);
     parse_curve(curve.text, curve.file);
   }
@@ -52,8 +53,8 @@ void read_plots(TableReader& root, Case& c) {
     plot.label = table.text("label", plot.label);
     plot.x = table.text("x", plot.x);
     plot.y = table.required_text("y");
-    plot.x_factor = table.number("x_factor", 1.0);
-    plot.y_factor = table.number("y_factor", 1.0);
+    plot.x_factor = table.number("x_factor", 1.0, {-1e15, 1e15, ""});
+    plot.y_factor = table.number("y_factor", 1.0, {-1e15, 1e15, ""});
     plot.x_label = table.text("x_label", "");
     plot.y_label = table.text("y_label", "");
     for (TableReader& measured : table.tables("measured")) plot.measured.push_back(read_measured(measured, c));

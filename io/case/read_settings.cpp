@@ -118,7 +118,7 @@ void read_sensors(TableReader& root, Case& c) {
       if (other.id == sensor.id)
         table.fail("id", fmt::format("is \"{}\", which another sensor has: ids must differ", sensor.id));
     if (!table.has("position")) table.missing("position", "[x, y, z] in m");
-    sensor.position = table.vector("position", Vec3::Zero());
+    sensor.position = table.place_in_m("position", Vec3::Zero());
     sensor.direction = read_direction(table);
     table.finish();
     c.sensors.push_back(std::move(sensor));

@@ -88,10 +88,10 @@ void read_placements(TableReader& table, StageSettings& stage) {
   for (TableReader& sub : table.tables("place")) {
     Placement p;
     p.group = sub.required_text("group");
-    p.move = sub.vector("move", p.move);
+    p.move = sub.place_in_m("move", p.move);
     p.angle = to_radians(sub.number("angle", 0.0, {-180.0, 180.0, "degrees"}));
     p.axis = sub.vector("axis", p.axis);
-    p.through = sub.vector("through", p.through);
+    p.through = sub.place_in_m("through", p.through);
     if (p.axis.norm() < 1e-9) sub.fail("axis", "has no direction");
     if (p.angle != 0.0 && !sub.has("through")) sub.missing("through", "a point of the axis, [x, y, z] in m");
     sub.finish();
@@ -112,7 +112,7 @@ void read_loads(TableReader& table, StageSettings& stage) {
       load.group = sub.required_text("group");
       if (!sub.has("force")) sub.missing("force", "[x, y, z] in N, on the whole group");
       load.force = sub.vector("force", Vec3::Zero());
-      if (sub.has("at")) load.at = sub.vector("at", Vec3::Zero());
+      if (sub.has("at")) load.at = sub.place_in_m("at", Vec3::Zero());
       loads.forces.push_back(load);
     }
     sub.finish();

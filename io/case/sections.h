@@ -10,6 +10,7 @@ void read_materials(TableReader& root, Case& c);
 void read_joints(TableReader& root, Case& c);
 void read_settings(TableReader& root, Case& c);  // analysis, contact, damping, output
 void read_stages(TableReader& root, Case& c, CaseUse use);
+void check_amounts(TableReader& root, const Case& c);  // steps and files that stages and output ask for
 void read_sensors(TableReader& root, Case& c);
 void read_effects(TableReader& root, Case& c);
 void read_modal(TableReader& root, Case& c);

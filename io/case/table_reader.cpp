@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/extent.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 
 namespace voussoir {
 
@@ -50,7 +52,7 @@ std::string TableReader::at(const toml::source_region& source) const {
 void TableReader::fail(const std::string& key, const std::string& message) const {
   const auto found = table_->find(key);
   const auto& source = found == table_->end() ? table_->source() : found->first.source();
-  throw InputError("{}'{}' in {} {}", at(source), key, place_, message);
+  throw InputError("{}'{}' in {} {}", at(source), shown(key), place_, message);
 }
 
 void TableReader::fail(const std::string& message) const {
@@ -130,7 +132,8 @@ std::size_t TableReader::word(const std::string& key, const std::vector<std::str
   if (!has(key)) return fallback;
   const std::string value = text(key, "");
   const auto found = std::find(words.begin(), words.end(), value);
-  if (found == words.end()) fail(key, fmt::format("is \"{}\": expected one of: {}", value, fmt::join(words, ", ")));
+  if (found == words.end())
+    fail(key, fmt::format("is \"{}\": expected one of: {}", shown(value), fmt::join(words, ", ")));
   return std::size_t(found - words.begin());
 }
 
@@ -173,10 +176,14 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
   return values;
 }
 
-Vec3 TableReader::vector(const std::string& key, const Vec3& fallback) {
+Vec3 TableReader::vector(const std::string& key, const Vec3& fallback, const Limits& limits) {
   if (!has(key)) return fallback;
-  const std::vector<double> v = numbers(key, 3);
+  const std::vector<double> v = numbers(key, 3, limits);
   return {v[0], v[1], v[2]};
+}
+
+Vec3 TableReader::place_in_m(const std::string& key, const Vec3& fallback) {
+  return vector(key, fallback, {-farthest, farthest, "m"});
 }
 
 bool TableReader::is_list(const std::string& key) {
@@ -226,7 +233,7 @@ void TableReader::finish() const {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     if (known_.contains(name)) continue;
-    throw InputError("{}unknown key '{}' in {}{}", at(key.source()), name, place_,
+    throw InputError("{}unknown key '{}' in {}{}", at(key.source()), shown(name), place_,
                      suggestion(name, {known_.begin(), known_.end()}));
   }
 }

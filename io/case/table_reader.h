@@ -47,7 +47,9 @@ class TableReader {
   std::vector<double> number_list(const std::string& key, const Limits& limits = {});
   /// One text or a list of texts.
   std::vector<std::string> texts(const std::string& key);
-  Vec3 vector(const std::string& key, const Vec3& fallback);
+  /// Three numbers. The limits keep sums of their squares finite; a place is within what geometry/extent.h calls far.
+  Vec3 vector(const std::string& key, const Vec3& fallback, const Limits& limits = {-1e15, 1e15, ""});
+  Vec3 place_in_m(const std::string& key, const Vec3& fallback);
   bool is_list(const std::string& key);
   bool is_text(const std::string& key);
 

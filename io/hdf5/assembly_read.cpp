@@ -293,7 +293,7 @@ void AssemblyReader::read_joints() {
   if (!file_.has("joints/blocks")) return;
   const std::size_t n = file_.shape("joints/blocks").at(0);
   const auto between = read_pairs(n);
-  const auto corners = read_finite(file_, "joints/polygon", {h5::any, 3});
+  const auto corners = read_places(file_, "joints/polygon", h5::any);
   const auto offset = file_.read<std::int64_t>("joints/polygon_offset", {n + 1});
   check_offsets(file_, "joints/polygon_offset", offset, corners.size() / 3);
   const auto normal = read_finite(file_, "joints/normal", {n, 3}), area = read_column("joints/area", n),
@@ -357,7 +357,7 @@ void AssemblyReader::read_sensors() {
   if (!file_.has("sensors/position")) return;
   const std::vector<std::string> ids = file_.texts("sensors", "id");
   const std::size_t n = ids.size();
-  const auto position = read_finite(file_, "sensors/position", {n, 3}),
+  const auto position = read_places(file_, "sensors/position", n),
              direction = read_finite(file_, "sensors/direction", {n, 3});
   const auto block = read_indices<std::int64_t>("sensors/block", {n}, std::int64_t(blocks()));
   for (std::size_t i = 0; i < n; ++i)

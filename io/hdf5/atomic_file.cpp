@@ -18,14 +18,14 @@ namespace {
 std::string plainly(int error) {
   switch (error) {
     case ENOSPC:
-      return "the disk is full: free some space or choose another folder with -o";
+      return "the disk is full: free some space, or write to another one";
     case EDQUOT:
-      return "your quota of disk space is used up: free some space or choose another folder with -o";
+      return "your quota of disk space is used up: free some space, or write to another disk";
     case EFBIG:
       return "the file would be larger than this process may write (ulimit -f)";
     case EACCES:
     case EROFS:
-      return "no permission to write there: choose another folder with -o";
+      return "no permission to write there: choose another folder";
     case ENOENT:
       return "the folder does not exist: create it first";
     default:

@@ -56,7 +56,7 @@ void check_triangles(const h5::File& file, const FillMesh& fill) {
 FillMesh read_fill(const h5::File& file, std::size_t materials) {
   FillMesh fill;
   if (!file.has("fill/nodes")) return fill;
-  const std::vector<double> nodes = read_finite(file, "fill/nodes", {h5::any, 3});
+  const std::vector<double> nodes = read_places(file, "fill/nodes", h5::any);
   for (std::size_t i = 0; i < nodes.size(); i += 3) fill.nodes.emplace_back(nodes[i], nodes[i + 1], nodes[i + 2]);
   fill.tets = read_rows<4>(file, "fill/tets", fill.nodes.size());
   if (fill.tets.empty()) file.fail("fill/tets", "there are no tetrahedra: leave the group out");

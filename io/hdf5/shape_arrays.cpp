@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "geometry/extent.h"
+
 namespace voussoir {
 
 void ShapeArrays::add(const Polyhedron& shape) {
@@ -47,10 +49,18 @@ std::vector<double> read_finite(const h5::File& file, const std::string& name, c
   return values;
 }
 
+std::vector<double> read_places(const h5::File& file, const std::string& name, std::size_t rows) {
+  std::vector<double> values = read_finite(file, name, {rows, 3});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::abs(values[i]) > farthest)
+      file.fail(name, fmt::format("row {}: {} m, expected coordinates up to {:g} m", i / 3, values[i], farthest));
+  return values;
+}
+
 ShapeArrays read_shapes(const h5::File& file, const std::string& group, const std::string& face_offset_name) {
   const auto path = [&](const char* name) { return group + "/" + name; };
   ShapeArrays arrays;
-  arrays.vertices = read_finite(file, path("vertices"), {h5::any, 3});
+  arrays.vertices = read_places(file, path("vertices"), h5::any);
   arrays.vertex_offset = file.read<std::int64_t>(path("vertex_offset"));
   arrays.face_vertices = file.read<std::int64_t>(path("face_vertices"));
   arrays.face_offset = file.read<std::int64_t>(path("face_offset"));

@@ -33,5 +33,7 @@ void check_offsets(const h5::File& file, const std::string& name, const std::vec
                    std::size_t last);
 /// Reads doubles and refuses any that is not finite, naming its row.
 std::vector<double> read_finite(const h5::File& file, const std::string& name, const h5::Shape& expected);
+/// The same of coordinates (n,3), m, which must be within what geometry/extent.h calls far.
+std::vector<double> read_places(const h5::File& file, const std::string& name, std::size_t rows);
 
 }  // namespace voussoir

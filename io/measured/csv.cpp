@@ -13,7 +13,6 @@ namespace voussoir {
 namespace {
 
 constexpr std::string_view blanks = " \t";
-constexpr std::size_t longest_shown = 60;  // bytes
 constexpr std::size_t most_listed = 20;    // words
 
 std::string_view trimmed(std::string_view text) {
@@ -92,13 +91,6 @@ std::string explain(NumberTrouble trouble, std::string_view word, const std::str
       return fmt::format("'{}' in column '{}' is not a number{}", shown(word), shown(column),
                          word.find(',') == std::string_view::npos ? "" : ": write a decimal point, not a comma");
   }
-}
-
-std::string shown(std::string_view text) {
-  if (text.size() <= longest_shown) return std::string(text);
-  std::size_t end = longest_shown;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return std::string(text.substr(0, end)) + "…";
 }
 
 std::string short_suggestion(std::string_view word, const std::vector<std::string>& known) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/base/shown.h"
+
 namespace voussoir {
 
 /// A text file of a folder, in memory.
@@ -20,8 +22,6 @@ NumberTrouble parse_number(std::string_view word, double& value);
 /// "'1,5' in column 'x' is not a number: write a decimal point".
 std::string explain(NumberTrouble trouble, std::string_view word, const std::string& column);
 
-/// A text as errors show it: shortened when long.
-std::string shown(std::string_view text);
 /// suggestion() for words and lists that may be very long.
 std::string short_suggestion(std::string_view word, const std::vector<std::string>& known);
 /// A cell as it is written: quoted when it must be.

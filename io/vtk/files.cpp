@@ -33,21 +33,21 @@ void set_packing(vtkXMLWriter* writer, Packing packing) {
   }
 }
 
+/// VTK makes the bytes and we write them: what is wrong with a disk, VTK says in its own words and on the terminal.
 template <class Writer, class Data>
 void write(Data* data, const std::string& path, Packing packing) {
   make_folder_of(path);
-  write_atomically(path, [&](const std::string& temporary) {
-    bool failed = false;
-    auto writer = vtkSmartPointer<Writer>::New();
-    writer->AddObserver(vtkCommand::ErrorEvent, error_flag(failed));
-    writer->SetFileName(temporary.c_str());
-    writer->SetInputData(data);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    set_packing(writer, packing);
-    if (writer->Write() == 0 || failed || writer->GetErrorCode() != vtkErrorCode::NoError)
-      throw RunError("{}: cannot be written; is the disk full, or the folder closed to you?", path);
-  });
+  bool failed = false;
+  auto writer = vtkSmartPointer<Writer>::New();
+  writer->AddObserver(vtkCommand::ErrorEvent, error_flag(failed));
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  set_packing(writer, packing);
+  if (writer->Write() == 0 || failed || writer->GetErrorCode() != vtkErrorCode::NoError)
+    throw RunError("{}: VTK could not put it together", path);
+  write_atomically(path, writer->GetOutputString());
 }
 
 template <class Reader>

@@ -12,7 +12,7 @@ void make_folder_of(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw RunError("cannot make the folder {}: {}; choose another one with -o", folder.string(), error.message());
+    throw RunError("cannot make the folder {}: {}; choose another one", folder.string(), error.message());
 }
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "geometry/extent.h"
 #include "geometry/repair.h"
 #include "geometry/stiffness.h"
 #include "io/vtk/shells.h"
@@ -22,7 +23,13 @@ std::string stone(const std::string& path, const Shell& shell, std::size_t numbe
 
 Polyhedron cell_of(const Shell& shell, const std::string& where, const ImportOptions& options) {
   Polyhedron shape = shell.shape;
-  for (Vec3& vertex : shape.vertices) vertex *= options.scale;
+  for (Vec3& vertex : shape.vertices) {
+    vertex *= options.scale;
+    if (!within_reach(vertex))
+      throw InputError(
+          "{}: a corner at ({:g}, {:g}, {:g}) m, expected coordinates up to {:g} m: look at --scale ({:g})", where,
+          vertex.x(), vertex.y(), vertex.z(), farthest, options.scale);
+  }
   shape = merge_coplanar_faces(shape, options.merge_angle);
   if (const std::string trouble = convexity_error(shape); !trouble.empty())
     throw InputError("{} is not a convex stone: {}; cut it into convex pieces, one object each", where, trouble);
@@ -116,8 +123,10 @@ void check(const ImportOptions& options) {
 
 Import import_blocks(const std::string& path, const ImportOptions& options) {
   check(options);
-  const auto shells = split_shells(read_surface(path), path);
+  const Surface surface = read_surface(path);
+  const auto shells = split_shells(surface, path);
   Import import;
+  import.notes = surface.notes;
   Assembly& assembly = import.assembly;
   assembly.generator = "import";
   assembly.materials = {options.material};

@@ -1,7 +1,6 @@
 // Our own reader: VTK's drops the borders between objects.
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -9,6 +8,7 @@
 
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 
 namespace voussoir {
 namespace {
@@ -39,9 +39,8 @@ class ObjReader {
  public:
   explicit ObjReader(const std::string& path) : path_(path) {}
 
-  Surface read() {
-    std::ifstream in(path_);
-    if (!in) throw InputError("{}: cannot be opened; give the path of an .obj file", path_);
+  Surface read(const std::string& whole) {
+    std::istringstream in(whole);
     std::string text;
     while (std::getline(in, text)) {
       ++line_;
@@ -102,7 +101,7 @@ class ObjReader {
         throw InputError(
             "{}:{}: face corner '{}' is not one of the {} vertices above; indices begin at 1, negative ones "
             "count back from the last",
-            path_, line, words[k], count);
+            path_, line, shown(words[k]), count);
       loop.push_back(int(vertex));
     }
     if (loop.size() < 3)
@@ -139,8 +138,8 @@ class ObjReader {
 
 }  // namespace
 
-Surface read_obj(const std::string& path) {
-  return ObjReader(path).read();
+Surface parse_obj(const std::string& text, const std::string& path) {
+  return ObjReader(path).read(text);
 }
 
 }  // namespace voussoir

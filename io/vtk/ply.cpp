@@ -6,9 +6,9 @@
 #include <cstring>
 #include <sstream>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 
 namespace voussoir {
 namespace {
@@ -33,7 +33,7 @@ struct Element {
 
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), bytes_(read_text(path)) {}
+  PlyReader(const std::string& bytes, const std::string& path) : path_(path), bytes_(bytes) {}
 
   Surface read() {
     read_header();
@@ -76,7 +76,8 @@ class PlyReader {
         if (word == "ascii" || word == "binary_little_endian" || word == "binary_big_endian")
           form = word == "ascii" ? Form::text : word == "binary_little_endian" ? Form::little : Form::big;
         else
-          fail(fmt::format("the format is '{}', expected ascii, binary_little_endian or binary_big_endian", word));
+          fail(fmt::format("the format is '{}', expected ascii, binary_little_endian or binary_big_endian",
+                           shown(word)));
       } else if (keyword == "element") {
         Element element;
         if (!(words >> element.name >> element.count)) fail("expected 'element NAME COUNT'");
@@ -84,7 +85,7 @@ class PlyReader {
       } else if (keyword == "property") {
         read_property(words);
       } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        fail(fmt::format("'{}' is no keyword of a PLY header", keyword));
+        fail(fmt::format("'{}' is no keyword of a PLY header", shown(keyword)));
       }
     }
     check_elements();
@@ -118,14 +119,14 @@ class PlyReader {
     if (any("uint", "uint32")) return {4, false, false};
     if (any("float", "float32")) return {4, true, true};
     if (any("double", "float64")) return {8, true, true};
-    fail(fmt::format("'{}' is no type of a PLY file", name));
+    fail(fmt::format("'{}' is no type of a PLY file", shown(name)));
   }
 
   /// Rows must take room in the file, or a count could keep us busy for ever.
   void check_elements() const {
     for (const Element& element : elements_) {
       if (element.properties.empty() && element.count > 0)
-        fail(fmt::format("element {} has no properties", element.name));
+        fail(fmt::format("element {} has no properties", shown(element.name)));
       const auto has = [&](const char* name) {
         return std::any_of(element.properties.begin(), element.properties.end(),
                            [&](const Property& p) { return p.name == name && !p.list; });
@@ -154,7 +155,7 @@ class PlyReader {
   std::vector<double> read_list(const Property& p, const Element& element, std::size_t row) {
     const double count = read_number(p.count, element, row);
     if (!(count >= 0.0 && count <= double(bytes_.size() - at_)) || count != std::floor(count))
-      fail(fmt::format("{} {}: a list of {} values does not fit into the file", element.name, row, count));
+      fail(fmt::format("{} {}: a list of {} values does not fit into the file", shown(element.name), row, count));
     std::vector<double> values;
     for (std::size_t k = 0; k < std::size_t(count); ++k) values.push_back(read_number(p.type, element, row));
     return values;
@@ -209,16 +210,17 @@ class PlyReader {
     double value = 0.0;
     const auto [stop, error] = std::from_chars(begin, bytes_.data() + end, value);
     if (error != std::errc{} || stop != bytes_.data() + end)
-      fail(fmt::format("{} {}: expected a number", element.name, row));
+      fail(fmt::format("{} {}: expected a number", shown(element.name), row));
     at_ = end;
     return value;
   }
 
   [[noreturn]] void cut_off(const Element& element, std::size_t row) const {
-    fail(fmt::format("the file ends in {} {} of {}: export it again", element.name, row, element.count));
+    fail(fmt::format("the file ends in {} {} of {}: export it again", shown(element.name), row, element.count));
   }
 
-  std::string path_, bytes_;
+  std::string path_;
+  const std::string& bytes_;
   std::size_t at_ = 0, line_ = 0;
   Form form_ = Form::text;
   std::vector<Element> elements_;
@@ -227,8 +229,8 @@ class PlyReader {
 
 }  // namespace
 
-Surface read_ply(const std::string& path) {
-  return PlyReader(path).read();
+Surface parse_ply(const std::string& bytes, const std::string& path) {
+  return PlyReader(bytes, path).read();
 }
 
 }  // namespace voussoir

@@ -7,7 +7,6 @@
 #include <map>
 #include <string_view>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
 
@@ -75,7 +74,11 @@ Surface read_binary(const std::string& path, const std::string& bytes) {
     }
     facets.face(std::move(loop), 0);
   }
-  return facets.finish();
+  Surface surface = facets.finish();
+  if (const std::size_t end = head_size + count * facet_size; end < bytes.size())
+    surface.notes.push_back(
+        fmt::format("{}: the {} bytes behind its {} facets were passed over", path, bytes.size() - end, count));
+  return surface;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -134,14 +137,18 @@ Surface read_text_form(const std::string& path, std::string_view text) {
   return facets.finish();
 }
 
+/// A text whose bytes at the place of the count are 0, which a binary file without facets has too.
+bool is_text_form(const std::string& bytes, std::size_t count) {
+  return count == 0 && bytes.find("facet") != std::string::npos;
+}
+
 }  // namespace
 
-Surface read_stl(const std::string& path) {
-  const std::string bytes = read_text(path);
-  // Binary files may begin with "solid" too: the size tells.
-  const bool whole =
-      bytes.size() >= head_size && bytes.size() == head_size + facet_size * std::size_t(count_at(bytes, head_size - 4));
-  if (whole) return read_binary(path, bytes);
+Surface parse_stl(const std::string& bytes, const std::string& path) {
+  // Binary files may begin with "solid" too. The count tells: where a text has letters, it would need gigabytes.
+  const std::size_t count = bytes.size() >= head_size ? count_at(bytes, head_size - 4) : 0;
+  if (bytes.size() >= head_size && count <= (bytes.size() - head_size) / facet_size && !is_text_form(bytes, count))
+    return read_binary(path, bytes);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && is(std::string_view(bytes).substr(first, 5), "solid"))
     return read_text_form(path, bytes);

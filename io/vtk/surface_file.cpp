@@ -4,7 +4,9 @@
 #include <cctype>
 #include <filesystem>
 
+#include "io/hdf5/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 
 namespace voussoir {
 
@@ -16,13 +18,13 @@ Surface read_surface(const std::string& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   Surface surface;
   if (ending == ".obj")
-    surface = read_obj(path);
+    surface = parse_obj(read_text(path), path);
   else if (ending == ".ply")
-    surface = read_ply(path);
+    surface = parse_ply(read_text(path), path);
   else if (ending == ".stl")
-    surface = read_stl(path);
+    surface = parse_stl(read_text(path), path);
   else
-    throw InputError("{}: '{}' files are not read; give .obj, .ply or .stl", path, ending);
+    throw InputError("{}: '{}' files are not read; give .obj, .ply or .stl", path, shown(ending));
   if (surface.faces.empty()) throw InputError("{}: holds no faces; export closed surfaces, one per stone", path);
   return surface;
 }

@@ -8,6 +8,8 @@ namespace voussoir {
 
 namespace {
 
+constexpr std::size_t longest = 64;  // no word of ours is longer, and comparing takes the product of the lengths
+
 /// Insertions, deletions, replacements and swaps of neighbours (Damerau 1964) that make one word the other.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -26,9 +28,10 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::string best;
+  if (word.size() > longest) return best;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::size_t distance = candidate.size() > longest ? least : edit_distance(word, candidate);
     if (distance >= least) continue;
     least = distance;
     best = candidate;

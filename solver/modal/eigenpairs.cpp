@@ -127,7 +127,7 @@ double factorize(Factor& factor, const SparseMatrix& k, const SparseMatrix& m) {
   double shift = -1e-9 * largest_ratio(k, m);
   for (int tries = 0; !factor.compute(k - shift * m); ++tries, shift *= 200.0) {
     if (factor.lacked_memory())
-      throw RunError("there is not enough memory for the factor of {} unknowns; use larger blocks (block_scale)",
+      throw RunError("there is not enough memory for the factor of {} unknowns; give the assembly fewer blocks (a larger block_scale where it is generated)",
                      k.rows());
     if (tries == 6) throw RunError("the stiffness matrix cannot be factored: it has no finite values");
   }

@@ -13,6 +13,7 @@
 #include "solver/step/loads.h"
 #include "solver/step/make_snapshot.h"
 #include "solver/step/runaway.h"
+#include "solver/step/step_count.h"
 #include "solver/step/step_report.h"
 
 namespace voussoir {
@@ -185,6 +186,9 @@ void Simulation::choose_step() {
         settings_.step.time_step, limit, critical.step, factor, short_name(*assembly_, model_, critical),
         settings_.step.safety);
   position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
+  if (const std::string why = too_many_steps(end_time(), position_.dt); !why.empty())
+    throw InputError("the time step, set by {}, {}: give its joints less stiffness or it more mass",
+                     critical.body >= 0 ? short_name(*assembly_, model_, critical) : "[analysis] time_step", why);
   position_.highest = critical.highest;
   position_.stiffest = bound_.of_bodies(stepper_);
   position_.stiffest_node = bound_.of_nodes(stepper_);

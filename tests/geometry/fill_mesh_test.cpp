@@ -359,6 +359,14 @@ TEST(FillOfBridges, AWallThatStepsBackGivesTheFillSteps) {
   EXPECT_LT(below, 2.4);
 }
 
+TEST(FillOfBridges, TetrahedraWithoutEndAreRefusedWithTheirNumber) {
+  FillSpace space;
+  space.boxes.push_back({Vec3(0, 0, 0), Vec3(100, 10, 10)});
+  FillMeshing fine;
+  fine.edge = 0.05;
+  EXPECT_TRUE(holds(complaint([&] { mesh_fill(space, fine); }), "of 0.05 m is about 2e+09 of them"));
+}
+
 TEST(FillOfBridges, TheSameBitsTwice) {
   const GeneratorInput input = bridge_input("cs1", 1.2, 2.5);
   const Assembly one = find_generator("cs1").build(input), two = find_generator("cs1").build(input);
@@ -396,61 +404,6 @@ TEST(FillOfBridges, PatchesTakeTheRulesOfRigidFill) {
   near(kn.at(Component::base), 400e6 / 0.40);  // one nominal block of fill, at any block_scale
   near(kn.at(Component::restraint), 0.5 * 400e6 / 0.70);
   near(ks.at(Component::restraint), 0.5 * 160e6 / 0.70);
-}
-
-// ---- meshes made elsewhere
-
-const std::string two_tets =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1000 0 0\n3 0 1000 0\n4 0 0 1000\n5 0 0 -1000\n"
-    "9 7 7 7\n$EndNodes\n$Elements\n4\n1 15 2 0 1 1\n2 2 2 0 1 1 2 3\n3 4 2 0 1 1 2 3 4\n4 4 2 0 1 1 2 3 5\n"
-    "$EndElements\n";
-
-TEST(GmshFiles, TetrahedraAreTakenAndTurned) {
-  const test::Folder folder;
-  const FillMesh mesh = read_gmsh(folder.write("fill.msh", two_tets), 0.001);
-  ASSERT_EQ(mesh.nodes.size(), 5u);  // the sixth is used by no tetrahedron
-  EXPECT_EQ(mesh.tets.size(), 2u);
-  EXPECT_EQ(mesh.triangles.size(), 6u);
-  EXPECT_NEAR(fill_volume(mesh), 2.0 / 6.0, 1e-15);
-  EXPECT_EQ(mesh.nodes[3], Vec3(0, 0, 1));
-}
-
-TEST(GmshFiles, TheSameMeshInVersion41) {
-  const test::Folder folder;
-  const std::string file = folder.write(
-      "fill.msh",
-      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n1 4 1 4\n"
-      "3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 "
-      "4\n$EndElements\n");
-  const FillMesh mesh = read_gmsh(file);
-  EXPECT_EQ(mesh.nodes.size(), 4u);
-  EXPECT_NEAR(fill_volume(mesh), 1.0 / 6.0, 1e-15);
-}
-
-TEST(GmshFiles, OthersAreRefusedByName) {
-  const auto error = [](const std::string& text) {
-    const test::Folder folder;
-    return complaint([&] { read_gmsh(folder.write("fill.msh", text)); });
-  };
-  EXPECT_TRUE(holds(error("solid cube\n"), "is not a Gmsh mesh: it begins with \"solid\""));
-  EXPECT_TRUE(holds(error("$MeshFormat\n1 0 8\n"), "of version 1; save it as version 4.1 or 2.2"));
-  std::string sheet = two_tets.substr(0, two_tets.find("$Elements"));
-  EXPECT_TRUE(holds(error(sheet + "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n"), "holds no tetrahedra"));
-  const std::string quadratic = error(
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .5 .5 0\n"
-      "7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n$Elements\n1\n1 11 2 0 1 1 2 3 4 5 6 7 8 9 "
-      "10\n$EndElements\n");
-  EXPECT_TRUE(holds(quadratic, "of 10 nodes; the fill takes 4-node tetrahedra only")) << quadratic;
-  EXPECT_TRUE(holds(complaint([] { read_gmsh("/nowhere/fill.msh"); }), "there is no such file"));
-  EXPECT_NE(error(two_tets.substr(0, two_tets.size() / 2)), "");
-}
-
-TEST(GmshFiles, AFoldedMeshIsRefused) {
-  std::string folded = two_tets;
-  folded.replace(folded.find("5 0 0 -1000"), 11, "5 9 9 2000");
-  const test::Folder folder;
-  EXPECT_TRUE(holds(complaint([&] { read_gmsh(folder.write("fill.msh", folded)); }),
-                    "on the same side of the face they share"));
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ TEST(Generators, DefaultsAreWithinTheirRangesAndNamesAreUnique) {
       EXPECT_NE(table.find("| `" + p.name + "` |"), std::string::npos) << p.name;
     }
   }
-  for (const char* name : {"cs1", "cs2", "arch", "wall", "column", "filled-arch"}) EXPECT_EQ(names.count(name), 1u) << name;
+  for (const char* name : {"cs1", "cs2", "arch", "wall", "column", "filled-arch"})
+    EXPECT_EQ(names.count(name), 1u) << name;
 }
 
 TEST(Generators, UnknownNameListsTheKnownOnes) {
@@ -59,7 +60,8 @@ TEST(Generators, UnknownNameListsTheKnownOnes) {
     find_generator("cs3");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("cs1, cs2, arch, wall, column, filled-arch"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("cs1, cs2, arch, wall, column, filled-arch"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -83,6 +85,18 @@ TEST(Generators, BadValuesAreNamed) {
   bad = good;
   bad.materials["masonry"].density = 0.0;
   EXPECT_NE(error_of("wall", bad).find("density"), std::string::npos);
+}
+
+TEST(Generators, BlocksWithoutEndAreRefusedWithTheirNumber) {
+  GeneratorInput wall = default_input(find_generator("wall"));
+  wall.values["length_blocks"] = wall.values["courses"] = 10000.0;
+  EXPECT_NE(error_of("wall", wall).find("asks for 1e+08 blocks, expected at most 2e+06"), std::string::npos)
+      << error_of("wall", wall);
+  GeneratorInput bridge = default_input(find_generator("cs1"));
+  for (const char* key : {"block_length", "block_width", "block_height", "fill_length", "fill_width", "fill_height"})
+    bridge.values.at(key) = 0.05;
+  bridge.values["block_scale"] = 0.25;
+  EXPECT_NE(error_of("cs1", bridge).find("blocks, expected at most 2e+06"), std::string::npos);
 }
 
 TEST(Wall, CountsOfBlocksAndJoints) {

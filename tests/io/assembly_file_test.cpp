@@ -222,6 +222,8 @@ TEST(AssemblyFile, RefusesBadShapes) {
   using Index = std::vector<std::int64_t>;
   EXPECT_TRUE(holds(refusal<double>("blocks/vertices", [](auto& v) { v[7] = NAN; }),
                     "blocks/vertices: row 2: nan is not a finite"));
+  EXPECT_TRUE(holds(refusal<double>("blocks/vertices", [](auto& v) { v[7] = 1e200; }),
+                    "blocks/vertices: row 2: 1e+200 m, expected coordinates up to 1e+07 m"));
   EXPECT_TRUE(holds(refusal<std::int64_t>("blocks/vertex_offset", [](Index& v) { v[1] = 99; }),
                     "blocks/vertex_offset: row 2: offset 16 is less than"));
   EXPECT_TRUE(

@@ -24,6 +24,12 @@ const std::string pulse =  // one line
     "pulse = { kind = \"sine\", axis = \"x\", amplitude = 1.0, frequency = 2.0 }\n";
 const std::string free_stage = "[[stage]]\nkind = \"free\"\nduration = 2.0\n";  // three lines
 
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
 const std::vector<Wrong> table = {
     {"LoadOfWhat",
      head + gravity + "load = [{ force = [0, 0, 1] }]\n",
@@ -267,6 +273,43 @@ const std::vector<Wrong> table = {
     {"SensorPosition",
      head + gravity + "[[sensor]]\nid=\"a\"\nposition=[0,0]\n",
      {"c.toml:7: 'position'", "has 2 numbers, expected 3"}},
+    {"PlaceFarAway",
+     head + free_stage + "place = [{ group = \"top\", angle = 5, through = [0, 0, -1e308] }]\n",
+     {"c.toml:6: 'through'", "-1e+308", "from -10000000 to 10000000 m"}},
+    {"PlaceMovedFarAway",
+     head + free_stage + "place = [{ group = \"top\", move = [1e9, 0, 0] }]\n",
+     {"c.toml:6: 'move'", "from -10000000 to 10000000 m"}},
+    {"SensorFarAway",
+     head + gravity + "[[sensor]]\nid=\"a\"\nposition=[0,0,1e200]\n",
+     {"c.toml:7: 'position'", "from -10000000 to 10000000 m"}},
+    {"ForceTooLarge",
+     head + gravity + "load = [{ group = \"top\", force = [0, 0, 1e300] }]\n",
+     {"c.toml:5: 'force'", "1e+300"}},
+    {"StepsWithoutEnd",
+     head + "[analysis]\ntime_step = 1e-15\n" + free_stage,
+     {"c.toml:4: 'time_step'", "2 s of simulated time would be 2e+15 steps", "63.4 years", "at most 1e+11"}},
+    {"CheckpointsWithoutEnd",
+     head + "[output]\ncheckpoint_every = 1e-9\n" + free_stage,
+     {"c.toml:4: 'checkpoint_every'", "2e+09 checkpoints", "at most 100000"}},
+    {"FramesWithoutEnd",
+     head + "[output]\nfields_every = 1e-12\n" + free_stage,
+     {"c.toml:4: 'fields_every'", "2e+12 stored frames", "at most 100000"}},
+    {"DottedKey", head + "x" + repeated(".x", 100000) + " = 1\n" + gravity, {"c.toml:3: a key of more than 32 parts"}},
+    {"DottedHeading", head + "[x" + repeated(".\"y.z\"", 100000) + "]\n", {"c.toml:3: a key of more than 32 parts"}},
+    {"BracketsInBrackets",
+     head + "x = " + repeated("[", 100000) + repeated("]", 100000) + "\n",
+     {"c.toml:3: brackets in brackets, 33 deep"}},
+    {"LongAssembly",
+     "[bridge]\nassembly = \"" + std::string(100000, 'w') + "\"\n",
+     {"c.toml:2: ", "there is no such file"}},
+    {"LongRecord",
+     head + motion + "record = \"" + std::string(100000, 'w') + "\"\n",
+     {"c.toml:6: ", "there is no such file"}},
+    {"LongKey", head + std::string(2000000, 'k') + " = 1\n" + gravity, {"c.toml:3: ", "kkk", "(2000000 bytes)"}},
+    {"LongWord", "[bridge]\ngenerator = \"" + std::string(2000000, 'w') + "\"\n", {"c.toml:2: ", "(2000000 bytes)"}},
+    {"LongKind",
+     head + "[[stage]]\nkind = \"" + std::string(2000000, 'w') + "\"\n",
+     {"c.toml:4: ", "(2000000 bytes)", "expected one of: gravity"}},
 };
 
 class CaseError : public testing::TestWithParam<Wrong> {};
@@ -280,6 +323,20 @@ TEST_P(CaseError, SaysWhatIsWrongAndWhatIsRight) {
   const std::string message = test::message_of<InputError>([&] { read_case(path); });
   EXPECT_TRUE(message.starts_with(folder.path())) << message;
   for (const std::string& part : GetParam().expected) EXPECT_NE(message.find(part), std::string::npos) << message;
+  EXPECT_LT(message.size(), 2000u) << message.substr(0, 300);
+}
+
+TEST(CaseErrors, DotsInTextsCommentsAndListsOfNumbersAreNoNesting) {
+  std::string numbers = "0.5", text = "...", more = "[[[";
+  for (int i = 0; i < 100; ++i) numbers += ", 0.5", text += "...[[[{{{", more += "{{{[[[";
+  const test::Folder folder;
+  const std::string path = folder.path() + "/c.toml";
+  const toml::table read =
+      parse_toml("a = [" + numbers + "]\n# " + text + "\nb = \"" + text + "\\\"" + more + "\"\nc = '''" + text + "\n'" +
+                     more + "'''\nd = \"\"\"" + text + "\n\"" + more + "\"\"\"\n",
+                 path);
+  EXPECT_EQ(read.size(), 4u);
+  EXPECT_EQ(read["a"].as_array()->size(), 101u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Messages, CaseError, testing::ValuesIn(table),
@@ -298,6 +355,7 @@ TEST(Suggestion, NearestWordOrList) {
   EXPECT_EQ(nearest_word("ratoi", known), "ratio");  // a swap is one mistake
   EXPECT_EQ(nearest_word("temperature", known), "");
   EXPECT_EQ(suggestion("x", known), ": expected one of: ratio, band, kind");
+  EXPECT_EQ(nearest_word(std::string(2000000, 'r'), known), "");  // not compared letter by letter
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 // The command line: help, options, exit status.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
 
 #include "tests/whole/cases.h"
 
@@ -92,6 +95,58 @@ TEST(CommandLine, WrongOptionsAreRefused) {
       << "a refused command left something behind";
 }
 
+/// Every option that takes a number, of every verb. Not a word is read of files that are not there.
+TEST(CommandLine, NumbersOutOfRangeAreRefusedBeforeAnythingIsRead) {
+  const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> options = {
+      {{"run", "none.toml"}, {"until"}},
+      {{"import", "none.obj", "-o", "out.h5"},
+       {"scale", "density", "youngs-modulus", "shear-modulus", "tension", "cohesion", "friction", "kn", "ks", "gap",
+        "dilation", "interface-share", "interface-friction"}},
+      {{"render", "none"}, {"time", "amplification", "crack", "range", "width", "height"}},
+      {{"modal", "none.toml"}, {"modes", "width", "height"}},
+      {{"step", "none.toml"}, {"bodies"}},
+      {{"hide", "none.toml", "-o", "out"},
+       {"modes", "minutes", "shaken", "noise", "scatter", "materials", "defects", "mesh"}},
+      {{"diagnose", "none.toml", "--measured", "none"},
+       {"effects", "fits", "model-error", "unknowns", "most-modes", "run-seconds"}},
+      {{"fragility", "none"}, {"bootstrap"}},
+  };
+  Folder folder;
+  const Surroundings there{.folder = folder.path()};
+  for (const auto& [command, names] : options)
+    for (const std::string& name : names)
+      for (const char* value : {"inf", "-1e300"}) {
+        SCOPED_TRACE(name + " " + value);
+        std::vector<std::string> words = command;
+        words.insert(words.end(), {"--" + name, value});
+        expect_error(voussoir(words, there), 2, {name});
+      }
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
+}
+
+TEST(CommandLine, NamesThatEndLikeAnotherKindOfFileAreRefused) {
+  Folder folder;
+  write_wall(folder);
+  const Surroundings there{.folder = folder.path()};
+  expect_error(voussoir({"render", "wall.toml", "-o", "a.svg"}, there), 2, {"a.svg", "PNG", "let it end in .png"});
+  expect_error(voussoir({"generate", "wall.toml", "-o", "a.PNG"}, there), 2, {"a.PNG", "let it end in .h5 or .hdf5"});
+  expect_error(voussoir({"import", "a.obj", "-o", "b.obj"}, there), 2, {"b.obj", "let it end in .h5 or .hdf5"});
+  expect_error(voussoir({"step", "wall.toml", "-o", "a.csv"}, there), 2, {"a.csv", "let it end in .json"});
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"wall.toml"});
+}
+
+/// `voussoir … | head -1`: what is not read is nobody's loss.
+TEST(CommandLine, AReaderThatGoesAwayIsNoFailure) {
+  const std::string program = "\"" VOUSSOIR_PROGRAM "\"";
+  const auto status = [&](const std::string& words) {
+    return std::system(("bash -c '" + program + words + "; exit ${PIPESTATUS[0]}'").c_str());
+  };
+  EXPECT_EQ(status(" generate --keys cs1 | true"), 0);
+  EXPECT_EQ(status(" generate --keys cs1 2>&1 | head -c 1 >/dev/null"), 0);
+  EXPECT_EQ(status(" --help | true"), 0);
+  EXPECT_EQ(WEXITSTATUS(status(" nothing 2>&1 | true")), 2) << "what failed has failed all the same";
+}
+
 TEST(CommandLine, KeysOfEachGeneratorAreListed) {
   for (const char* name : {"cs1", "cs2", "arch", "wall", "column", "filled-arch"}) {
     const Outcome outcome = voussoir({"generate", "--keys", name});
@@ -104,7 +159,12 @@ TEST(CommandLine, OutputThatCannotBeWrittenIsSaid) {
   Folder folder;
   write_wall(folder);
   const Outcome outcome = voussoir({"info", "wall.toml"}, {.folder = folder.path(), .output_file = "/dev/full"});
-  expect_error(outcome, 1, {"standard output"});
+  expect_error(outcome, 1, {"standard output", "No space left"});
+  // More than the buffer holds, and the text of an option.
+  expect_error(voussoir({"generate", "--keys", "cs1"}, {.output_file = "/dev/full"}), 1,
+               {"cannot write to standard output: No space left"});
+  expect_error(voussoir({"run", "--help"}, {.output_file = "/dev/full"}), 1,
+               {"cannot write to standard output: No space left"});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <limits>
 #include <new>
 #include <optional>
 
@@ -13,9 +14,9 @@
 #include "tools/campaign/json.h"
 #include "tools/campaign/outcome.h"
 #include "tools/campaign/process.h"
+#include "tools/voussoir/options.h"
 #include "tools/voussoir/run_directory.h"
 #include "tools/voussoir/run_session.h"
-#include "tools/voussoir/verb.h"
 
 namespace voussoir {
 
@@ -144,7 +145,7 @@ int work(const Job& job) {
     held.session->run();
     o = outcome_of(job, *held.session);
   } catch (const std::bad_alloc&) {
-    fail("out of memory: use a larger block_scale, or fewer runs at once");
+    fail("out of memory: let fewer runs go at once, or give the bridge fewer blocks");
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -166,8 +167,9 @@ std::string run_of_batch(const std::string& directory, const std::string& batch,
 int campaign_run(const std::vector<std::string>& arguments) {
   CommandLine line("campaign-run", "campaign-run DIR RUN", "voussoir campaign-run campaign cs1-f__aquila__x1");
   line.described.add_options()("batch", options::value<std::string>()->value_name("FILE"), "list of runs in DIR/slurm")(
-      "task", options::value<int>()->value_name("N"), "place in that list, from 0")(
-      "parent", options::value<int>()->value_name("PID"), "process with which this one ends");
+      "task", whole_option("task", 0, 1'000'000'000)->value_name("N"), "place in that list, from 0")(
+      "parent", whole_option("parent", 1, std::numeric_limits<int>::max())->value_name("PID"),
+      "process with which this one ends");
   line.positional = {"DIR", "RUN"};
   line.required = {"DIR"};
   options::variables_map values;

@@ -8,7 +8,7 @@
 #include "tools/voussoir/diagnosis_page.h"
 #include "tools/voussoir/diagnosis_pictures.h"
 #include "tools/voussoir/diagnosis_report.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -111,16 +111,16 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "where to (default: CASE-diagnosis)")("hold-back", options::value<std::string>(&held),
                                             "modes that are not fitted but predicted, by commas")(
       "without", options::value<std::string>(&without), "effects that are not tried, by commas")(
-      "effects", options::value<int>(&request.settings.effects)->default_value(3), "most that are added")(
-      "fits", options::value<int>(&request.settings.fits)->default_value(request.settings.fits),
+      "effects", whole_option("effects", 0, 100, &request.settings.effects)->default_value(3), "most that are added")(
+      "fits", whole_option("fits", 1, 10000, &request.settings.fits)->default_value(request.settings.fits),
       "candidates that are fitted fully in a round")(
-      "model-error", options::value<double>(&request.model_error)->default_value(request.model_error),
+      "model-error", real_option("model-error", 1e-9, 0.999, &request.model_error)->default_value(request.model_error),
       "of a right model's frequencies, share, beside its mesh")(
-      "unknowns", options::value<int>(&request.unknowns)->default_value(request.unknowns),
+      "unknowns", whole_option("unknowns", 1, 100'000'000, &request.unknowns)->default_value(request.unknowns),
       "of the mesh that effects are looked for on, at most")(
-      "most-modes", options::value<int>(&request.most_modes)->default_value(request.most_modes),
+      "most-modes", whole_option("most-modes", 1, 30, &request.most_modes)->default_value(request.most_modes),
       "of those found in recordings: the lowest are used")(
-      "run-seconds", options::value<double>(&request.run_seconds)->default_value(request.run_seconds),
+      "run-seconds", real_option("run-seconds", 0.0, 3600.0, &request.run_seconds)->default_value(request.run_seconds),
       "of a recording with the ground's motion for which the explicit solver is run before and after; 0: not")(
       "no-page", "no HTML page and no pictures");
   line.positional = {"CASE"};
@@ -135,14 +135,6 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   request.settings.threads = threads_asked(values);
   request.quiet = values.count("quiet") > 0;
   request.page = values.count("no-page") == 0;
-  if (!(request.model_error > 0.0 && request.model_error < 1.0))
-    throw InputError("--model-error is {}; it must be above 0 and below 1", request.model_error);
-  if (request.most_modes < 1 || request.most_modes > 30)
-    throw InputError("--most-modes is {}; it must be from 1 to 30", request.most_modes);
-  if (!(request.run_seconds >= 0.0 && request.run_seconds <= 3600.0))
-    throw InputError("--run-seconds is {}; it must be from 0 to 3600", request.run_seconds);
-  if (request.settings.fits < 1 || request.settings.effects < 0)
-    throw InputError("--fits must be 1 or more and --effects 0 or more");
   return diagnose_case(request);
 }
 

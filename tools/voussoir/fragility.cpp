@@ -12,7 +12,7 @@
 #include "solver/base/error.h"
 #include "tools/voussoir/fragility_charts.h"
 #include "tools/voussoir/fragility_page.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -193,7 +193,7 @@ int fragility(const std::vector<std::string>& arguments) {
       "limit state NAME:DEMAND:THRESHOLD in SI units, or NAME:collapse; may be repeated; beside those of "
       "campaign.json")("im", options::value<std::string>()->value_name("NAME"),
                        "measure of intensity (default: the most proficient)")(
-      "bootstrap", options::value<int>()->value_name("N")->default_value(1000),
+      "bootstrap", whole_option("bootstrap", 0, 1'000'000)->value_name("N")->default_value(1000),
       "resamples of the records; 0: no bands")(
       "seed", options::value<std::uint64_t>()->value_name("S")->default_value(1), "of the resamples");
   line.positional = line.required = {"DIR"};
@@ -202,8 +202,6 @@ int fragility(const std::vector<std::string>& arguments) {
   const std::string directory = values["DIR"].as<std::string>();
   FragilityReport report;
   report.settings = {values["bootstrap"].as<int>(), values["seed"].as<std::uint64_t>()};
-  if (report.settings.replicates < 0 || report.settings.replicates > 1000000)
-    throw InputError("--bootstrap is {}; it must be from 0 to 1000000", report.settings.replicates);
   const CampaignTable table = read_table(directory + "/table.csv");
   report.table = table.path;
   count_runs(table, report);

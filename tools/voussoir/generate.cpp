@@ -11,7 +11,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -75,6 +75,7 @@ int generate(const std::vector<std::string>& arguments) {
   }
   if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
   const std::string file = values["CASE"].as<std::string>();
+  if (values.count("output")) check_ending(values["output"].as<std::string>(), {".h5", ".hdf5"}, "an HDF5 assembly");
   const auto start = std::chrono::steady_clock::now();
   const Case c = read_case(file, CaseUse::geometry);
   const Assembly assembly = make_assembly(c);

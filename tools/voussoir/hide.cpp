@@ -14,7 +14,7 @@
 #include "solver/effects/parts.h"
 #include "tools/voussoir/diagnosis_input.h"
 #include "tools/voussoir/hidden_recordings.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -280,25 +280,28 @@ int hide_run(const std::vector<std::string>& arguments) {
   line.described.add_options()("effect", options::value<std::vector<std::string>>()->composing(),
                                "what the case lacks; may be repeated; none: nothing")(
       "sensors", options::value<std::string>(&request.sensors)->default_value(request.sensors),
-      "sparse, rich or none (periods alone)")("modes", options::value<int>(&request.modes)->default_value(6),
+      "sparse, rich or none (periods alone)")("modes", whole_option("modes", 1, 1000, &request.modes)->default_value(6),
                                               "that are measured")(
-      "minutes", options::value<double>(&request.minutes)->default_value(0.0),
+      "minutes", real_option("minutes", 0.0, 600.0, &request.minutes)->default_value(0.0),
       "of ambient vibration instead of modes; the noise of its channels is five times --noise")(
-      "shaken", options::value<double>(&request.shaken)->default_value(0.0),
+      "shaken", real_option("shaken", 0.0, 3600.0, &request.shaken)->default_value(0.0),
       "s of a synthetic earthquake, recorded on the ground too, instead of modes; noise as with --minutes")(
-      "noise", options::value<double>(&request.noise)->default_value(request.noise, fmt::format("{}", request.noise)),
+      "noise",
+      real_option("noise", 0.0, 0.999, &request.noise)->default_value(request.noise, fmt::format("{}", request.noise)),
       "standard deviation of periods, share; of shapes twice that")(
       "scatter",
-      options::value<double>(&request.scatter)->default_value(request.scatter, fmt::format("{}", request.scatter)),
+      real_option("scatter", 0.0, 0.999, &request.scatter)
+          ->default_value(request.scatter, fmt::format("{}", request.scatter)),
       "of the stiffness of each part (standard deviation of the logarithm)")(
       "materials",
-      options::value<double>(&request.materials)
+      real_option("materials", 0.0, 0.999, &request.materials)
           ->default_value(request.materials, fmt::format("{}", request.materials)),
-      "the same, of each material")(
-      "defects",
-      options::value<double>(&request.defects)->default_value(request.defects, fmt::format("{}", request.defects)),
-      "m, standard deviation of every dimension")(
-      "mesh", options::value<double>(&request.mesh)->default_value(request.mesh, fmt::format("{}", request.mesh)),
+      "the same, of each material")("defects",
+                                    real_option("defects", 0.0, 0.999, &request.defects)
+                                        ->default_value(request.defects, fmt::format("{}", request.defects)),
+                                    "m, standard deviation of every dimension")(
+      "mesh",
+      real_option("mesh", 0.2, 5.0, &request.mesh)->default_value(request.mesh, fmt::format("{}", request.mesh)),
       "size of the true bridge's blocks over the case's")(
       "trace",
       "write to answer.toml how much of the effects shows in the modes: their sum of squares in standard "
@@ -310,14 +313,10 @@ int hide_run(const std::vector<std::string>& arguments) {
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   request.case_file = values["CASE"].as<std::string>();
-  if (request.modes < 1) throw InputError("--modes is {}; it must be at least 1", request.modes);
-  for (double x : {request.noise, request.scatter, request.materials, request.defects})
-    if (!(x >= 0.0 && x < 1.0)) throw InputError("noise, scatter, materials and defects must be from 0 to below 1");
-  if (!(request.mesh > 0.2 && request.mesh < 5.0)) throw InputError("--mesh is {}; give 0.2 to 5", request.mesh);
   request.trace = values.count("trace") > 0;
   const bool recorded = request.minutes > 0.0 || request.shaken > 0.0;
-  if (request.minutes < 0.0 || request.shaken < 0.0 || (recorded && request.sensors == "none"))
-    throw InputError("--minutes and --shaken need sensors, and cannot be negative");
+  if (recorded && request.sensors == "none")
+    throw InputError("--minutes and --shaken need sensors; give --sensors sparse or rich");
   if (recorded && values.count("trace"))
     throw InputError("--trace is of modes, which --minutes and --shaken do not give; leave it out");
   if (request.minutes > 0.0 && request.shaken > 0.0) throw InputError("give --minutes or --shaken, not both");

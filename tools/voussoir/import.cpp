@@ -7,7 +7,7 @@
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 #include "tools/voussoir/import_fill.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -15,17 +15,17 @@ namespace {
 
 ImportOptions import_options(const options::variables_map& values) {
   ImportOptions o;
-  o.scale = positive(values, "scale");
+  o.scale = values["scale"].as<double>();
   o.fixed = values["fixed"].as<std::string>();
-  o.material.density = positive(values, "density");
-  o.material.youngs_modulus = positive(values, "youngs-modulus");
-  o.material.shear_modulus = positive(values, "shear-modulus");
-  o.material.tensile_strength = zero_or_more(values, "tension");
-  o.material.cohesion = zero_or_more(values, "cohesion");
+  o.material.density = values["density"].as<double>();
+  o.material.youngs_modulus = values["youngs-modulus"].as<double>();
+  o.material.shear_modulus = values["shear-modulus"].as<double>();
+  o.material.tensile_strength = values["tension"].as<double>();
+  o.material.cohesion = values["cohesion"].as<double>();
   o.material.friction_angle = angle(values, "friction");
-  o.kn = zero_or_more(values, "kn");
-  o.ks = zero_or_more(values, "ks");
-  o.search.gap = positive(values, "gap");
+  o.kn = values["kn"].as<double>();
+  o.ks = values["ks"].as<double>();
+  o.search.gap = values["gap"].as<double>();
   return o;
 }
 
@@ -43,30 +43,32 @@ int import(const std::vector<std::string>& arguments) {
   CommandLine line("import", "import FILE -o ASSEMBLY",
                    "voussoir import vault.obj -o vault.h5 --density 2200 --fixed lowest");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"), "assembly file to write")(
-      "scale", options::value<double>()->default_value(1.0), "metres per unit of the file")(
+      "scale", real_option("scale", 1e-9, 1e6)->default_value(1.0), "metres per unit of the file")(
       "fixed", options::value<std::string>()->default_value("lowest"),
       "what moves with the ground: lowest, none, or names or numbers")(
-      "density", options::value<double>()->default_value(2000.0), "kg/m3")(
-      "youngs-modulus", options::value<double>()->default_value(4e9), "Pa")(
-      "shear-modulus", options::value<double>()->default_value(1.6e9), "Pa")(
-      "tension", options::value<double>()->default_value(0.0), "tensile strength of the joints, Pa")(
-      "cohesion", options::value<double>()->default_value(0.0), "Pa")(
-      "friction", options::value<double>()->default_value(30.0), "degrees")(
-      "kn", options::value<double>()->default_value(0.0), "Pa/m of every joint; 0: from the moduli")(
-      "ks", options::value<double>()->default_value(0.0), "Pa/m of every joint; 0: from the moduli")(
-      "gap", options::value<double>()->default_value(1e-4), "m: faces closer than this are in contact")(
+      "density", real_option("density", 1e-6, 1e5)->default_value(2000.0), "kg/m3")(
+      "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9), "Pa")(
+      "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9), "Pa")(
+      "tension", real_option("tension", 0.0, 1e10)->default_value(0.0), "tensile strength of the joints, Pa")(
+      "cohesion", real_option("cohesion", 0.0, 1e10)->default_value(0.0), "Pa")(
+      "friction", real_option("friction", 0.0, 89.0)->default_value(30.0), "degrees")(
+      "kn", real_option("kn", 0.0, 1e15)->default_value(0.0), "Pa/m of every joint; 0: from the moduli")(
+      "ks", real_option("ks", 0.0, 1e15)->default_value(0.0), "Pa/m of every joint; 0: from the moduli")(
+      "gap", real_option("gap", 1e-9, 0.1)->default_value(1e-4), "m: faces closer than this are in contact")(
       "into", options::value<std::string>()->value_name("ASSEMBLY"), ".msh: the assembly that the fill is put into")(
       "material", options::value<std::string>()->value_name("NAME")->default_value("backfill"),
       ".msh: the fill's material, one of the assembly or a new one, of which what is not given is 1500 kg/m3, 4e8 and "
       "1.6e8 Pa, tension 0, cohesion 2e4 Pa, friction 40 degrees")(
-      "dilation", options::value<double>()->default_value(0.0), ".msh: of a new material, degrees")(
-      "interface-share", options::value<double>()->default_value(0.2),
+      "dilation", real_option("dilation", 0.0, 89.0)->default_value(0.0), ".msh: of a new material, degrees")(
+      "interface-share", real_option("interface-share", 1e-6, 1e6)->default_value(0.2),
       ".msh: stiffness of the patches, share of E/dc and G/dc of the stones")(
-      "interface-friction", options::value<double>()->default_value(35.0), ".msh: friction of the patches, degrees");
+      "interface-friction", real_option("interface-friction", 0.0, 89.0)->default_value(35.0),
+      ".msh: friction of the patches, degrees");
   line.positional = line.required = {"FILE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   if (!values.count("output")) throw InputError("-o ASSEMBLY is missing; usage: voussoir {}", line.usage);
+  check_ending(values["output"].as<std::string>(), {".h5", ".hdf5"}, "an HDF5 assembly");
   const bool fill = is_fill_file(values["FILE"].as<std::string>());
   check_kind(values, fill);
   if (fill) return import_fill(values);

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 
-#include "geometry/fill_gmsh.h"
 #include "geometry/fill_import.h"
 #include "io/hdf5/assembly_file.h"
+#include "io/msh/msh_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 
@@ -24,11 +23,11 @@ bool given(const options::variables_map& values, const char* name) {
 /// A new material for the fill: what is not given is that of a loose gravel fill, not of a stone.
 Material new_material(const options::variables_map& values, const std::string& name) {
   Material m = {name, 1500.0, 4e8, 1.6e8, 0.0, 2e4, 40.0 * std::numbers::pi / 180.0};
-  if (given(values, "density")) m.density = positive(values, "density");
-  if (given(values, "youngs-modulus")) m.youngs_modulus = positive(values, "youngs-modulus");
-  if (given(values, "shear-modulus")) m.shear_modulus = positive(values, "shear-modulus");
-  if (given(values, "tension")) m.tensile_strength = zero_or_more(values, "tension");
-  if (given(values, "cohesion")) m.cohesion = zero_or_more(values, "cohesion");
+  if (given(values, "density")) m.density = values["density"].as<double>();
+  if (given(values, "youngs-modulus")) m.youngs_modulus = values["youngs-modulus"].as<double>();
+  if (given(values, "shear-modulus")) m.shear_modulus = values["shear-modulus"].as<double>();
+  if (given(values, "tension")) m.tensile_strength = values["tension"].as<double>();
+  if (given(values, "cohesion")) m.cohesion = values["cohesion"].as<double>();
   if (given(values, "friction")) m.friction_angle = angle(values, "friction");
   m.dilation_angle = angle(values, "dilation");
   if (m.dilation_angle > m.friction_angle)
@@ -57,33 +56,18 @@ std::int32_t find_material(const options::variables_map& values, Assembly& assem
 
 FillInterface interface_of(const options::variables_map& values) {
   FillInterface interface;
-  interface.kn = zero_or_more(values, "kn");
-  interface.ks = zero_or_more(values, "ks");
-  interface.share = positive(values, "interface-share");
+  interface.kn = values["kn"].as<double>();
+  interface.ks = values["ks"].as<double>();
+  interface.share = values["interface-share"].as<double>();
   interface.friction = angle(values, "interface-friction");
-  interface.search.gap = positive(values, "gap");
+  interface.search.gap = values["gap"].as<double>();
   return interface;
 }
 
 }  // namespace
 
-double positive(const options::variables_map& values, const char* name) {
-  const double x = values[name].as<double>();
-  if (!(x > 0.0 && std::isfinite(x))) throw InputError("--{} is {}; it must be positive and finite", name, x);
-  return x;
-}
-
-double zero_or_more(const options::variables_map& values, const char* name) {
-  const double x = values[name].as<double>();
-  if (!(x >= 0.0 && std::isfinite(x))) throw InputError("--{} is {}; it must be 0 or more, and finite", name, x);
-  return x;
-}
-
 double angle(const options::variables_map& values, const char* name) {
-  const double degrees = values[name].as<double>();
-  if (!(degrees >= 0.0 && degrees < 90.0))
-    throw InputError("--{} is {} degrees; it must be from 0 to below 90", name, degrees);
-  return degrees * std::numbers::pi / 180.0;
+  return values[name].as<double>() * std::numbers::pi / 180.0;
 }
 
 bool is_fill_file(const std::string& path) {
@@ -102,7 +86,7 @@ int import_fill(const options::variables_map& values) {
   const std::size_t known = assembly.materials.size();
   const std::int32_t material = find_material(values, assembly);
   const FillInterface interface = interface_of(values);
-  FillMesh mesh = read_gmsh(file, positive(values, "scale"));
+  FillMesh mesh = read_msh(file, values["scale"].as<double>());
   FillJointReport report;
   try {
     report = put_fill(assembly, std::move(mesh), material, interface);

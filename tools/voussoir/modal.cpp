@@ -14,7 +14,7 @@
 #include "tools/voussoir/modal_paper.h"
 #include "tools/voussoir/modal_report.h"
 #include "tools/voussoir/modal_source.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 #include "viz/mode_picture.h"
 #include "viz/scene.h"
 #include "viz/view.h"
@@ -228,7 +228,8 @@ int modal(const std::vector<std::string>& arguments) {
   line.described.add_options()(
       "output,o", options::value<std::string>()->value_name("DIR"),
       "folder for tables, shapes and pictures (default: NAME-modes, or RUN/modes); with --paper "
-      "a Markdown file")("modes,n", options::value<int>()->value_name("N"), "how many modes (default: the case's, 10)")(
+      "a Markdown file")("modes,n", whole_option("modes", 1, 10000)->value_name("N"),
+                         "how many modes (default: the case's, 10)")(
       "state", options::value<std::string>()->value_name("WORD"),
       "of a case: intact (all joints elastic) or gravity (as they rest)")(
       "geometric", "with the geometric stiffness of the joints' forces")(
@@ -237,9 +238,9 @@ int modal(const std::vector<std::string>& arguments) {
       "pair the modes with those of another analysis")(
       "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
       "hide", options::value<std::string>()->default_value("none"), "components left out of the pictures, by commas")(
-      "width", options::value<int>()->default_value(1800), "of the pictures, pixels")(
-      "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")("no-pictures",
-                                                                                    "tables and shapes only")(
+      "width", whole_option("width", 200, 8000)->default_value(1800), "of the pictures, pixels")(
+      "height", whole_option("height", 0, 8000)->default_value(1000), "pixels; 0: as needed")("no-pictures",
+                                                                                              "tables and shapes only")(
       "paper", "the published periods of the two bridges of the seed paper beside those of the cases");
   line.positional = {"CASE"};
   options::variables_map values;

@@ -15,7 +15,7 @@
 #include "solver/base/error.h"
 #include "solver/contact/grouping.h"
 #include "solver/step/make_snapshot.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -88,8 +88,9 @@ int render(const std::vector<std::string>& arguments) {
                    "voussoir render demo --view front --colour slip --amplification 20 -o slip.png");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("PNG"),
                                "picture (default: DIR/images/…, or beside the file)")(
-      "time,t", options::value<double>()->value_name("T"), "stored frame nearest to this time (s); default: the last")(
-      "amplification,a", options::value<double>()->default_value(2.0), "of the displacements")(
+      "time,t", real_option("time", -1e9, 1e9)->value_name("T"),
+      "stored frame nearest to this time (s); default: the last")(
+      "amplification,a", real_option("amplification", -1e6, 1e6)->default_value(2.0), "of the displacements")(
       "colour,c", options::value<std::string>()->default_value("opening"),
       "opening, slip, displacement, mode (share of the largest), component or stone; of a deformable fill plastic "
       "(shear "
@@ -99,12 +100,12 @@ int render(const std::vector<std::string>& arguments) {
       "components left out, by commas; none: show all; default: backfill, a deformable one too, unless it is coloured")(
       "cut", options::value<std::string>()->value_name("PLANE"),
       "leave out what lies before a plane: an axis and a place in m, such as y=0.5, or the axis alone for the middle")(
-      "no-cracks", "do not mark cracked joints")("crack", options::value<double>()->default_value(1.0),
+      "no-cracks", "do not mark cracked joints")("crack", real_option("crack", 0.0, 1e6)->default_value(1.0),
                                                  "opening or slip that counts as a crack, mm; 0: a lost bond too")(
-      "range", options::value<double>()->default_value(0.0),
-      "top of the colour scale, mm (plastic: %); 0: from the data")("width", options::value<int>()->default_value(1800),
-                                                                    "pixels")(
-      "height", options::value<int>()->default_value(1000), "pixels; 0: as needed")(
+      "range", real_option("range", 0.0, 1e9)->default_value(0.0),
+      "top of the colour scale, mm (plastic: %); 0: from the data")(
+      "width", whole_option("width", 200, 8000)->default_value(1800), "pixels")(
+      "height", whole_option("height", 0, 8000)->default_value(1000), "pixels; 0: as needed")(
       "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""),
                                                              "words above the picture");
   line.positional = line.required = {"DIR"};
@@ -121,8 +122,7 @@ int render(const std::vector<std::string>& arguments) {
   // -o DIR, as every verb takes it: the picture goes in there.
   if (fs::is_directory(png, ignored) || png.ends_with('/'))
     png = (fs::path(png) / fmt::format("{}_{}.png", o.colour, o.view)).string();
-  if (values.count("time") && !std::isfinite(values["time"].as<double>()))
-    throw InputError("--time is {}; give seconds, such as 2.5", values["time"].as<double>());
+  check_ending(png, {".png"}, "a PNG picture");
   if (directory)
     render_frame(from, values, o, png);
   else

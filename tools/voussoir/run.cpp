@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "solver/base/error.h"
+#include "tools/voussoir/options.h"
 #include "tools/voussoir/run_directory.h"
 #include "tools/voussoir/run_session.h"
-#include "tools/voussoir/verb.h"
 
 namespace voussoir {
 
@@ -20,15 +20,12 @@ RunRequest request(const options::variables_map& values, const std::string& dire
   r.threads = threads_asked(values);
   r.quiet = values.count("quiet") > 0;
   r.pictures = values.count("no-pictures") == 0;
-  if (values.count("until")) {
-    r.until = values["until"].as<double>();
-    if (!(r.until >= 0.0)) throw InputError("--until is {}; give a time of 0 s or more", r.until);
-  }
+  if (values.count("until")) r.until = values["until"].as<double>();
   return r;
 }
 
 void add_run_options(CommandLine& line) {
-  line.described.add_options()("until", options::value<double>()->value_name("T"),
+  line.described.add_options()("until", real_option("until", 0.0, 1e9)->value_name("T"),
                                "stop at this simulated time (s), with a checkpoint")(
       "no-pictures", "leave out the pictures at the end");
 }

@@ -8,7 +8,7 @@
 #include "solver/base/error.h"
 #include "solver/step/damping.h"
 #include "solver/step/step_report.h"
-#include "tools/voussoir/verb.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -97,14 +97,14 @@ nlohmann::json report_json(const Model& model, const StepReport& report, const s
 
 int step(const std::vector<std::string>& arguments) {
   CommandLine line("step", "step CASE [-o FILE]", "voussoir step cases/cs1-f.toml");
-  line.described.add_options()("bodies", options::value<int>()->value_name("N")->default_value(8),
+  line.described.add_options()("bodies", whole_option("bodies", 0, 1'000'000)->value_name("N")->default_value(8),
                                "how many of the stiffest bodies to list")(
       "output,o", options::value<std::string>()->value_name("FILE"), "also write it as JSON");
   line.positional = line.required = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const int bodies = values["bodies"].as<int>();
-  if (bodies < 0) throw InputError("--bodies is {}; it must be 0 or more", bodies);
+  if (values.count("output")) check_ending(values["output"].as<std::string>(), {".json"}, "JSON");
   const Case c = read_case(values["CASE"].as<std::string>(), CaseUse::geometry);
   const Assembly assembly = make_assembly(c);
   const Model model = build_model(assembly, c.settings);

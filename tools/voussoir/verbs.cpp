@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
+#include <limits>
+#include <sstream>
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
-#include "tools/voussoir/verb.h"
+#include "solver/base/shown.h"
+#include "tools/voussoir/options.h"
 
 namespace voussoir {
 
@@ -19,9 +21,9 @@ const std::vector<Verb>& verbs() {
 
 CommandLine::CommandLine(std::string verb_name, std::string usage_text, std::string example_text)
     : verb(std::move(verb_name)), usage(std::move(usage_text)), example(std::move(example_text)) {
-  described.add_options()("help,h", "this text")("threads,j", options::value<int>()->value_name("N"),
-                                                 "threads (default: all the machine offers)")("quiet,q",
-                                                                                              "no progress, no tables");
+  described.add_options()("help,h", "this text")(
+      "threads,j", whole_option("threads", 1, std::numeric_limits<int>::max())->value_name("N"),
+      "threads (default: all the machine offers)")("quiet,q", "no progress, no tables");
 }
 
 bool CommandLine::parse(const std::vector<std::string>& arguments, options::variables_map& values) {
@@ -42,16 +44,16 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
     options::store(options::command_line_parser(arguments).options(all).positional(places).run(), values);
     options::notify(values);
   } catch (const options::error& e) {
-    throw InputError("{}; see voussoir {} --help", e.what(), verb);
+    throw InputError("{}; see voussoir {} --help", shown(e.what(), 200), verb);
   }
   if (values.count("help")) {
-    std::cout << "Usage: voussoir " << usage << "\n\n" << described << "\nExample: " << example << "\n";
+    std::ostringstream list;
+    list << described;
+    fmt::print("Usage: voussoir {}\n\n{}\nExample: {}\n", usage, list.str(), example);
     return false;
   }
   for (const std::string& name : required)
     if (!values.count(name)) throw InputError("{} is missing; usage: voussoir {}", name, usage);
-  if (values.count("threads") && values["threads"].as<int>() < 1)
-    throw InputError("--threads is {}; it must be at least 1", values["threads"].as<int>());
   return true;
 }
 
