@@ -25,12 +25,14 @@ struct MotionSource {
   enum class Kind { none, record, pulse, synthetic };
   Kind kind = Kind::none;
   std::array<std::string, 3> files,
-      texts;                   // record: paths as opened, and contents; empty for no motion along that axis
-  std::string units = "m/s2";  // record: m/s2, g or cm/s2; of plain columns
-  double dt = 0.0;             // s; record of one column
-  bool correct = false;        // record: baseline correction
-  double begin = 0.0;          // s, record: what comes before is left out
-  double scale = 1.0;
+      texts;                              // record: paths as opened, and contents; empty for no motion along that axis
+  std::string units = "m/s2";             // record: m/s2, g or cm/s2; of plain columns
+  double dt = 0.0;                        // s; record without times
+  std::vector<std::string> columns = {};  // record: what those of a table are; none: as the file says
+  bool correct = false;                   // record: baseline correction
+  double begin = 0.0;                     // s, record: what comes before is left out
+  double pga = 0.0;                       // m/s2 that the largest acceleration along any axis is scaled to; 0: not
+  double scale = 1.0;                     // after that
   PulseSettings pulse;
   SyntheticSettings synthetic;
 };

@@ -7,6 +7,7 @@
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/records/sets.h"
+#include "io/records/table.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/motion/baseline.h"
@@ -72,6 +73,21 @@ SyntheticSettings read_synthetic(TableReader& table, double stage_duration) {
   return s;
 }
 
+/// What the columns of a table are.
+void read_columns_key(TableReader& stage, MotionSource& source) {
+  if (!stage.has("columns")) return;
+  source.columns = stage.texts("columns");
+  for (const std::string& word : source.columns)
+    if (std::ranges::find(column_words(), word) == column_words().end())
+      stage.fail("columns",
+                 fmt::format("holds \"{}\": expected t, x, y, z, or \"\" for a column that is passed over", word));
+  for (const char* word : {"t", "x", "y", "z"})
+    if (std::ranges::count(source.columns, word) > 1)
+      stage.fail("columns", fmt::format("holds \"{}\" twice: each column is something else", word));
+  if (source.columns.empty() || std::ranges::count(source.files, "") < 2)
+    stage.fail("columns", "belongs to one file with a table: name its columns, and give the file alone");
+}
+
 /// Names and contents of the files; they are turned into numbers in ground_motion().
 void read_record(TableReader& stage, const std::string& path, MotionSource& source) {
   const std::vector<std::string> names = stage.texts("record");
@@ -94,20 +110,14 @@ void read_record(TableReader& stage, const std::string& path, MotionSource& sour
   if (!any) stage.fail("record", "names no file: give at least one");
   const std::vector<std::string>& known = acceleration_units();
   source.units = known[stage.word("units", known, 0)];
-  source.dt = stage.number("dt", 0.0, {0.0, 10.0, "s", true});
+  source.dt = stage.number("dt", 0.0, {1e-5, 1.0, "s"});
+  read_columns_key(stage, source);
   source.correct = stage.flag("correct", false);
   source.begin = stage.number("begin", 0.0, {0.0, 1e5, "s"});
 }
 
 GroundMotion motion_of_records(const MotionSource& source) {
-  std::array<RecordFile, 3> files;
-  std::array<const RecordFile*, 3> along = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (source.files[i].empty()) continue;
-    files[i] = parse_record(source.texts[i], source.files[i], source.dt);
-    along[i] = &files[i];
-  }
-  GroundMotion motion = join_components(along, acceleration_unit(source.units));
+  GroundMotion motion = record_motion(source.files, source.texts, {source.units, source.dt, source.columns});
   const auto left_out = std::size_t(std::llround(source.begin / motion.dt));
   if (left_out + 2 > motion.acceleration.size())
     throw InputError("{}: ends at {} s, and 'begin' is {} s: let it begin sooner",
@@ -115,6 +125,15 @@ GroundMotion motion_of_records(const MotionSource& source) {
                      source.begin);
   motion.acceleration.erase(motion.acceleration.begin(), motion.acceleration.begin() + std::ptrdiff_t(left_out));
   return source.correct ? correct_baseline(motion) : motion;
+}
+
+/// Throws InputError for a motion that does not move.
+void scale_to(GroundMotion& motion, double pga) {
+  double peak = 0.0;
+  for (const Vec3& a : motion.acceleration) peak = std::max(peak, a.cwiseAbs().maxCoeff());
+  if (!(peak > 0.0))
+    throw InputError("'scale_to_pga' is {} m/s2, but the ground motion is zero: look at its file", pga);
+  for (Vec3& a : motion.acceleration) a *= pga / peak;
 }
 
 }  // namespace
@@ -125,11 +144,12 @@ MotionSource read_motion_source(TableReader& table, const std::string& path, dou
   if (record + pulse + synthetic > 1) table.fail("has more than one of 'record', 'pulse' and 'synthetic': choose one");
   if (record + pulse + synthetic == 0) table.missing("record", "file names, or 'pulse' = {…}, or 'synthetic' = {…}");
   source.scale = table.number("scale", 1.0, {-1e6, 1e6, ""});
+  source.pga = table.number("scale_to_pga", 0.0, {0.0, largest_peak, "m/s2", true});
   if (record) {
     source.kind = MotionSource::Kind::record;
     read_record(table, path, source);
   } else {
-    for (const char* key : {"units", "dt", "correct", "begin"})
+    for (const char* key : {"units", "dt", "correct", "begin", "columns"})
       if (table.has(key)) table.fail(key, "belongs to a 'record': remove it");
     source.kind = pulse ? MotionSource::Kind::pulse : MotionSource::Kind::synthetic;
     if (auto sub = table.table("pulse", "the pulse of " + table.place())) source.pulse = read_pulse(*sub);
@@ -144,6 +164,7 @@ GroundMotion ground_motion(const MotionSource& source) {
   if (source.kind == MotionSource::Kind::record) motion = motion_of_records(source);
   if (source.kind == MotionSource::Kind::pulse) motion = make_pulse(source.pulse);
   if (source.kind == MotionSource::Kind::synthetic) motion = synthesize(source.synthetic);
+  if (source.pga > 0.0) scale_to(motion, source.pga);
   if (source.scale != 1.0)
     for (Vec3& a : motion.acceleration) a *= source.scale;
   return motion;

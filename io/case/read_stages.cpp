@@ -24,6 +24,12 @@ std::string motion_file_name(std::size_t stage, int axis) {
 
 namespace {
 
+void check_peak(const TableReader& stage, const MotionSource& source, double peak) {
+  if (!(peak <= largest_peak))
+    stage.fail(fmt::format("has a ground motion with a peak of {:.3g} m/s2, expected at most {:g}: look at its unit{}",
+                           peak, largest_peak, source.scale == 1.0 ? "" : " and 'scale'"));
+}
+
 /// Scaled; about the stage as a whole when it is not possible.
 GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
   GroundMotion motion;
@@ -35,9 +41,7 @@ GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
   }
   double peak = 0.0;
   for (const Vec3& a : motion.acceleration) peak = std::max(peak, a.cwiseAbs().maxCoeff());
-  if (!(peak <= largest_peak))
-    stage.fail(fmt::format("has a ground motion with a peak of {:.3g} m/s2, expected at most {:g}: look at its unit{}",
-                           peak, largest_peak, source.scale == 1.0 ? "" : " and 'scale'"));
+  check_peak(stage, source, peak);
   return motion;
 }
 
@@ -53,9 +57,19 @@ std::string label_of(const MotionSource& source) {
   return fmt::format("motion ({})", fmt::join(names, ", "));
 }
 
-void read_motion(TableReader& table, const Case& c, StageSettings& stage, MotionSource& source) {
+/// A synthetic motion is checked but not made where nothing will be shaken: it may take seconds.
+void read_motion(TableReader& table, const Case& c, CaseUse use, StageSettings& stage, MotionSource& source) {
   source = read_motion_source(table, c.path, stage.duration);
-  stage.motion = motion_of(table, source);
+  if (use == CaseUse::run || source.kind != MotionSource::Kind::synthetic) {
+    stage.motion = motion_of(table, source);
+    return;
+  }
+  try {
+    check_synthetic(source.synthetic);
+  } catch (const InputError& error) {
+    table.fail(std::string("is not possible: ") + error.what());
+  }
+  check_peak(table, source, (source.pga > 0.0 ? source.pga : source.synthetic.peak) * std::abs(source.scale));
 }
 
 void read_drives(TableReader& table, StageSettings& stage) {
@@ -167,7 +181,8 @@ void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
     for (const char* key : {"to", "tilt", "tolerance", "displacement", "confirm"})
       if (table.has(key)) table.fail(key, "belongs to a collapse stage: set kind = \"collapse\" or remove it");
   if (kind == StageSettings::Kind::motion) return;
-  for (const char* key : {"record", "pulse", "synthetic", "scale", "units", "correct", "dt"})
+  for (const char* key :
+       {"record", "pulse", "synthetic", "scale", "scale_to_pga", "units", "columns", "correct", "dt", "begin"})
     if (table.has(key)) table.fail(key, "belongs to a motion stage: set kind = \"motion\" or remove it");
 }
 
@@ -186,7 +201,7 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
       stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0)),
       stage.allow_motion = table.flag("allow_motion", false);
     if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
-    if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, stage, source);
+    if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, use, stage, source);
     if (stage.timed()) read_drives(table, stage), read_placements(table, stage);
     read_loads(table, stage);
     if (stage.kind == StageSettings::Kind::collapse) {

@@ -311,6 +311,7 @@ std::string motion_source_text(const MotionSource& source, const std::array<std:
   TomlText out;
   out.text_.clear();
   out.set("scale", source.scale);
+  if (source.pga > 0.0) out.set("scale_to_pga", source.pga);
   if (source.kind == MotionSource::Kind::pulse) out.raw("pulse", pulse_text(source.pulse));
   if (source.kind == MotionSource::Kind::synthetic) out.raw("synthetic", synthetic_text(source.synthetic));
   if (source.kind != MotionSource::Kind::record) return out.text_;
@@ -319,6 +320,11 @@ std::string motion_source_text(const MotionSource& source, const std::array<std:
   if (std::ranges::none_of(source.texts, [](const std::string& text) { return recognise(text).unit > 0.0; }))
     out.set("units", source.units);
   if (source.dt > 0.0) out.set("dt", source.dt);
+  if (!source.columns.empty()) {
+    std::vector<std::string> words;
+    for (const std::string& word : source.columns) words.push_back(quoted(word));
+    out.raw("columns", fmt::format("[{}]", fmt::join(words, ", ")));
+  }
   if (source.begin > 0.0) out.set("begin", source.begin);
   out.set_flag("correct", source.correct);
   return out.text_;

@@ -9,6 +9,7 @@
 #include "geometry/fill_report.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
+#include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/h5.h"
 #include "io/hdf5/history_file.h"
@@ -45,6 +46,15 @@ std::string motion_text(const GroundMotion& motion) {
                      motion.dt, peak.x(), peak.y(), peak.z());
 }
 
+/// Of a synthetic motion, which is not made for this.
+std::string synthetic_text(const MotionSource& source) {
+  const SyntheticSettings& s = source.synthetic;
+  const std::string size = s.spectrum
+                               ? fmt::format("with the spectrum of {}", target_codes()[std::size_t(s.spectrum->code)])
+                               : fmt::format("largest value {:.4g} m/s2", s.peak * std::abs(source.scale));
+  return fmt::format("{:.6g} s of synthetic motion at {:.6g} s, {}", s.duration, s.dt, size);
+}
+
 std::string describe_case(const std::string& path) {
   const Case c = read_case(path, CaseUse::geometry);
   Lines out;
@@ -60,7 +70,8 @@ std::string describe_case(const std::string& path) {
     const StageSettings& stage = c.settings.stages[i];
     out.add("  stage {}: {}", i + 1, stage.label);
     if (stage.duration > 0.0) out.text += fmt::format(", {} s", stage.duration);
-    if (stage.kind == StageSettings::Kind::motion) out.text += "; " + motion_text(stage.motion);
+    if (stage.kind == StageSettings::Kind::motion)
+      out.text += "; " + (stage.motion.acceleration.empty() ? synthetic_text(c.motions[i]) : motion_text(stage.motion));
     for (const Drive& d : stage.drives) out.text += fmt::format("; drives \"{}\"", d.group);
   }
   if (c.settings.stages.empty()) out.add("  no stages: good for generate and modal, not for run");
@@ -169,25 +180,30 @@ std::string describe_modes(const std::string& path) {
   return out.text;
 }
 
-std::string describe_record(const std::string& path) {
-  const RecordFile file = read_record(path);
+void describe_channel(const RecordFile& file, Lines& out) {
   const Record& record = file.record;
   const std::vector<double> velocity = integrate(record.values, record.dt);
-  Lines out;
-  out.add("{}: {}record of {} samples, {:.6g} s at {:.6g} s", path, file.unit > 0.0 ? file.format + " " : "",
-          record.values.size(), record.duration(), record.dt);
   if (file.unit > 0.0)
     out.add("  {}, station {}, component {}; units of {:g} m/s2", file.event, file.station, file.component, file.unit);
   out.add("  largest value {:.6g}, largest velocity {:.6g}, at the end {:.6g}", largest(record.values),
           largest(velocity), velocity.back());
+  if (file.unit == 0.0) return;
+  std::vector<double> acceleration = record.values;
+  for (double& a : acceleration) a *= file.unit;
+  const Intensity i = intensity_of(acceleration, record.dt);
+  out.add("  PGA {:.4f} g, PGV {:.4g} m/s, Arias intensity {:.4g} m/s, 5 to 95 % of it in {:.4g} s", i.pga / 9.80665,
+          i.pgv, i.arias, i.significant());
+}
+
+std::string describe_record(const std::string& path) {
+  const std::vector<RecordFile> channels = parse_channels(read_text(path), path);
+  const RecordFile& first = channels.front();
+  Lines out;
+  out.add("{}: {}record of {}{} samples, {:.6g} s at {:.6g} s", path, first.unit > 0.0 ? first.format + " " : "",
+          channels.size() > 1 ? fmt::format("{} channels of ", channels.size()) : "", first.record.values.size(),
+          first.record.duration(), first.record.dt);
+  for (const RecordFile& channel : channels) describe_channel(channel, out);
   out.add("  values in the file's own unit; velocities in that unit times s");
-  if (file.unit > 0.0) {
-    std::vector<double> acceleration = record.values;
-    for (double& a : acceleration) a *= file.unit;
-    const Intensity i = intensity_of(acceleration, record.dt);
-    out.add("  PGA {:.4f} g, PGV {:.4g} m/s, Arias intensity {:.4g} m/s, 5 to 95 % of it in {:.4g} s", i.pga / 9.80665,
-            i.pgv, i.arias, i.significant());
-  }
   return out.text;
 }
 

@@ -2,7 +2,6 @@
 // 1/409.6 s reads .0024: whoever knows better gives `dt`.
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "io/records/format.h"
 #include "io/records/rows.h"
@@ -13,12 +12,6 @@ namespace voussoir {
 namespace {
 
 constexpr std::size_t heading = 4;  // lines
-
-std::string upper(std::string_view text) {
-  std::string word(text);
-  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return char(std::toupper(c)); });
-  return word;
-}
 
 bool recognises(std::string_view text) {
   const std::vector<std::string_view> lines = lines_of(text.substr(0, 2000));
@@ -38,15 +31,19 @@ std::pair<double, double> size_and_step(const std::string& line, const std::stri
       word.clear();
     }
   }
-  if (numbers.size() < 2 || numbers[0] < 2.0 || numbers[0] != std::floor(numbers[0]) || !(numbers[1] > 0.0))
+  if (numbers.size() < 2)
     throw InputError("{}:{}: '{}' names no number of samples and step (s), expected as in 'NPTS= 4000, DT= .0050 SEC'",
                      name, heading, trimmed(line));
-  return {numbers[0], numbers[1]};
+  return {double(checked_samples(numbers[0], name, heading)), checked_step(numbers[1], name, heading)};
 }
 
 RecordFile read(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
-  if (upper(lines[2]).find("ACCELERATION") == std::string::npos || upper(lines[2]).find(" G") == std::string::npos)
+  const std::string quantity = upper(lines[2]);
+  if (quantity.find("VELOCITY") != std::string::npos || quantity.find("DISPLACEMENT") != std::string::npos)
+    throw InputError("{}:3: '{}': velocities and displacements (VT2, DT2) are not needed beside the accelerations",
+                     name, trimmed(lines[2]));
+  if (quantity.find("ACCELERATION") == std::string::npos || quantity.find(" G") == std::string::npos)
     throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, trimmed(lines[2]));
   const auto [samples, step] = size_and_step(upper(lines[heading - 1]), name);
   RecordFile file;
@@ -74,7 +71,7 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
 }  // namespace
 
 RecordFormat peer_at2() {
-  return {"PEER AT2", 9.80665, recognises, read};
+  return {"PEER AT2", 9.80665, recognises, one_channel<read>};
 }
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "io/hdf5/atomic_file.h"
+#include "io/records/not_read.h"
 #include "io/records/rows.h"
 #include "solver/base/error.h"
 
@@ -55,16 +56,25 @@ double time_step(const std::vector<Row>& rows, const std::string& name) {
 }  // namespace
 
 Record parse_columns(const std::string& text, const std::string& name, double dt) {
+  for (const std::string_view line : lines_of(text)) {
+    const std::string_view row = trimmed(line.substr(0, line.find('#')));
+    if (row.empty()) continue;
+    if (!all_numbers(row, separators)) not_read(text, name);
+    break;
+  }
   const std::vector<Row> rows = parse_rows(text, name);
   if (rows.size() < 2) throw InputError("{}: {} rows of numbers, expected at least 2", name, rows.size());
   const std::size_t columns = dt > 0.0 ? 1 : 2;
   for (const Row& row : rows)
     if (row.values.size() != columns)
-      throw InputError("{}:{}: {} columns, expected {}", name, row.number, row.values.size(),
-                       columns == 1 ? "1 (acceleration) because 'dt' is given"
-                                    : "2 (time in s, acceleration); for a single column give the key 'dt' in s");
+      throw InputError(
+          "{}:{}: {} columns, expected {}", name, row.number, row.values.size(),
+          columns == 1
+              ? "1 (acceleration) because 'dt' is given"
+              : "2 (time in s, acceleration); for a single column give the key 'dt' in s, for several name them: "
+                "columns = [\"t\", \"x\", \"y\", \"z\"]");
   Record record;
-  record.dt = columns == 1 ? dt : time_step(rows, name);
+  record.dt = checked_step(columns == 1 ? dt : time_step(rows, name), name, rows.front().number);
   for (const Row& row : rows) record.values.push_back(row.values.back());
   return record;
 }

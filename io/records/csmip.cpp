@@ -1,5 +1,6 @@
 // CSMIP volume 2: text and tables, then accelerations (velocities and displacements after them), eight a row of ten
-// columns each, which may touch each other.
+// columns each, which may touch each other. Files since about 2000 say the same in small letters and name the layout
+// of the rows; they hold all channels of a station, one after the other.
 #include <cmath>
 
 #include "io/records/format.h"
@@ -10,63 +11,88 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::string_view mark = "POINTS OF ACCEL DATA EQUALLY SPACED AT";
-constexpr std::size_t width = 10, per_row = 8;
+constexpr std::string_view mark = "POINTS OF ACCEL DATA EQUALLY SPACED AT", title = "CORRECTED ACCELEROGRAM";
 
 bool recognises(std::string_view text) {
-  return text.find(mark) != std::string_view::npos;
+  return upper(text).find(mark) != std::string::npos;
 }
 
 /// What follows `key` up to two blanks.
 std::string after(std::string_view line, std::string_view key) {
-  const std::size_t at = line.find(key);
-  if (at == std::string_view::npos) return "";
+  const std::size_t at = upper(line).find(key);
+  if (at == std::string::npos) return "";
   line = trimmed(line.substr(at + key.size()));
   return std::string(trimmed(line.substr(0, line.find("  "))));
 }
 
-/// Number of samples and step of a line that says them.
-std::pair<double, double> size_and_step(std::string_view line, const std::string& name, std::size_t row) {
-  const std::string rule = "expected as in '5696 " + std::string(mark) + "  .010 SEC.  (UNITS: CM/SEC/SEC)'";
-  const std::size_t at = line.find(mark);
-  const std::string_view rest = trimmed(line.substr(at + mark.size()));
-  const double samples = number_in(trimmed(line.substr(0, at)), name, row, rule),
-               step = number_in(rest.substr(0, rest.find(' ')), name, row, rule);
-  if (line.find("CM/SEC/SEC") == std::string_view::npos || !(samples >= 2.0 && samples < 1e9) ||
-      samples != std::floor(samples) || !(step > 0.0))
-    throw InputError("{}:{}: '{}': {}", name, row, trimmed(line), rule);
-  return {samples, step};
+bool has_any(const std::string& line, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (line.find(word) != std::string::npos) return true;
+  return false;
 }
 
-RecordFile read(const std::string& text, const std::string& name, double dt) {
-  const std::vector<std::string_view> lines = lines_of(text);
+/// "(8F10.3)"; a line without it means that, too.
+FixedRows rows_of(const std::string& line) {
+  FixedRows rows;
+  const std::size_t open = line.rfind('('), letter = line.find('F', open);
+  if (open == std::string::npos || letter == std::string::npos) return rows;
+  const double per_row = first_number(line.substr(open + 1, letter - open - 1)),
+               width = first_number(line.substr(letter + 1));
+  if (per_row >= 1.0 && per_row <= 100.0) rows.per_row = std::size_t(per_row);
+  if (width >= 2.0 && width <= 40.0) rows.width = std::size_t(width);
+  return rows;
+}
+
+struct Announced {
+  std::size_t samples = 0;
+  double step = 0.0;  // s
+  FixedRows rows;
+};
+
+/// Of a line that says them.
+Announced announced_in(std::string_view text, const std::string& name, std::size_t row) {
+  const std::string rule = "expected as in '5696 " + std::string(mark) + "  .010 SEC.  (UNITS: CM/SEC/SEC)'";
+  const std::string line = upper(text);
+  const std::size_t at = line.find(mark);
+  const std::string_view before = trimmed(std::string_view(line).substr(0, at)),
+                         rest = trimmed(std::string_view(line).substr(at + mark.size()));
+  if (!has_any(line, {"CM/SEC/SEC", "CM/SEC2", "CM/SEC^2", "CM/SEC**2", "CM/S/S", "CM/S2", "CM/S^2", "GAL"}))
+    throw InputError("{}:{}: '{}': {}", name, row, trimmed(text), rule);
+  Announced found;
+  found.samples = checked_samples(number_in(before, name, row, rule), name, row);
+  found.step = checked_step(number_in(rest.substr(0, rest.find(' ')), name, row, rule), name, row);
+  found.rows = rows_of(line);
+  return found;
+}
+
+/// A channel whose heading begins at lines[head] and whose samples begin at lines[at].
+RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t head, std::size_t& at,
+                      const Announced& announced, const std::string& name) {
   RecordFile file;
-  std::size_t begin = 0, samples = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].find(mark) == std::string_view::npos) continue;
-    if (begin > 0)
-      throw InputError("{}:{}: accelerations of another channel begin: give a file with one channel", name, i + 1);
-    const auto [size, step] = size_and_step(lines[i], name, i + 1);
-    samples = std::size_t(size);
-    file.record.dt = dt > 0.0 ? dt : step;
-    begin = i + 1;
-  }
-  for (std::size_t i = begin; i < lines.size() && file.record.values.size() < samples; ++i)
-    for (std::size_t k = 0; k < per_row && file.record.values.size() < samples; ++k) {
-      const std::string_view word = k * width < lines[i].size() ? trimmed(lines[i].substr(k * width, width)) : "";
-      if (word.empty())
-        throw InputError(
-            "{}:{}: {} of {} samples, then a row with fewer than {}: the file is not whole; fetch it again", name,
-            i + 1, file.record.values.size(), samples, per_row);
-      file.record.values.push_back(number_in(word, name, i + 1, "rows must be eight numbers of ten columns each"));
-    }
-  if (file.record.values.size() < samples)
-    throw InputError("{}: {} of {} samples: the file is not whole; fetch it again", name, file.record.values.size(),
-                     samples);
-  if (lines.size() > 2) file.event = trimmed(lines[2]);
-  if (lines.size() > 6) file.station = trimmed(lines[6]);
-  file.component = after(lines[0], "CHAN");
+  file.record.dt = announced.step;
+  if (head + 2 < at) file.event = trimmed(lines[head + 2]);
+  if (head + 6 < at) file.station = trimmed(lines[head + 6]);
+  for (std::size_t i = head; i < at && file.component.empty(); ++i) file.component = after(lines[i], "CHAN ");
+  file.record.values = fixed_numbers(lines, at, announced.samples, announced.rows, name);
   return file;
+}
+
+std::vector<RecordFile> read(const std::string& text, const std::string& name, double dt) {
+  const std::vector<std::string_view> lines = lines_of(text);
+  std::vector<RecordFile> channels;
+  std::size_t head = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string line = upper(lines[i]);
+    if (trimmed(line).starts_with(title)) head = i;
+    if (line.find(mark) == std::string::npos) continue;
+    const Announced announced = announced_in(lines[i], name, i + 1);
+    std::size_t at = i + 1;
+    channels.push_back(channel_of(lines, head, at, announced, name));
+    if (dt > 0.0) channels.back().record.dt = dt;
+    i = at - 1;
+    head = at;
+  }
+  return channels;
 }
 
 }  // namespace

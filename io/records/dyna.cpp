@@ -11,7 +11,7 @@ namespace voussoir {
 namespace {
 
 bool recognises(std::string_view text) {
-  return text.starts_with("EVENT_NAME:");
+  return upper(text.substr(0, 11)) == "EVENT_NAME:";
 }
 
 struct Header {
@@ -25,7 +25,7 @@ Header header_of(const std::vector<std::string_view>& lines) {
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos || !std::isalpha(static_cast<unsigned char>(line[0]))) break;
     ++header.lines;
-    header.values[std::string(line.substr(0, colon))] = {std::string(trimmed(line.substr(colon + 1))), header.lines};
+    header.values[upper(trimmed(line.substr(0, colon)))] = {std::string(trimmed(line.substr(colon + 1))), header.lines};
   }
   return header;
 }
@@ -48,11 +48,14 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
   const Header header = header_of(lines);
   RecordFile file;
   const std::string type = text_of(header, "DATA_TYPE"), units = text_of(header, "UNITS");
-  if (type.find("ACCELERATION") == std::string::npos || type.find("SPECTR") != std::string::npos)
+  const std::string kind = upper(type);
+  if (kind.find("ACCELERATION") == std::string::npos || kind.find("SPECTR") != std::string::npos)
     throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, type);
-  if (units != "cm/s^2") throw InputError("{}: UNITS is '{}', expected cm/s^2", name, units);
+  if (const std::string unit = upper(units); unit != "CM/S^2" && unit != "CM/S2" && unit != "GAL")
+    throw InputError("{}: UNITS is '{}', expected cm/s^2", name, units);
   const double step = number_of(header, "SAMPLING_INTERVAL_S", name), samples = number_of(header, "NDATA", name);
-  if (!(step > 0.0)) throw InputError("{}: SAMPLING_INTERVAL_S is {}, expected more than 0 s", name, step);
+  checked_step(step, name, header.values.find("SAMPLING_INTERVAL_S")->second.second);
+  checked_samples(samples, name, header.values.find("NDATA")->second.second);
   file.record.dt = dt > 0.0 ? dt : step;
   for (std::size_t i = header.lines; i < lines.size(); ++i)
     append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after the heading", file.record.values);
@@ -69,7 +72,7 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
 }  // namespace
 
 RecordFormat dyna() {
-  return {"ITACA/ESM ASCII", 0.01, recognises, read};
+  return {"ITACA/ESM ASCII", 0.01, recognises, one_channel<read>};
 }
 
 }  // namespace voussoir

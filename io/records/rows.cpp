@@ -1,12 +1,34 @@
 #include "io/records/rows.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "solver/base/error.h"
 
 namespace voussoir {
+
+namespace {
+
+constexpr double largest_number = 1e12;
+constexpr double smallest_step = 1e-5, largest_step = 1.0;  // s
+constexpr double most_samples = 1e8;
+
+/// The fields of a row, or nothing where one of them is no number.
+std::vector<double> fields_of(std::string_view line, const FixedRows& rows) {
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin < line.size() && values.size() < rows.per_row; begin += rows.width) {
+    const std::string_view word = trimmed(line.substr(begin, rows.width));
+    if (word.empty()) break;
+    if (!all_numbers(word, " \t") || word.find_first_of(" \t") != std::string_view::npos) return {};
+    values.push_back(number_in(word, "", 0, ""));
+  }
+  return values;
+}
+
+}  // namespace
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -27,6 +49,12 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
+std::string upper(std::string_view text) {
+  std::string word(text);
+  for (char& c : word) c = char(std::toupper(static_cast<unsigned char>(c)));
+  return word;
+}
+
 double number_in(std::string_view word, const std::string& name, std::size_t row, std::string_view rule) {
   std::string_view digits = word;
   if (digits.starts_with('+')) digits.remove_prefix(1);
@@ -34,7 +62,11 @@ double number_in(std::string_view word, const std::string& name, std::size_t row
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || end != digits.data() + digits.size())
     throw InputError("{}:{}: '{}' is not a number: {}", name, row, word.substr(0, 60), rule);
-  if (!std::isfinite(value)) throw InputError("{}:{}: {} is not a finite number: mend the record", name, row, word);
+  if (!std::isfinite(value))
+    throw InputError("{}:{}: {} is not a finite number: mend the record", name, row, word.substr(0, 60));
+  if (!(std::abs(value) <= largest_number))
+    throw InputError("{}:{}: {} is no sample of a ground motion: expected at most {:g} in size: mend the record", name,
+                     row, word.substr(0, 60), largest_number);
   return value;
 }
 
@@ -48,6 +80,75 @@ void append_numbers(std::string_view line, std::string_view separators, const st
     values.push_back(number_in(line.substr(0, length), name, row, rule));
     line.remove_prefix(length);
   }
+}
+
+std::vector<std::string_view> words_of(std::string_view line, std::string_view separators) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(separators);
+    if (begin == std::string_view::npos) return words;
+    line.remove_prefix(begin);
+    words.push_back(line.substr(0, line.find_first_of(separators)));
+    line.remove_prefix(words.back().size());
+  }
+}
+
+double first_number(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), value);
+    const bool begins = std::isdigit(static_cast<unsigned char>(text[i])) || text[i] == '.' || text[i] == '-';
+    if (begins && error == std::errc() && std::isfinite(value)) return value;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool all_numbers(std::string_view line, std::string_view separators) {
+  const std::vector<std::string_view> words = words_of(line, separators);
+  return !words.empty() && std::ranges::all_of(words, [](std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error != std::errc::invalid_argument && end == word.data() + word.size();
+  });
+}
+
+std::vector<double> fixed_numbers(const std::vector<std::string_view>& lines, std::size_t& at, std::size_t count,
+                                  const FixedRows& rows, const std::string& name) {
+  std::vector<double> values;
+  for (; values.size() < count; ++at) {
+    if (at >= lines.size()) not_whole(name, values.size(), count);
+    const std::size_t wanted = std::min(rows.per_row, count - values.size());
+    std::vector<double> row = all_numbers(lines[at], " \t") && words_of(lines[at]).size() == wanted
+                                  ? std::vector<double>{}
+                                  : fields_of(lines[at], rows);
+    if (row.empty())
+      append_numbers(lines[at], " \t", name, at + 1,
+                     fmt::format("rows must be {} numbers of {} columns each", rows.per_row, rows.width), row);
+    if (row.size() < wanted)
+      throw InputError("{}:{}: {} of {} samples, then a row with fewer than {}: the file is not whole; fetch it again",
+                       name, at + 1, values.size() + row.size(), count, rows.per_row);
+    values.insert(values.end(), row.begin(), row.begin() + std::ptrdiff_t(wanted));
+  }
+  return values;
+}
+
+double checked_step(double step, const std::string& name, std::size_t row) {
+  if (!(step >= smallest_step && step <= largest_step))
+    throw InputError("{}:{}: time step of {:g} s: expected {:g} to {:g} s, as accelerographs have: mend the heading",
+                     name, row, step, smallest_step, largest_step);
+  return step;
+}
+
+std::size_t checked_samples(double samples, const std::string& name, std::size_t row) {
+  if (!(samples >= 2.0 && samples <= most_samples) || samples != std::floor(samples))
+    throw InputError("{}:{}: {:g} samples: expected a whole number from 2 to {:g}: mend the heading", name, row,
+                     samples, most_samples);
+  return std::size_t(samples);
+}
+
+void not_whole(const std::string& name, std::size_t samples, std::size_t expected) {
+  throw InputError("{}: {} of {} samples: the file is not whole; fetch it again", name, samples, expected);
 }
 
 }  // namespace voussoir

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <set>
 
 #include "io/hdf5/atomic_file.h"
+#include "io/records/components.h"
+#include "io/records/left_out.h"
 #include "solver/base/error.h"
 #include "solver/motion/filter.h"
 
@@ -24,59 +26,29 @@ struct Unit {
 constexpr Unit units[] = {{"m/s2", 1.0}, {"g", 9.80665}, {"cm/s2", 0.01}};
 constexpr std::string_view separators = "_-. ";
 
-std::string upper(std::string_view text) {
-  std::string word(text);
-  for (char& c : word) c = char(std::toupper(static_cast<unsigned char>(c)));
-  return word;
-}
-
-bool is_number(const std::string& word) {
-  return !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c); });
-}
-
-std::string without_ends(std::string text) {
-  const std::size_t begin = text.find_first_not_of(separators);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(separators) - begin + 1);
-}
-
-/// A file, what it says of its direction, and the name that it shares with its companions.
-struct Component {
-  std::string path, word, set;
-  RecordFile file;
-  bool step_told = false;  // a single column
-};
-
-/// "1: UP" and "UP  DEG" are "UP".
-std::string component_word(const std::string& component) {
-  const std::size_t colon = component.find(':');
-  std::string word = colon == std::string::npos ? component : component.substr(colon + 1);
-  word = without_ends(word);
-  return upper(word.substr(0, word.find(' ')));
-}
-
-void name_component(Component& c) {
-  const std::string stem = fs::path(c.path).stem().string();
-  c.word = component_word(c.file.component);
-  if (const std::size_t at = c.word.empty() ? std::string::npos : upper(stem).rfind(c.word); at != std::string::npos) {
-    // "BCR140" and "BCR-UP" are of one set: what stands around the word goes with it.
-    const std::string before = without_ends(stem.substr(0, at)), after = without_ends(stem.substr(at + c.word.size()));
-    c.set = without_ends(before + (after.empty() ? "" : "." + after));
-  } else if (!c.word.empty()) {
-    c.set = without_ends(c.file.event + " " + c.file.station);
-  } else {
-    const std::size_t cut = stem.find_last_of(separators);
-    c.word = cut == std::string::npos ? "" : upper(stem.substr(cut + 1));
-    c.set = cut == std::string::npos ? stem : without_ends(stem.substr(0, cut));
+/// The channels of a file; its step is replaced where `dt` > 0 (s).
+std::vector<RecordComponent> components_of(const std::string& path, const std::string& text, double dt,
+                                           const std::vector<std::string>& columns) {
+  RecordComponent c{path, "", "", {}, false, false};
+  std::vector<RecordComponent> components;
+  std::vector<RecordFile> channels = parse_channels(text, path, dt, columns);
+  c.alone = channels.size() > 1;
+  for (RecordFile& channel : channels) {
+    c.file = std::move(channel);
+    name_component(c);
+    if (c.alone) c.word = component_word(c.file.component), c.set = fs::path(path).filename().string();
+    components.push_back(c);
   }
+  return components;
 }
 
-Component read_component(const std::string& path, const ColumnsMeaning& meaning) {
+std::vector<RecordComponent> read_components(const std::string& path, const ColumnsMeaning& meaning) {
   const std::string text = read_text(path);
-  Component c{path, "", "", {}, columns_without_time(text)};
-  c.file = parse_record(text, path, c.step_told ? meaning.dt : 0.0);
-  name_component(c);
-  return c;
+  const bool step_told =
+      meaning.columns.empty() ? columns_without_time(text) : !std::ranges::count(meaning.columns, "t");
+  std::vector<RecordComponent> components = components_of(path, text, step_told ? meaning.dt : 0.0, meaning.columns);
+  for (RecordComponent& c : components) c.step_told = step_told;
+  return components;
 }
 
 /// "20090406_0132_AQA" is station AQA in the event 20090406_0132.
@@ -88,53 +60,109 @@ void split_name(RecordSet& set) {
   }
 }
 
-/// Numbers by size, other words by letters.
-bool comes_before(const Component* a, const Component* b) {
-  if (is_number(a->word) && is_number(b->word)) return std::stol(a->word) < std::stol(b->word);
-  return a->word < b->word;
-}
-
-std::string words_of(const std::vector<const Component*>& components) {
+std::string words_of(const std::vector<const RecordComponent*>& components) {
   std::string words;
-  for (const Component* c : components)
+  for (const RecordComponent* c : components)
     words += (words.empty() ? "" : ", ") + (c->word.empty() ? std::string("(none)") : c->word);
   return words;
 }
 
-/// Which of the components goes along x, y and z. Throws InputError when that does not follow from their names.
-std::array<const Component*, 3> along_axes(std::vector<const Component*> components) {
-  std::array<const Component*, 3> along = {};
-  std::vector<const Component*> silent;
+/// Which of the components goes along x, y and z. Throws InputError when that does not follow from their names, or when
+/// one of two horizontal ones is lacking and both are needed.
+std::array<const RecordComponent*, 3> along_axes(std::vector<const RecordComponent*> components, bool both) {
+  std::array<const RecordComponent*, 3> along = {};
+  std::vector<const RecordComponent*> silent;
   std::ranges::sort(components, comes_before);
-  for (const Component* c : components) {
+  for (const RecordComponent* c : components) {
     const int axis = component_axis(c->word);
     if (axis < 0) {
       silent.push_back(c);
     } else if (along[std::size_t(axis)]) {
-      throw InputError("components {}: more than one of the same direction", words_of(components));
+      throw InputError("more than one component of the same direction");
     } else {
       along[std::size_t(axis)] = c;
     }
   }
   if (silent.size() == 3 && silent[2]->word.ends_with('3')) along[2] = silent[2], silent.pop_back();
-  for (const Component* c : silent) {
-    if (along[0] && along[1]) throw InputError("components {}: which one is vertical?", words_of(components));
+  for (const RecordComponent* c : silent) {
+    if (along[0] && along[1]) throw InputError("which of the components is vertical?");
     along[along[0] ? 1 : 0] = c;
   }
-  if (!along[0] || !along[1])
-    throw InputError("components {}: expected two horizontal ones and perhaps a vertical one", words_of(components));
+  if (both && (!along[0] || !along[1]))
+    throw InputError("expected two horizontal components and perhaps a vertical one");
   return along;
 }
 
-RecordSet set_of(const std::string& name, const std::array<const Component*, 3>& along, const ColumnsMeaning& meaning) {
+using Groups = std::map<std::string, std::vector<const RecordComponent*>>;
+
+std::vector<const RecordComponent*> pointers_to(const std::vector<RecordComponent>& components) {
+  std::vector<const RecordComponent*> pointers;
+  for (const RecordComponent& c : components) pointers.push_back(&c);
+  return pointers;
+}
+
+bool makes_a_set(const std::vector<const RecordComponent*>& members) {
+  try {
+    along_axes(members, true);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// By name; what is less than three components then by event and station of the headings, which all files of a
+/// recording share whatever their names are.
+Groups grouped(const std::vector<RecordComponent>& components) {
+  Groups groups, shared;
+  for (const RecordComponent& c : components) groups[c.set].push_back(&c);
+  for (const auto& [name, members] : groups)
+    for (const RecordComponent* c : members)
+      if (members.size() < 3 && !c->alone && !c->file.event.empty() && !c->file.station.empty())
+        shared[c->file.format + "\n" + c->file.event + "\n" + c->file.station].push_back(c);
+  for (const auto& [heading, members] : shared) {
+    std::set<std::string> names;
+    for (const RecordComponent* c : members) names.insert(c->set);
+    if (names.size() < 2 || members.size() > 3 || !makes_a_set(members)) continue;
+    // Each of the names has all its members here, or the others would be torn apart.
+    std::size_t named = 0;
+    for (const std::string& name : names) named += groups[name].size();
+    if (named != members.size()) continue;
+    for (const std::string& name : names) groups.erase(name);
+    groups[*names.begin()] = members;
+  }
+  return groups;
+}
+
+std::string without_digits(const std::string& name) {
+  std::string rest;
+  for (const char c : name)
+    if (!std::isdigit(static_cast<unsigned char>(c))) rest += c;
+  return rest;
+}
+
+std::string counted(const std::vector<const RecordComponent*>& members) {
+  return members.size() == 1 || members.front()->alone ? "one file" : fmt::format("{} files", members.size());
+}
+
+/// Another recording whose name differs by digits only may hold what this one lacks.
+std::string near_namesake(const std::string& name, const Groups& groups) {
+  for (const auto& [other, members] : groups)
+    if (other != name && without_digits(other) == without_digits(name) && !makes_a_set(members))
+      return fmt::format("; '{} ({})' differs by digits only: if they are one recording, name the files alike", other,
+                         words_of(members));
+  return "";
+}
+
+RecordSet set_of(const std::string& name, const std::array<const RecordComponent*, 3>& along,
+                 const ColumnsMeaning& meaning) {
   RecordSet set;
   set.name = name;
   std::array<const RecordFile*, 3> files = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!along[axis]) continue;
-    const Component& c = *along[axis];
+    const RecordComponent& c = *along[axis];
     files[axis] = &c.file;
-    set.files[axis] = c.path;
+    set.files[c.alone ? 0 : axis] = c.path;
     set.components[axis] = c.word;
     set.format = c.file.format;
     set.event = c.file.event;
@@ -161,21 +189,18 @@ const std::vector<std::string>& acceleration_units() {
   return names;
 }
 
-int component_axis(const std::string& name) {
-  const std::string word = upper(name);
-  static const std::map<std::string, int> known = {
-      {"X", 0},  {"Y", 1},  {"EW", 0},  {"WE", 0},   {"E", 0},    {"W", 0},        {"NS", 1},
-      {"SN", 1}, {"N", 1},  {"S", 1},   {"UD", 2},   {"UP", 2},   {"Z", 2},        {"V", 2},
-      {"DN", 2}, {"DU", 2}, {"DWN", 2}, {"DOWN", 2}, {"VERT", 2}, {"VERTICAL", 2}, {"VER", 2}};
-  if (const auto at = known.find(word); at != known.end()) return at->second;
-  // SEED channels: band, instrument, direction.
-  if (word.size() == 3 && (word[1] == 'N' || word[1] == 'G' || word[1] == 'L')) {
-    if (word[2] == 'E') return 0;
-    if (word[2] == 'N') return 1;
-    if (word[2] == 'Z') return 2;
-  }
-  return -1;
+namespace {
+
+/// Throws InputError for a sample that no ground motion has, so that no square of it overflows.
+void check_size(const RecordFile& file, double unit) {
+  constexpr double largest = 1e4;  // m/s2
+  for (std::size_t k = 0; k < file.record.values.size(); ++k)
+    if (const double a = file.record.values[k] * unit; !(std::abs(a) <= largest))
+      throw InputError("{}: sample {} is {:.3g} m/s2 ({:g} of {:g} m/s2): expected at most {:g}: look at its unit",
+                       file.path, k + 1, a, file.record.values[k], unit, largest);
 }
+
+}  // namespace
 
 GroundMotion join_components(const std::array<const RecordFile*, 3>& files, double unit) {
   GroundMotion motion;
@@ -189,22 +214,55 @@ GroundMotion join_components(const std::array<const RecordFile*, 3>& files, doub
     const std::vector<double> values = same ? record.values : resample(record.values, record.dt, motion.dt);
     if (values.size() > motion.acceleration.size()) motion.acceleration.resize(values.size(), Vec3::Zero());
     for (std::size_t k = 0; k < values.size(); ++k) motion.acceleration[k][int(axis)] = values[k] * size;
+    check_size(*files[axis], size);
   }
   return motion;
 }
 
-RecordSet read_record_set(const std::array<std::string, 3>& files, const ColumnsMeaning& meaning) {
-  std::array<Component, 3> components;
-  std::array<const Component*, 3> along = {};
-  std::string name;
+namespace {
+
+/// Files for x, y and z, or one with several channels; `read` gives the channels of one. `kept` holds them.
+template <class Read>
+std::array<const RecordComponent*, 3> along_files(const std::array<std::string, 3>& files,
+                                                  std::array<std::vector<RecordComponent>, 3>& kept, const Read& read) {
+  std::array<const RecordComponent*, 3> along = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (files[axis].empty()) continue;
-    components[axis] = read_component(files[axis], meaning);
-    along[axis] = &components[axis];
-    if (name.empty()) name = components[axis].set;
+    kept[axis] = read(axis);
+    along[axis] = &kept[axis].front();
+    const std::size_t channels = kept[axis].size();
+    if (channels < 2) continue;
+    if (std::ranges::count(files, "") < 2)
+      throw InputError("{}: {} channels: give such a file alone, it holds x, y and z", files[axis], channels);
+    try {
+      return along_axes(pointers_to(kept[axis]), false);
+    } catch (const InputError& error) {
+      throw InputError("{}: channels {}: {}", files[axis], words_of(pointers_to(kept[axis])), error.what());
+    }
   }
-  if (name.empty()) throw InputError("no record: give one file, or up to three for x, y, z");
-  return set_of(name, along, meaning);
+  return along;
+}
+
+}  // namespace
+
+GroundMotion record_motion(const std::array<std::string, 3>& files, const std::array<std::string, 3>& texts,
+                           const ColumnsMeaning& meaning) {
+  std::array<std::vector<RecordComponent>, 3> kept;
+  const auto along = along_files(files, kept, [&](std::size_t axis) {
+    return components_of(files[axis], texts[axis], meaning.dt, meaning.columns);
+  });
+  std::array<const RecordFile*, 3> records = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (along[axis]) records[axis] = &along[axis]->file;
+  return join_components(records, acceleration_unit(meaning.units));
+}
+
+RecordSet read_record_set(const std::array<std::string, 3>& files, const ColumnsMeaning& meaning) {
+  std::array<std::vector<RecordComponent>, 3> kept;
+  const auto along = along_files(files, kept, [&](std::size_t axis) { return read_components(files[axis], meaning); });
+  for (const RecordComponent* c : along)
+    if (c) return set_of(c->set, along, meaning);
+  throw InputError("no record: give one file, or up to three for x, y, z");
 }
 
 RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning& meaning) {
@@ -217,19 +275,21 @@ RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning&
   std::ranges::sort(paths);
 
   RecordFolder found;
-  std::vector<Component> components;
+  std::vector<LeftOut> left_out;
+  std::vector<RecordComponent> components;
   for (const std::string& path : paths) try {
-      components.push_back(read_component(path, meaning));
+      std::ranges::move(read_components(path, meaning), std::back_inserter(components));
     } catch (const std::exception& error) {
-      found.left_out.emplace_back(error.what());
+      left_out.push_back(left_out_file(path, error.what()));
     }
-  std::map<std::string, std::vector<const Component*>> sets;
-  for (const Component& c : components) sets[c.set].push_back(&c);
-  for (const auto& [name, members] : sets) try {
-      found.sets.push_back(set_of(name, along_axes(members), meaning));
+  const Groups groups = grouped(components);
+  for (const auto& [name, members] : groups) try {
+      found.sets.push_back(set_of(name, along_axes(members, true), meaning));
     } catch (const std::exception& error) {
-      found.left_out.push_back(fmt::format("{} ({} files): {}", name, members.size(), error.what()));
+      left_out.push_back({fmt::format("{} ({} of {})", name, words_of(members), counted(members)),
+                          error.what() + near_namesake(name, groups), ""});
     }
+  found.left_out = said_once(left_out);
   if (found.sets.empty())
     throw InputError("{}: no record with two horizontal components among {} files{}{}", folder, paths.size(),
                      found.left_out.empty() ? "" : "; the first that was left out: ",

@@ -11,8 +11,9 @@ namespace voussoir {
 
 /// What files of plain columns do not say themselves.
 struct ColumnsMeaning {
-  std::string units = "m/s2";  // m/s2, g or cm/s2
-  double dt = 0.005;           // s, of those with one column
+  std::string units = "m/s2";             // m/s2, g or cm/s2
+  double dt = 0.005;                      // s, of those without times
+  std::vector<std::string> columns = {};  // of a table: "t", "x", "y", "z", ""; none: as its heading says
 };
 /// m/s2. Throws InputError for another word than m/s2, g, cm/s2.
 double acceleration_unit(const std::string& name);
@@ -21,7 +22,8 @@ const std::vector<std::string>& acceleration_units();
 /// One recording: a station in an event.
 struct RecordSet {
   std::string name, event, station;
-  std::array<std::string, 3> files, components;  // along x, y, z; empty where there is none; as the files call them
+  std::array<std::string, 3> files;       // along x, y, z; empty where there is none; a file of several channels first
+  std::array<std::string, 3> components;  // as the files call them
   std::string format;
   std::string units;    // of plain columns; empty where the format says them
   double dt = 0.0;      // s, of single columns; 0 where the file says it
@@ -30,22 +32,28 @@ struct RecordSet {
 
 struct RecordFolder {
   std::vector<RecordSet> sets;        // by name
-  std::vector<std::string> left_out;  // "FILE: why"
+  std::vector<std::string> left_out;  // each reason once, with the files and recordings that it is of
 };
 
 /// Where a component with this name points: 0 east-west, 1 north-south, 2 vertical; −1: it does not say ("H1", "140").
 int component_axis(const std::string& name);
 
-/// Groups the files of a folder by what their names and headings share beside the component. East-west goes along x,
-/// north-south along y; two that do not say where they point in the order of their names, numbers by size. Whatever is
-/// no record, or lacks a second horizontal, is left out and said; a damaged file loses its set, not the others. Throws
-/// InputError when there is no such folder or no set in it.
+/// Groups the files of a folder by what their names share beside the component, numbers as numbers; what is not
+/// complete then by event and station of their headings. A file of several channels is a recording. East-west goes
+/// along x, north-south along y; two that do not say where they point in the order of their names, numbers by size.
+/// Whatever is no record, or lacks a second horizontal, is left out and said; a damaged file loses its set, not the
+/// others. Throws InputError when there is no such folder or no set in it.
 RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning& meaning = {});
 
-/// One set of up to three files for x, y, z ("" for none).
+/// One set of up to three files for x, y, z ("" for none), or of one file with several channels.
 RecordSet read_record_set(const std::array<std::string, 3>& files, const ColumnsMeaning& meaning = {});
 
-/// Components on one time grid, that of the smallest step, in m/s2. `units` hold for files that do not say theirs.
+/// The motion of such files whose contents are `texts`, m/s2. `meaning.dt` > 0 replaces the step of each of them.
+GroundMotion record_motion(const std::array<std::string, 3>& files, const std::array<std::string, 3>& texts,
+                           const ColumnsMeaning& meaning);
+
+/// Components on one time grid, that of the smallest step, in m/s2. `unit` (m/s2) holds for files that do not say
+/// theirs. Throws InputError for samples beyond 1e4 m/s2.
 GroundMotion join_components(const std::array<const RecordFile*, 3>& files, double unit);
 
 }  // namespace voussoir

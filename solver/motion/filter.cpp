@@ -47,6 +47,11 @@ std::vector<double> band_pass(const std::vector<double>& values, double dt, doub
   if (!(f_low >= 0.0 && f_high >= 0.0 && f_low < highest && f_high < highest))
     throw InputError("band-pass from {} to {} Hz: expected corners below {:.4g} Hz, half the sampling rate", f_low,
                      f_high, highest);
+  constexpr double lowest = 1e-3;  // Hz; the zeros at the ends are as long as 1.5 n / corner
+  for (const double corner : {f_low, f_high})
+    if (corner > 0.0 && corner < lowest)
+      throw InputError("band-pass from {} to {} Hz: expected corners of 0 (open) or at least {} Hz", f_low, f_high,
+                       lowest);
   if (f_low > 0.0 && f_high > 0.0 && f_low >= f_high)
     throw InputError("band-pass from {} to {} Hz: expected the lower corner first", f_low, f_high);
   if (order < 1 || order > 16) throw InputError("band-pass of order {}: expected 1 to 16", order);
@@ -66,7 +71,12 @@ std::vector<double> band_pass(const std::vector<double>& values, double dt, doub
 }
 
 std::vector<double> resample(const std::vector<double>& values, double dt, double new_dt) {
-  if (!(new_dt > 0.0)) throw InputError("resampling to a step of {} s: expected more than 0", new_dt);
+  constexpr double shortest = 1e-5, longest = 1.0, most = 1e7;  // s, s, samples
+  if (!(new_dt >= shortest && new_dt <= longest))
+    throw InputError("resampling to a step of {} s: expected {} to {} s", new_dt, shortest, longest);
+  if (const double samples = dt / new_dt * double(values.size()); samples > most)
+    throw InputError("resampling {} s to a step of {} s makes {:.3g} samples: expected at most {:g}",
+                     dt * double(values.size()), new_dt, samples, most);
   if (values.size() < 2 || new_dt == dt) return values;
   const std::vector<double> from =
       new_dt > dt ? band_pass(values, dt, 0.0, std::min(0.4 / new_dt, 0.499 / dt)) : values;

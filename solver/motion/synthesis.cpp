@@ -19,49 +19,49 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double highest_frequency = 25.0;  // Hz; above it neither records nor bridges have much to say
 
-/// Σ √(S Δω) (A cos ωt + B sin ωt) at n samples; the cosines by turning a phasor, which costs two products a sample.
+using Complex = std::complex<double>;
+
+/// e^(i θ k²/2), by the part of the angle beyond full turns: k² may be large.
+Complex chirp(std::size_t k, double theta) {
+  const double turns = double(k) * double(k) * theta / (2.0 * two_pi);
+  return std::polar(1.0, two_pi * (turns - std::floor(turns)));
+}
+
+/// Re Σ z_k e^(i θ k j) at j = 0 … n − 1, for any θ: 2 k j = k² + j² − (j − k)² makes it a convolution (Bluestein
+/// 1970), which three transforms of a power of two give.
+std::vector<double> sum_of_waves(const std::vector<Complex>& z, double theta, std::size_t n) {
+  std::size_t length = 2;
+  while (length < n + z.size()) length *= 2;
+  std::vector<Complex> waves(length), kernel(length), spectrum, kernel_spectrum;
+  for (std::size_t k = 0; k < z.size(); ++k) waves[k] = z[k] * chirp(k, theta);
+  for (std::size_t j = 0; j < std::max(n, z.size()); ++j) {
+    const Complex c = std::conj(chirp(j, theta));
+    if (j < n) kernel[j] = c;
+    if (j > 0 && j < z.size()) kernel[length - j] = c;
+  }
+  Eigen::FFT<double> transform;
+  transform.fwd(spectrum, waves);
+  transform.fwd(kernel_spectrum, kernel);
+  for (std::size_t k = 0; k < length; ++k) spectrum[k] *= kernel_spectrum[k];
+  transform.inv(waves, spectrum);
+  std::vector<double> sum(n);
+  for (std::size_t j = 0; j < n; ++j) sum[j] = (waves[j] * chirp(j, theta)).real();
+  return sum;
+}
+
+/// Σ √(S Δω) (A cos ωt + B sin ωt) at n samples.
 std::vector<double> stationary_noise(const SyntheticSettings& settings, std::size_t n, RandomStream& random) {
-  std::vector<double> a(n, 0.0);
   const double step = 1.0 / (2.0 * settings.duration);  // Hz: the sum repeats only after twice the duration
   const double highest = std::min(highest_frequency, 0.5 / settings.dt);
+  std::vector<Complex> z(1);  // the mean is none
   for (int k = 1; double(k) * step <= highest; ++k) {
     const double omega = two_pi * double(k) * step;
     const double size =
         std::sqrt(ground_spectrum(omega, two_pi * settings.frequency, settings.bandwidth) * two_pi * step);
-    double c = size * random.normal(), s = size * random.normal();
-    const double turn_c = std::cos(omega * settings.dt), turn_s = std::sin(omega * settings.dt);
-    for (std::size_t i = 0; i < n; ++i) {
-      a[i] += c;
-      const double turned = c * turn_c + s * turn_s;
-      s = s * turn_c - c * turn_s;
-      c = turned;
-    }
+    const double c = size * random.normal(), s = size * random.normal();
+    z.emplace_back(c, -s);
   }
-  return a;
-}
-
-void check(const SyntheticSettings& s) {
-  const auto positive = [](double value, const char* name, const char* unit) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      throw InputError("synthetic motion: '{}' is {} {}: must be above 0", name, value, unit);
-  };
-  if (s.spectrum) {
-    check_target(*s.spectrum);
-  } else {
-    positive(s.peak, "peak", "m/s2");
-  }
-  positive(s.duration, "duration", "s");
-  positive(s.frequency, "frequency", "Hz");
-  positive(s.bandwidth, "bandwidth", "(damping ratio)");
-  positive(s.dt, "dt", "s");
-  if (!s.axes[0] && !s.axes[1] && !s.axes[2]) throw InputError("synthetic motion: 'axes' is empty: name x, y or z");
-  if (!(s.rise > 0.0 && s.rise <= s.strong && s.strong < 1.0))
-    throw InputError("synthetic motion: 'rise' {} and 'strong' {} must satisfy 0 < rise <= strong < 1", s.rise,
-                     s.strong);
-  if (s.duration < 20.0 * s.dt)
-    throw InputError("synthetic motion: 'duration' {} s holds fewer than 20 steps of 'dt' {} s", s.duration, s.dt);
-  if (s.duration / s.dt > 1e6)
-    throw InputError("synthetic motion: {} s at {} s are more than a million samples", s.duration, s.dt);
+  return sum_of_waves(z, two_pi * step * settings.dt, n);
 }
 
 constexpr double shortest_matched = 0.04, longest_matched = 4.0;  // s
@@ -162,8 +162,33 @@ double jennings_envelope(double t, double rise, double strong, double duration) 
   return std::exp(std::log(0.05) * (t - strong) / (duration - strong));
 }
 
+void check_synthetic(const SyntheticSettings& s) {
+  const auto positive = [](double value, const char* name, const char* unit) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw InputError("synthetic motion: '{}' is {} {}: must be above 0", name, value, unit);
+  };
+  if (s.spectrum) {
+    check_target(*s.spectrum);
+  } else {
+    positive(s.peak, "peak", "m/s2");
+  }
+  positive(s.duration, "duration", "s");
+  positive(s.frequency, "frequency", "Hz");
+  positive(s.bandwidth, "bandwidth", "(damping ratio)");
+  positive(s.dt, "dt", "s");
+  if (!s.axes[0] && !s.axes[1] && !s.axes[2]) throw InputError("synthetic motion: 'axes' is empty: name x, y or z");
+  if (!(s.rise > 0.0 && s.rise <= s.strong && s.strong < 1.0))
+    throw InputError("synthetic motion: 'rise' {} and 'strong' {} must satisfy 0 < rise <= strong < 1", s.rise,
+                     s.strong);
+  if (s.dt > 0.1) throw InputError("synthetic motion: 'dt' is {} s: must be at most 0.1 s", s.dt);
+  if (s.duration < 20.0 * s.dt)
+    throw InputError("synthetic motion: 'duration' {} s holds fewer than 20 steps of 'dt' {} s", s.duration, s.dt);
+  if (s.duration / s.dt > 1e6)
+    throw InputError("synthetic motion: {} s at {} s are more than a million samples", s.duration, s.dt);
+}
+
 GroundMotion synthesize(const SyntheticSettings& settings) {
-  check(settings);
+  check_synthetic(settings);
   const auto n = std::size_t(std::llround(settings.duration / settings.dt)) + 1;
   GroundMotion motion;
   motion.dt = settings.dt;

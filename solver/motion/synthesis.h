@@ -34,11 +34,15 @@ double ground_spectrum(double omega, double ground_omega, double ground_damping)
 /// end. `rise` and `strong` are times in s.
 double jennings_envelope(double t, double rise, double strong, double duration);
 
+/// Throws InputError when peak, duration, frequency, bandwidth or dt is not positive, no axis is chosen, or there would
+/// be more than a million samples: all that can be wrong with a synthetic motion, without making it.
+void check_synthetic(const SyntheticSettings& settings);
+
 /// Sum of cosines with Gaussian coefficients, enveloped, baseline-corrected (zero velocity at the end) and scaled to
 /// the peak. The random numbers are the program's own, so a seed means the same motion anywhere. With a spectrum the
 /// amplitudes of its Fourier components are multiplied by target over response at their periods, again and again, and
-/// their phases kept (Gasparini & Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Throws InputError
-/// when peak, duration, frequency, bandwidth or dt is not positive or no axis is chosen.
+/// their phases kept (Gasparini & Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Costs n log n.
+/// Throws InputError as check_synthetic() does.
 GroundMotion synthesize(const SyntheticSettings& settings);
 
 }  // namespace voussoir

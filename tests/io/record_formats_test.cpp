@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/records/format.h"
+#include "io/records/sets.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 namespace voussoir {
@@ -79,6 +80,12 @@ TEST(Records, PeerAt2) {
   std::string velocity = at2("NPTS= 13, DT= .0024 SEC", 13);
   velocity.replace(velocity.find("ACCELERATION"), 12, "VELOCITY    ");
   EXPECT_TRUE(says(fault(velocity), "r:3: 'VELOCITY"));
+  EXPECT_TRUE(says(fault(at2("NPTS= 13, DT= 1e5 SEC", 13)), "r:4: time step of 100000 s: expected 1e-05 to 1 s"));
+  EXPECT_TRUE(says(fault(at2("NPTS= 1e300, DT= .01 SEC", 13)), "r:4: 1E300 is no sample"));
+  EXPECT_TRUE(says(fault(at2("NPTS= 1e9, DT= .01 SEC", 13)), "r:4: 1e+09 samples: expected a whole number"));
+  std::string huge = at2("NPTS= 13, DT= .0024 SEC", 13);
+  huge.replace(huge.rfind("1.2000000E-02"), 13, "1.2000000E308");
+  EXPECT_TRUE(says(fault(huge), "r:7: 1.2000000E308 is no sample of a ground motion: expected at most 1e+12"));
   std::string damaged = at2("NPTS= 13, DT= .0024 SEC", 13);
   damaged.replace(damaged.rfind("E-0"), 3, "NaN");
   EXPECT_TRUE(says(fault(damaged), "r:7: '"));
@@ -93,13 +100,15 @@ TEST(Records, ItacaAndEsm) {
   EXPECT_DOUBLE_EQ(file.record.values[5], -0.005);
   EXPECT_EQ(file.event, "NOWHERE 3RD SHOCK");
   EXPECT_EQ(file.component, "HNE");
+  EXPECT_EQ(parse_record(dyna_text(6, "ACCELERATION", "Acceleration"), "r").record.values.size(), 6u);
+  EXPECT_EQ(parse_record(dyna_text(6, "EVENT_NAME", "Event_Name"), "r").event, "NOWHERE 3RD SHOCK");
   EXPECT_TRUE(says(fault(dyna_text(5)), "5 samples, but NDATA is 6"));
   EXPECT_TRUE(says(fault(dyna_text(6, "ACCELERATION", "VELOCITY")), "DATA_TYPE is 'VELOCITY'"));
   EXPECT_TRUE(says(fault(dyna_text(6, "ACCELERATION", "ACCELERATION RESPONSE SPECTRUM")), "DATA_TYPE is"));
   EXPECT_TRUE(says(fault(dyna_text(6, "cm/s^2", "g")), "UNITS is 'g', expected cm/s^2"));
   EXPECT_TRUE(says(fault(dyna_text(6, "NDATA: 6\n", "")), "no line 'NDATA:'"));
   EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "soon")), "r:3: 'soon' is not a number"));
-  EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "0")), "SAMPLING_INTERVAL_S is 0"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "0")), "r:3: time step of 0 s: expected 1e-05 to 1 s"));
 }
 
 TEST(Records, CsmipInFixedColumns) {
@@ -113,9 +122,40 @@ TEST(Records, CsmipInFixedColumns) {
   EXPECT_EQ(file.station, "OLD MILL");
   EXPECT_EQ(file.component, "1: UP");
   EXPECT_TRUE(says(fault(csmip_text(11, csmip_line)), "11 of 19 samples, then a row with fewer than 8"));
-  EXPECT_TRUE(says(fault(csmip_text(19, "1e300" + csmip_line.substr(5))), "r:9: '1e300"));
-  EXPECT_TRUE(says(fault(csmip_text(19, csmip_line) + csmip_line), "another channel"));
+  EXPECT_TRUE(says(fault(csmip_text(19, "1e300" + csmip_line.substr(5))), "r:9: 1E300 is no sample"));
+  EXPECT_TRUE(says(fault(csmip_text(19, csmip_line) + csmip_line), "0 of 19 samples"));
   EXPECT_TRUE(says(fault(csmip_text(19, csmip_line.substr(0, 60))), "r:9:"));
+}
+
+/// Small letters, the layout in the line, a width of its own, and three channels one after the other.
+TEST(Records, CsmipOfAnyAgeWithAllChannels) {
+  std::string text;
+  for (const char* channel : {"1: 90 Deg", "2: Up", "3: 360 Deg"}) {
+    text += fmt::format("Corrected accelerogram  XX0001   Chan  {}   \nUncorrected\nNowhere Earthquake\n", channel);
+    text += "Date\nNumber\nStation\nOld Mill\n";
+    text += "   11 points of accel data equally spaced at  .005 sec, in cm/sec2.    (5f12.4)\n";
+    for (int k = 0; k < 11; ++k) text += fmt::format("{:12.4f}{}", 1000.0 * sample(k), k % 5 == 4 ? "\n" : "");
+    text +=
+        "\n   11 points of veloc data equally spaced at  .005 sec, in cm/sec.    (5f12.4)\n 1 2 3\n/& -- End of data\n";
+  }
+  const std::vector<RecordFile> channels = parse_channels(text, "r.V2");
+  ASSERT_EQ(channels.size(), 3u);
+  for (const RecordFile& channel : channels) {
+    EXPECT_EQ(channel.format, "CSMIP V2");
+    EXPECT_EQ(channel.unit, 0.01);
+    EXPECT_EQ(channel.record.dt, 0.005);
+    ASSERT_EQ(channel.record.values.size(), 11u);
+    for (int k = 0; k < 11; ++k) EXPECT_NEAR(channel.record.values[std::size_t(k)], 1000.0 * sample(k), 1e-9);
+  }
+  EXPECT_EQ(channels[1].component, "2: Up");
+  EXPECT_EQ(channels[2].station, "Old Mill");
+  EXPECT_TRUE(says(fault(text), "3 channels, expected one"));
+  // A file of three channels is a recording.
+  const test::Folder folder;
+  const RecordSet set = read_record_set({folder.write("one.V2", text), "", ""});
+  EXPECT_EQ(set.components, (std::array<std::string, 3>{"90", "360", "UP"}));
+  EXPECT_NEAR(set.motion.acceleration[4].z(), 0.01 * 1000.0 * sample(4), 1e-12);
+  EXPECT_EQ(read_record_folder(folder.path()).sets.size(), 1u);
 }
 
 TEST(Records, OthersAreColumns) {

@@ -26,8 +26,10 @@ TEST(Columns, OneColumnWithGivenStep) {
 }
 
 TEST(Columns, MessagesNameFileAndRow) {
-  EXPECT_EQ(problem("time acc\n0 0\n0.1 1\n"),
-            "r.txt:1: 'time' is not a number: rows must be numbers, headings begin with #");
+  EXPECT_NE(
+      problem("time acc\n0 0\n0.1 1\n").find("r.txt:1: no format that is read: it begins 'time acc'; read are PEER"),
+      std::string::npos);
+  EXPECT_EQ(problem("0 0\n0.1 one\n"), "r.txt:2: 'one' is not a number: rows must be numbers, headings begin with #");
   EXPECT_NE(problem("0 0\n0.1 nan\n").find("r.txt:2: nan is not a finite number"), std::string::npos);
   EXPECT_NE(problem("0 0\n0.1 1\n0.1 1\n0.3 0\n").find("r.txt:3: time 0.1 s after 0.1 s"), std::string::npos);
   EXPECT_NE(problem("0 0\n0.1 1\n0.25 1\n0.3 0\n").find("r.txt:3: time step 0.15 s, elsewhere 0.1 s"),

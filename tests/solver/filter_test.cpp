@@ -94,6 +94,10 @@ TEST(Filter, CornersOutOfOrderAreRefused) {
   EXPECT_THROW(band_pass(values, 0.01, 0.1, 60.0), InputError);
   EXPECT_THROW(band_pass(values, 0.01, 0.1, 10.0, 0), InputError);
   EXPECT_THROW(resample(values, 0.01, 0.0), InputError);
+  // What would take hours or all memory.
+  EXPECT_THROW(resample(values, 0.01, 1e9), InputError);
+  EXPECT_THROW(resample(std::vector<double>(20000, 1.0), 1.0, 1e-5), InputError);
+  EXPECT_THROW(band_pass(values, 0.01, 1e-9, 10.0), InputError);
 }
 
 }  // namespace

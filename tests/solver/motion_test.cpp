@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "solver/base/error.h"
+#include "solver/base/random.h"
 #include "solver/motion/baseline.h"
 #include "solver/motion/filter.h"
 #include "solver/motion/ground_path.h"
@@ -185,6 +186,44 @@ TEST(Synthesis, HasTheSpectrumItIsAskedFor) {
   }
   settings.spectrum->soil = 'F';
   EXPECT_THROW(synthesize(settings), InputError);
+}
+
+/// The sum as it is written, one wave after the other, in the order of its random numbers; then as synthesize() goes
+/// on.
+std::vector<double> direct_sum(const SyntheticSettings& s) {
+  const auto n = std::size_t(std::llround(s.duration / s.dt)) + 1;
+  const double step = 0.5 / s.duration, pi = std::numbers::pi;
+  GroundMotion motion{s.dt, std::vector<Vec3>(n, Vec3::Zero())};
+  RandomStream random(s.seed);
+  for (int k = 1; k * step <= std::min(25.0, 0.5 / s.dt); ++k) {
+    const double omega = 2.0 * pi * k * step,
+                 size = std::sqrt(ground_spectrum(omega, 2.0 * pi * s.frequency, s.bandwidth) * 2.0 * pi * step),
+                 c = size * random.normal(), b = size * random.normal();
+    for (std::size_t i = 0; i < n; ++i)
+      motion.acceleration[i].x() += c * std::cos(omega * double(i) * s.dt) + b * std::sin(omega * double(i) * s.dt);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    motion.acceleration[i] *=
+        jennings_envelope(double(i) * s.dt, s.rise * s.duration, s.strong * s.duration, s.duration);
+  std::vector<double> a = component(correct_baseline(motion), 0);
+  double largest = 0.0;
+  for (const double v : a) largest = std::max(largest, std::abs(v));
+  for (double& v : a) v *= s.peak / largest;
+  return a;
+}
+
+TEST(Synthesis, IsTheDirectSumAtTheCostOfATransform) {
+  // Also steps that do not fit the duration, and a prime number of samples.
+  for (const auto& [duration, dt] : {std::pair{8.0, 0.005}, {7.0013, 0.01}, {10.06, 0.01}, {3.0, 0.0031}}) {
+    SyntheticSettings settings = {.seed = 11, .peak = 2.0, .duration = duration, .dt = dt};
+    const std::vector<double> expected = direct_sum(settings), a = component(synthesize(settings), 0);
+    ASSERT_EQ(a.size(), expected.size());
+    double off = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - expected[i]));
+    EXPECT_LT(off, 1e-10) << duration << " s at " << dt << " s";
+  }
+  // A million samples: 1e11 products one by one, which is minutes.
+  EXPECT_EQ(synthesize({.peak = 1.0, .duration = 5000.0}).acceleration.size(), 1000001u);
 }
 
 TEST(Synthesis, RefusesNonsense) {

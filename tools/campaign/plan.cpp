@@ -60,7 +60,7 @@ void plan_cases(const Settings& s, Draft& draft) {
   const std::vector<std::string> names = case_names(s.cases);
   std::vector<std::string> taken;
   for (std::size_t i = 0; i < s.cases.size(); ++i) {
-    const Case c = read_case(s.cases[i]);
+    const Case c = read_case(s.cases[i], CaseUse::geometry);  // its own motion is not needed
     motion_stage(c);
     draft.plan.cases.push_back({names[i], slug(names[i], "case", taken), case_hash(c)});
     for (const DemandLimit& limit : c.limits) draft.plan.limit_states.push_back({limit, names[i]});
@@ -122,7 +122,7 @@ void check_samples(const Settings& s, const Plan& plan, const Case& c,
                    const std::vector<std::vector<double>>& samples) {
   const toml::table file = parse_toml(c.text, c.path);
   for (std::size_t i = 0; i < samples.size(); ++i) try {
-      parse_case(text_of(changed(file, plan, samples[i])), c.path);
+      parse_case(text_of(changed(file, plan, samples[i])), c.path, CaseUse::geometry);
     } catch (const InputError& error) {
       if (s.samples == 0) throw InputError("{}: with what the campaign changes in it, {}", s.path, error.what());
       throw InputError(
@@ -204,6 +204,7 @@ Draft make_draft(const Settings& s) {
   plan.run = s.run;
   plan.limit_states = s.limit_states;
   plan.engine = s.engine;
+  plan.left_out = s.left_out;
   for (const Sampled& sampled : s.sampled) plan.keys.insert(plan.keys.end(), sampled.keys.begin(), sampled.keys.end());
   if (std::set<std::string>(plan.keys.begin(), plan.keys.end()).size() < plan.keys.size())
     throw InputError("{}: a key stands in more than one [[campaign.sample]]: sample it once", s.path);
@@ -219,7 +220,7 @@ Case case_of(const Plan& plan, const PlannedRun& run, const std::string& directo
   const std::string file = fmt::format("{}/cases/{}/case.toml", directory, plan.cases[run.case_number].slug);
   const std::string motion_file = fmt::format("{}/records/{}/motion.toml", directory, record.slug);
   const toml::table table = parse_toml(read_text(file), file), motion = parse_toml(read_text(motion_file), motion_file);
-  Case c = parse_case(text_of(changed(table, plan, run.values)), file);
+  Case c = parse_case(text_of(changed(table, plan, run.values)), file, CaseUse::geometry);
   const std::size_t at = motion_stage(c);
   StageSettings& stage = c.settings.stages[at];
   TableReader reader(motion, motion_file, "the motion");

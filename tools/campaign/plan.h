@@ -35,6 +35,7 @@ struct Plan {
   RunSettings run;
   std::vector<LimitState> limit_states;
   EngineSettings engine;
+  std::vector<std::string> left_out;  // of the folder of records, each reason once
 };
 
 /// A plan and what its folder is to hold of cases and records.

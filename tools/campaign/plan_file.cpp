@@ -117,6 +117,7 @@ json plan_json(const Plan& plan) {
             {"engine", engine_json(plan.engine)},
             {"cases", json::array()},
             {"records", json::array()},
+            {"left_out", plan.left_out},
             {"limit_states", json::array()},
             {"runs", json::array()}};
   for (const PlannedCase& c : plan.cases)
@@ -262,6 +263,7 @@ Plan read_plan(const std::string& directory) {
   plan.periods = need<std::vector<double>>(j, "periods", path);
   plan.run = read_run_settings(need<json>(j, "settings", path), path);
   plan.engine = read_engine(need<json>(j, "engine", path), path);
+  plan.left_out = value_or<std::vector<std::string>>(j, "left_out", {}, path);  // plans of earlier programs have none
   for (const json& c : need<json>(j, "cases", path))
     plan.cases.push_back(
         {need<std::string>(c, "name", path), slug_in(c, path), unhex(need<std::string>(c, "hash", path), path)});

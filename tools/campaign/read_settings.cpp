@@ -91,7 +91,7 @@ void read_records(TableReader& root, TableReader& campaign, Settings& s) {
   const std::string place = relative_to(s.path, campaign.text("records", ""));
   const std::vector<std::string>& units = acceleration_units();
   const std::string unit = units[campaign.word("units", units, 0)];
-  const double dt = campaign.number("dt", 0.005, {0.0, 10.0, "s", true});
+  const double dt = campaign.number("dt", 0.005, {1e-5, 1.0, "s"});
   const bool correct = campaign.flag("correct", false);
   std::error_code ignored;
   if (fs::is_directory(place, ignored)) {

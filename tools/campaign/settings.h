@@ -60,7 +60,7 @@ struct Settings {
   std::string path, text;          // the file and its contents
   std::vector<std::string> cases;  // files as opened
   std::vector<Shaking> records;
-  std::vector<std::string> left_out;  // of a folder of records: "FILE: why"
+  std::vector<std::string> left_out;  // of a folder of records, each reason once
   std::vector<double> scales = {1.0};
   int samples = 0;  // 0: the case as it is
   std::uint64_t seed = 1;

@@ -25,13 +25,13 @@ constexpr std::size_t most_listed = 20;  // failures
 struct Request {
   std::string file, directory;
   bool from_folder = false;  // go on with a campaign's folder; its file is not needed
-  bool quiet = false;
+  bool quiet = false, plan_only = false;
 };
 
 Request request_of(const options::variables_map& values) {
   Request r;
   r.file = values["FILE"].as<std::string>();
-  r.quiet = values.count("quiet") > 0;
+  r.quiet = values.count("quiet") > 0, r.plan_only = values.count("plan") > 0;
   std::error_code ignored;
   r.from_folder = fs::is_directory(r.file, ignored);
   r.directory = r.from_folder ? r.file : fs::path(r.file).stem().string();
@@ -48,7 +48,7 @@ Request request_of(const options::variables_map& values) {
 
 Draft draft_of(const Request& wanted) {
   const Settings settings = read_settings(wanted.file);
-  if (!wanted.quiet)
+  if (!wanted.quiet && !wanted.plan_only)  // the plan says it itself
     for (const std::string& record : settings.left_out) fmt::print(stderr, "left out: {}\n", record);
   return make_draft(settings);
 }
@@ -70,6 +70,7 @@ void print_plan(const Plan& plan) {
                record.measures.empty() ? 0.0 : run.scale * record.measures[0]);
   }
   fmt::print("{} runs: {} cases, {} records\n", plan.runs.size(), plan.cases.size(), plan.records.size());
+  for (const std::string& text : plan.left_out) fmt::print("left out: {}\n", text);
 }
 
 void print_status(const Plan& plan, const std::string& directory) {

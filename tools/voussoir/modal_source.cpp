@@ -77,7 +77,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
     throw InputError(
         "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it", file);
-  source.c = read_case(run + "/case.toml");
+  source.c = read_case(run + "/case.toml", CaseUse::geometry);
   source.assembly = read_assembly(run + "/assembly.h5");
   source.model = build_model(source.assembly, source.c.settings);
   source.state = initial_state(source.model);

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "io/hdf5/atomic_file.h"
+#include "io/records/table.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "solver/motion/baseline.h"
@@ -63,13 +64,21 @@ Verb motion_verb() {
 void add_columns_options(CommandLine& line) {
   line.described.add_options()("units", options::value<std::string>()->default_value("m/s2"),
                                "of files of plain columns: m/s2, g or cm/s2")(
-      "dt", options::value<double>()->default_value(0.005), "s, time step of files with one column");
+      "dt", options::value<double>()->default_value(0.005), "s, time step of files without times")(
+      "columns", options::value<std::vector<std::string>>()->multitoken(),
+      "what the columns of a table are: t, x, y, z, or - for one that is passed over");
 }
 
 ColumnsMeaning columns_asked(const options::variables_map& values) {
   ColumnsMeaning meaning{values["units"].as<std::string>(), values["dt"].as<double>()};
   acceleration_unit(meaning.units);
-  if (!(meaning.dt > 0.0 && meaning.dt < 1.0)) throw InputError("--dt is {} s: expected above 0, below 1", meaning.dt);
+  if (!(meaning.dt >= 1e-5 && meaning.dt <= 1.0)) throw InputError("--dt is {} s: expected 1e-5 to 1", meaning.dt);
+  if (values.count("columns"))
+    for (const std::string& word : values["columns"].as<std::vector<std::string>>()) {
+      meaning.columns.push_back(word == "-" ? "" : word);
+      if (std::ranges::find(column_words(), meaning.columns.back()) == column_words().end())
+        throw InputError("--columns has '{}': expected t, x, y, z, or - for one that is passed over", word);
+    }
   return meaning;
 }
 
@@ -148,6 +157,21 @@ std::vector<RecordSet> records_asked(const std::vector<std::string>& paths, cons
     fmt::print(stderr, "files of plain columns are taken to be in {}{}\n", meaning.units,
                std::ranges::any_of(sets, told) ? fmt::format(", with one column at steps of {:g} s", meaning.dt) : "");
   return sets;
+}
+
+std::string short_period_remark(const std::vector<RecordSet>& sets, double shortest) {
+  constexpr double steps = 10.0;
+  double longest = 0.0;
+  std::size_t coarse = 0;
+  for (const RecordSet& set : sets) {
+    longest = std::max(longest, set.motion.dt);
+    coarse += shortest < steps * set.motion.dt;
+  }
+  if (coarse == 0) return "";
+  return fmt::format(
+      "of {} records spectra below {:g} s, ten times the longest step ({:g} s), may be too low: peaks between samples "
+      "are not recorded",
+      coarse, steps * longest, longest);
 }
 
 std::vector<double> chart_periods() {

@@ -18,7 +18,7 @@ int motion_process(const std::vector<std::string>& arguments);
 int motion_select(const std::vector<std::string>& arguments);
 int motion_synthesize(const std::vector<std::string>& arguments);
 
-/// --units, --dt: of plain columns.
+/// --units, --dt, --columns: of plain columns.
 void add_columns_options(CommandLine& line);
 ColumnsMeaning columns_asked(const options::variables_map& values);
 /// --target, --ag, --f0, --tc, --soil, --topography, --damping.
@@ -33,6 +33,10 @@ std::vector<double> target_values(const TargetSpectrum& target, const std::vecto
 /// The sets of a folder, or one of up to three files for x, y, z. What was left out and what was assumed is printed on
 /// the error stream unless quiet.
 std::vector<RecordSet> records_asked(const std::vector<std::string>& paths, const ColumnsMeaning& meaning, bool quiet);
+
+/// What to mind of spectra that begin at this period (s): between samples peaks are cut off, which shows below ten
+/// steps. Empty where all records have shorter steps.
+std::string short_period_remark(const std::vector<RecordSet>& sets, double shortest);
 
 /// From 0.01 s to 4 s, evenly in the logarithm: for charts and tables of spectra.
 std::vector<double> chart_periods();

@@ -43,7 +43,7 @@ std::string step_remark(const RecordSet& set) {
 std::string set_text(const RecordSet& set) {
   std::string components;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!set.files[axis].empty())
+    if (!set.files[axis].empty() || !set.components[axis].empty())
       components += fmt::format("{}{} = {}", components.empty() ? "" : ", ", axis_word[axis],
                                 set.components[axis].empty() ? "?" : set.components[axis]);
   return fmt::format("{}: {}, event {}{}, {:.6g} s at {:.6g} s, {}{}", set.name, set.format, set.event,
@@ -159,8 +159,11 @@ int motion_spectrum(const std::vector<std::string>& arguments) {
   std::string body = target ? paragraph("Target: " + target_text(*target)) : "";
   for (std::size_t r = 0; r < sets.size(); ++r)
     body += figure(line_chart(spectra_chart(sets[r], target, periods, spectra[r], damping)));
+  const std::string remark = short_period_remark(sets, periods.front());
+  if (!remark.empty()) body = paragraph(remark) + body;
   write_atomically(out + "/spectra.csv", spectra_csv(sets, periods, spectra, target));
   write_atomically(out + "/spectra.html", html_page("Response spectra", body));
+  if (!quiet && !remark.empty()) fmt::print(stderr, "{}\n", remark);
   if (!quiet) fmt::print("{} records; {}/spectra.csv, {}/spectra.html\n", sets.size(), out, out);
   return 0;
 }
@@ -184,7 +187,14 @@ int motion_process(const std::vector<std::string>& arguments) {
     const auto band = values["band"].as<std::vector<double>>();
     if (band.size() != 2) throw InputError("--band has {} numbers: expected two corners in Hz", band.size());
     asked.low = band[0], asked.high = band[1];
+    for (const double corner : band)
+      if (!(corner >= 0.0 && corner <= 1e5)) throw InputError("--band has {} Hz: expected 0 (open) or more", corner);
   }
+  if (!(asked.taper >= 0.0 && asked.taper <= 0.5))
+    throw InputError("--taper is {}: expected a share from 0 to 0.5", asked.taper);
+  if (asked.order < 1 || asked.order > 16) throw InputError("--order is {}: expected 1 to 16", asked.order);
+  if (asked.dt != 0.0 && !(asked.dt >= 1e-5 && asked.dt <= 1.0))
+    throw InputError("--step is {} s: expected 1e-5 to 1 s, or 0 to leave it as it is", asked.dt);
   const bool quiet = values.count("quiet") > 0;
   const std::string out = values["output"].as<std::string>();
   make_folder_of(out + "/motion.html");

@@ -34,6 +34,8 @@ struct SelectRequest {
 std::array<double, 2> pair_of(const options::variables_map& values, const char* key) {
   const auto list = values[key].as<std::vector<double>>();
   if (list.size() != 2) throw InputError("--{} has {} numbers, expected 2: least and most", key, list.size());
+  for (const double value : list)
+    if (!std::isfinite(value)) throw InputError("--{} has {}: expected finite numbers", key, value);
   return {list[0], list[1]};
 }
 
@@ -252,6 +254,8 @@ int select(SelectRequest& request) {
   request.problem.ratios = horizontal_spectra(sets, periods, request.target.damping, request.threads);
   const std::vector<double> target = target_values(request.target, periods);
   for (std::size_t k = 0; k < periods.size(); ++k) request.problem.ratios.row(Eigen::Index(k)) /= target[k];
+  const std::string remark = short_period_remark(sets, request.range[0]);
+  if (!request.quiet && !remark.empty()) fmt::print(stderr, "{}\n", remark);
   if (!request.quiet) fmt::print(stderr, "{} records of {} events in {}\n", sets.size(), events.size(), request.folder);
   const Selection selection = select_records(request.problem);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

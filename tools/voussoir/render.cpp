@@ -66,7 +66,7 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
     render_picture(assembly, rest_snapshot(assembly), o, png);
     return;
   }
-  const Case c = read_case((beside / "case.toml").string());
+  const Case c = read_case((beside / "case.toml").string(), CaseUse::geometry);
   const Assembly assembly = read_assembly((beside / "assembly.h5").string());
   Model model = build_model(assembly, c.settings);
   State state = initial_state(model);
