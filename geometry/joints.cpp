@@ -110,6 +110,19 @@ Overlay overlay(const Cell& a, int face_a, const Cell& b, int face_b) {
   return out;
 }
 
+/// Of a long strip its width.
+double width_of(const Overlay& overlay) {
+  double outline = 0.0;
+  for (std::size_t i = 0; i < overlay.polygon.size(); ++i)
+    outline += (overlay.polygon[(i + 1) % overlay.polygon.size()] - overlay.polygon[i]).norm();
+  return outline > 0.0 ? 2.0 * overlay.area / outline : 0.0;
+}
+
+bool is_sliver(const Overlay& overlay, const JointSearch& search) {
+  return overlay.area < search.smallest_area ||
+         (search.smallest_width > 0.0 && width_of(overlay) < search.smallest_width);
+}
+
 /// What the search of one pair of cells found: the joint, or the smallest gap it left open.
 struct Found {
   std::optional<Joint> joint;
@@ -123,7 +136,7 @@ Found search_pair(const Cell& a, const Cell& b, const JointSearch& search) {
     for (int j = 0; j < static_cast<int>(b.faces.size()); ++j) {
       if (!opposed(a.faces[i], b.faces[j], k_watched * search.gap, search.angle)) continue;
       Overlay found = overlay(a, i, b, j);
-      if (found.area < search.smallest_area || std::abs(found.gap) > k_watched * search.gap) continue;
+      if (is_sliver(found, search) || std::abs(found.gap) > k_watched * search.gap) continue;
       if (std::abs(found.gap) > search.gap) {
         if (found.gap > 0.0) out.open = std::min(out.open.value_or(found.gap), found.gap);
         continue;

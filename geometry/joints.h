@@ -8,7 +8,17 @@ struct JointSearch {
   double gap = 1e-4;            // m: faces at most this far apart (either way) are in contact
   double angle = 1e-3;          // rad: largest angle between opposed faces
   double smallest_area = 1e-8;  // m2: smaller overlaps are not joints
+  /// m: nor are narrower ones (twice the area over the outline). Stones that meet along an edge and whose coordinates
+  /// are rounded overlap by such strips.
+  double smallest_width = 0.0;
 };
+
+/// For shapes from elsewhere, whose coordinates are rounded: overlaps narrower than the gap are no joints.
+inline JointSearch careful_search(double gap = JointSearch().gap) {
+  JointSearch search;
+  search.gap = search.smallest_width = gap;
+  return search;
+}
 
 /// What the search closed or left open, for the log.
 struct JointReport {

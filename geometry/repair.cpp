@@ -172,8 +172,10 @@ std::string check_convex(const Polyhedron& shape, double tolerance) {
     const Polygon polygon = face_polygon(shape, static_cast<int>(f));
     if (polygon_area(polygon) <= tolerance * tolerance) continue;
     const Plane plane = face_plane(shape, static_cast<int>(f));
-    for (const Vec3& p : polygon)
-      if (std::abs(plane.normal.dot(p) - plane.offset) > tolerance) return fmt::format("face {} is not planar", f);
+    double off = 0.0;
+    for (const Vec3& p : polygon) off = std::max(off, std::abs(plane.normal.dot(p) - plane.offset));
+    if (off > tolerance)
+      return fmt::format("face {} is not planar: its corners lie up to {:.3g} m off a plane", f, off);
     for (std::size_t v = 0; v < shape.vertices.size(); ++v) {
       const double height = plane.normal.dot(shape.vertices[v]) - plane.offset;
       if (height > tolerance)

@@ -201,6 +201,42 @@ void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const Ge
   }
 }
 
+namespace {
+
+/// A joint takes its stiffness from the stones on its sides; a fixed one stands for more of the other.
+void check_moduli(const Assembly& assembly) {
+  std::vector<std::string> without;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    const Block& block = assembly.blocks[i];
+    const Material& m = assembly.materials[std::size_t(block.material)];
+    if (block.fixed || (m.youngs_modulus > 0.0 && m.shear_modulus > 0.0)) continue;
+    if (++count <= 3)
+      without.push_back(fmt::format("{}, material \"{}\"", block_label(assembly, std::int64_t(i)), m.name));
+  }
+  if (count > 0)
+    throw InputError(
+        "blocks without moduli: joints need kn and ks, or give materials with youngs_modulus and shear_modulus above "
+        "0. It is so of {} blocks: {}{}",
+        count, fmt::join(without, "; "), count > without.size() ? "; …" : "");
+}
+
+}  // namespace
+
+JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform) {
+  if ((uniform.kn > 0.0) != (uniform.ks > 0.0))
+    throw InputError("kn is {} and ks {} Pa/m; give both, or neither to take them from the moduli", uniform.kn,
+                     uniform.ks);
+  JointRules rules;
+  rules.kind = uniform.kn > 0.0 ? JointRules::Kind::given : JointRules::Kind::moduli;
+  rules.uniform = uniform;
+  if (rules.kind == JointRules::Kind::moduli) check_moduli(assembly);
+  const JointReport report = find_joints(assembly, search);
+  assembly.laws.clear();
+  assign_stiffness(assembly, rules, {});
+  return report;
+}
+
 JointRules uniform_rules(const GeneratorInput& in) {
   JointRules rules;
   if (in("kn") > 0.0 && in("ks") > 0.0) {

@@ -5,6 +5,7 @@
 
 #include "geometry/assembly.h"
 #include "geometry/generator.h"
+#include "geometry/joints.h"
 
 namespace voussoir {
 
@@ -41,6 +42,11 @@ void assign_stiffness(Assembly& assembly, const JointRules& rules, const Generat
 /// times `restraint_share` for a restraint block. Tetrahedra have no size of their own there: the fill's stiffness up
 /// to its surface is in them.
 void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
+
+/// Finds the joints of an assembly that has none and gives each its stiffness and strength (blocks finished): `uniform`
+/// for all, or, where it is zero, from the moduli. Throws InputError naming the first blocks without moduli, for
+/// overlaps, and when only one of kn and ks is given.
+JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform = {});
 
 /// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli where both are 0. Throws
 /// InputError when only one of them is given.

@@ -83,7 +83,7 @@ Assembly make_assembly(const Case& c) {
     in_case(c, [&] { assembly = find_generator(c.generator).build(c.generator_input); });
     assembly.generator = c.generator;
   } else {
-    assembly = read_assembly(c.assembly_file);
+    assembly = read_assembly(c.assembly_file, careful_search(c.settings.contact.gap_tolerance));
     check_overlaps(assembly, c);
     in_case(c, [&] {
       for (const auto& [pair, joint] : c.generator_input.joints) override_joints(assembly, pair, joint);

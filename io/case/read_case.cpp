@@ -4,6 +4,7 @@
 #include "io/case/case.h"
 #include "io/case/checks.h"
 #include "io/case/degrees.h"
+#include "io/case/material_table.h"
 #include "io/case/sections.h"
 #include "io/hdf5/atomic_file.h"
 #include "solver/base/arrays.h"
@@ -44,6 +45,8 @@ void read_generator(TableReader& bridge, Case& c) {
   }
 }
 
+}  // namespace
+
 void read_material(TableReader& table, Material& m) {
   m.density = table.number("density", m.density, {0.0, 1e5, "kg/m3", true});
   m.youngs_modulus = table.number("youngs_modulus", m.youngs_modulus, {0.0, 1e13, "Pa", true});
@@ -59,6 +62,8 @@ void read_material(TableReader& table, Material& m) {
                                              degrees_text(m.dilation_angle), degrees_text(m.friction_angle)));
   table.finish();
 }
+
+namespace {
 
 /// Splits "masonry-infill" at the hyphen that leaves two known materials (names may hold hyphens themselves).
 std::array<std::string, 2> split_pair(const TableReader& joints, const std::string& key,

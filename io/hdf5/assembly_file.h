@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/assembly.h"
+#include "geometry/joints.h"
 
 namespace voussoir {
 
@@ -15,9 +16,14 @@ void write_assembly(const std::string& path, const Assembly& assembly);
 /// Reads an assembly file and checks everything in it: format and version, shapes, offsets, index ranges, finite
 /// numbers, convex closed blocks of positive volume, stated masses, at least one fixed block, sensible joints, a sound
 /// mesh of the fill. Optional in a file: cells/*, materials/* (then from blocks/density), mass, centroid and inertia,
-/// joints/cells and faces, joints as a whole, fill/*, groups, sensors; a file of a fill needs no blocks. Throws
-/// InputError naming file, dataset and row.
-Assembly read_assembly(const std::string& path);
+/// joints/cells and faces, joints as a whole, fill/*, groups, sensors; a file of a fill needs no blocks. Joints that it
+/// does not state are found, with stiffness and strength of its materials. Throws InputError naming file, dataset and
+/// row.
+Assembly read_assembly(const std::string& path, const JointSearch& search = careful_search());
+/// The same, but as it stands: no joints are found, and no block need be fixed. For those who change it first.
+Assembly read_stated_assembly(const std::string& path);
+/// Whether the file has a list of joints, be it empty.
+bool states_joints(const std::string& path);
 
 /// Hash of everything that decides how the assembly moves (shapes, masses, joints, laws; not names, groups, the case).
 std::uint64_t assembly_hash(const Assembly& assembly);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/stiffness.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/check_patch.h"
 #include "io/hdf5/h5.h"
@@ -19,11 +20,14 @@ namespace {
 class AssemblyReader {
  public:
   explicit AssemblyReader(const std::string& path) : file_(h5::File::open(path)) {}
-  Assembly read();
+  Assembly as_stated() { return read_all(), std::move(assembly_); }
+  Assembly read_whole(const JointSearch& search);
 
  private:
+  void read_all();
   void read_shapes_of_blocks();
   void read_properties();
+  void check_fixed() const;
   void read_materials();
   void materials_from_density();
   void finish();
@@ -35,6 +39,7 @@ class AssemblyReader {
                  std::int32_t& face) const;
   void check_joint(std::size_t row, const Joint& joint) const;
   void sort_joints();
+  void find_joints(const JointSearch& search);
   void read_groups();
   void read_sensors();
 
@@ -113,8 +118,14 @@ void AssemblyReader::read_properties() {
     assembly_.blocks[i].part = part[i];
     assembly_.blocks[i].fixed = fixed[i] != 0;
   }
-  if (!fixed.empty() && std::find(fixed.begin(), fixed.end(), 1) == fixed.end())
-    file_.fail("blocks/fixed", "no block is fixed: at least one must be 1, or all would fall");
+}
+
+void AssemblyReader::check_fixed() const {
+  const auto is_fixed = [](const Block& block) { return block.fixed; };
+  if (blocks() > 0 && std::none_of(assembly_.blocks.begin(), assembly_.blocks.end(), is_fixed))
+    file_.fail("blocks/fixed",
+               "no block is fixed: at least one must be 1, or all would fall (voussoir import FILE -o OTHER --fixed "
+               "lowest sets it)");
 }
 
 void AssemblyReader::read_materials() {
@@ -143,8 +154,10 @@ void AssemblyReader::read_materials() {
   for (std::size_t i = 0; i < blocks(); ++i)
     if (const double own = density[std::size_t(material[i])]; std::abs(stated[i] - own) > 1e-9 * own)
       file_.fail("blocks/density",
-                 fmt::format("row {}: {} kg/m3, but its material \"{}\" has {} kg/m3: make them agree", i, stated[i],
-                             names[std::size_t(material[i])], own));
+                 fmt::format("row {}: {} kg/m3, but its material \"{}\" has {} kg/m3: make them agree. A block of "
+                             "another density needs a material of its own: a further row in materials/* (and in its "
+                             "attribute names), whose number stands in blocks/material",
+                             i, stated[i], names[std::size_t(material[i])], own));
 }
 
 /// Files of other programs may state densities only: one material for each value that occurs.
@@ -365,7 +378,33 @@ void AssemblyReader::read_sensors() {
                                  Eigen::Map<const Vec3>(direction.data() + 3 * i), block[i]});
 }
 
-Assembly AssemblyReader::read() {
+/// A file that gives the shapes alone leaves the rest to us.
+void AssemblyReader::find_joints(const JointSearch& search) {
+  if (blocks() == 0) return;
+  if (!assembly_.laws.empty())
+    file_.fail("laws/tension", "there are laws, but no joints/blocks whose joints have them: give joints, or no laws");
+  if (!assembly_.fill.empty())
+    file_.fail("joints/blocks",
+               "there is none, and the patches between stones and fill are not found on reading: write the stones "
+               "alone, and put the fill between them with voussoir import FILL.msh --into FILE -o OTHER");
+  try {
+    lay_joints(assembly_, search);
+  } catch (const InputError& error) {
+    file_.fail("joints/blocks",
+               fmt::format("there is none, so joints are looked for: {} (voussoir import FILE -o OTHER "
+                           "finds them with moduli, strengths and gap of its options)",
+                           error.what()));
+  }
+}
+
+Assembly AssemblyReader::read_whole(const JointSearch& search) {
+  read_all();
+  check_fixed();
+  if (!file_.has("joints/blocks")) find_joints(search);
+  return std::move(assembly_);
+}
+
+void AssemblyReader::read_all() {
   h5::check_format(file_, "voussoir-assembly", assembly_format_version);
   if (file_.has_attribute("/", "units") && file_.text("/", "units") != "SI")
     file_.fail("/", "the attribute 'units' is \"" + file_.text("/", "units") + "\", expected \"SI\": convert the file");
@@ -381,13 +420,20 @@ Assembly AssemblyReader::read() {
   read_joints();
   read_groups();
   read_sensors();
-  return std::move(assembly_);
 }
 
 }  // namespace
 
-Assembly read_assembly(const std::string& path) {
-  return AssemblyReader(path).read();
+Assembly read_assembly(const std::string& path, const JointSearch& search) {
+  return AssemblyReader(path).read_whole(search);
+}
+
+Assembly read_stated_assembly(const std::string& path) {
+  return AssemblyReader(path).as_stated();
+}
+
+bool states_joints(const std::string& path) {
+  return h5::File::open(path).has("joints/blocks");
 }
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "geometry/fill_report.h"
+#include "geometry/joint_counts.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
@@ -123,6 +124,8 @@ std::string describe_assembly(const std::string& path) {
           box.low.y(), box.low.z());
   out.add("  {} joints, {:.2f} m2, {} laws, {} materials", assembly.joints.size(), area, assembly.laws.size(),
           assembly.materials.size());
+  out.add("  {}", joints_text(assembly));
+  if (!assembly.blocks.empty() && !states_joints(path)) out.add("  the file states no joints: these were found");
   for (const std::string& line : fill_lines(assembly)) out.add("  {}", line);
   for (const auto& [name, members] : assembly.groups) out.add("  group \"{}\": {} blocks", name, members.size());
   for (const Sensor& sensor : assembly.sensors) out.add("  sensor \"{}\" on block {}", sensor.id, sensor.block);

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "solver/base/error.h"
 
@@ -173,8 +174,25 @@ double diagonal(const std::vector<Vec3>& vertices) {
   return (box.high - box.low).norm();
 }
 
+/// Takes out faces that stand there before with the same corners in the same sense, which some programs write; their
+/// number. A face and its back are two stones that meet.
+int drop_repeated(Part& part) {
+  std::set<std::vector<int>> known;
+  Part once{part.vertices, {}, {}};
+  for (std::size_t f = 0; f < part.loops.size(); ++f) {
+    std::vector<int> loop = part.loops[f];
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    if (!known.insert(loop).second) continue;
+    once.loops.push_back(part.loops[f]);
+    once.faces.push_back(part.faces[f]);
+  }
+  const int dropped = int(part.loops.size() - once.loops.size());
+  part = std::move(once);
+  return dropped;
+}
+
 /// Welds what shared vertices do not close, turns it when it is inside-out as a whole, and follows its edges.
-std::vector<Part> split_loose(Part loose, double tolerance, const std::string& where) {
+std::vector<Part> split_loose(Part loose, double tolerance, const std::string& where, std::vector<std::string>& notes) {
   const std::vector<int> first = welded(*loose.vertices, tolerance);
   Part part{loose.vertices, {}, {}};
   for (std::size_t f = 0; f < loose.loops.size(); ++f) {
@@ -183,6 +201,8 @@ std::vector<Part> split_loose(Part loose, double tolerance, const std::string& w
     part.loops.push_back(loop);
     part.faces.push_back(loose.faces[f]);
   }
+  if (const int dropped = drop_repeated(part))
+    notes.push_back(fmt::format("{}: {} faces stand there twice; each has been taken once", where, dropped));
   const bool inside_out = mass_properties(polyhedron(part)).volume < 0.0;
   const auto turn = [](Part& p) {
     for (auto& loop : p.loops) std::reverse(loop.begin(), loop.end());
@@ -210,7 +230,7 @@ Shell make_shell(const Part& part, const Surface& surface, const std::string& na
 
 }  // namespace
 
-std::vector<Shell> split_shells(const Surface& surface, const std::string& path) {
+std::vector<Shell> split_shells(const Surface& surface, const std::string& path, std::vector<std::string>& notes) {
   const double tolerance = std::max(1e-6 * diagonal(surface.vertices), 1e-300);
   std::vector<Shell> shells;
   for (const FileObject& object : surface.objects) {
@@ -226,12 +246,13 @@ std::vector<Shell> split_shells(const Surface& surface, const std::string& path)
       loose.faces.insert(loose.faces.end(), part.faces.begin(), part.faces.end());
     }
     if (!loose.loops.empty())
-      for (Part& part : split_loose(loose, tolerance, place(path, object.name, object.line)))
+      for (Part& part : split_loose(loose, tolerance, place(path, object.name, object.line), notes))
         parts.push_back(std::move(part));
     std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.faces[0] < b.faces[0]; });
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const std::string number = k > 0 ? fmt::format("#{}", k + 1) : "";
       shells.push_back(make_shell(parts[k], surface, object.name.empty() ? "" : object.name + number, path));
+      shells.back().object = object.name;
     }
   }
   return shells;

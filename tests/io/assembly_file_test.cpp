@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "geometry/generator.h"
+#include "geometry/joint_counts.h"
 #include "geometry/joints.h"
 #include "io/hdf5/h5.h"
+#include "io/hdf5/shape_arrays.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 
@@ -326,6 +328,89 @@ TEST(AssemblyFile, DamageNeverPassesForAnotherAssembly) {
     } catch (const InputError&) {
     }
   }
+}
+
+/// What another program writes: three boxes in a pile, the lowest fixed; of materials and joints what is asked for.
+struct Pile {
+  std::vector<double> density = {1600.0, 1600.0, 2700.0};
+  bool materials = true, laws = false;
+  double youngs = 4e9;
+};
+
+std::string write_pile(const Folder& folder, const Pile& pile) {
+  h5::File file = h5::File::create(folder / "pile.h5");
+  file.set_text("/", "format", "voussoir-assembly");
+  file.set_integer("/", "format_version", 2);
+  ShapeArrays arrays;
+  for (int i = 0; i < 3; ++i) arrays.add(make_box({0, 0, 0.5 * i}, {1, 1, 0.5 * (i + 1)}));
+  file.write<double>("blocks/vertices", arrays.vertices, {arrays.vertices.size() / 3, 3});
+  file.write<std::int64_t>("blocks/vertex_offset", arrays.vertex_offset);
+  file.write<std::int64_t>("blocks/face_vertices", arrays.face_vertices);
+  file.write<std::int64_t>("blocks/face_offset", arrays.face_offset);
+  file.write<std::int64_t>("blocks/block_face_offset", arrays.shape_face_offset);
+  file.write<std::int32_t>("blocks/component", {11, 11, 11});
+  file.write<std::int32_t>("blocks/part", {0, 0, 0});
+  file.write<std::uint8_t>("blocks/fixed", {1, 0, 0});
+  file.write<double>("blocks/density", pile.density);
+  if (pile.materials) {
+    const auto column = [&](const char* name, double light, double heavy) {
+      file.write<double>(std::string("materials/") + name, {light, heavy});
+    };
+    column("density", 1600.0, 2700.0);
+    column("youngs_modulus", pile.youngs, pile.youngs);
+    column("shear_modulus", 1.6e9, 1.6e9);
+    column("tensile_strength", 1e5, 0.0);
+    column("cohesion", 2e5, 0.0);
+    column("friction_angle", 0.6, 0.5);
+    file.set_texts("materials", "names", {"light", "heavy"});
+    file.write<std::int32_t>("blocks/material", {0, 0, 1});
+  }
+  if (pile.laws) {
+    for (const char* name :
+         {"tension", "cohesion", "friction_angle", "residual_cohesion", "residual_friction_angle", "dilation_angle"})
+      file.write<double>(std::string("laws/") + name, {0.5});
+    file.write<double>("laws/fracture_energy", {0.0, 0.0}, {1, 2});
+    file.write<std::int32_t>("laws/kind", {0});
+  }
+  file.save();
+  return folder / "pile.h5";
+}
+
+/// A file that states no joints has them found, with the strengths of its materials.
+TEST(AssemblyFile, JointsThatAreNotStatedAreFound) {
+  const Folder folder;
+  const std::string path = write_pile(folder, {});
+  EXPECT_FALSE(states_joints(path));
+  const Assembly in = read_assembly(path);
+  ASSERT_EQ(in.joints.size(), 2u);
+  EXPECT_NEAR(in.joints[0].area, 1.0, 1e-12);
+  EXPECT_NEAR(in.joints[0].kn, 4e9 / 0.5, 1.0);
+  EXPECT_EQ(in.laws.at(std::size_t(in.joints[0].law)).tension, 1e5);  // light on light
+  EXPECT_EQ(in.laws.at(std::size_t(in.joints[1].law)).tension, 0.0);  // the weaker of the two
+  EXPECT_EQ(in.laws.at(std::size_t(in.joints[1].law)).friction_angle, 0.5);
+  const JointCounts counts = count_joints(in);
+  EXPECT_EQ(counts.bonded, 1);
+  EXPECT_EQ(counts.dry, 1);
+  EXPECT_EQ(joints_text(in), "2 joints: 1 bonded, 1 dry");
+  EXPECT_TRUE(read_stated_assembly(path).joints.empty());
+  write_assembly(folder / "whole.h5", in);
+  EXPECT_TRUE(states_joints(folder / "whole.h5"));
+  EXPECT_EQ(assembly_hash(read_assembly(folder / "whole.h5")), assembly_hash(in));
+}
+
+TEST(AssemblyFile, JointsThatCannotBeFoundAreAnError) {
+  const auto refused = [](const Pile& pile, const std::vector<std::string>& pieces) {
+    const Folder folder;
+    const std::string path = write_pile(folder, pile);
+    const std::string message = test::message_of<InputError>([&] { read_assembly(path); });
+    EXPECT_TRUE(message.starts_with(path)) << message;
+    for (const std::string& piece : pieces) EXPECT_TRUE(holds(message, piece)) << message;
+  };
+  refused({.materials = false}, {"joints/blocks", "blocks without moduli: joints need kn and ks, or give materials",
+                                 "2 blocks: block 1 (block, part 0), material \"material 0\"; block 2"});
+  refused({.youngs = 0.0}, {"blocks without moduli", "material \"light\""});
+  refused({.laws = true}, {"laws/tension", "no joints/blocks"});
+  refused({.density = {1600.0, 2000.0, 2700.0}}, {"blocks/density: row 1", "a further row in materials/*"});
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 #include <map>
 
 #include "geometry/generate_bridge.h"
+#include "geometry/joint_counts.h"
 #include "geometry/joints.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
+#include "io/hdf5/h5.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 #include "tools/voussoir/options.h"
@@ -41,6 +43,7 @@ void print_assembly_table(const Assembly& assembly, const FillAim& aim) {
     fmt::print("{:<12} {:>8} {:>8} {:>12.2f}\n", name, row.blocks, row.fixed, row.mass / 1000.0);
   fmt::print("{} blocks, {} joints, {:.2f} t that can move\n", assembly.blocks.size(), assembly.joints.size(),
              mass / 1000.0);
+  fmt::print("{}\n", joints_text(assembly));
   for (const auto& [word, i] : {std::pair{"smallest", smallest}, std::pair{"largest", largest}})
     if (i >= 0) {
       const Block& b = assembly.blocks[i];
@@ -61,8 +64,22 @@ FillAim fill_aim(const Case& c) {
   return {bridge ? bridge_fill_space(c.generator_input) : 0.0, edge->second};
 }
 
+/// An assembly that another program wrote: what it leaves out is found, as when a case names it.
+int complete(const std::string& file, const options::variables_map& values) {
+  if (!values.count("output"))
+    throw InputError("{} is an assembly: say with -o FILE where to write the whole one", file);
+  const std::string to = values["output"].as<std::string>();
+  const bool stated = states_joints(file);
+  const Assembly assembly = read_assembly(file);
+  write_assembly(to, assembly);
+  if (values.count("quiet")) return 0;
+  print_assembly_table(assembly);
+  fmt::print("{}; written to {}\n", stated ? "its joints are as the file states them" : "its joints were found", to);
+  return 0;
+}
+
 int generate(const std::vector<std::string>& arguments) {
-  CommandLine line("generate", "generate CASE [-o FILE]", "voussoir generate cases/cs1-f.toml -o cs1.h5");
+  CommandLine line("generate", "generate CASE|ASSEMBLY [-o FILE]", "voussoir generate cases/cs1-f.toml -o cs1.h5");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"),
                                "assembly file (default: the case's name with .h5)")(
       "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave");
@@ -76,6 +93,7 @@ int generate(const std::vector<std::string>& arguments) {
   if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
   const std::string file = values["CASE"].as<std::string>();
   if (values.count("output")) check_ending(values["output"].as<std::string>(), {".h5", ".hdf5"}, "an HDF5 assembly");
+  if (h5::File::is_hdf5(file)) return complete(file, values);
   const auto start = std::chrono::steady_clock::now();
   const Case c = read_case(file, CaseUse::geometry);
   const Assembly assembly = make_assembly(c);

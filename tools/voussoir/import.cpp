@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "io/case/material_table.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
@@ -12,6 +13,13 @@
 namespace voussoir {
 
 namespace {
+
+CellRule cell_rule(const std::string& word) {
+  if (word == "none") return CellRule::none;
+  if (word == "objects") return CellRule::objects;
+  if (word == "names") return CellRule::names;
+  throw InputError("--cells is '{}'; it must be none, objects or names", word);
+}
 
 ImportOptions import_options(const options::variables_map& values) {
   ImportOptions o;
@@ -23,9 +31,22 @@ ImportOptions import_options(const options::variables_map& values) {
   o.material.tensile_strength = values["tension"].as<double>();
   o.material.cohesion = values["cohesion"].as<double>();
   o.material.friction_angle = angle(values, "friction");
+  o.up = values["up"].as<std::string>();
+  o.cells = cell_rule(values["cells"].as<std::string>());
+  o.flatten = values["flatten"].as<double>();
+  if (values.count("materials")) o.materials = read_material_table(values["materials"].as<std::string>(), o.material);
   o.kn = values["kn"].as<double>();
   o.ks = values["ks"].as<double>();
-  o.search.gap = values["gap"].as<double>();
+  o.search = careful_search(values["gap"].as<double>());
+  o.keep_fixed = values["fixed"].defaulted();
+  for (const auto& [name, member] :
+       std::initializer_list<std::pair<const char*, double Material::*>>{{"density", &Material::density},
+                                                                         {"youngs-modulus", &Material::youngs_modulus},
+                                                                         {"shear-modulus", &Material::shear_modulus},
+                                                                         {"tension", &Material::tensile_strength},
+                                                                         {"cohesion", &Material::cohesion},
+                                                                         {"friction", &Material::friction_angle}})
+    if (!values[name].defaulted()) o.given.push_back(member);
   return o;
 }
 
@@ -35,8 +56,9 @@ void check_kind(const options::variables_map& values, bool fill) {
   for (const char* name : {"into", "material", "interface-share", "interface-friction", "dilation"})
     if (!fill && given(name))
       throw InputError("--{} is for a fill (.msh), and this file holds stones: leave it out", name);
-  if (fill && given("fixed"))
-    throw InputError("--fixed is for stones, and a .msh file holds a fill, which stands on them: leave it out");
+  for (const char* name : {"fixed", "up", "cells", "flatten", "materials"})
+    if (fill && given(name))
+      throw InputError("--{} is for stones, and a .msh file holds a fill, which stands on them: leave it out", name);
 }
 
 int import(const std::vector<std::string>& arguments) {
@@ -44,8 +66,17 @@ int import(const std::vector<std::string>& arguments) {
                    "voussoir import vault.obj -o vault.h5 --density 2200 --fixed lowest");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"), "assembly file to write")(
       "scale", real_option("scale", 1e-9, 1e6)->default_value(1.0), "metres per unit of the file")(
+      "up", options::value<std::string>()->default_value("z"), "the file's axis that points up: x, y, z, -x, -y, -z")(
+      "cells", options::value<std::string>()->default_value("none"),
+      "convex pieces that are one stone: none; objects: the closed shapes of one object; names: also of objects whose "
+      "names differ in a number behind the last point (corbel.1, corbel.2)")(
+      "flatten", real_option("flatten", 0.0, 0.1)->default_value(1e-3),
+      "share of a stone's size up to which faces that are not plane are made so (at least --gap)")(
+      "materials", options::value<std::string>()->value_name("FILE"),
+      "TOML: tables [materials.NAME] with the keys of a case and objects = [\"corbel*\", ...]; what they leave out is "
+      "as the options say")(
       "fixed", options::value<std::string>()->default_value("lowest"),
-      "what moves with the ground: lowest, none, or names or numbers")(
+      "what moves with the ground: lowest, none, or names or numbers; of an assembly file, unless given: as it says")(
       "density", real_option("density", 1e-6, 1e5)->default_value(2000.0), "kg/m3")(
       "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9), "Pa")(
       "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9), "Pa")(
@@ -86,7 +117,7 @@ int import(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb import_verb() {
-  return {"import", "blocks (OBJ, PLY, STL) or a fill (Gmsh) made elsewhere to an assembly", import};
+  return {"import", "blocks (OBJ, PLY, STL, HDF5) or a fill (Gmsh) made elsewhere to an assembly", import};
 }
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/options.h"
 #include "tools/voussoir/run_directory.h"
@@ -50,6 +51,8 @@ int run(const std::vector<std::string>& arguments) {
   const RunRequest wanted = request(values, directory);
   say_begun(wanted, file);
   const Case c = read_case(file);
+  if (!wanted.quiet && c.generator.empty() && !states_joints(c.assembly_file))
+    fmt::print(stderr, "{} states no joints: they are found where faces meet\n", c.assembly_file);
   const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0);
   return RunSession(wanted).run();
 }

@@ -82,6 +82,9 @@ std::string facts(const RunFiles& run) {
   std::string text = "<dl>\n";
   text += row_of("bridge", run.c.generator.empty() ? "assembly from a file" : run.c.generator);
   text += row_of("blocks, joints", fmt::format("{}, {}", s.value("blocks", 0), s.value("joints", 0)));
+  if (s.contains("joint_kinds"))
+    text += row_of("of the joints", fmt::format("{} bonded, {} dry", s["joint_kinds"].value("bonded", 0),
+                                                s["joint_kinds"].value("dry", 0)));
   text += row_of("stages", stages_text(run.c));
   for (const EffectSetting& effect : run.c.effects) text += row_of("effect", effect.text());
   text += row_of("simulated", fmt::format("{:.3f} s in {} steps of {:.3g} s", s.value("end_time", 0.0),

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "geometry/joint_counts.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
@@ -215,6 +216,7 @@ void RunSession::write_summary(RunEnd end) {
                          {"energy_error", run.worst_balance()},
                          {"blocks", assembly_.blocks.size()},
                          {"joints", assembly_.joints.size()},
+                         {"joint_kinds", joint_kinds_json(assembly_)},
                          {"contacts", run.state().contact_count()},
                          {"equilibrium",
                           {{"converged", e.converged},
@@ -273,6 +275,7 @@ void RunSession::draw_pictures() {
 }
 
 int RunSession::run() {
+  log(fmt::format("{} blocks; {}", assembly_.blocks.size(), joints_text(assembly_)));
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   if (request_.time_limit > 0.0) {

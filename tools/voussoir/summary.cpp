@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/joint_counts.h"
 #include "solver/modal/hinges.h"
 #include "solver/step/loads.h"
 #include "tools/voussoir/damage_words.h"
@@ -218,6 +219,11 @@ nlohmann::json fill_json(const FillMesh& mesh, const Snapshot& snapshot) {
 }
 
 }  // namespace
+
+nlohmann::json joint_kinds_json(const Assembly& assembly) {
+  const JointCounts n = count_joints(assembly);
+  return {{"bonded", n.bonded}, {"dry", n.dry}, {"ties", n.ties}, {"fill", n.fill}};
+}
 
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
   nlohmann::json json = {

@@ -1,0 +1,102 @@
+// Assemblies of other programs: what they leave out is found, what was asked for is changed.
+#include <algorithm>
+
+#include "geometry/stiffness.h"
+#include "io/hdf5/assembly_file.h"
+#include "io/vtk/import_steps.h"
+#include "solver/base/error.h"
+
+namespace voussoir {
+namespace {
+
+/// Joints that cannot be found from shapes would be lost.
+void check_joints(const Assembly& assembly, const std::string& path) {
+  const char* held = nullptr;
+  if (!assembly.fill.empty()) held = "a deformable fill";
+  if (!assembly.effects.empty()) held = "what an effect has changed";
+  for (const Joint& joint : assembly.joints)
+    if (assembly.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie) held = "ties";
+  if (held)
+    throw InputError(
+        "{}: it holds {}, which finding its joints anew would lose; use it as it is (assembly = \"...\" in [bridge]), "
+        "or import what it was made from",
+        path, held);
+}
+
+/// A file of shapes and densities alone says nothing of what the stones are made of.
+bool states_density_only(const Material& m) {
+  return m.youngs_modulus == 0.0 && m.shear_modulus == 0.0 && m.tensile_strength == 0.0 && m.cohesion == 0.0 &&
+         m.friction_angle == 0.0;
+}
+
+void change_materials(Import& import, const ImportOptions& options, const std::string& path) {
+  bool filled = false;
+  for (Material& own : import.assembly.materials) {
+    if (states_density_only(own)) {
+      Material whole = options.material;
+      whole.name = own.name;
+      whole.density = own.density;
+      own = whole;
+      filled = true;
+    }
+    for (const auto member : options.given) own.*member = options.material.*member;
+  }
+  if (filled)
+    import.notes.push_back(fmt::format(
+        "{}: it states densities alone; moduli and strengths are those of the options (E {:g} Pa, G {:g} Pa)", path,
+        options.material.youngs_modulus, options.material.shear_modulus));
+}
+
+void turn(Assembly& assembly, const Mat3& by) {
+  if (by.isIdentity()) return;
+  for (Block& block : assembly.blocks)
+    for (Polyhedron& cell : block.cells)
+      for (Vec3& v : cell.vertices) v = by * v;
+  for (Sensor& sensor : assembly.sensors)
+    sensor.position = by * sensor.position, sensor.direction = by * sensor.direction;
+}
+
+std::vector<std::string> names_of_stones(const Assembly& assembly) {
+  std::vector<std::string> names(assembly.blocks.size());
+  for (const auto& [group, members] : assembly.groups)
+    if (group.starts_with("object "))
+      for (const std::int64_t i : members) names[std::size_t(i)] = group.substr(7);
+  return names;
+}
+
+}  // namespace
+
+Import import_assembly(const std::string& path, const ImportOptions& options) {
+  if (options.scale != 1.0)
+    throw InputError("{}: --scale is {}, but assembly files are in metres: leave it out", path, options.scale);
+  if (options.cells != CellRule::none || !options.materials.empty())
+    throw InputError("{}: --cells and --materials are for surfaces; an assembly file states cells and materials itself",
+                     path);
+  Import import;
+  Assembly& assembly = import.assembly = read_stated_assembly(path);
+  turn(assembly, turn_of(options.up));
+  check_joints(assembly, path);
+  change_materials(import, options, path);
+  finish_blocks(assembly);
+  import.names = import.objects = names_of_stones(assembly);
+  if (!options.keep_fixed) {
+    for (Block& block : assembly.blocks) block.fixed = false;
+    fix_stones(import, options);
+  }
+  const std::size_t stated = assembly.joints.size();
+  assembly.joints.clear();
+  try {
+    import.joints = lay_joints(assembly, options.search, {options.kn, options.ks});
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", path, error.what());
+  }
+  if (stated > 0)
+    import.notes.push_back(
+        fmt::format("{}: its {} joints have been left out, and {} found anew", path, stated, assembly.joints.size()));
+  ImportOptions meant = options;
+  if (options.keep_fixed) meant.fixed = "as stated";
+  note_what_surprises(import, meant, path);
+  return import;
+}
+
+}  // namespace voussoir
