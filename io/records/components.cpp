@@ -1,5 +1,7 @@
 #include "io/records/components.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -79,7 +81,7 @@ std::string name_of(const std::string& path) {
 /// KiK-net has two sensors at a place, EW1 and EW2: two recordings.
 std::string sensor_of(const std::string& word) {
   const bool numbered = word.size() == 3 && is_digit(word[2]) && component_axis(word.substr(0, 2)) >= 0;
-  return numbered ? "." + word.substr(2) : "";
+  return numbered ? fmt::format(".{}", word[2]) : "";
 }
 
 }  // namespace
@@ -110,9 +112,9 @@ void name_component(RecordComponent& c) {
     // "BCR140" and "BCR-UP" are of one set: what stands around the word goes with it.
     const std::string before = without_ends(name.substr(0, part.at)),
                       after = without_ends(name.substr(part.at + part.size));
-    c.set = without_ends(before + (after.empty() ? "" : "." + after)) + sensor_of(c.word);
+    c.set = without_ends(after.empty() ? before : fmt::format("{}.{}", before, after)) + sensor_of(c.word);
   } else if (!c.word.empty()) {
-    c.set = without_ends(c.file.event + " " + c.file.station);
+    c.set = without_ends(fmt::format("{} {}", c.file.event, c.file.station));
   } else {
     const std::size_t cut = name.find_last_of(separators);
     c.word = cut == std::string::npos ? "" : component_word(name.substr(cut + 1));

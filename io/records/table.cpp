@@ -60,7 +60,7 @@ std::vector<std::string> with_brackets(const std::vector<std::string_view>& word
   std::vector<std::string> names;
   for (const std::string_view word : words)
     if (!names.empty() && (word.starts_with('(') || word.starts_with('[')))
-      names.back() += " " + std::string(word);
+      names.back().append(" ").append(word);
     else
       names.emplace_back(word);
   return names;
@@ -163,10 +163,15 @@ double column_unit(const std::string& name) {
       {"s", 1.0},     {"sec", 1.0},    {"seconds", 1.0}, {"ms", 0.001}};
   const std::size_t open = name.find_first_of("([");
   if (open == std::string::npos) return 0.0;
-  std::string unit = name.substr(open + 1, name.find_first_of(")]", open) - open - 1), plain;
-  for (std::size_t at = unit.find("²"); at != std::string::npos; at = unit.find("²")) unit.replace(at, 2, "2");
-  for (const char c : unit)
-    if (c != ' ' && c != '^' && c != '*') plain += char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string unit = name.substr(open + 1, name.find_first_of(")]", open) - open - 1);
+  std::string plain;
+  constexpr std::string_view square = "²";
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const bool squared = std::string_view(unit).substr(i).starts_with(square);
+    if (squared) i += square.size() - 1;
+    if (const char c = squared ? '2' : unit[i]; c != ' ' && c != '^' && c != '*')
+      plain += char(std::tolower(static_cast<unsigned char>(c)));
+  }
   const auto found = known.find(plain);
   if (found == known.end())
     throw InputError("the unit in '{}' is not known: expected m/s2, cm/s2, mm/s2, gal, g or mg, of times s or ms",
