@@ -186,8 +186,10 @@ std::string describe_modes(const std::string& path) {
 void describe_channel(const RecordFile& file, Lines& out) {
   const Record& record = file.record;
   const std::vector<double> velocity = integrate(record.values, record.dt);
+  const auto said = [](const std::string& text) { return text.empty() ? "not said" : text; };
   if (file.unit > 0.0)
-    out.add("  {}, station {}, component {}; units of {:g} m/s2", file.event, file.station, file.component, file.unit);
+    out.add("  event {}, station {}, component {}; units of {:g} m/s2", said(file.event), said(file.station),
+            said(file.component), file.unit);
   out.add("  largest value {:.6g}, largest velocity {:.6g}, at the end {:.6g}", largest(record.values),
           largest(velocity), velocity.back());
   if (file.unit == 0.0) return;

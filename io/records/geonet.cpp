@@ -63,9 +63,10 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   at = head + text_lines;
   const std::vector<double> numbers = fixed_numbers(lines, at, 100, rows, name);
   const bool corrected = upper(lines[head]).find("UNCORRECTED") == std::string::npos;
-  double samples = numbers[corrected ? 33 : 30], step = said_step(lines, head);
+  // The tables know best; where they are empty the text says it. The step of uncorrected ones stands in the text first.
+  double samples = numbers[corrected ? 33 : 30], step = corrected ? numbers[65] : said_step(lines, head);
   if (!(samples > 0.0)) samples = said(lines, head, "NUMBER OF POINTS");
-  if (!(step > 0.0)) step = numbers[corrected ? 65 : 64];
+  if (!(step > 0.0)) step = corrected ? said_step(lines, head) : numbers[64];
   RecordFile file;
   const std::size_t count = checked_samples(samples, name, head + text_lines + 4);
   file.record.dt = dt > 0.0 ? dt : checked_step(step, name, head + text_lines + 7);

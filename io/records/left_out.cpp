@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::size_t most_named = 12;
+constexpr std::size_t most_named = 6;
 
 /// Without numbers and without what is quoted.
 std::string kind_of(const std::string& reason) {

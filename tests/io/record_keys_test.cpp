@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "io/case/case.h"
 #include "io/hdf5/info.h"
@@ -35,6 +36,7 @@ TEST(RecordKeys, ColumnsOfATable) {
   EXPECT_NEAR((motion_of(c).acceleration.at(1) - Vec3(-0.01, 0.04, -0.08)).norm(), 0.0, 1e-15);
   EXPECT_NEAR(motion_of(c).dt, 0.01, 1e-12);
   // The resolved copy in a run's folder says the same.
+  std::filesystem::create_directory(folder / "run");
   write_resolved_case(c, folder / "run");
   const Case copy = read_case(folder / "run/case.toml");
   EXPECT_EQ(copy.hash, c.hash);

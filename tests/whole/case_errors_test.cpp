@@ -128,7 +128,7 @@ TEST(CaseErrors, RecordsThatAreWrong) {
   refused("0 0\n", {"1 rows"});
   refused("0 0\n0.1 nan\n0.2 0\n", {"record.txt:2:", "finite"});
   refused("0 0\n0.1 1e999\n0.2 0\n", {"record.txt:2:"});
-  refused("time acc\n0 0\n0.1 1\n", {"record.txt:1:", "'time'", "#"});
+  refused("my words\n0 0\n0.1 1\n", {"record.txt:1:", "'my words'", "K-NET", "line of names"});
   refused("0 0\n0.2 1\n0.1 2\n", {"record.txt:3:", "increase"});
   refused("0 0\n0.1 1\n0.3 2\n0.4 3\n", {"equal"});
   refused("1\n2\n3\n", {"columns", "dt"});
@@ -137,7 +137,7 @@ TEST(CaseErrors, RecordsThatAreWrong) {
   // No ground shakes like this: the unit is wrong.
   folder.write("record.txt", "0 0\n0.1 1e12\n0.2 0\n");
   expect_error(voussoir({"run", "case.toml", "-o", "run"}, {.folder = folder.path()}), 2,
-               {"case.toml:9:", "1e+12 m/s2", "unit"});
+               {"record.txt: sample 2", "1e+12 m/s2", "unit"});
 }
 
 TEST(CaseErrors, FilesThatAreNoCases) {

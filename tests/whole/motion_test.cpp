@@ -1,4 +1,5 @@
 // voussoir motion and voussoir report as a user calls them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +77,7 @@ TEST(Motion, InfoSpectraAndProcessing) {
   const Outcome info = voussoir({"motion", "info", "made", "-o", "measures"}, there);
   ASSERT_EQ(info.status, 0) << info.err;
   EXPECT_TRUE(has(info.out, "PGA (g)") && has(info.out, "synthetic_0003")) << info.out;
-  EXPECT_TRUE(has(info.err, "left out: made/synthetic.html")) << info.err;
+  EXPECT_TRUE(has(info.err, "left out: synthetic.html:1: no format that is read")) << info.err;
   EXPECT_EQ(json_of(folder / "measures/motion.json")["records"].size(), 6u);
   const std::string x = "made/synthetic_0001_x.txt", y = "made/synthetic_0001_y.txt";
   EXPECT_EQ(voussoir(with_target({"motion", "spectrum", x, y, "-o", "spectra"}), there).status, 0);
@@ -109,6 +110,17 @@ TEST(Motion, RoundedStepsOfAt2AndComponentsOfUnequalLength) {
   EXPECT_TRUE(has(outcome.out, "right within 2.1 %")) << outcome.out;
 }
 
+TEST(Motion, SpectraBelowTenStepsAreRemarkedOn) {
+  const Folder folder;
+  std::string text;
+  for (int k = 0; k < 200; ++k) text += fmt::format("{:.2f} {}\n", 0.05 * k, k % 2);
+  folder.write("a.txt", text);
+  const Outcome outcome = voussoir({"motion", "spectrum", "a.txt", "-o", "o"}, {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "below 0.5 s, ten of their steps (0.05 s)")) << outcome.err;
+  EXPECT_TRUE(has(bytes_of(folder / "o/spectra.html"), "ten of their steps"));
+}
+
 TEST(Motion, WrongWordsAreExplained) {
   const Folder folder;
   folder.write("a_EW.txt", "1\n2\n3\n");
@@ -121,6 +133,11 @@ TEST(Motion, WrongWordsAreExplained) {
   expect_error(voussoir(with_target({"motion", "select", "."}), there), 2, {"no record with two horizontal"});
   expect_error(voussoir({"motion", "process", "a_EW.txt", "--band", "5", "1", "-o", "o"}, there), 2,
                {"lower corner first"});
+  for (const auto& [option, value] :
+       {std::pair{"--step", "1e9"}, {"--step", "nan"}, {"--taper", "-1"}, {"--order", "99"}})
+    expect_error(voussoir({"motion", "process", "a_EW.txt", option, value, "-o", "o"}, there), 2, {option, "expected"});
+  expect_error(voussoir({"motion", "process", "a_EW.txt", "--band", "1e-9", "1", "-o", "o"}, there), 2, {"0.001 Hz"});
+  expect_error(voussoir({"motion", "info", "a_EW.txt", "--columns", "t", "up"}, there), 2, {"--columns has 'up'"});
   expect_error(voussoir({"motion", "info", "a_EW.txt", "--units", "gal"}, there), 2, {"'gal'", "m/s2, g or cm/s2"});
 }
 

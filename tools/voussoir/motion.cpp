@@ -169,9 +169,9 @@ std::string short_period_remark(const std::vector<RecordSet>& sets, double short
   }
   if (coarse == 0) return "";
   return fmt::format(
-      "of {} records spectra below {:g} s, ten times the longest step ({:g} s), may be too low: peaks between samples "
-      "are not recorded",
-      coarse, steps * longest, longest);
+      "spectra of {} of {} records may be too low at periods below {:g} s, ten of their steps ({:g} s): peaks between "
+      "samples are not recorded",
+      coarse, sets.size(), steps * longest, longest);
 }
 
 std::vector<double> chart_periods() {
