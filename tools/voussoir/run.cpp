@@ -6,6 +6,7 @@
 #include "solver/base/error.h"
 #include "tools/voussoir/run_directory.h"
 #include "tools/voussoir/run_session.h"
+#include "tools/voussoir/say_remarks.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {
@@ -53,7 +54,7 @@ int run(const std::vector<std::string>& arguments) {
   const RunRequest wanted = request(values, directory);
   say_begun(wanted, file);
   const Case c = read_case(file);
-  const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0);
+  const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0, remarks_to(wanted.quiet));
   return RunSession(wanted).run();
 }
 
