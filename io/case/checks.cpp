@@ -56,6 +56,8 @@ std::vector<Check> read_checks(const std::string& path) {
   const toml::table file = parse_toml(read_text(path), path);
   TableReader root(file, path, "the case");
   std::vector<Check> checks = read_checks(root);
+  root.keys();  // are the case's
+  root.finish();
   for (std::size_t i = 0; i < checks.size(); ++i) {
     toml::table merged = file;
     merged.erase("check");

@@ -186,19 +186,15 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   c.text = text;
   const toml::table table = parse_toml(text, path);
   TableReader root(table, path, "the case");
-  read_bridge(root, c);
-  read_materials(root, c);
-  read_joints(root, c);
-  read_settings(root, c);
-  read_stages(root, c, use);
-  check_amounts(root, c);
-  read_sensors(root, c);
-  read_effects(root, c);
-  read_checks(root);                     // of no concern to a run, but a wrong one is said
-  c.hash = hash_text(resolved_text(c));  // before modes, plots and limits, which change nothing in a run
-  read_modal(root, c);
-  read_plots(root, c);
-  read_limits(root, c);
+  for (const auto read : {read_bridge, read_materials, read_joints, read_settings})
+    root.attempt([&] { read(root, c); });
+  root.attempt([&] { read_stages(root, c, use); });
+  root.attempt([&] { check_amounts(root, c); });
+  for (const auto read : {read_sensors, read_effects}) root.attempt([&] { read(root, c); });
+  root.attempt([&] { read_checks(root); });  // of no concern to a run, but a wrong one is said
+  // Before modes, plots and limits, which change nothing in a run.
+  if (root.fine()) root.attempt([&] { c.hash = hash_text(resolved_text(c)); });
+  for (const auto read : {read_modal, read_plots, read_limits}) root.attempt([&] { read(root, c); });
   root.finish();
   for (const MotionSource& motion : c.motions)
     for (const std::string& record : motion.texts) c.hash = hash_bytes(record.data(), record.size(), c.hash);

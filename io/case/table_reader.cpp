@@ -40,10 +40,21 @@ std::string range(const Limits& limits) {
   return fmt::format("must be at most {}{}", limits.high, unit);
 }
 
+/// The same for a list of keys: "above 0 to 1e+10 Pa".
+std::string number_words(const Limits& limits) {
+  const std::string words = range(limits).substr(std::string_view("must be ").size());
+  return std::isfinite(limits.low) || std::isfinite(limits.high) ? words : "a number";
+}
+
 }  // namespace
 
 TableReader::TableReader(const toml::table& table, std::string file, std::string place)
-    : table_(&table), file_(std::move(file)), place_(std::move(place)) {}
+    : TableReader(table, std::move(file), std::move(place), std::make_shared<Shared>()) {
+  outermost_ = true;
+}
+
+TableReader::TableReader(const toml::table& table, std::string file, std::string place, std::shared_ptr<Shared> shared)
+    : table_(&table), file_(std::move(file)), place_(std::move(place)), shared_(std::move(shared)) {}
 
 std::string TableReader::at(const toml::source_region& source) const {
   return source.begin.line > 0 ? fmt::format("{}:{}: ", file_, source.begin.line) : file_ + ": ";
@@ -59,19 +70,44 @@ void TableReader::fail(const std::string& message) const {
   throw InputError("{}{} {}", at(table_->source()), place_, message);
 }
 
-void TableReader::missing(const std::string& key, const std::string& what) const {
+std::string TableReader::misspelt(const std::string& key) const {
   std::vector<std::string> strange;
   for (const auto& [name, node] : *table_)
     if (!known_.contains(std::string(name.str()))) strange.emplace_back(name.str());
-  const std::string near = nearest_word(key, strange);
+  return nearest_word(key, strange);
+}
+
+void TableReader::note_wrong(const std::string& key, const std::vector<KnownKey>& known) const {
+  const toml::source_region& source = table_->find(key)->first.source();
+  shared_->wrong.add(at(source), int(source.begin.line), key, place_, known);
+}
+
+void TableReader::missing(const std::string& key, const std::string& what) const {
+  const std::string near = misspelt(key);
   if (near.empty()) fail(fmt::format("needs '{}' ({})", key, what));
-  throw InputError("{}unknown key '{}' in {}: did you mean '{}'?", at(table_->find(near)->first.source()), near, place_,
-                   key);
+  note_wrong(near, {{key, "", what}});
+  throw InputError("{}", shared_->wrong.last());
+}
+
+void TableReader::need(const std::string& key, const std::string& what) {
+  if (find(key, what)) return;
+  const std::string near = misspelt(key);
+  if (near.empty()) missing(key, what);
+  note_wrong(near, {{key, "", what}});
+  known_[near] = {};
+  misspelt_[key] = near;
 }
 
 const toml::node* TableReader::find(const std::string& key) {
-  known_.insert(key);
-  return table_->get(key);
+  known_.try_emplace(key);
+  const auto other = misspelt_.find(key);
+  return table_->get(other == misspelt_.end() ? key : other->second);
+}
+
+const toml::node* TableReader::find(const std::string& key, const std::string& expected, const std::string& fallback) {
+  Expected& e = known_[key];
+  if (e.expected.empty()) e = {fallback, expected};
+  return find(key);
 }
 
 bool TableReader::has(const std::string& key) {
@@ -90,17 +126,19 @@ double TableReader::checked(const std::string& key, const toml::node& node, cons
 }
 
 double TableReader::number(const std::string& key, double fallback, const Limits& limits) {
-  const toml::node* node = find(key);
+  const toml::node* node =
+      find(key, number_words(limits), std::isfinite(fallback) ? fmt::format("{:g}", fallback) : "");
   return node ? checked(key, *node, limits) : fallback;
 }
 
 double TableReader::required_number(const std::string& key, const Limits& limits) {
-  if (!has(key)) missing(key, "a number" + (limits.unit.empty() ? "" : " in " + limits.unit));
+  need(key, "a number" + (limits.unit.empty() ? "" : " in " + limits.unit));
   return number(key, 0.0, limits);
 }
 
 std::int64_t TableReader::integer(const std::string& key, std::int64_t fallback, std::int64_t low, std::int64_t high) {
-  const toml::node* node = find(key);
+  const toml::node* node =
+      find(key, fmt::format("a whole number from {} to {}", low, high), fmt::format("{}", fallback));
   if (!node) return fallback;
   if (!node->is_integer())
     fail(key, fmt::format("is {}, expected a whole number", node->is_floating_point() ? "a fraction" : kind_of(*node)));
@@ -110,26 +148,27 @@ std::int64_t TableReader::integer(const std::string& key, std::int64_t fallback,
 }
 
 bool TableReader::flag(const std::string& key, bool fallback) {
-  const toml::node* node = find(key);
+  const toml::node* node = find(key, "true or false", fallback ? "true" : "false");
   if (!node) return fallback;
   if (!node->is_boolean()) fail(key, fmt::format("is {}, expected true or false", kind_of(*node)));
   return *node->value<bool>();
 }
 
 std::string TableReader::text(const std::string& key, const std::string& fallback) {
-  const toml::node* node = find(key);
+  const toml::node* node = find(key, "text in quotes", fallback.empty() ? "" : fmt::format("\"{}\"", fallback));
   if (!node) return fallback;
   if (!node->is_string()) fail(key, fmt::format("is {}, expected text in quotes", kind_of(*node)));
   return *node->value<std::string>();
 }
 
 std::string TableReader::required_text(const std::string& key) {
-  if (!has(key)) missing(key, "text in quotes");
+  need(key, "text in quotes");
   return text(key, "");
 }
 
 std::size_t TableReader::word(const std::string& key, const std::vector<std::string>& words, std::size_t fallback) {
-  if (!has(key)) return fallback;
+  const std::string usual = fallback < words.size() ? fmt::format("\"{}\"", words[fallback]) : "";
+  if (!find(key, fmt::format("one of: {}", fmt::join(words, ", ")), usual)) return fallback;
   const std::string value = text(key, "");
   const auto found = std::find(words.begin(), words.end(), value);
   if (found == words.end())
@@ -138,7 +177,7 @@ std::size_t TableReader::word(const std::string& key, const std::vector<std::str
 }
 
 std::size_t TableReader::required_word(const std::string& key, const std::vector<std::string>& words) {
-  if (!has(key)) missing(key, fmt::format("one of: {}", fmt::join(words, ", ")));
+  need(key, fmt::format("one of: {}", fmt::join(words, ", ")));
   return word(key, words, 0);
 }
 
@@ -151,7 +190,7 @@ std::vector<double> TableReader::list(const std::string& key, const Limits& limi
 }
 
 std::vector<double> TableReader::numbers(const std::string& key, std::size_t count, const Limits& limits) {
-  if (!has(key)) missing(key, fmt::format("a list of {} numbers", count));
+  need(key, fmt::format("a list of {} numbers", count));
   const std::vector<double> values = list(key, limits);
   if (values.size() != count) fail(key, fmt::format("has {} numbers, expected {}", values.size(), count));
   return values;
@@ -165,8 +204,8 @@ std::vector<double> TableReader::number_list(const std::string& key, const Limit
 }
 
 std::vector<std::string> TableReader::texts(const std::string& key) {
+  need(key, "text in quotes or a list of texts");
   const toml::node* node = find(key);
-  if (!node) missing(key, "text in quotes or a list of texts");
   if (!node->is_array()) return {text(key, "")};
   std::vector<std::string> values;
   for (const toml::node& item : *node->as_array()) {
@@ -177,7 +216,7 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
 }
 
 Vec3 TableReader::vector(const std::string& key, const Vec3& fallback, const Limits& limits) {
-  if (!has(key)) return fallback;
+  if (!find(key, "[x, y, z]")) return fallback;
   const std::vector<double> v = numbers(key, 3, limits);
   return {v[0], v[1], v[2]};
 }
@@ -196,24 +235,25 @@ bool TableReader::is_text(const std::string& key) {
 TableReader TableReader::member(const std::string& key, const std::string& place) {
   const toml::node* node = find(key);
   if (!node->is_table()) fail(key, fmt::format("is {}, expected a table", kind_of(*node)));
-  return TableReader(*node->as_table(), file_, place);
+  return TableReader(*node->as_table(), file_, place, shared_);
 }
 
 std::optional<TableReader> TableReader::table(const std::string& key, const std::string& place) {
-  if (!has(key)) return std::nullopt;
+  if (!find(key, "a table")) return std::nullopt;
   return member(key, place);
 }
 
 std::vector<TableReader> TableReader::tables(const std::string& key) {
   std::vector<TableReader> readers;
-  const toml::node* node = find(key);
+  const toml::node* node = find(key, fmt::format("tables headed [[{}]]", key));
   if (!node) return readers;
   const toml::array* array = node->as_array();
   if (!array || std::any_of(array->begin(), array->end(), [](const toml::node& item) { return !item.is_table(); }))
     throw InputError("{}'{}' is {}: expected tables headed [[{}]], with double brackets", at(node->source()), key,
                      kind_of(*node), key);
   for (const toml::node& item : *array)
-    readers.emplace_back(*item.as_table(), file_, fmt::format("[[{}]] number {}", key, readers.size() + 1));
+    readers.push_back(
+        TableReader(*item.as_table(), file_, fmt::format("[[{}]] number {}", key, readers.size() + 1), shared_));
   return readers;
 }
 
@@ -223,19 +263,30 @@ std::vector<std::string> TableReader::keys() {
   std::sort(found.begin(), found.end());
   std::vector<std::string> names;
   for (auto& [line, name] : found) {
-    known_.insert(name);
+    known_.try_emplace(name);
     names.push_back(std::move(name));
   }
   return names;
 }
 
-void TableReader::finish() const {
-  for (const auto& [key, node] : *table_) {
-    const std::string name(key.str());
-    if (known_.contains(name)) continue;
-    throw InputError("{}unknown key '{}' in {}{}", at(key.source()), shown(name), place_,
-                     suggestion(name, {known_.begin(), known_.end()}));
+void TableReader::attempt(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    if (shared_->error.empty() && !shared_->wrong.said(error.what())) shared_->error = error.what();
   }
+}
+
+void TableReader::finish() {
+  std::vector<KnownKey> known;
+  for (const auto& [name, e] : known_)
+    if (std::none_of(misspelt_.begin(), misspelt_.end(), [&](const auto& m) { return m.second == name; }))
+      known.push_back({name, e.fallback, e.expected});
+  for (const auto& [key, node] : *table_)
+    if (const std::string name(key.str()); !known_.contains(name)) note_wrong(name, known);
+  if (!outermost_ || fine()) return;
+  const std::string wrong = shared_->wrong.any() ? shared_->wrong.message(file_) : "";
+  throw InputError("{}{}{}", shared_->error, shared_->error.empty() || wrong.empty() ? "" : "\n", wrong);
 }
 
 }  // namespace voussoir

@@ -4,13 +4,16 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "geometry/polyhedron.h"
+#include "io/case/wrong_keys.h"
 #include "solver/base/suggestion.h"
 
 namespace voussoir {
@@ -27,8 +30,12 @@ toml::table parse_toml(const std::string& text, const std::string& path);
 
 /// One table of a case file. It remembers which keys were asked for, so that finish() finds the keys nobody knows. All
 /// errors are InputError "FILE:LINE: …".
+///
+/// Keys nobody knows are gathered over the file and said together, when the outermost table is finished. A required key
+/// that is misspelt is read under its wrong name meanwhile.
 class TableReader {
  public:
+  /// The outermost table of a file; those within it come from table(), tables() and member().
   TableReader(const toml::table& table, std::string file, std::string place);
 
   bool has(const std::string& key);
@@ -62,8 +69,13 @@ class TableReader {
   /// The table under one of keys().
   TableReader member(const std::string& key, const std::string& place);
 
-  /// Throws for the first key that was never asked for.
-  void finish() const;
+  /// Reads a part of the file. What it throws is kept for finish(), so that wrong keys of later parts are found too; of
+  /// several errors the first is kept, for the later ones may come of it.
+  void attempt(const std::function<void()>& read);
+  /// Whether nothing was found wrong so far.
+  bool fine() const { return shared_->error.empty() && !shared_->wrong.any(); }
+  /// Notes the keys that were never asked for. Of the outermost table: throws for all that was noted.
+  void finish();
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
   /// About the table as a whole.
   [[noreturn]] void fail(const std::string& message) const;
@@ -71,14 +83,32 @@ class TableReader {
   const std::string& place() const { return place_; }
 
  private:
+  struct Shared {
+    WrongKeys wrong;
+    std::string error;  // of a part that could not be read
+  };
+  struct Expected {
+    std::string fallback, expected;
+  };
+  TableReader(const toml::table& table, std::string file, std::string place, std::shared_ptr<Shared> shared);
   const toml::node* find(const std::string& key);
+  /// The same, noting what belongs there.
+  const toml::node* find(const std::string& key, const std::string& expected, const std::string& fallback = "");
+  /// Throws when there is no such key, nor one that is likely to be it.
+  void need(const std::string& key, const std::string& what);
+  /// The key that nobody asked for and that is likely to be `key`; empty: none.
+  std::string misspelt(const std::string& key) const;
+  void note_wrong(const std::string& key, const std::vector<KnownKey>& known) const;
   double checked(const std::string& key, const toml::node& node, const Limits& limits) const;
   std::vector<double> list(const std::string& key, const Limits& limits);
   std::string at(const toml::source_region& source) const;
 
   const toml::table* table_;
   std::string file_, place_;
-  std::set<std::string> known_;
+  std::shared_ptr<Shared> shared_;
+  bool outermost_ = false;
+  std::map<std::string, Expected> known_;
+  std::map<std::string, std::string> misspelt_;  // required keys, and the wrong names they stand under
 };
 
 }  // namespace voussoir

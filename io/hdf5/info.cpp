@@ -9,6 +9,7 @@
 #include "geometry/fill_report.h"
 #include "geometry/joint_counts.h"
 #include "io/case/case.h"
+#include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
@@ -77,6 +78,7 @@ std::string describe_case(const std::string& path) {
   }
   if (c.settings.stages.empty()) out.add("  no stages: good for generate and modal, not for run");
   out.add("  {} sensors", c.sensors.size());
+  for (const std::string& remark : remarks(c)) out.add("  remark: {}", remark);
   return out.text;
 }
 
@@ -129,6 +131,7 @@ std::string describe_assembly(const std::string& path) {
   for (const std::string& line : fill_lines(assembly)) out.add("  {}", line);
   for (const auto& [name, members] : assembly.groups) out.add("  group \"{}\": {} blocks", name, members.size());
   for (const Sensor& sensor : assembly.sensors) out.add("  sensor \"{}\" on block {}", sensor.id, sensor.block);
+  for (const std::string& remark : remarks(assembly, path)) out.add("  remark: {}", remark);
   return out.text;
 }
 

@@ -1,10 +1,11 @@
 // A folder with what was measured on a bridge: where the sensors were, periods and shapes of modes, recordings.
 //
-//   sensors.csv     id,x,y,z,direction: m; x, y, z, -x, -y, -z or a unit vector "0.7071;0.7071;0"
+//   sensors.csv     id,x,y,z,direction: m; x, y, z, -x, -y, -z or a unit vector "0.7071;0.7071;0"; and unit, of its
+//                   channels in recordings (m/s2 where there is none)
 //   modes.csv       mode,period,period_std,damping,damping_std,direction: s; or frequency,frequency_std in Hz
 //   shapes.csv      mode,sensor,value,std: real shapes, any scale per mode
-//   records/*.csv   t,<sensor id>,…: s, m/s2; the ground's motion as base_x, base_y, base_z
-//   about.toml      what, when, units ("SI"), notes: texts
+//   records/*.csv   t,<sensor id>,…: s, the sensor's unit; the ground's motion as base_x, base_y, base_z in m/s2
+//   about.toml      what, when, units ("SI"), notes: texts; anything else may stand there
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -17,12 +18,13 @@
 
 namespace voussoir {
 
-/// An accelerometer as sensors.csv names it.
+/// An instrument as sensors.csv names it.
 struct MeasuredSensor {
   std::string id;
   Vec3 position = Vec3::Zero();   // m
   Vec3 direction = Vec3::Zero();  // unit
   int row = 0;                    // in sensors.csv
+  std::string unit = "m/s2";      // of its channels in files; recordings in memory are m/s2
 };
 
 /// What one sensor showed in a mode.
@@ -76,7 +78,10 @@ struct Measured {
 /// constant throughout (and recordings of which no channel is left). Everything else that is wrong or contradicts
 /// itself is an InputError "FILE:ROW: …" that says what was found, what is expected and what to do: among them two
 /// sensors at the same place along the same axis (also with opposite signs), recordings of fewer than 100 samples or
-/// with gaps, time steps that differ by more than 1e-6 s, and a folder of which nothing is left to use.
+/// with gaps, time steps that differ by more than 1e-6 s and fit no even grid within half of the last digit written,
+/// and a folder of which nothing is left to use.
+///
+/// Velocities and displacements become accelerations: their recordings lose 24 and 48 samples at either end.
 Measured read_measured(const std::string& directory);
 
 /// Writes a folder that read_measured() gives back bit for bit, but for `directory`, rows, what was set aside and

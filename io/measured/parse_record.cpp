@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "io/measured/parts.h"
+#include "io/measured/time_grid.h"
+#include "io/measured/units.h"
 
 namespace voussoir {
 
 namespace {
 
-constexpr double even = 1e-6;  // s, as for ground motion in io/records
+constexpr double even = 1e-6;      // s, as for ground motion in io/records
+constexpr int most_decimals = 17;  // that a number can have
 constexpr std::size_t fewest_samples = 100;
 constexpr double slow_sampling = 0.5;         // s; coarser steps show no mode of a masonry bridge
 constexpr double large_acceleration = 100.0;  // m/s2
@@ -19,6 +22,7 @@ constexpr double large_acceleration = 100.0;  // m/s2
 /// What a text of numbers holds, row by row.
 struct Samples {
   std::vector<double> times;  // s
+  int decimals = 0;           // that the times are written with, at most
   std::vector<int> rows;      // in the file
   Eigen::MatrixXd values;     // samples × channels
 };
@@ -50,10 +54,12 @@ Samples read_samples(CsvReader& csv, std::size_t time_column) {
       if (const NumberTrouble trouble = parse_number(cell, value); trouble != NumberTrouble::none)
         bad_cell(csv, trouble, cell, csv.columns()[i]);
       assert(sample < samples.values.rows());
-      if (i == time_column)
+      if (i == time_column) {
         samples.times.push_back(value);
-      else
+        samples.decimals = std::max(samples.decimals, decimals_of(cell).value_or(most_decimals));
+      } else {
         samples.values(sample, channel++) = value;
+      }
     }
     csv.end_row();
     samples.rows.push_back(csv.row());
@@ -86,9 +92,10 @@ void check_steps(const CsvReader& csv, const Samples& samples, double mean) {
   const double usual = median_step(t);
   const std::size_t against_usual = uneven_sample(t, usual), i = against_usual > 0 ? against_usual : against_mean;
   csv.fail(samples.rows[i],
-           fmt::format("time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s; write the times with "
-                       "more digits, or resample the recording or cut it at a gap",
-                       t[i] - t[i - 1], against_usual > 0 ? usual : mean, even));
+           fmt::format(
+               "time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s, or the times within half of "
+               "their last digit of even ones; resample the recording, or cut it at a gap",
+               t[i] - t[i - 1], against_usual > 0 ? usual : mean, even));
 }
 
 /// Steps that are equal one by one may still change in the course of a long recording.
@@ -111,6 +118,8 @@ double time_step(const CsvReader& csv, const Samples& samples) {
           samples.rows[i],
           fmt::format("time {} s after {} s: times must increase; remove repeated rows, sort them", t[i], t[i - 1]));
   const double steps = double(t.size() - 1), mean = (t.back() - t[0]) / steps;
+  if (uneven_sample(t, mean) > 0)
+    if (const auto step = grid_step(t, 0.5 * std::pow(10.0, -samples.decimals))) return *step;
   check_steps(csv, samples, mean);
   check_drift(csv, samples, mean);
   // The first step is not rounded twice: what write_measured() wrote is read bit for bit.
@@ -161,13 +170,37 @@ void drop_constant(Recording& record, const std::string& place, std::vector<SetA
   record.channels = channels;
 }
 
+/// Makes all channels accelerations in m/s2; what cannot be differentiated at the ends is cut off all of them.
+void convert_units(Recording& record, const std::vector<MeasuredSensor>& sensors) {
+  std::vector<const ChannelUnit*> units;
+  int most = 0;
+  for (const std::string& channel : record.channels) {
+    const auto sensor =
+        std::find_if(sensors.begin(), sensors.end(), [&](const MeasuredSensor& s) { return s.id == channel; });
+    units.push_back(find_unit(sensor == sensors.end() ? "m/s2" : sensor->unit));
+    most = std::max(most, units.back()->derivatives);
+  }
+  const Eigen::Index rows = std::max<Eigen::Index>(0, record.values.rows() - 2 * most * derivative_reach);
+  Eigen::MatrixXd values(rows, record.values.cols());
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const ChannelUnit& unit = *units[std::size_t(c)];
+    Eigen::VectorXd x = record.values.col(c);
+    for (int i = 0; i < unit.derivatives; ++i) x = differentiated(x, record.dt);
+    values.col(c) = x.segment((most - unit.derivatives) * derivative_reach, rows);
+    if (unit.factor != 1.0) values.col(c) *= unit.factor;
+  }
+  record.values = std::move(values);
+}
+
 void remark_units(const Recording& record, std::vector<std::string>& remarks) {
   if (record.dt > slow_sampling)
     remarks.push_back(
         fmt::format("{}: a sample every {:.4g} s shows no mode of a bridge: 't' must be in s", record.name, record.dt));
   if (const double peak = record.values.cwiseAbs().maxCoeff(); peak > large_acceleration)
-    remarks.push_back(
-        fmt::format("{}: accelerations up to {:.4g} look like another unit: they must be in m/s2", record.name, peak));
+    remarks.push_back(fmt::format(
+        "{}: accelerations up to {:.4g} look like another unit: they must be in m/s2, or a column 'unit' of "
+        "sensors.csv say what they are in",
+        record.name, peak));
 }
 
 }  // namespace
@@ -191,6 +224,12 @@ void parse_record(const TextFile& file, Measured& measured) {
   const std::string place = fmt::format("{}:{}", file.name, csv.heading_row());
   drop_constant(record, place, measured.set_aside);
   if (record.channels.empty()) return measured.set_aside.push_back({place, "no channel of the recording is left"});
+  convert_units(record, measured.sensors);
+  if (std::size_t(record.values.rows()) < fewest_samples)
+    csv.fail(std::max(csv.row(), 1),
+             fmt::format("{} samples are left once velocities and displacements are made accelerations, expected at "
+                         "least {}: give a longer recording",
+                         record.values.rows(), fewest_samples));
   remark_units(record, measured.remarks);
   measured.records.push_back(std::move(record));
 }

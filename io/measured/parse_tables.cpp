@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "io/case/case.h"
 #include "io/case/table_reader.h"
 #include "io/measured/parts.h"
+#include "io/measured/units.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -64,6 +66,13 @@ MeasuredSensor read_sensor(const CsvTable& table, std::size_t i) {
   sensor.position = {table.required_number(i, "x"), table.required_number(i, "y"), table.required_number(i, "z")};
   sensor.direction = read_direction(table, i);
   sensor.row = table.row(i);
+  if (const std::string& unit = table.text(i, "unit"); !unit.empty()) {
+    const ChannelUnit* known = find_unit(unit);
+    std::vector<std::string> names;
+    for (const ChannelUnit& u : channel_units()) names.push_back(u.name);
+    if (!known) table.fail(i, fmt::format("unit '{}'{}", shown(unit), short_suggestion(unit, names)));
+    sensor.unit = known->name;
+  }
   return sensor;
 }
 
@@ -181,10 +190,40 @@ void drop_empty_shape(MeasuredMode& mode, int row, const std::string& file, Meas
   mode.shape.clear();
 }
 
+/// A text, or a date as TOML writes dates.
+std::string when_of(const toml::table& root, TableReader& table) {
+  const toml::node* node = root.get("when");
+  std::ostringstream text;
+  if (node && node->is_date()) return text << *node->value<toml::date>(), text.str();
+  if (node && node->is_date_time()) return text << *node->value<toml::date_time>(), text.str();
+  return table.text("when", "");
+}
+
+/// People keep there what they like; only a misspelt key is worth a line of its own.
+void set_aside_strangers(const toml::table& root, const std::string& file, std::vector<SetAside>& set_aside) {
+  static const std::vector<std::string> known = {"what", "when", "units", "notes"};
+  std::vector<std::string> strange;
+  for (const auto& [key, node] : root) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (const std::string near = nearest_word(shown(name), known); !near.empty())
+      set_aside.push_back({fmt::format("{}:{}", file, key.source().begin.line),
+                           fmt::format("key '{}' is not read: did you mean '{}'?", shown(name), near)});
+    else
+      strange.push_back(shown(name));
+  }
+  constexpr std::size_t most = 20;
+  if (strange.empty()) return;
+  const std::size_t count = strange.size();
+  strange.resize(std::min(count, most));
+  set_aside.push_back({file, fmt::format("kept there and not read: {}{}", fmt::join(strange, ", "),
+                                         count > most ? fmt::format(" and {} more", count - most) : "")});
+}
+
 }  // namespace
 
 void parse_sensors(const TextFile& file, Measured& measured) {
-  const CsvTable table(file, {"id", "x", "y", "z", "direction"}, {});
+  const CsvTable table(file, {"id", "x", "y", "z", "direction"}, {"unit"});
   Rows<std::string> ids;
   Rows<std::array<double, 6>> places;
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -243,12 +282,14 @@ void parse_about(const TextFile& file, Measured& measured) {
   const toml::table root = parse_toml(file.text, file.path);
   TableReader table(root, file.path, "the file");
   measured.what = table.text("what", "");
-  measured.when = table.text("when", "");
+  measured.when = when_of(root, table);
   measured.notes = table.text("notes", "");
   if (const std::string units = table.text("units", "SI"); units != "SI")
     table.fail("units",
-               fmt::format("is \"{}\": expected \"SI\" (m, s, m/s2); convert the tables and recordings", shown(units)));
-  table.finish();
+               fmt::format("is \"{}\": expected \"SI\" (m, s, m/s2); convert the tables, and give recordings a column "
+                           "'unit' in sensors.csv",
+                           shown(units)));
+  set_aside_strangers(root, file.name, measured.set_aside);
 }
 
 }  // namespace voussoir

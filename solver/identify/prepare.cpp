@@ -176,6 +176,53 @@ Eigen::Index Prepared::samples() const {
   return n;
 }
 
+namespace {
+
+/// Of each channel the recordings without it.
+std::vector<std::pair<std::string, std::vector<std::string>>> absences(const std::vector<Recording>& recordings) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  for (const Recording& r : recordings)
+    for (const std::string& channel : r.channels)
+      if (std::none_of(all.begin(), all.end(), [&](const auto& known) { return known.first == channel; }))
+        all.push_back({channel, {}});
+  for (auto& [channel, absent] : all)
+    for (const Recording& r : recordings)
+      if (std::find(r.channels.begin(), r.channels.end(), channel) == r.channels.end()) absent.push_back(r.name);
+  return all;
+}
+
+}  // namespace
+
+ChannelCounts count_channels(const std::vector<Recording>& recordings) {
+  ChannelCounts counts;
+  for (const auto& [channel, absent] : absences(recordings)) {
+    if (is_base_channel(channel)) continue;
+    ++counts.all;
+    counts.common += absent.empty();
+  }
+  return counts;
+}
+
+std::vector<DroppedChannel> dropped_channels(const std::vector<Recording>& recordings) {
+  std::vector<DroppedChannel> dropped;
+  for (const auto& [channel, absent] : absences(recordings))
+    if (!absent.empty())
+      dropped.push_back(
+          {channel, fmt::format("it is not in {}{}", absent.front(),
+                                absent.size() > 1 ? fmt::format(" and {} more", absent.size() - 1) : "")});
+  return dropped;
+}
+
+void check_in_common(const std::vector<Recording>& recordings) {
+  const ChannelCounts counts = count_channels(recordings);
+  if (2 * counts.common >= counts.all) return;
+  const DroppedChannel first = dropped_channels(recordings).front();
+  throw InputError(
+      "only {} of {} channels are in all recordings ('{}': {}), and with the ground's motion recordings are taken "
+      "together: give recordings of the same sensors, or diagnose each setup by itself",
+      counts.common, counts.all, first.name, first.reason);
+}
+
 bool is_base_channel(const std::string& name) {
   return name == "base_x" || name == "base_y" || name == "base_z";
 }

@@ -27,6 +27,21 @@ bool is_base_channel(const std::string& name);
 /// dt not above zero or not the same in all, values that are not finite.
 void check_recordings(const std::vector<Recording>& recordings);
 
+/// Channels that any recording has, and that all have; the ground's motion is not counted.
+struct ChannelCounts {
+  std::size_t all = 0, common = 0;
+};
+ChannelCounts count_channels(const std::vector<Recording>& recordings);
+
+/// A channel that some recordings have and others not, so that it is left out where they are taken together.
+struct DroppedChannel {
+  std::string name, reason;  // "it is not in records/b.csv"
+};
+std::vector<DroppedChannel> dropped_channels(const std::vector<Recording>& recordings);
+
+/// Throws InputError when more than half of the channels are not in all recordings.
+void check_in_common(const std::vector<Recording>& recordings);
+
 /// Columns of `x` less their straight line of least squares.
 Eigen::MatrixXd detrended(const Eigen::MatrixXd& x);
 

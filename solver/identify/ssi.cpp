@@ -13,6 +13,7 @@
 #include "solver/identify/harmonic.h"
 #include "solver/identify/picking.h"
 #include "solver/identify/references.h"
+#include "solver/identify/setups.h"
 
 namespace voussoir {
 
@@ -29,6 +30,7 @@ constexpr double sure_hits = 0.6;        // share of the orders
 constexpr double sure_damping = 0.5;     // standard deviation of a damping over the damping
 constexpr double same_shape = 0.9;       // MAC
 constexpr double match_radius = 0.3;     // distance() of a replicate's pole
+constexpr double nearly_all = 0.75;      // share of the channels that recordings taken together have in common
 constexpr double largest_spread = 0.03;  // standard deviation of a frequency over the frequency
 
 /// All that the models of one set of recordings share.
@@ -64,6 +66,7 @@ void check(const SsiSettings& s) {
   within(s.cluster_radius, 0.0, 1.0, "cluster_radius");
   within(s.least_hits, 0.0, 1.0, "least_hits");
   within(s.least_mean_phase, 0.0, 1.0, "least_mean_phase");
+  within(s.least_damping, 0.0, 1.0, "least_damping");
   within(s.largest_damping, 0.0, 1.0, "largest_damping");
 }
 
@@ -232,15 +235,27 @@ IdentifiedMode mode_of(const Problem& p, const Pole& pole, int hits) {
   const Narrowband band =
       narrowband_kurtosis(p.prepared.signals, p.prepared.dt, mode.frequency, mode.damping, pole.shape);
   mode.kurtosis = band.kurtosis;
-  mode.harmonic = is_harmonic(band, mode.damping);
+  const Stops stops = fast_stops(p.prepared.signals, p.prepared.dt, mode.frequency, mode.damping, pole.shape);
+  mode.stops = stops.count;
+  mode.stopped = stops.share;
+  mode.intermittent = is_intermittent(stops);
+  mode.harmonic = mode.intermittent || is_harmonic(band, mode.damping);
   return mode;
 }
 
 /// Why it is not a mode of the structure, empty where it is.
 std::string doubt(const Problem& p, const IdentifiedMode& mode, const Spread& spread) {
   const int orders = p.settings.largest_order / 2;
+  if (mode.intermittent)
+    return fmt::format(
+        "a machine that runs now and then: it stops {} times faster than a structure with its damping of {:.2f} % "
+        "rings down, and loses {:.0f} % of its energy so",
+        mode.stops, 100.0 * mode.damping, 100.0 * mode.stopped);
   if (mode.harmonic)
     return fmt::format("a harmonic: the kurtosis about its frequency is {:.2f}, that of noise is 3", mode.kurtosis);
+  if (mode.damping > 0.0 && mode.damping < p.settings.least_damping)
+    return fmt::format("its damping of {:.3f} % is below {:g} %: a machine, for no masonry has so little",
+                       100.0 * mode.damping, 100.0 * p.settings.least_damping);
   if (!(mode.damping > 0.0 && mode.damping < p.settings.largest_damping))
     return fmt::format("its damping ratio is {:.4f}", mode.damping);
   if (mode.hits < p.settings.least_hits * orders)
@@ -326,7 +341,10 @@ double phase_collinearity(const Eigen::VectorXcd& shape) {
   return sum > 0.0 ? ((xx - yy) * (xx - yy) + 4.0 * xy * xy) / (sum * sum) : 0.0;
 }
 
-SsiResult identify_modes(const std::vector<Recording>& recordings, const SsiSettings& settings) {
+namespace {
+
+/// Of recordings taken together.
+SsiResult identify_together(const std::vector<Recording>& recordings, const SsiSettings& settings) {
   const Problem p = set_up(recordings, settings);
   SsiResult result = described(p);
   result.poles = diagram(p, p.subspace());
@@ -344,6 +362,18 @@ SsiResult identify_modes(const std::vector<Recording>& recordings, const SsiSett
   jackknife(p, candidates);
   sort_out(p, candidates, result);
   return result;
+}
+
+}  // namespace
+
+SsiResult identify_modes(const std::vector<Recording>& recordings, const SsiSettings& settings) {
+  check_recordings(recordings);
+  const ChannelCounts counts = count_channels(recordings);
+  if (double(counts.common) >= nearly_all * double(counts.all)) return identify_together(recordings, settings);
+  const std::vector<Setup> setups = setups_of(recordings);
+  std::vector<SsiResult> results;
+  for (const Setup& setup : setups) results.push_back(identify_together(setup.recordings, settings));
+  return merged(setups, results);
 }
 
 }  // namespace voussoir

@@ -18,6 +18,7 @@ struct SsiSettings {
   double cluster_radius = 0.05;       // distance() of poles that are one mode
   double least_hits = 0.25;           // share of the orders at which a mode must appear
   double least_mean_phase = 0.5;      // MPC
+  double least_damping = 0.001;       // of masonry 0.005 and more is known: what has less is a machine
   double largest_damping = 0.2;
 };
 
@@ -30,6 +31,9 @@ struct IdentifiedMode {
   int hits = 0;               // orders at which it appears
   double mean_phase = 0.0;    // modal phase collinearity (Pappa et al. 1993): 1 where all move in phase
   double kurtosis = 0.0;      // of the signal about its frequency: 3 of noise, 1.5 of a harmonic
+  int stops = 0;              // times that it stopped faster than its damping allows
+  double stopped = 0.0;       // share of the energy lost that went then
+  bool intermittent = false;  // a machine that runs now and then
   bool harmonic = false;      // a machine, no mode
 };
 
@@ -39,7 +43,8 @@ struct RejectedMode {
 };
 
 struct SsiResult {
-  std::vector<std::string> channels;    // those that all recordings have
+  std::vector<std::string> channels;    // those that all recordings have; of several setups, all
+  int setups = 1;                       // that the modes were put together from
   std::vector<PoorChannel> poor;        // left out
   std::vector<int> references;          // channels
   std::vector<IdentifiedMode> modes;    // ascending in frequency
@@ -52,6 +57,9 @@ struct SsiResult {
 
 /// Throws InputError as prepare() does, for settings out of their range, and for recordings too short for the lowest
 /// frequency. Single-threaded, and the same bits for the same input.
+///
+/// Recordings that have three quarters of all channels in common are taken together, by these channels. Others are
+/// setups: each is identified by itself and their modes are merged (setups.h).
 SsiResult identify_modes(const std::vector<Recording>& recordings, const SsiSettings& settings = {});
 
 /// Modal phase collinearity of a shape (Pappa, Elliott & Schenk 1993), NaN components left out.

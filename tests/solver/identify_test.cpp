@@ -12,47 +12,12 @@
 #include "solver/identify/fdd.h"
 #include "solver/identify/ssi.h"
 #include "solver/identify/transfer.h"
-#include "tests/solver/signals.h"
+#include "tests/solver/modal_models.h"
 
 namespace voussoir {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-struct ModalModel {
-  std::vector<double> frequency, damping;  // Hz, ratio
-  Eigen::MatrixXd shapes;                  // channels × modes
-};
-
-/// White forces at all channels, accelerations there, and noise of a share of their root mean square.
-Recording simulated(const ModalModel& model, double duration, double dt, std::uint64_t seed, double noise) {
-  const auto n = Eigen::Index(std::llround(duration / dt)), channels = model.shapes.rows();
-  Normal normal(seed);
-  std::vector<Oscillator> modes;
-  for (std::size_t m = 0; m < model.frequency.size(); ++m) modes.emplace_back(model.frequency[m], model.damping[m], dt);
-  Recording r = {.name = "simulated", .dt = dt, .channels = {}, .values = Eigen::MatrixXd(n, channels)};
-  for (Eigen::Index c = 0; c < channels; ++c) r.channels.push_back(fmt::format("s{}", c));
-  Eigen::VectorXd force(channels), acceleration(Eigen::Index(modes.size()));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (double& f : force) f = normal();
-    const Eigen::VectorXd modal = model.shapes.transpose() * force;
-    for (Eigen::Index m = 0; m < modal.size(); ++m) acceleration[m] = modes[std::size_t(m)].step(modal[m]);
-    r.values.row(i) = model.shapes * acceleration;
-  }
-  const double size = noise * std::sqrt(r.values.squaredNorm() / double(r.values.size()));
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index c = 0; c < channels; ++c) r.values(i, c) += size * normal();
-  return r;
-}
-
-/// Shapes of a simply supported beam.
-Eigen::MatrixXd sines(Eigen::Index channels, Eigen::Index modes) {
-  Eigen::MatrixXd shapes(channels, modes);
-  for (Eigen::Index c = 0; c < channels; ++c)
-    for (Eigen::Index m = 0; m < modes; ++m)
-      shapes(c, m) = std::sin(pi * double(m + 1) * double(c + 1) / double(channels + 1));
-  return shapes;
-}
 
 double likeness(const Eigen::VectorXcd& shape, const Eigen::VectorXd& known) {
   return assurance(shape, Eigen::VectorXcd(known.cast<std::complex<double>>()));

@@ -218,9 +218,7 @@ Settings read_settings(const std::string& path) {
   if (!root.has("campaign") && root.has("bridge"))
     throw InputError("{} is a case, not a campaign: run it with voussoir run, or name it in 'cases' of a campaign file",
                      path);
-  read_campaign(root, s);
-  read_engine(root, s);
-  read_limit_states(root, s);
+  for (const auto read : {read_campaign, read_engine, read_limit_states}) root.attempt([&] { read(root, s); });
   root.finish();
   check_names(root, s);
   return s;

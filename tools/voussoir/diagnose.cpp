@@ -63,8 +63,8 @@ int diagnose_case(const DiagnosisRequest& request) {
     if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
   };
   const DiagnosisInput input = diagnosis_input(request);
-  say(fmt::format("{} measured modes at {} sensors; model error {:.1f} % of frequencies, {:.1f} % of shapes",
-                  input.full.features.modes.size(), input.full.features.sensors.size(),
+  say(fmt::format("{} measured modes at {}; model error {:.1f} % of frequencies, {:.1f} % of shapes",
+                  input.full.features.modes.size(), sensors_used(input.full.features),
                   100.0 * input.coarse.error.frequency, 100.0 * input.coarse.error.shape));
   if (input.coarsened) say(fmt::format("effects are looked for with block_scale {:.2f}", input.block_scale));
   DiagnosisResult result;

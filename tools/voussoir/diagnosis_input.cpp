@@ -6,9 +6,11 @@
 #include <cmath>
 #include <complex>
 
+#include "io/case/remarks.h"
 #include "solver/base/error.h"
 #include "solver/identify/driven_modes.h"
 #include "solver/identify/fdd.h"
+#include "solver/identify/setups.h"
 #include "solver/identify/ssi.h"
 
 namespace voussoir {
@@ -50,21 +52,65 @@ MeasuredMode named_mode(const Measured& measured, double frequency, double frequ
   return mode;
 }
 
+/// Channels that are in some recordings only, where these are taken together.
+void set_aside_dropped(Measured& measured) {
+  for (const DroppedChannel& dropped : dropped_channels(measured.records))
+    measured.set_aside.push_back({fmt::format("channel {}", dropped.name), dropped.reason});
+}
+
+/// A shape over `from` as one over `to`, NaN where it is not known.
+Eigen::VectorXcd at_channels(const Eigen::VectorXcd& shape, const std::vector<std::string>& from,
+                             const std::vector<std::string>& to) {
+  Eigen::VectorXcd out = Eigen::VectorXcd::Constant(Eigen::Index(to.size()), {NAN, NAN});
+  for (std::size_t c = 0; c < to.size(); ++c)
+    if (const auto at = std::find(from.begin(), from.end(), to[c]); at != from.end())
+      out[Eigen::Index(c)] = shape[at - from.begin()];
+  return out;
+}
+
+/// The channels that all setups have, or words for none.
+std::string reference_words(const SsiResult& found) {
+  std::vector<std::string> names;
+  for (const int c : found.references) names.push_back(found.channels[std::size_t(c)]);
+  if (names.empty()) return "channels that some of them share";
+  return fmt::format("the references {}", fmt::join(names, ", "));
+}
+
+/// A case that expects next to no damping may find it.
+SsiSettings ssi_settings(const Case& c) {
+  SsiSettings settings;
+  const DampingSettings& damping = c.settings.damping;
+  if (damping.kind != DampingSettings::Kind::none && damping.ratio > 0.0)
+    settings.least_damping = std::min(settings.least_damping, 0.2 * damping.ratio);
+  return settings;
+}
+
 /// Modes under an unknown excitation.
 void identify_ambient(DiagnosisInput& input) {
   Measured& measured = input.measured;
-  input.ambient = std::make_shared<SsiResult>(identify_modes(measured.records));
-  input.spectra = std::make_shared<Fdd>(decompose_spectra(measured.records));
+  input.ambient = std::make_shared<SsiResult>(identify_modes(measured.records, ssi_settings(input.c)));
+  // Of several setups that of the most channels: a second look at frequencies.
+  const std::vector<Setup> setups = setups_of(measured.records);
+  const Setup& widest = *std::max_element(setups.begin(), setups.end(), [](const Setup& a, const Setup& b) {
+    return a.recordings.front().channels.size() < b.recordings.front().channels.size();
+  });
+  input.spectra =
+      std::make_shared<Fdd>(decompose_spectra(input.ambient->setups > 1 ? widest.recordings : measured.records));
   const SsiResult& found = *input.ambient;
   const Fdd& spectra = *input.spectra;
   for (const PoorChannel& poor : found.poor)
     measured.set_aside.push_back({fmt::format("channel {}", found.channels[std::size_t(poor.channel)]), poor.reason});
   for (const RejectedMode& aside : found.set_aside)
     measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+  if (found.setups > 1)
+    measured.remarks.push_back(
+        fmt::format("{} setups, whose shapes are put together by {}", found.setups, reference_words(found)));
+  else
+    set_aside_dropped(measured);
   for (const IdentifiedMode& m : found.modes) {
     MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
     add_shape(found.channels, turned(m.shape), m.shape_std, measured.sensors, mode);
-    const FddPeak peak = peak_near(spectra, m.frequency, m.shape);
+    const FddPeak peak = peak_near(spectra, m.frequency, at_channels(m.shape, found.channels, spectra.channels));
     measured.remarks.push_back(fmt::format(
         "mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, m.frequency,
         m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, m.hits,
@@ -115,14 +161,23 @@ void identify_driven(Measured& measured, const TransferSettings& settings) {
       "these modes explain {:.0f} % of the transfer functions from the ground's motion", 100.0 * found.explained));
 }
 
+bool names_ground(const std::vector<Recording>& recordings) {
+  return std::any_of(recordings.begin(), recordings.end(), [](const Recording& r) {
+    return std::any_of(r.channels.begin(), r.channels.end(), is_base_channel);
+  });
+}
+
 /// Modes from the recordings, where none are given.
 void identify(DiagnosisInput& input, const Assembly& assembly, int most) {
   Measured& measured = input.measured;
   if (!measured.modes.empty() || measured.records.empty()) return;
-  if (has_base_motion(measured.records))
+  if (names_ground(measured.records) && has_base_motion(measured.records)) {
+    check_in_common(measured.records);
+    set_aside_dropped(measured);
     identify_driven(measured, transfer_settings(input, assembly, most));
-  else
+  } else {
     identify_ambient(input);
+  }
   if (int(measured.modes.size()) > most) {
     for (std::size_t m = std::size_t(most); m < measured.modes.size(); ++m)
       measured.set_aside.push_back({fmt::format("mode {}", measured.modes[m].name),
@@ -245,12 +300,22 @@ Features features_of(const Measured& measured, const Assembly& assembly) {
   return features;
 }
 
+std::string sensors_used(const Features& features) {
+  std::vector<bool> used(features.sensors.size());
+  for (const MeasuredFeature& mode : features.modes)
+    for (Eigen::Index s = 0; s < mode.shape.size(); ++s)
+      if (std::isfinite(mode.shape[s])) used[std::size_t(s)] = true;
+  const auto count = std::size_t(std::count(used.begin(), used.end(), true)), all = used.size();
+  return count == all ? fmt::format("{} sensors", all) : fmt::format("{} of {} sensors", count, all);
+}
+
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   DiagnosisInput input;
   input.c = read_case(request.case_file, CaseUse::geometry);
   input.measured = read_measured(request.measured);
   input.without = request.settings.without;
   Assembly own = make_assembly(input.c);
+  for (std::string& text : remarks(input.c, own)) input.measured.remarks.push_back(std::move(text));
   if (can_remesh(input.c)) input.block_scale = input.c.generator_input.values.at("block_scale");
   Assembly coarse = own;
   while (can_remesh(input.c) && unknowns_of(coarse) > request.unknowns) {

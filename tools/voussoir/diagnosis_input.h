@@ -35,6 +35,9 @@ struct DiagnosisInput {
 /// Reads both and measures what the mesh does. Throws InputError.
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request);
 
+/// "20 sensors", or "3 of 20 sensors" when the shapes of all modes know no others.
+std::string sensors_used(const Features& features);
+
 /// With usual standard deviations where none are given.
 MeasuredFeature feature_of(const MeasuredMode& mode, std::size_t sensors);
 /// Given modes, else those identified from the recordings. Sensors are on their blocks.

@@ -122,9 +122,8 @@ std::string facts(const DiagnosisInput& input, const DiagnosisResult& result) {
   fact("folder", m.directory);
   const auto held = std::size_t(
       std::count_if(result.modes.begin(), result.modes.end(), [](const auto& mode) { return mode.held_back; }));
-  fact("data",
-       fmt::format("{} at {}{}", count_text(result.modes.size(), "mode"), count_text(m.sensors.size(), "sensor"),
-                   held ? fmt::format("; {} held back, to be predicted", held) : std::string()));
+  fact("data", fmt::format("{} at {}{}", count_text(result.modes.size(), "mode"), sensors_used(input.full.features),
+                           held ? fmt::format("; {} held back, to be predicted", held) : std::string()));
   return text + "</dl>\n";
 }
 

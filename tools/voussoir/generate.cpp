@@ -9,11 +9,13 @@
 #include "geometry/joint_counts.h"
 #include "geometry/joints.h"
 #include "io/case/case.h"
+#include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 #include "tools/voussoir/options.h"
+#include "tools/voussoir/say_remarks.h"
 
 namespace voussoir {
 
@@ -100,6 +102,7 @@ int generate(const std::vector<std::string>& arguments) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string to =
       values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";
+  say_remarks(remarks(c, assembly), values.count("quiet") > 0);
   write_assembly(to, assembly);
   if (values.count("quiet")) return 0;
   print_assembly_table(assembly, fill_aim(c));

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/h5.h"
@@ -15,6 +16,7 @@
 #include "tools/voussoir/modal_report.h"
 #include "tools/voussoir/modal_source.h"
 #include "tools/voussoir/options.h"
+#include "tools/voussoir/say_remarks.h"
 #include "viz/mode_picture.h"
 #include "viz/scene.h"
 #include "viz/view.h"
@@ -199,7 +201,10 @@ int analyse(const ModalRequest& request) {
   if (!request.quiet) fmt::print(stderr, "reading {}\n", request.from);
   const ModalSource source =
       modal_source(request.from, request.settings, request.as_stored, request.threads, request.quiet);
+  const std::vector<std::string> noticed = remarks(source.c, source.assembly);
+  say_remarks(noticed, request.quiet);
   Findings f = find(source);
+  f.json["remarks"] = noticed;
   if (against) {
     const Pairing pairing = pair_modes(f.file, *against);
     f.text += fmt::format("\nagainst {} ({})\n{}", request.against, against->about,

@@ -8,6 +8,7 @@
 #include "tools/voussoir/options.h"
 #include "tools/voussoir/run_directory.h"
 #include "tools/voussoir/run_session.h"
+#include "tools/voussoir/say_remarks.h"
 
 namespace voussoir {
 
@@ -53,7 +54,7 @@ int run(const std::vector<std::string>& arguments) {
   const Case c = read_case(file);
   if (!wanted.quiet && c.generator.empty() && !states_joints(c.assembly_file))
     fmt::print(stderr, "{} states no joints: they are found where faces meet\n", c.assembly_file);
-  const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0);
+  const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0, remarks_to(wanted.quiet));
   return RunSession(wanted).run();
 }
 

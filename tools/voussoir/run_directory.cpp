@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
@@ -28,7 +29,8 @@ void check_plots(const Case& c, const std::vector<Channel>& channels) {
 
 }  // namespace
 
-DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite) {
+DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite,
+                                const std::function<void(const std::string&)>& remark) {
   std::error_code failed;  // a name that cannot be looked up names no run
   if (fs::exists(directory + "/case.toml", failed) && !overwrite)
     throw InputError(
@@ -37,6 +39,8 @@ DirectoryLock prepare_directory(const Case& c, const std::string& directory, boo
         directory, directory);
   // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
   const Assembly assembly = make_assembly(c);
+  if (remark)
+    for (const std::string& text : remarks(c, assembly)) remark(text);
   try {
     Simulation run(assembly, c.settings, 1, {});
     run.check();

@@ -105,6 +105,13 @@ Cell millimetres(double metres) {
   return {std::isfinite(metres) ? fmt::format("{:.2f}", 1e3 * metres) : "none", true};
 }
 
+/// Values that were probably meant in another unit.
+std::string remarks_section(const RunFiles& run) {
+  const nlohmann::json remarks = run.summary.value("remarks", nlohmann::json::array());
+  if (remarks.empty()) return "";
+  return heading("Remarks on the case") + list(remarks.get<std::vector<std::string>>());
+}
+
 std::string damage_section(const RunFiles& run) {
   const nlohmann::json damage = run.summary.value("damage", nlohmann::json::object());
   if (damage.empty()) return "";
@@ -261,8 +268,8 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
 
 void write_run_page(const std::string& directory) {
   const RunFiles run = run_files(directory);
-  const std::string body = verdict(run) + facts(run) + damage_section(run) + demand_section(run) +
-                           pictures_section(pictures_of(run)) + histories_section(run);
+  const std::string body = verdict(run) + facts(run) + remarks_section(run) + damage_section(run) +
+                           demand_section(run) + pictures_section(pictures_of(run)) + histories_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/joint_counts.h"
+#include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
@@ -223,6 +224,7 @@ void RunSession::write_summary(RunEnd end) {
                            {"newton_iterations", e.iterations},
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}}};
+  json["remarks"] = remarks(case_, assembly_);
   if (fallen_) json["fallen"] = {{"time", run.state().time()}, {"share_of_mass", fallen_share()}};
   const RunCosts& costs = run.costs();
   json["seconds_of_this_part"] = {
