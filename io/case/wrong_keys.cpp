@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/base/shown.h"
 #include "solver/base/suggestion.h"
 
 namespace voussoir {
@@ -30,7 +31,7 @@ void WrongKeys::add(const std::string& where, int line, const std::string& key, 
   std::vector<std::string> names;
   for (const KnownKey& k : known) names.push_back(k.name);
   const std::string near = nearest_word(key, names);
-  Key wrong{line, fmt::format("{}unknown key '{}' in {}", where, key, place), {}, {}};
+  Key wrong{line, fmt::format("{}unknown key '{}' in {}", where, shown(key), place), {}, {}};
   if (near.empty()) {
     wrong.text += ": no key there has a name like it";
     wrong.place = place;
