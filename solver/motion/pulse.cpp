@@ -48,12 +48,13 @@ GroundMotion make_pulse(const PulseSettings& pulse) {
   const double length = pulse_length(pulse), frequency = pulse_frequency(pulse);
   // 400 points a wave keep linear interpolation within 2e-5 of the sine.
   const double finest = frequency > 0.0 ? std::min(length / 1000.0, 1.0 / (400.0 * frequency)) : length / 1000.0;
+  // In doubles first: what is asked for may be more than any whole number holds.
+  if (!((pulse.start + length) / finest < 5e7))
+    throw InputError("pulse of {} s at {} Hz starting at {} s needs more than 50 million samples: shorten it", length,
+                     frequency, pulse.start);
   const auto cells = std::int64_t(std::ceil(length / finest - 1e-9));
   const double dt = length / double(cells);
   const auto first = std::int64_t(std::llround(pulse.start / dt));
-  if (first + cells > 50'000'000)
-    throw InputError("pulse of {} s at {} Hz starting at {} s needs more than 50 million samples: shorten it", length,
-                     frequency, pulse.start);
 
   GroundMotion motion;
   motion.dt = dt;
