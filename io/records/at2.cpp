@@ -33,7 +33,7 @@ std::pair<double, double> size_and_step(const std::string& line, const std::stri
   }
   if (numbers.size() < 2)
     throw InputError("{}:{}: '{}' names no number of samples and step (s), expected as in 'NPTS= 4000, DT= .0050 SEC'",
-                     name, heading, trimmed(line));
+                     name, heading, shown(line));
   return {double(checked_samples(numbers[0], name, heading)), checked_step(numbers[1], name, heading)};
 }
 
@@ -42,9 +42,9 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
   const std::string quantity = upper(lines[2]);
   if (quantity.find("VELOCITY") != std::string::npos || quantity.find("DISPLACEMENT") != std::string::npos)
     throw InputError("{}:3: '{}': velocities and displacements (VT2, DT2) are not needed beside the accelerations",
-                     name, trimmed(lines[2]));
+                     name, shown(lines[2]));
   if (quantity.find("ACCELERATION") == std::string::npos || quantity.find(" G") == std::string::npos)
-    throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, trimmed(lines[2]));
+    throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, shown(lines[2]));
   const auto [samples, step] = size_and_step(upper(lines[heading - 1]), name);
   RecordFile file;
   file.record.dt = dt > 0.0 ? dt : step;

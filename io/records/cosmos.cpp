@@ -106,7 +106,7 @@ std::vector<RecordFile> read(const std::string& text, const std::string& name, d
   const std::vector<std::string_view> lines = lines_of(text);
   if (lines.size() < 5) throw InputError("{}: {} lines: the file is not whole; fetch it again", name, lines.size());
   if (upper(lines[0]).find("ACCELERATION") == std::string::npos)
-    throw InputError("{}:1: '{}': take the file of accelerations", name, trimmed(lines[0]).substr(0, 60));
+    throw InputError("{}:1: '{}': take the file of accelerations", name, shown(lines[0]));
   std::vector<RecordFile> channels;
   for (std::size_t at = 0; at < lines.size();) {
     channels.push_back(channel_of(lines, at, name));

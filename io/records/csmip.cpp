@@ -57,7 +57,7 @@ Announced announced_in(std::string_view text, const std::string& name, std::size
   const std::string_view before = trimmed(std::string_view(line).substr(0, at)),
                          rest = trimmed(std::string_view(line).substr(at + mark.size()));
   if (!has_any(line, {"CM/SEC/SEC", "CM/SEC2", "CM/SEC^2", "CM/SEC**2", "CM/S/S", "CM/S2", "CM/S^2", "GAL"}))
-    throw InputError("{}:{}: '{}': {}", name, row, trimmed(text), rule);
+    throw InputError("{}:{}: '{}': {}", name, row, shown(text), rule);
   Announced found;
   found.samples = checked_samples(number_in(before, name, row, rule), name, row);
   found.step = checked_step(number_in(rest.substr(0, rest.find(' ')), name, row, rule), name, row);

@@ -50,9 +50,9 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
   const std::string type = text_of(header, "DATA_TYPE"), units = text_of(header, "UNITS");
   const std::string kind = upper(type);
   if (kind.find("ACCELERATION") == std::string::npos || kind.find("SPECTR") != std::string::npos)
-    throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, type);
+    throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, shown(type));
   if (const std::string unit = upper(units); unit != "CM/S^2" && unit != "CM/S2" && unit != "GAL")
-    throw InputError("{}: UNITS is '{}', expected cm/s^2", name, units);
+    throw InputError("{}: UNITS is '{}', expected cm/s^2", name, shown(units));
   const double step = number_of(header, "SAMPLING_INTERVAL_S", name), samples = number_of(header, "NDATA", name);
   checked_step(step, name, header.values.find("SAMPLING_INTERVAL_S")->second.second);
   checked_samples(samples, name, header.values.find("NDATA")->second.second);

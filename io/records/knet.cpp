@@ -52,7 +52,7 @@ double scale_of(const Heading& heading, const std::string& name) {
   const double above = first_number(text),
                below = slash == std::string::npos ? 0.0 : first_number(std::string_view(text).substr(slash + 1));
   if (!(above > 0.0 && above <= 1e6 && below >= 1.0 && below <= 1e12))
-    throw InputError("{}:{}: scale factor '{}': expected as in '3920(gal)/6182761'", name, line, text);
+    throw InputError("{}:{}: scale factor '{}': expected as in '3920(gal)/6182761'", name, line, shown(text));
   return above / below;
 }
 

@@ -49,6 +49,10 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
+std::string_view shown(std::string_view text) {
+  return trimmed(text).substr(0, 100);
+}
+
 std::string upper(std::string_view text) {
   std::string word(text);
   for (char& c : word) c = char(std::toupper(static_cast<unsigned char>(c)));

@@ -27,7 +27,7 @@ std::string direction_of(double from_vertical, double azimuth) {
 RecordFile read(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   if (const std::string first = upper(trimmed(lines[0])); first.find("ACCELEROGRAM") == std::string::npos)
-    throw InputError("{}:1: '{}': take the file of accelerations", name, trimmed(lines[0]));
+    throw InputError("{}:1: '{}': take the file of accelerations", name, shown(lines[0]));
   if (lines.size() < text_lines + whole_lines + number_lines)
     throw InputError("{}: {} lines, but the heading of SMC has {}: the file is not whole; fetch it again", name,
                      lines.size(), text_lines + whole_lines + number_lines);

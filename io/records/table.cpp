@@ -175,7 +175,7 @@ double column_unit(const std::string& name) {
   const auto found = known.find(plain);
   if (found == known.end())
     throw InputError("the unit in '{}' is not known: expected m/s2, cm/s2, mm/s2, gal, g or mg, of times s or ms",
-                     name);
+                     shown(name));
   return found->second;
 }
 
@@ -247,7 +247,7 @@ std::vector<RecordFile> read(const std::string& text, const std::string& name, d
       throw InputError(
           "{}:{}: column '{}' is no acceleration: name the columns with 'columns', \"\" for one that is "
           "passed over",
-          name, table.first_row - 1, column);
+          name, table.first_row - 1, shown(column));
   }
   return channels_of(table, roles, name, dt);
 }

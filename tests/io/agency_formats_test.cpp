@@ -261,6 +261,13 @@ TEST(AgencyFormats, WhatIsNotReadIsNamed) {
   EXPECT_TRUE(says(fault("UNCORRECTED ACCELEROGRAM DATA\n1 2\n"), "CSMIP volume 1"));
   const std::string message = fault("My own words\nand more of them\n1 2\n2 3\n");
   EXPECT_TRUE(says(message, "r:1: no format that is read: it begins 'My own words'")) << message;
+  // A line without an end is not echoed whole, and no name is as long.
+  const std::string endless(200000, 'a');
+  for (const std::string& text :
+       {"time, EW (" + endless + ")\n0 1\n0.1 2\n", endless + "\n1 2\n",
+        "time, EW, vel_" + endless + "\n0 1 2\n1 2 3\n", "7 POINTS OF ACCEL DATA EQUALLY SPACED AT .01 SEC " + endless})
+    EXPECT_LT(fault(text).size(), 800u);
+  EXPECT_LE(parse_record(knet_text(0, "E-W", "ABC001", endless.substr(0, 500)), "r").station.size(), 100u);
   EXPECT_TRUE(says(message, "K-NET") && says(message, "time (s), EW (g)")) << message;
 }
 
