@@ -13,7 +13,8 @@ void read_surface(const std::string& bytes) {
     const Surface surface = kind == 0   ? parse_obj(file, "stone.obj")
                             : kind == 1 ? parse_stl(file, "stone.stl")
                                         : parse_ply(file, "stone.ply");
-    split_shells(surface, "stone");
+    std::vector<std::string> notes;
+    split_shells(surface, "stone", notes);
   });
 }
 
