@@ -106,6 +106,33 @@ TEST(ImportErrors, FilesThatHoldNothing) {
   expect_error(import(folder, "stones.obj", {"--kn", "1e9"}), 2, {"kn", "ks"});
 }
 
+TEST(ImportErrors, OptionsThatSayNothing) {
+  Folder folder;
+  folder.write("stones.obj", lower + cube("upper", 0, 0, 1, 9));
+  expect_error(import(folder, "stones.obj", {"--up", "w"}), 2, {"--up is 'w'", "-x, -y or -z"});
+  expect_error(import(folder, "stones.obj", {"--cells", "some"}), 2, {"--cells is 'some'", "objects or names"});
+  for (const char* share : {"-1", "0.2", "nan"})
+    expect_error(import(folder, "stones.obj", {"--flatten", share}), 2, {"--flatten", "0 to 0.1"});
+  expect_error(import(folder, "stones.obj", {"--materials", "none.toml"}), 2, {"none.toml"});
+}
+
+/// Joints are counted where a run begins, and those of an assembly file are found anew by import.
+TEST(ImportErrors, JointsAreCountedFromImportToRun) {
+  Folder folder;
+  folder.write("stones.obj", lower + cube("upper", 0, 0, 1, 9));
+  const Outcome outcome = import(folder, "stones.obj", {"--cohesion", "1e5"});
+  EXPECT_NE(outcome.out.find("1 joints: 1 bonded, 0 dry"), std::string::npos) << outcome.out;
+  const Outcome again = voussoir({"import", "out.h5", "-o", "dry.h5", "--cohesion", "0"}, {.folder = folder.path()});
+  EXPECT_NE(again.out.find("1 joints: 0 bonded, 1 dry"), std::string::npos) << again.out << again.err;
+  const Outcome generated = voussoir({"generate", "dry.h5", "-o", "same.h5"}, {.folder = folder.path()});
+  EXPECT_NE(generated.out.find("its joints are as the file states them"), std::string::npos) << generated.err;
+  folder.write("case.toml", "[bridge]\nassembly = \"out.h5\"\n\n[[stage]]\nkind = \"gravity\"\n");
+  const Outcome run = voussoir({"run", "case.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("2 blocks; 1 joints: 1 bonded, 0 dry"), std::string::npos) << run.err;
+  EXPECT_EQ(summary(folder / "run")["joint_kinds"], nlohmann::json::parse(R"({"bonded":1,"dry":0,"ties":0,"fill":0})"));
+}
+
 TEST(ImportErrors, GarbageOfEveryKind) {
   Folder folder;
   std::mt19937 random(5);
