@@ -77,6 +77,13 @@ auto read(const std::string& path, const char* kind) {
 
 }  // namespace
 
+Packing packing_of(const std::string& word) {
+  if (word == "lz4") return Packing::lz4;
+  if (word == "zlib") return Packing::zlib_fast;
+  if (word == "none") return Packing::none;
+  throw InputError("--compression is '{}'; it must be lz4, zlib or none", word);
+}
+
 void write_vtu(vtkUnstructuredGrid* grid, const std::string& path, Packing packing) {
   write<vtkXMLUnstructuredGridWriter>(grid, path, packing);
 }

@@ -6,12 +6,9 @@
 
 #include <string>
 
-namespace voussoir {
+#include "io/vtk/packing.h"
 
-/// How the numbers are packed; VTK 8.1 and ParaView 5.5 or later read all of them. What each costs:
-/// docs/performance.md.
-enum class Packing { none, lz4, zlib_fast, zlib };
-constexpr Packing usual_packing = Packing::lz4;
+namespace voussoir {
 
 /// Throw RunError naming the path when the file cannot be written.
 void write_vtu(vtkUnstructuredGrid* grid, const std::string& path, Packing packing = usual_packing);

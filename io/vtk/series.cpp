@@ -98,10 +98,11 @@ void PvdSeries::write() const {
   write_atomically(path_, text);
 }
 
-VtkSeries::VtkSeries(const std::string& run_directory)
+VtkSeries::VtkSeries(const std::string& run_directory, Packing packing)
     : blocks_((fs::path(run_directory) / "vtk" / "blocks.pvd").string()),
       joints_((fs::path(run_directory) / "vtk" / "joints.pvd").string()),
-      fill_((fs::path(run_directory) / "vtk" / "fill.pvd").string()) {}
+      fill_((fs::path(run_directory) / "vtk" / "fill.pvd").string()),
+      packing_(packing) {}
 
 void VtkSeries::keep_first(std::size_t count) {
   blocks_.keep_first(count);
@@ -125,12 +126,13 @@ void VtkSeries::write(const Assembly& assembly, const Snapshot& snapshot, int th
   const auto name = [&](const char* of, const char* kind) {
     return fmt::format("{}_{:010.3f}{}.{}", of, snapshot.time, suffix, kind);
   };
-  std::vector<Part> parts = {
-      {&joints_, name("joints", "vtp"), [&](const auto& path) { write_vtp(joint_polydata(assembly, snapshot), path); }},
-      {&blocks_, name("blocks", "vtu"), [&](const auto& path) { write_vtu(block_grid(assembly, snapshot), path); }}};
+  std::vector<Part> parts = {{&joints_, name("joints", "vtp"),
+                              [&](const auto& path) { write_vtp(joint_polydata(assembly, snapshot), path, packing_); }},
+                             {&blocks_, name("blocks", "vtu"),
+                              [&](const auto& path) { write_vtu(block_grid(assembly, snapshot), path, packing_); }}};
   if (!snapshot.fill.empty())
-    parts.push_back(
-        {&fill_, name("fill", "vtu"), [&](const auto& path) { write_vtu(fill_grid(assembly, snapshot), path); }});
+    parts.push_back({&fill_, name("fill", "vtu"),
+                     [&](const auto& path) { write_vtu(fill_grid(assembly, snapshot), path, packing_); }});
   const fs::path folder = fs::path(blocks_.path()).parent_path();
   for_each(parts.size(), threads, 1, [&](std::size_t i) { parts[i].write((folder / parts[i].file).string()); });
   for (const Part& part : parts) part.series->add(snapshot.time, part.file);

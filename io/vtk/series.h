@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/assembly.h"
+#include "io/vtk/packing.h"
 #include "solver/step/snapshot.h"
 
 namespace voussoir {
@@ -42,7 +43,7 @@ class PvdSeries {
 /// The series of a run directory. The first frame of a fresh run and the first after a resume go the same way.
 class VtkSeries {
  public:
-  explicit VtkSeries(const std::string& run_directory);
+  explicit VtkSeries(const std::string& run_directory, Packing packing = usual_packing);
   /// Forgets all frames but the first `count`.
   void keep_first(std::size_t count);
   /// Writes vtk/blocks_000012.500.vtu, vtk/joints_000012.500.vtp and, with a fill, vtk/fill_000012.500.vtu, each in a
@@ -56,6 +57,7 @@ class VtkSeries {
 
  private:
   PvdSeries blocks_, joints_, fill_;
+  Packing packing_;
 };
 
 }  // namespace voussoir

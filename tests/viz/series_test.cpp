@@ -101,6 +101,19 @@ TEST(VtkSeries, ThreadsWriteTheSameBytes) {
         << file.path();
 }
 
+/// meshio, among others, reads zlib but not LZ4.
+TEST(VtkSeries, IsPackedAsAsked) {
+  const Assembly assembly = test::two_cubes();
+  for (const auto& [word, mark] : {std::pair{"lz4", "vtkLZ4DataCompressor"}, {"zlib", "vtkZLibDataCompressor"}}) {
+    const Folder folder;
+    VtkSeries series(folder.str(), packing_of(word));
+    series.write(assembly, rest_snapshot(assembly));
+    for (const PvdSeries* part : {&series.blocks(), &series.joints()})
+      EXPECT_NE(test::read_text(part->file_at(0.0)).find(mark), std::string::npos) << word;
+  }
+  EXPECT_NE(message_of<InputError>([&] { packing_of("zip"); }).find("lz4, zlib or none"), std::string::npos);
+}
+
 TEST(VtkSeries, AFileThatCannotBeWrittenIsNamed) {
   const Folder folder;
   const Assembly assembly = test::two_cubes();

@@ -8,6 +8,7 @@ namespace voussoir::fuzz {
 void read_record(const std::string& bytes) {
   answer([&] { parse_record(bytes, "record.txt"); });
   answer([&] { parse_record(bytes, "record.txt", 0.01); });
+  answer([&] { parse_channels(bytes, "record.txt"); });
   answer([&] { parse_curve(bytes, "curve.txt"); });
 }
 

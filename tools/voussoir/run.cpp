@@ -22,6 +22,7 @@ RunRequest request(const options::variables_map& values, const std::string& dire
   r.threads = threads_asked(values);
   r.quiet = values.count("quiet") > 0;
   r.pictures = values.count("no-pictures") == 0;
+  r.packing = packing_of(values["compression"].as<std::string>());
   if (values.count("until")) r.until = values["until"].as<double>();
   return r;
 }
@@ -29,7 +30,9 @@ RunRequest request(const options::variables_map& values, const std::string& dire
 void add_run_options(CommandLine& line) {
   line.described.add_options()("until", real_option("until", 0.0, 1e9)->value_name("T"),
                                "stop at this simulated time (s), with a checkpoint")(
-      "no-pictures", "leave out the pictures at the end");
+      "no-pictures", "leave out the pictures at the end")(
+      "compression", options::value<std::string>()->value_name("WORD")->default_value("lz4"),
+      "of the files for ParaView: lz4; zlib, which meshio reads, too (slower, smaller); none");
 }
 
 /// Said before the first second is over: large cases take longer to build.

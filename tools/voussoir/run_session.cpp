@@ -46,7 +46,7 @@ RunSession::RunSession(const RunRequest& request)
       assembly_(read_assembly(request.directory + "/assembly.h5")),
       assembly_hash_(assembly_hash(assembly_)),
       progress_(request.quiet),
-      vtk_(request.directory) {
+      vtk_(request.directory, request.packing) {
   simulation_ = std::make_unique<Simulation>(assembly_, case_.settings, request.threads, observers());
   history_ = History(path("history.h5"), history_channels(assembly_, simulation_->held_groups()));
 }

@@ -17,10 +17,11 @@ struct RunRequest {
   int threads = 1;
   bool quiet = false;
   bool pictures = true;
-  double until = -1.0;             // s of simulated time; negative: to the end
-  double time_limit = 0.0;         // s of wall time after which it stops with a checkpoint; 0: none
-  double fall_displacement = 0.0;  // m; the run ends once more than …
-  double fall_share = 0.0;         // … of the mass that can move has gone that far; 0: never
+  Packing packing = usual_packing;  // of the files for ParaView
+  double until = -1.0;              // s of simulated time; negative: to the end
+  double time_limit = 0.0;          // s of wall time after which it stops with a checkpoint; 0: none
+  double fall_displacement = 0.0;   // m; the run ends once more than …
+  double fall_share = 0.0;          // … of the mass that can move has gone that far; 0: never
 };
 
 enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };  // late: past its time limit
