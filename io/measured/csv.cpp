@@ -13,7 +13,7 @@ namespace voussoir {
 namespace {
 
 constexpr std::string_view blanks = " \t";
-constexpr std::size_t most_listed = 20;    // words
+constexpr std::size_t most_listed = 20;  // words
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blanks);
