@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "solver/base/error.h"
+#include "solver/modal/motion_watch.h"
 
 namespace voussoir {
 
@@ -49,39 +50,6 @@ Vec3 place_on(const Patch& patch, double s, double t) {
 
 }  // namespace
 
-std::string edge_name(const Assembly& assembly, const MechanismJoint& joint) {
-  const Block &a = assembly.blocks[std::size_t(joint.a)], &b = assembly.blocks[std::size_t(joint.b)];
-  if (joint.slides || (a.component != Component::arch && b.component != Component::arch)) return {};
-  const std::int32_t part = a.component == Component::arch ? a.part : b.part;
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  for (const Block& block : assembly.blocks)
-    if (block.component == Component::arch && block.part == part)
-      low = low.cwiseMin(block.centroid), high = high.cwiseMax(block.centroid);
-  const Vec3 feet(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z());
-  const Vec3 out = Vec3(1, 0, 1).cwiseProduct(joint.centre - feet);
-  return (joint.place - joint.centre).dot(out) > 0.0 ? "extrados" : "intrados";
-}
-
-/// To the millimetre, and never −0.
-double rounded(double x) {
-  return std::round(1e3 * x) / 1e3 + 0.0;
-}
-
-std::string mechanism_text(const Assembly& assembly, const std::vector<MechanismJoint>& mechanism) {
-  if (mechanism.empty()) return "no mechanism: no joint moves";
-  std::size_t slides = 0;
-  for (const MechanismJoint& joint : mechanism) slides += joint.slides;
-  std::string text = fmt::format("mechanism: {} joints hinge, {} slide", mechanism.size() - slides, slides);
-  if (mechanism.size() > 12) return text;
-  for (const MechanismJoint& joint : mechanism) {
-    const std::string edge = edge_name(assembly, joint);
-    text += fmt::format("\n  blocks {} and {} {} at ({:.3f}, {:.3f}, {:.3f}) m{}", joint.a, joint.b,
-                        joint.slides ? "slide" : "hinge", rounded(joint.place.x()), rounded(joint.place.y()),
-                        rounded(joint.place.z()), edge.empty() ? "" : ", " + edge);
-  }
-  return text;
-}
-
 std::vector<MechanismJoint> find_mechanism(const Model& model, const State& before, const State& after) {
   struct Found {
     const Patch* patch;
@@ -117,15 +85,109 @@ std::vector<MechanismJoint> find_mechanism(const Model& model, const State& befo
   return mechanism;
 }
 
+namespace {
+
+/// Of each body whether the pattern's forces act on it; empty where the pattern acts on all.
+std::vector<char> bodies_loaded(const Model& model, const LoadsAtWork& none, const LoadsAtWork& full) {
+  if (none.acceleration_to != full.acceleration_to || full.points.empty()) return {};
+  std::vector<char> loaded(model.bodies.size(), 0);
+  for (const PointLoad& p : full.points)
+    if (!p.to.isZero(0.0)) loaded[std::size_t(p.body)] = 1;
+  for (const PointLoad& p : none.points)  // what stands on it anyway is no pattern
+    if (!p.to.isZero(0.0)) loaded[std::size_t(p.body)] = 0;
+  return loaded;
+}
+
+/// How far the loaded points have gone in the direction of the pattern, m: the mean, weighted by the load.
+double along_pattern(const Model& model, const State& from, const State& to, const LoadsAtWork& none,
+                     const LoadsAtWork& full) {
+  double work = 0.0, weight = 0.0;
+  const auto centre = [&](const State& state, std::size_t i) { return Vec3(&state.pose[pose_width * i]); };
+  const Vec3 a = full.acceleration_to - none.acceleration_to;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    if (model.bodies[i].still() || a.isZero(0.0)) continue;
+    work += model.bodies[i].mass * a.dot(centre(to, i) - centre(from, i));
+    weight += model.bodies[i].mass * a.norm();
+  }
+  const auto add = [&](const LoadsAtWork& loads, double sign) {
+    for (const PointLoad& p : loads.points) {
+      const auto i = std::size_t(p.body);
+      const Vec3 u = centre(to, i) - centre(from, i) + rotation_of(to, i) * p.arm - rotation_of(from, i) * p.arm;
+      work += sign * p.to.dot(u);
+      weight += sign * p.to.norm();
+    }
+  };
+  add(full, 1.0), add(none, -1.0);
+  return weight > 0.0 ? work / weight : 0.0;
+}
+
+constexpr double takes_part = 0.1;    // of the largest displacement: less does not move
+constexpr double local_share = 0.05;  // of the mass that can move: less is a local loss
+
+CollapseLoss find_loss(const Model& model, const std::vector<char>& loaded, const State& before, const State& after) {
+  double largest = largest_displacement(model, before.pose, after.pose), fill = 0.0;
+  for (std::size_t i = 0; i < before.fill.pose.size(); i += node_width)
+    fill = std::max(fill, (Vec3(&after.fill.pose[i]) - Vec3(&before.fill.pose[i])).norm());
+  largest = std::max(largest, fill);
+  CollapseLoss loss;
+  loss.fill = fill > takes_part * largest;
+  loss.loaded_only = !loaded.empty();
+  double moving = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    if (body.still()) continue;
+    const double mass = body.fixed ? 0.0 : body.mass;  // a guided beam is no part of the masonry
+    all += mass;
+    if (body_displacement(model, before.pose, after.pose, i) < takes_part * largest) continue;
+    moving += mass;
+    loss.blocks.push_back(model.block_of_body[i]);
+    loss.loaded_only = loss.loaded_only && loaded[i];
+  }
+  loss.share = all > 0.0 ? moving / all : 0.0;
+  loss.local = loss.share < local_share || (loss.loaded_only && loss.share < 1.0);
+  return loss;
+}
+
+/// Whether the rest stands when what moves is held where it was and its loads are taken away.
+bool rest_stands(Stepper stepper, State state, const CollapseLoss& loss, double tolerance,
+                 const RelaxationLimits& limits, double distance, const std::atomic<bool>* stop) {
+  Model held = *stepper.model;
+  for (std::int64_t block : loss.blocks) {
+    Body& body = held.bodies[std::size_t(held.body_of_block[std::size_t(block)])];
+    body.fixed = true, body.free_ways = 0, body.turns = false;
+  }
+  for (PointLoad& p : stepper.loads.points)
+    if (held.bodies[std::size_t(p.body)].still()) p.from = p.to = Vec3::Zero();
+  stepper.model = &held;
+  stepper.state = &state;
+  stepper.prepare();
+  const std::vector<char> none_loaded;
+  MotionWatch watch(held, none_loaded, state, distance);
+  RelaxationLimits own = limits;
+  own.hopeless = [&](const State& now, double work) { return watch.hopeless(now, work); };
+  return relax(stepper, tolerance, own, stop, nullptr).converged;
+}
+
+}  // namespace
+
 Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, double tolerance,
                        const std::function<LoadsAtWork(double)>& loads, const std::atomic<bool>* stop,
                        const std::function<void(const CollapseTry&, double residual)>& progress) {
   Collapse result;
-  const RelaxationLimits limits = {200000, settings.displacement * stepper.model->typical_size};
+  const Model& model = *stepper.model;
+  const double distance = settings.displacement * model.typical_size;
+  const LoadsAtWork none = loads(0.0), full = loads(settings.to);
+  const std::vector<char> loaded = bodies_loaded(model, none, full);
+  State start = *stepper.state;
+  RelaxationLimits limits;
+  limits.steps = 200000;
   const auto stands = [&](double multiplier) {
     stepper.loads = loads(multiplier);
     stepper.prepare();
     CollapseTry one = {multiplier, false, 0};
+    const State from = *stepper.state;
+    MotionWatch watch(model, loaded, from, distance);
+    limits.hopeless = [&](const State& state, double work) { return watch.hopeless(state, work); };
     const Equilibrium e = relax(stepper, tolerance, limits, stop, [&](std::int64_t step, double residual) {
       one.steps = step;
       if (progress) progress(one, residual);
@@ -133,7 +195,12 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
     one.stands = e.converged;
     one.steps = e.steps;
     result.tries.push_back(one);
-    return e.converged;
+    if (!e.converged) return false;
+    if (result.curve.empty()) start = *stepper.state;
+    result.curve.push_back({multiplier, along_pattern(model, start, *stepper.state, none, full),
+                            largest_displacement(model, start.pose, stepper.state->pose),
+                            largest_displacement(model, from.pose, stepper.state->pose) > distance});
+    return true;
   };
   const auto stopped = [&] { return stop && stop->load(); };
 
@@ -159,7 +226,12 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
   }
   *stepper.state = result.found ? lost : good;
   stepper.prepare();
-  if (result.found) result.mechanism = find_mechanism(*stepper.model, good, lost);
+  if (result.found) {
+    result.mechanism = find_mechanism(model, good, lost);
+    result.loss = find_loss(model, loaded, good, lost);
+    if (result.loss.local)
+      result.loss.rest_stands = rest_stands(stepper, good, result.loss, tolerance, limits, distance, stop);
+  }
   result.account = result.found
                        ? fmt::format("equilibrium is lost between multipliers {:.5g} and {:.5g}, after {} tries",
                                      result.multiplier, result.above, result.tries.size())

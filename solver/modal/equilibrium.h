@@ -47,6 +47,9 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
 struct RelaxationLimits {
   std::int64_t steps = 400000;
   double displacement = 1e300;  // m, of any point of a body since the beginning
+  /// Asked every round of steps, with the work that the out-of-balance forces did in it (J): true when the motion will
+  /// not come to rest. None: never.
+  std::function<bool(const State& state, double work)> hopeless = {};
 };
 
 /// Dynamic relaxation with inertia and damping of its own choice (solver/modal/relaxation.cpp). Neither the stepper's

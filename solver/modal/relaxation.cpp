@@ -13,6 +13,7 @@
 #include "solver/contact/search.h"
 #include "solver/modal/dense_eigen.h"
 #include "solver/modal/equilibrium.h"
+#include "solver/modal/motion_watch.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {
@@ -81,43 +82,55 @@ struct Look {
   Eigen::VectorXd force;
 };
 
-/// Square of the circular frequency of the motion between two looks; not positive where it slid without resistance.
-double frequency2(const Model& model, const State& state, const Unknowns& unknowns, const Look& before,
-                  const Eigen::VectorXd& force) {
-  double work = 0.0, mass = 0.0;
+/// What the motion between two looks shows.
+struct Seen {
+  double frequency2 = 0.0;  // square of its circular frequency; not positive where it slid without resistance
+  double work = 0.0;        // J, of the out-of-balance forces
+};
+
+Seen look_back(const Model& model, const State& state, const Unknowns& unknowns, const Look& before,
+               const Eigen::VectorXd& force) {
+  double relieved = 0.0, mass = 0.0;
+  Seen seen;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (!unknowns.any(i)) continue;
-    const Vector6 change = part_of(force, unknowns, i) - part_of(before.force, unknowns, i);
+    const Vector6 first = part_of(before.force, unknowns, i), last = part_of(force, unknowns, i);
+    const Vector6 change = last - first, mean = 0.5 * (last + first);
     const double *p = &state.pose[pose_width * i], *o = &before.pose[pose_width * i];
     const Vec3 u(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
     const Eigen::Quaterniond now = rotation_of(state, i);
     const Vec3 turn = 2.0 * (now * Eigen::Quaterniond(o[3], o[4], o[5], o[6]).conjugate()).vec();
     const Vec3 turn_own = now.conjugate() * turn;
-    work -= u.dot(change.head<3>()) + turn.dot(change.tail<3>());
+    relieved -= u.dot(change.head<3>()) + turn.dot(change.tail<3>());
+    seen.work += u.dot(mean.head<3>()) + turn.dot(mean.tail<3>());
     mass += model.bodies[i].inertial_mass * u.squaredNorm() + turn_own.dot(model.bodies[i].inertia * turn_own);
   }
   for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) {
     const std::size_t site = model.bodies.size() + i;
-    const Vector6 change = part_of(force, unknowns, site) - part_of(before.force, unknowns, site);
+    const Vector6 first = part_of(before.force, unknowns, site), last = part_of(force, unknowns, site);
     const Vec3 u = Vec3(&state.fill.pose[node_width * i]) - Vec3(&before.nodes[node_width * i]);
-    work -= u.dot(change.head<3>());
+    relieved -= u.dot((last - first).head<3>());
+    seen.work += 0.5 * u.dot((last + first).head<3>());
     mass += model.fill.inertial[i] * u.squaredNorm();
   }
-  return mass > 0.0 ? work / mass : 0.0;
+  if (mass > 0.0) seen.frequency2 = relieved / mass;
+  return seen;
 }
 
 }  // namespace
 
+double body_displacement(const Model& model, const Array<double>& from, const Array<double>& to, std::size_t body) {
+  const double *p = &from[pose_width * body], *q = &to[pose_width * body];
+  const double u = Vec3(q[0] - p[0], q[1] - p[1], q[2] - p[2]).norm();
+  const Vec3 turn =
+      2.0 * (Eigen::Quaterniond(q[3], q[4], q[5], q[6]) * Eigen::Quaterniond(p[3], p[4], p[5], p[6]).conjugate()).vec();
+  return u + turn.norm() * model.bodies[body].radius;
+}
+
 double largest_displacement(const Model& model, const Array<double>& from, const Array<double>& to) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const double *p = &from[pose_width * i], *q = &to[pose_width * i];
-    const double u = Vec3(q[0] - p[0], q[1] - p[1], q[2] - p[2]).norm();
-    const Vec3 turn =
-        2.0 *
-        (Eigen::Quaterniond(q[3], q[4], q[5], q[6]) * Eigen::Quaterniond(p[3], p[4], p[5], p[6]).conjugate()).vec();
-    largest = std::max(largest, u + turn.norm() * model.bodies[i].radius);
-  }
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    largest = std::max(largest, body_displacement(model, from, to, i));
   return largest;
 }
 
@@ -148,6 +161,9 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   // Soil that is overshot flows and tears its joints open: with a fill the weight comes on little by little.
   const Vec3 gravity = model.gravity;
   int round = model.fill.empty() ? easing_rounds : 0;
+  const auto hopeless = [&](const Look& before) {
+    return limits.hopeless && limits.hopeless(state, look_back(model, state, unknowns, before, now.force).work);
+  };
   while (state.step() - first < limits.steps && !(stop && stop->load()) && result.residual >= tolerance) {
     const bool eases = round < easing_rounds;
     if (eases) {
@@ -168,12 +184,14 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
       if (update.made + update.clipped > 0) choose_inertia(true, state, model);
       relaxing.prepare();
       now = out_of_balance(relaxing, unknowns);
+      if ((result.lost = hopeless(before))) break;
       continue;
     }
     now = out_of_balance(relaxing, unknowns);
     result.residual = eases ? std::max(now.largest, tolerance) : now.largest;
-    const double w2 = frequency2(model, state, unknowns, before, now.force);
-    relaxing.damping.mass_rate = 1.2 * std::sqrt(std::clamp(w2, 1e-8, 1.0));
+    const Seen seen = look_back(model, state, unknowns, before, now.force);
+    relaxing.damping.mass_rate = 1.2 * std::sqrt(std::clamp(seen.frequency2, 1e-8, 1.0));
+    if ((result.lost = result.residual >= tolerance && hopeless(before))) break;
     if (progress) progress(state.step() - first, result.residual);
   }
   result.converged = result.residual < tolerance && !result.lost;

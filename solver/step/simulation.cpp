@@ -275,7 +275,10 @@ bool Simulation::collapse(const StageSettings& stage) {
   if (stopped()) return false;
   log(collapse_.account);
   log(mechanism_text(*assembly_, collapse_.mechanism));
-  if (!collapse_.found || stage.collapse.confirm <= 0.0) return true;
+  if (!collapse_.found || stage.collapse.confirm <= 0.0) {
+    log(collapse_headline(*assembly_, collapse_));
+    return true;
+  }
   for (const bool above : {false, true}) {
     const double multiplier = (above ? 1.0 + confirm_margin : 1.0 - confirm_margin) * collapse_.multiplier;
     SolverSettings settings = settings_;
@@ -287,6 +290,7 @@ bool Simulation::collapse(const StageSettings& stage) {
     log(fmt::format("dynamic run with the multiplier raised to {:.5g}: {}{}", multiplier,
                     moves ? "it moves away" : "it stands", moves == above ? "" : " (not as the static solver says)"));
   }
+  log(collapse_headline(*assembly_, collapse_));
   return true;
 }
 

@@ -72,6 +72,20 @@ void draw_way(const std::string& file, const Simulation& run, const Snapshot& sn
   render_picture(run.assembly(), snapshot, o, file);
 }
 
+/// Equilibria on the way to the collapse load.
+void draw_curve(const std::string& images, const Collapse& collapse) {
+  Series along{"loaded points, along the load", {}, {}}, largest{"largest of any block", {}, {}};
+  for (const CollapsePoint& p : collapse.curve) {
+    along.x.push_back(1e3 * p.along), largest.x.push_back(1e3 * p.largest);
+    along.y.push_back(p.multiplier), largest.y.push_back(p.multiplier);
+  }
+  PlotOptions options;
+  options.title = "Load and displacement";
+  options.markers = true;
+  plot_lines({along, largest}, "displacement since the multiplier was zero (mm)", "multiplier (-)", options,
+             images + "/collapse_curve.png");
+}
+
 Series channel(const History& history, const std::string& name, const std::string& path, double factor) {
   Series s{name, history.time(), history.values(path)};
   for (double& y : s.y) y *= factor;
@@ -133,6 +147,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
     draw_state(images, run.assembly(), snapshot);
     if (!snapshot.fill.empty()) draw_fill(images, run.assembly(), snapshot);
     if (run.collapse().found) draw_mechanism(images, run, snapshot);
+    if (run.collapse().curve.size() > 1) draw_curve(images, run.collapse());
     draw_charts(images, run.assembly(), history);
     for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
     return {};

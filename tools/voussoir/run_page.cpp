@@ -71,6 +71,9 @@ std::string verdict(const RunFiles& run) {
   if (run.summary.contains("fallen"))
     text =
         fmt::format("<p><strong>The bridge fell</strong> at {:.2f} s.</p>\n", run.summary["fallen"].value("time", NAN));
+  if (run.summary.contains("collapse"))
+    text += fmt::format("<p><strong>Collapse load.</strong> {}</p>\n",
+                        escaped(run.summary["collapse"].value("headline", std::string())));
   if (!worst.empty())
     text += fmt::format("<p><strong>Worst: {}.</strong> {}.</p>\n", escaped(worst),
                         escaped("Damage " + damage_sentence(damage[worst])));
@@ -252,7 +255,8 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
       {"slip_front", "Joints slid, front", "largest slip since the start, deformed shape at the end"},
       {"plastic_oblique", "Fill: plastic strain", "section along the middle"},
       {"yield_oblique", "Fill: yielded zones", "section along the middle"},
-      {"mechanism_front", "Mechanism of collapse", "displacements enlarged"}};
+      {"mechanism_front", "Mechanism of collapse", "displacements enlarged"},
+      {"collapse_curve", "Load and displacement", "each point an equilibrium; in collapse_curve.csv too"}};
   std::vector<PagePicture> pictures;
   std::error_code ignored;
   for (const Known& k : known)

@@ -199,6 +199,13 @@ nlohmann::json summary_of(const std::string& file) {
   return json.is_object() ? json : nlohmann::json::object();
 }
 
+std::string curve_table(const Collapse& collapse) {
+  std::string text = "multiplier,along_m,largest_m,settled\n";
+  for (const CollapsePoint& p : collapse.curve)
+    text += fmt::format("{:.10g},{:.10g},{:.10g},{}\n", p.multiplier, p.along, p.largest, int(p.settled));
+  return text;
+}
+
 }  // namespace
 
 void RunSession::write_summary(RunEnd end) {
@@ -238,6 +245,7 @@ void RunSession::write_summary(RunEnd end) {
   if (!json.contains("collapse"))
     if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
       json["collapse"] = before["collapse"];  // found before a restart
+  if (!run.collapse().curve.empty()) write_atomically(path("collapse_curve.csv"), curve_table(run.collapse()));
   write_atomically(path("summary.json"), json.dump(2) + "\n");
 }
 

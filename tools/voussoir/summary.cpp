@@ -157,17 +157,46 @@ nlohmann::json stages_json(const Simulation& run, const History& history) {
   return json;
 }
 
+/// "global" or "local", or null where nothing was lost; with what moves.
+void add_loss(const Simulation& run, nlohmann::json& json) {
+  const Collapse& c = run.collapse();
+  json["loss"] = c.found ? nlohmann::json(c.loss.local ? "local" : "global") : nlohmann::json();
+  if (!c.found) return;
+  json["moving"] = {{"part", moving_part(run.assembly(), c.loss)},
+                    {"blocks", c.loss.blocks.size()},
+                    {"share_of_mass", c.loss.share},
+                    {"fill", c.loss.fill}};
+  if (c.loss.rest_stands) json["rest_stands"] = *c.loss.rest_stands;
+}
+
+nlohmann::json curve_json(const Collapse& c) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const CollapsePoint& p : c.curve)
+    json.push_back({{"multiplier", p.multiplier}, {"along", p.along}, {"largest", p.largest}, {"settled", p.settled}});
+  return json;
+}
+
+/// Whether the dynamic runs agree with the static solver; null where there were none.
+nlohmann::json confirmed(const Collapse& c) {
+  if (!c.stands_below || !c.falls_above) return {};
+  return *c.stands_below && *c.falls_above;
+}
+
 /// How far the multiplier went, and which joints move beyond.
 nlohmann::json collapse_json(const Simulation& run) {
   const Collapse& c = run.collapse();
   const StageSettings& stage = run.settings().stages.back();
-  nlohmann::json json = {{"found", c.found},
+  nlohmann::json json = {{"headline", collapse_headline(run.assembly(), c)},
+                         {"found", c.found},
+                         {"confirmed", confirmed(c)},
                          {"multiplier", c.multiplier},
                          {"above", c.found ? nlohmann::json(c.above) : nlohmann::json()},
                          {"tries", c.tries.size()},
                          {"mechanism", nlohmann::json::array()},
                          {"stands_below", c.stands_below ? nlohmann::json(*c.stands_below) : nlohmann::json()},
                          {"falls_above", c.falls_above ? nlohmann::json(*c.falls_above) : nlohmann::json()}};
+  add_loss(run, json);
+  json["curve"] = curve_json(c);
   if (stage.collapse.tilt) json["tilt_degrees"] = std::atan(c.multiplier) * 180.0 / std::numbers::pi;
   const Loads loads = loads_at({}, stage, run.model().gravity, c.multiplier);
   double weight = 0.0;
