@@ -61,7 +61,7 @@ class Values {
   const Usual* usual_of(const std::string& section, const std::string& key) const {
     if (section != "bridge" || case_.generator.empty()) return usual_of_key(section, key);
     for (const Parameter& p : find_generator(case_.generator).parameters)
-      if (p.name == key) return usual_of_unit(p.unit);
+      if (p.name == key) return usual_of_parameter(p.name, p.unit);
     return nullptr;
   }
 

@@ -103,10 +103,10 @@ const Usual* usual_of_key(const std::string& section, const std::string& key) {
   return found == keys().end() ? nullptr : &usual(found->second);
 }
 
-const Usual* usual_of_unit(const std::string& unit) {
+const Usual* usual_of_parameter(const std::string& name, const std::string& unit) {
   if (unit == "m") return &usual("length");
   if (unit == "Pa/m") return &usual("stiffness");
-  if (unit == "deg") return &usual("friction");
+  if (unit == "deg" && name.ends_with("friction")) return &usual("friction");
   return nullptr;
 }
 

@@ -24,8 +24,8 @@ struct Usual {
 
 /// Of a key in a section of a case ("materials", "joints", "stage.pulse"); null where nothing is known.
 const Usual* usual_of_key(const std::string& section, const std::string& key);
-/// Of a generator's parameter, by its unit ("m", "Pa/m", "deg").
-const Usual* usual_of_unit(const std::string& unit);
+/// Of a generator's parameter, by its unit ("m", "Pa/m") or, of angles, by its name: only friction has a usual range.
+const Usual* usual_of_parameter(const std::string& name, const std::string& unit);
 /// By the name of the quantity: "peak", "extent", "modal period" …; of those the program asks for itself.
 const Usual& usual(const std::string& name);
 

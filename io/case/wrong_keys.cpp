@@ -20,7 +20,8 @@ std::string keys_table(const std::vector<KnownKey>& known) {
   }
   std::string text = fmt::format("  {:<{}}  {:<{}}  expected", "key", names, "default", fallbacks);
   for (const KnownKey& k : known)
-    text += fmt::format("\n  {:<{}}  {:<{}}  {}", k.name, names, k.fallback, fallbacks, k.expected);
+    text += fmt::format("\n  {:<{}}  {:<{}}  {}", k.name, names, k.fallback, fallbacks,
+                        k.expected.empty() ? "see docs/case-reference.md" : k.expected);
   return text;
 }
 

@@ -69,10 +69,10 @@ Samples read_samples(CsvReader& csv, std::size_t time_column) {
   return samples;
 }
 
-/// The first sample whose step from the one before is not `dt`; 0 when there is none.
-std::size_t uneven_sample(const std::vector<double>& times, double dt) {
+/// The first sample whose step from the one before is not `dt` within `slack` (s); 0 when there is none.
+std::size_t uneven_sample(const std::vector<double>& times, double dt, double slack = even) {
   for (std::size_t i = 1; i < times.size(); ++i)
-    if (!(std::abs(times[i] - times[i - 1] - dt) <= even)) return i;
+    if (!(std::abs(times[i] - times[i - 1] - dt) <= slack)) return i;
   return 0;
 }
 
@@ -88,9 +88,11 @@ void check_steps(const CsvReader& csv, const Samples& samples, double mean) {
   const std::vector<double>& t = samples.times;
   const std::size_t against_mean = uneven_sample(t, mean);
   if (against_mean == 0) return;
-  // A gap spoils the mean; the median leads to the gap itself.
-  const double usual = median_step(t);
-  const std::size_t against_usual = uneven_sample(t, usual), i = against_usual > 0 ? against_usual : against_mean;
+  // A gap spoils the mean; the median leads to the gap itself, past steps that differ by the rounding of two times.
+  const double usual = median_step(t), rounding = 1.5 * std::pow(10.0, -samples.decimals);
+  std::size_t against_usual = uneven_sample(t, usual, std::max(even, rounding));
+  if (against_usual == 0) against_usual = uneven_sample(t, usual);
+  const std::size_t i = against_usual > 0 ? against_usual : against_mean;
   csv.fail(samples.rows[i],
            fmt::format(
                "time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s, or the times within half of "

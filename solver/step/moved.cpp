@@ -135,10 +135,11 @@ std::vector<std::int32_t> farthest_moved(const Model& model, const Array<double>
 }
 
 std::string moved_text(const Assembly& assembly, const Model& model, const std::vector<std::int32_t>& bodies,
-                       const Array<double>& from, const State& to) {
-  State before = to;
-  before.pose = from;
-  const std::vector<MechanismJoint> mechanism = find_mechanism(model, before, to);
+                       const Standing& before, const Array<double>& from, const State& to) {
+  State then = to;
+  then.pose = from;
+  then.joint.mode = before.joint_mode;
+  const std::vector<MechanismJoint> mechanism = find_mechanism(model, then, to);
   std::string text;
   for (const std::int32_t body : bodies) {
     const auto i = std::size_t(body);

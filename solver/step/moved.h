@@ -29,9 +29,9 @@ std::vector<std::int32_t> moved_away(const Assembly& assembly, const Model& mode
 std::vector<std::int32_t> farthest_moved(const Model& model, const Array<double>& from, const State& to,
                                          std::size_t count);
 
-/// A line for each body: number, component, place, where it went and how far it turned, and which of its joints open in
-/// a hinge or slide on the way.
+/// A line for each body: number, component, place, where it went from `from` and how far it turned, and which of the
+/// joints that it had `before` open in a hinge or slide on the way.
 std::string moved_text(const Assembly& assembly, const Model& model, const std::vector<std::int32_t>& bodies,
-                       const Array<double>& from, const State& to);
+                       const Standing& before, const Array<double>& from, const State& to);
 
 }  // namespace voussoir

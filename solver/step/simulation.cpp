@@ -12,6 +12,7 @@
 #include "solver/step/drive.h"
 #include "solver/step/loads.h"
 #include "solver/step/make_snapshot.h"
+#include "solver/step/moved.h"
 #include "solver/step/runaway.h"
 #include "solver/step/step_count.h"
 #include "solver/step/step_report.h"
@@ -237,7 +238,7 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
     moving_ = farthest_moved(model_, from, state_, named);
     failure_ = fmt::format("no equilibrium under gravity: {}{}{}", equilibrium_.account,
                            moving_.empty() ? "" : "\nOn their way, in the last steps:",
-                           moved_text(*assembly_, model_, moving_, from, state_));
+                           moved_text(*assembly_, model_, moving_, before, from, state_));
     return false;
   }
   std::vector<std::int32_t> moved = moved_away(*assembly_, model_, before, state_);
@@ -248,7 +249,7 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
       fmt::format("{} stone{} moved away from where {} joints held {} ({}):{}", count, count == 1 ? "" : "s",
                   count == 1 ? "its" : "their", count == 1 ? "it" : "them",
                   "against a neighbour by more than 5 % of the smaller one's size, or turned by more than 3°",
-                  moved_text(*assembly_, model_, moved, before.pose, state_));
+                  moved_text(*assembly_, model_, moved, before, before.pose, state_));
   if (stage.allow_motion) {
     log(words);
     return true;
@@ -498,7 +499,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
       return RunEnd::interrupted;
     }
     const double slack = 1e-6 * stepper_.dt;
-    if (state_.time() >= fields_at - slack) write_fields();
+    if (state_.time() >= fields_at - slack && state_.time() < end - slack) write_fields();  // the end has its own
     const bool wall = seconds_since(saved_) > output.checkpoint_wall;
     if ((state_.time() >= save_at - slack || wall) && state_.time() < end - slack && observers_.checkpoint) {
       write_checkpoint(false);

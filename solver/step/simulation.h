@@ -11,12 +11,12 @@
 #include "solver/step/damage.h"
 #include "solver/step/energy.h"
 #include "solver/step/mass_scaling.h"
-#include "solver/step/moved.h"
 #include "solver/step/stepper.h"
 
 namespace voussoir {
 
 class Simulation;
+struct Standing;  // solver/step/moved.h
 
 /// Where a run stands, for the progress line.
 struct Progress {

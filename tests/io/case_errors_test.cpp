@@ -118,8 +118,8 @@ const std::vector<Wrong> table = {
     {"UnknownKeyListed",
      head + "[damping]\ncolour = 1\n",
      {"c.toml:4: unknown key 'colour' in [damping]: no key there has a name like it",
-      "keys of [damping], expected one of:", "\n  key          default      expected", "\n  branches     ",
-      "a whole number from 1 to 4", "\n  kind         \"none\"       one of: none, maxwell, rayleigh, local"}},
+      "keys of [damping], expected one of:", "\n  key          default    expected", "\n  branches     ",
+      "a whole number from 1 to 4", "\n  kind         \"maxwell\"  one of: none, maxwell, rayleigh, local"}},
     {"AllUnknownKeysAtOnce",
      head + "corses = 3\n[materials.masonry]\ndensty = 2000\n[damping]\nrtaio = 0.1\n" + free_stage +
          "labell = \"a\"\n[[stage]]\nkind = \"free\"\nduratoin = 1.0\n[[sensor]]\nname = \"a\"\n[output]\nevery = 1\n",

@@ -63,8 +63,9 @@ TEST(Edges, AStableRoofStandsAndMovesAlikeOnBothSides) {
 }
 
 TEST(Edges, ARoofFallsWhereItsFeetCannotHoldIt) {
-  Simulation simulation(roof(12.0), under_gravity(true), 1, {});
-  simulation.run();
+  const Assembly assembly = roof(12.0);
+  Simulation simulation(assembly, under_gravity(true), 1, {});
+  EXPECT_EQ(simulation.run(), RunEnd::failed) << "it comes to rest, but elsewhere";
   EXPECT_GT(moved(simulation, 1).norm(), 0.1);
 }
 
@@ -92,9 +93,9 @@ struct Rain {
   double overlap = 0.0, growth = 0.0, kinetic = 0.0;
   Vec3 place = Vec3::Zero();
 };
-Rain rain(unsigned seed, bool mirrored) {
+Rain rain(unsigned seed, bool mirrored, double duration = 0.5) {
   std::mt19937 random(seed);
-  Assembly assembly = stone(2000.0, 1e8, 0.5);
+  Assembly assembly = stone(2000.0, 1e9, 0.5);
   std::vector<Polyhedron> stones = {make_box({-3, -3, -1}, {3, 3, 0})};
   for (int i = 0; i < 2; ++i) {
     Polyhedron box = make_box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25});
@@ -111,14 +112,14 @@ Rain rain(unsigned seed, bool mirrored) {
     }
     add_block(assembly, stones[i], i == 0);
   }
-  Bench bench(joined(std::move(assembly), 1e8, 4e7, dry_law(0.5)), undamped({0, 0, -gravity}));
+  Bench bench(joined(std::move(assembly), 1e9, 4e8, dry_law(0.5)), undamped({0, 0, -gravity}));
   update_contacts(bench.model, bench.state, {});
   bench.stepper.prepare();
   const double dt = 2e-4;
   bench.begin(dt);
   Rain out;
   double first = 1e300;
-  const bool stayed = bench.run(std::int64_t(0.5 / dt), 10, [&](const BodyPass& pass) {
+  const bool stayed = bench.run(std::int64_t(duration / dt), 10, [&](const BodyPass& pass) {
     for (int i = 0; i < 3; ++i)
       for (int j = i + 1; j < 3; ++j) out.overlap = std::max(out.overlap, bench.overlap(i, j));
     const Energies e = compute_energies(bench.stepper, pass);
@@ -144,10 +145,12 @@ TEST(Edges, FiveHundredStonesFallAndNonePassesAnother) {
   EXPECT_LT(growth, 0.01);
 }
 
+/// To rounding through their first impacts. Later four of these twenty pairs part (docs/validation.md, misses).
 TEST(Edges, MirroredStonesFallMirrored) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const Vec3 one = rain(seed, false).place, other = rain(seed, true).place;
-    EXPECT_LT((one - Vec3(-other.x(), other.y(), other.z())).norm(), 1e-6) << seed;
+    const Rain one = rain(seed, false, 0.2), other = rain(seed, true, 0.2);
+    EXPECT_GT(one.kinetic, 0.0);
+    EXPECT_LT((one.place - Vec3(-other.place.x(), other.place.y(), other.place.z())).norm(), 1e-12) << seed;
   }
 }
 

@@ -42,6 +42,7 @@ TEST(Falling, RelaxationFindsTheSlab) {
   settings.gravity = {0, 0, -9.81};
   StageSettings gravity;
   gravity.method = StageSettings::Method::relaxation;
+  gravity.allow_motion = true;
   settings.stages = {gravity};
   const Assembly finished = joined(std::move(assembly), 1e8, 4e7, dry_law(0.5));
   ASSERT_EQ(finished.joints.size(), 1u);

@@ -148,7 +148,7 @@ TEST(CaseErrors, FilesThatAreNoCases) {
     SCOPED_TRACE(verb);
     expect_error(voussoir({verb, "missing.toml"}, there), 2, {"missing.toml", "o such file"});
     expect_error(voussoir({verb, "folder.toml"}, there), 2, {"folder.toml"});
-    expect_error(voussoir({verb, std::string(5000, 'x') + ".toml"}, there), 2, {"xxx.toml"});
+    expect_error(voussoir({verb, std::string(5000, 'x') + ".toml"}, there), 2, {"xxx", "5006 bytes"});
     expect_error(voussoir({verb, ""}, there), 2, {});
   }
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"folder.toml"});
@@ -181,8 +181,8 @@ TEST(CaseErrors, DrivesOfWhatIsNotThereOrFree) {
 }
 
 TEST(CaseErrors, PlotsOfWhatIsNotRecorded) {
-  expect_refused_with("[output]", "[[plot]]\nname = \"a\"\ny = \"reactions/base_x\"\n[output]",
-                      {"plot 'a'", "'reactions/base_x'", "does not record"});
+  expect_refused_with("[output]", "[[plot]]\nname = \"a\"\ny = \"reactions/top_x\"\n[output]",
+                      {"plot 'a'", "'reactions/top_x'", "does not record"});
   expect_refused_with("[output]", "[[plot]]\nname = \"a\"\ny = \"energy/kinetc\"\n[output]",
                       {"did you mean 'energy/kinetic'?"});
 }

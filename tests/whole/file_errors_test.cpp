@@ -142,7 +142,7 @@ TEST(FileErrors, OneFileForAnother) {
   expect_error(voussoir({"render", "run/history.h5"}, there), 2, {"run/history.h5"});
   expect_error(voussoir({"render", "wall.toml"}, there), 2, {"wall.toml"});
   expect_error(voussoir({"run", "run/assembly.h5"}, there), 2, {"run/assembly.h5"});
-  expect_error(voussoir({"import", "run/assembly.h5", "-o", "x.h5"}, there), 2, {".obj"});
+  expect_error(voussoir({"import", "run/history.h5", "-o", "x.h5"}, there), 2, {"run/history.h5", "voussoir-history"});
   std::filesystem::copy_file(folder / "run/assembly.h5", folder / "run/checkpoints/00009.000.h5");
   expect_error(voussoir({"resume", "run"}, there), 2, {"00009.000.h5", "voussoir-assembly"});
 }

@@ -366,8 +366,10 @@ Push push_wall(double duration, double local) {
   settings.stages = {loaded, pushed};
   Push push;
   Observers observers;
-  observers.history = [&](const Simulation&, const Sample& s) {
-    push.end = s.reactions.at(0).x();
+  observers.history = [&](const Simulation& run, const Sample& s) {
+    if (!run.settings().stages[std::size_t(s.stage)].timed()) return;
+    const std::vector<std::string>& held = run.held_groups();
+    push.end = s.reactions.at(std::size_t(std::ranges::find(held, "beam") - held.begin())).x();
     push.peak = std::max(push.peak, push.end);
   };
   Simulation run(wall, settings, 1, observers);

@@ -231,7 +231,9 @@ void RunSession::write_summary(RunEnd end) {
                            {"newton_iterations", e.iterations},
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}}};
-  json["remarks"] = remarks(case_, assembly_);
+  json["remarks"] = nlohmann::json::array();
+  for (const std::string& remark : remarks(case_, assembly_))  // where the folder lies does not matter
+    json["remarks"].push_back(remark.starts_with(path("")) ? remark.substr(path("").size()) : remark);
   if (fallen_) json["fallen"] = {{"time", run.state().time()}, {"share_of_mass", fallen_share()}};
   const RunCosts& costs = run.costs();
   json["seconds_of_this_part"] = {
