@@ -498,8 +498,8 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
       write_checkpoint(false);
       return RunEnd::interrupted;
     }
-    const double slack = 1e-6 * stepper_.dt;
-    if (state_.time() >= fields_at - slack && state_.time() < end - slack) write_fields();  // the end has its own
+    const double slack = 1e-6 * stepper_.dt, near_end = std::max(2.0 * stepper_.dt, 0.01 * output.fields_every);
+    if (state_.time() >= fields_at - slack && state_.time() < end - near_end) write_fields();  // the end has its own
     const bool wall = seconds_since(saved_) > output.checkpoint_wall;
     if ((state_.time() >= save_at - slack || wall) && state_.time() < end - slack && observers_.checkpoint) {
       write_checkpoint(false);
