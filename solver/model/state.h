@@ -50,7 +50,7 @@ struct State {
 
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
-  Array<double> baseline;  // 3 a body: displacement at the end of the last gravity stage, from which demands count
+  Array<double> baseline;  // pose_width a body: placement at the end of the last gravity stage, relative to the base
   Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion when its
                            // contacts were last looked for; 1 once it is lost
   Array<float> listed;     // the same when its pairs were last listed
