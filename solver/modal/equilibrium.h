@@ -60,5 +60,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
 /// Largest displacement of any body between two placements (rows of State::pose), m: of the centroid, plus the turn
 /// (radians) times the distance to the farthest vertex. Good for turns below half a radian.
 double largest_displacement(const Model& model, const Array<double>& from, const Array<double>& to);
+/// The same of one body.
+double body_displacement(const Model& model, const Array<double>& from, const Array<double>& to, std::size_t body);
 
 }  // namespace voussoir

@@ -34,7 +34,4 @@ class MotionWatch {
   Track loaded_, stones_;
 };
 
-/// Largest displacement of one body between two placements, m: see largest_displacement().
-double body_displacement(const Model& model, const Array<double>& from, const Array<double>& to, std::size_t body);
-
 }  // namespace voussoir

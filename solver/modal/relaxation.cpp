@@ -13,7 +13,6 @@
 #include "solver/contact/search.h"
 #include "solver/modal/dense_eigen.h"
 #include "solver/modal/equilibrium.h"
-#include "solver/modal/motion_watch.h"
 #include "solver/modal/stiffness.h"
 
 namespace voussoir {

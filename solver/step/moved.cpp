@@ -28,10 +28,6 @@ Way way_of(const Array<double>& from, const Array<double>& to, std::size_t body)
   return {Vec3(q) - Vec3(p), before.angularDistance(after)};
 }
 
-double reach_of(const Model& model, const Way& way, std::size_t body) {
-  return way.displacement.norm() + way.turn * model.bodies[body].radius;
-}
-
 /// Cube root of the volume, m.
 std::vector<double> sizes_of(const Assembly& assembly, const Model& model) {
   std::vector<double> sizes(model.bodies.size(), 0.0);
@@ -71,9 +67,8 @@ std::string joints_text(const std::vector<MechanismJoint>& mechanism, std::int64
 
 }  // namespace
 
-Standing standing_of(const Model& model, const State& state) {
-  Standing standing = {state.pose, state.joint.mode, {}, {}};
-  standing.order.assign(model.joint_of_patch.begin(), model.joint_of_patch.end());
+Standing standing_of(const State& state) {
+  Standing standing = {state.pose, state.joint.mode, {}};
   for (std::size_t i = 0; i < state.contacts.size(); ++i)
     if (state.has_contact(i) && !(state.contact.mode[i] & mode_open)) standing.contacts.push_back(state.contacts[i]);
   return standing;
@@ -85,6 +80,7 @@ std::vector<std::int32_t> moved_away(const Assembly& assembly, const Model& mode
   std::vector<std::uint8_t> touched(model.bodies.size(), 0), gone(model.bodies.size(), 0);
   std::vector<Way> ways;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) ways.push_back(way_of(before.pose, after.pose, i));
+  const auto reach = [&](std::size_t body) { return body_displacement(model, before.pose, after.pose, body); };
   const auto is_far = [](const Way& way, double size) {
     return way.displacement.norm() > far_share * size || way.turn > far_turn;
   };
@@ -95,25 +91,19 @@ std::vector<std::int32_t> moved_away(const Assembly& assembly, const Model& mode
                         : model.bodies[b].fixed ? sizes[a]
                                                 : std::min(sizes[a], sizes[b]);
     if (!is_far(between_faces(patch, before.pose, after.pose), size)) return;
-    const bool first = reach_of(model, ways[a], a) > reach_of(model, ways[b], b);
+    const bool first = reach(a) > reach(b);
     gone[first ? a : b] = 1;
   };
-  // Contacts may have changed the joints' order on the way.
-  std::vector<std::uint8_t> there(model.joints.size(), 0);
-  for (std::size_t i = 0; i < before.order.size(); ++i)
-    there[std::size_t(before.order[i])] = !(before.joint_mode[i] & mode_gone);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (there[std::size_t(model.joint_of_patch[i])] && model.joints[i].length == 0.0) look(model.joints[i]);
+    if (!(before.joint_mode[i] & mode_gone) && model.joints[i].length == 0.0) look(model.joints[i]);
   for (const Patch& patch : before.contacts) look(patch);
   std::vector<std::int32_t> bodies;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (model.bodies[i].fixed) continue;
     if (gone[i] || (!touched[i] && is_far(ways[i], sizes[i]))) bodies.push_back(std::int32_t(i));
   }
-  std::stable_sort(bodies.begin(), bodies.end(), [&](std::int32_t a, std::int32_t b) {
-    return reach_of(model, ways[std::size_t(a)], std::size_t(a)) >
-           reach_of(model, ways[std::size_t(b)], std::size_t(b));
-  });
+  std::stable_sort(bodies.begin(), bodies.end(),
+                   [&](std::int32_t a, std::int32_t b) { return reach(std::size_t(a)) > reach(std::size_t(b)); });
   return bodies;
 }
 
@@ -123,7 +113,7 @@ std::vector<std::int32_t> farthest_moved(const Model& model, const Array<double>
   std::vector<std::int32_t> bodies;
   for (std::size_t i = 0; i < reach.size(); ++i) {
     if (model.bodies[i].fixed) continue;
-    reach[i] = reach_of(model, way_of(from, to.pose, i), i);
+    reach[i] = body_displacement(model, from, to.pose, i);
     if (reach[i] > 0.0) bodies.push_back(std::int32_t(i));
   }
   std::stable_sort(bodies.begin(), bodies.end(),

@@ -11,11 +11,10 @@ namespace voussoir {
 /// Who touched whom, and where all stood, before a stage.
 struct Standing {
   Array<double> pose;
-  Array<std::uint8_t> joint_mode;   // of Model::joints
-  std::vector<Patch> contacts;      // those that were there
-  std::vector<std::int64_t> order;  // Model::joint_of_patch
+  Array<std::uint8_t> joint_mode;  // of Model::joints, whose order no stage without time changes
+  std::vector<Patch> contacts;     // those that were closed
 };
-Standing standing_of(const Model& model, const State& state);
+Standing standing_of(const State& state);
 
 /// Free bodies that went elsewhere, the farthest first: the two faces of one of their joints have moved against each
 /// other by more than 5 % of the smaller stone's size (the cube root of its volume) or have turned by more than 3°, and

@@ -11,11 +11,6 @@
 namespace voussoir::test {
 namespace {
 
-/// A small wall on a base and beside a fixed beam, both of which can be driven.
-Assembly wall() {
-  return weak_wall(3, 3);
-}
-
 /// Three loose stones on soil in a trough.
 Assembly stones_on_soil() {
   Assembly assembly = stone();
@@ -93,12 +88,6 @@ class StageMaker {
   std::mt19937 random_;
 };
 
-struct Outcome {
-  RunEnd end = RunEnd::finished;
-  std::uint64_t hash = 0;
-  bool operator==(const Outcome&) const = default;
-};
-
 std::string text_of(const std::vector<StageSettings>& stages) {
   std::string text;
   for (const StageSettings& stage : stages)
@@ -131,26 +120,23 @@ int compare(const Assembly& assembly, const SolverSettings& settings, unsigned s
   return compared;
 }
 
-TEST(StageOrders, OfAWallEndTheSameWhereverTheyAreTakenUp) {
-  const Assembly assembly = wall();
+/// Resumed runs compared, over the seeds from `first` on.
+int compare_all(const Assembly& assembly, bool with_fill, unsigned first, unsigned seeds) {
   int compared = 0;
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  for (unsigned seed = first; seed < first + seeds; ++seed) {
     SolverSettings settings;
-    settings.stages = StageMaker(seed).stages(false);
+    settings.stages = StageMaker(seed).stages(with_fill);
     compared += compare(assembly, settings, seed);
   }
-  EXPECT_GT(compared, 60);
+  return compared;
+}
+
+TEST(StageOrders, OfAWallEndTheSameWhereverTheyAreTakenUp) {
+  EXPECT_GT(compare_all(weak_wall(3, 3), false, 0, 24), 60);
 }
 
 TEST(StageOrders, OfStonesOnSoilEndTheSameWhereverTheyAreTakenUp) {
-  const Assembly assembly = stones_on_soil();
-  int compared = 0;
-  for (unsigned seed = 100; seed < 108; ++seed) {
-    SolverSettings settings;
-    settings.stages = StageMaker(seed).stages(true);
-    compared += compare(assembly, settings, seed);
-  }
-  EXPECT_GT(compared, 16);
+  EXPECT_GT(compare_all(stones_on_soil(), true, 100, 8), 16);
 }
 
 /// Whichever stage brings a load: by relaxation in a second stage what Newton's method finds at once.
