@@ -181,6 +181,7 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
   State start = *stepper.state;
   RelaxationLimits limits;
   limits.steps = 200000;
+  limits.from_unloaded = false;
   const auto stands = [&](double multiplier) {
     stepper.loads = loads(multiplier);
     stepper.prepare();
@@ -208,7 +209,7 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
     throw RunError(
         "there is no equilibrium even without the pattern of the collapse stage: begin with a gravity stage");
   State good = *stepper.state, lost = good;
-  double increment = 0.25 * settings.to;
+  double increment = settings.to / 16.0;
   while (!stopped() && result.multiplier < settings.to) {
     const double multiplier = std::min(result.multiplier + increment, settings.to);
     *stepper.state = good;

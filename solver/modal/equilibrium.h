@@ -47,6 +47,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
 struct RelaxationLimits {
   std::int64_t steps = 400000;
   double displacement = 1e300;  // m, of any point of a body since the beginning
+  bool from_unloaded = true;    // with a fill the weight then comes on little by little
   /// Asked every round of steps, with the work that the out-of-balance forces did in it (J): true when the motion will
   /// not come to rest. None: never.
   std::function<bool(const State& state, double work)> hopeless = {};

@@ -36,7 +36,7 @@ bool MotionWatch::hopeless(const State& state, double work) {
   if (std::max({loaded, stones, fill}) > far_) return true;
   constexpr double takes_part = 0.1;  // of the largest displacement
   const bool masonry = stones > takes_part * std::max(loaded, fill);
-  if (masonry && stones > distance_) return true;  // it may come to rest against the fill, but as another bridge
+  if (masonry && stones > distance_) return stones_.driven_on();
   return model_.fill.empty() && loaded > distance_ && loaded_.driven_on();
 }
 

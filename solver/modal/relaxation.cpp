@@ -159,7 +159,7 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   result.earlier = start;
   // Soil that is overshot flows and tears its joints open: with a fill the weight comes on little by little.
   const Vec3 gravity = model.gravity;
-  int round = model.fill.empty() ? easing_rounds : 0;
+  int round = model.fill.empty() || !limits.from_unloaded ? easing_rounds : 0;
   const auto hopeless = [&](const Look& before) {
     return limits.hopeless && limits.hopeless(state, look_back(model, state, unknowns, before, now.force).work);
   };

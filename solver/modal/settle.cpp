@@ -39,7 +39,8 @@ Settled settle(Stepper& stepper, double tolerance, const std::atomic<bool>* stop
   bool again = true;
   while (again && steps < most && !(stop && stop->load())) {
     const Array<double> before = state.pose;
-    settled.equilibrium = relax(stepper, tolerance, {most - steps, far}, stop, [&](std::int64_t step, double residual) {
+    const RelaxationLimits limits = {.steps = most - steps, .displacement = far, .from_unloaded = false};
+    settled.equilibrium = relax(stepper, tolerance, limits, stop, [&](std::int64_t step, double residual) {
       if (progress) progress(steps + step, residual);
     });
     steps += settled.equilibrium.steps;

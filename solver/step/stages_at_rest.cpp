@@ -45,6 +45,7 @@ bool Simulation::gravity(const StageSettings& stage) {
     if (by_itself && model_.fill.empty()) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
     RelaxationLimits limits;
     limits.displacement = extent(model_);  // what has gone so far falls, and would for ever
+    limits.from_unloaded = position_.stage == 0;
     equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
