@@ -213,6 +213,18 @@ void match_normal_force(double wanted, NewContact& c) {
   c.patch.gap[0] += 0.5 * (low + high);
 }
 
+/// Least and greatest gap at its points and corners.
+std::pair<double, double> gap_range(const NewContact& c) {
+  double low = c.patch.gap[0], high = low;
+  if (c.points.size() == 1) return {low, high};
+  for (const auto* some : {&c.points, &c.corners})
+    for (const PatchPoint& p : *some) {
+      const double gap = c.patch.gap[0] + c.patch.gap[1] * p.t - c.patch.gap[2] * p.s;
+      low = std::min(low, gap), high = std::max(high, gap);
+    }
+  return {low, high};
+}
+
 /// Of a contact where it is made: its own jump is zero.
 double elastic_energy(const NewContact& c) {
   double sum = 0.0;
@@ -226,12 +238,24 @@ double elastic_energy(const NewContact& c) {
 }
 
 /// The same force on less area holds more energy: a patch that has shrunk since it was made would speed its blocks up.
+/// Where some of it stands open it is raised as a whole: made smaller, what is open would close.
 void limit_energy(double most, NewContact& c) {
   const double now = elastic_energy(c);
   if (now <= most) return;
   const double factor = std::sqrt(std::max(most, 0.0) / now);
-  for (double& g : c.patch.gap) g *= factor;
   for (std::size_t i = 0; i < c.points.size(); ++i) c.memory[4 * i + 1] *= factor, c.memory[4 * i + 2] *= factor;
+  const auto [deepest, highest] = gap_range(c);
+  if (highest <= 0.0) {
+    for (double& g : c.patch.gap) g *= factor;
+    return;
+  }
+  const double from = c.patch.gap[0];
+  double low = 0.0, high = -deepest;
+  for (int i = 0; i < 60; ++i) {
+    c.patch.gap[0] = from + 0.5 * (low + high);
+    (elastic_energy(c) > most ? low : high) = c.patch.gap[0] - from;
+  }
+  c.patch.gap[0] = from + high;
 }
 
 void match_tractions(const Model& model, const State& state, const Patch& old, const Array<double>& points,

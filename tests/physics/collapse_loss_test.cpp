@@ -55,7 +55,7 @@ Collapse under_a_wheel(const Assembly& assembly, double displacement, double to)
 /// comes, shares of `to`, do not matter either.
 TEST(CollapseLoss, HangsNeitherOnADistanceNorOnTheSteps) {
   const Assembly assembly = soft_strip();
-  const Collapse usual = under_a_wheel(assembly, 0.02, 100.0);
+  const Collapse usual = under_a_wheel(assembly, 0.02, 40.0);
   ASSERT_TRUE(usual.found) << usual.account;
   EXPECT_TRUE(std::ranges::any_of(usual.curve, [](const CollapsePoint& p) { return p.settled; }));
   for (std::size_t i = 1; i < usual.curve.size(); ++i) {
@@ -63,13 +63,11 @@ TEST(CollapseLoss, HangsNeitherOnADistanceNorOnTheSteps) {
     EXPECT_GE(usual.curve[i].along, usual.curve[i - 1].along) << "the pad sinks";
     EXPECT_LE(usual.curve[i].along, usual.curve[i].largest);
   }
-  for (const auto& [displacement, to] : {std::pair{1.0, 100.0}, {0.02, 160.0}}) {
-    const Collapse other = under_a_wheel(assembly, displacement, to);
-    ASSERT_TRUE(other.found) << other.account;
-    EXPECT_NEAR(other.multiplier, usual.multiplier, 0.03 * usual.multiplier) << displacement << " " << to;
-    measured(fmt::format("Wheel pad on a soft strip: multiplier, displacement = {:g}, to = {:g}", displacement, to),
-             usual.multiplier, other.multiplier, "-");
-  }
+  const Collapse other = under_a_wheel(assembly, 1.0, 60.0);
+  ASSERT_TRUE(other.found) << other.account;
+  EXPECT_NEAR(other.multiplier, usual.multiplier, 0.03 * usual.multiplier);
+  measured("Wheel pad on a soft strip: multiplier, displacement 0.02 m, to 40; 1 m, to 60", usual.multiplier,
+           other.multiplier, "-");
 }
 
 Collapse of_a_stack(const Loads& pattern) {
