@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/shortest_link.h"
+
 namespace voussoir {
 
 namespace {
@@ -12,6 +14,11 @@ const double* pose_of(const State& state, std::int32_t body) {
 
 /// Shares of the smaller body's face that a sharp contact stands on, and below which an overlap carries nothing.
 constexpr double point_share = 0.01, least_share = 0.01;
+/// Of its size: the breadth of edges (a line as long as it is broad stands on as much as a point), and by how much
+/// cells shrink for the normal of a pair.
+constexpr double edge_breadth = 0.1, shrink_share = 0.01;
+/// And how near the joints of stones that enclose an edge end at it.
+constexpr double point_reach = 0.1;
 
 double body_size(const Model& model, std::int32_t body) {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
@@ -96,29 +103,85 @@ void make_face_patch(const Model& model, const State& state, const Meeting& m, N
   contact.corners = shape.corners;
 }
 
-/// Stones laid edge along edge meet sharply from the start, by the thousand, and carry nothing there; only when they
-/// have moved well into each other do they need a contact.
+/// Stones laid edge along edge meet sharply from the start, by the thousand. Those that others enclose carry nothing
+/// there; only when they have moved well into each other do they need a contact.
 bool touching_as_built(const Model& model, const Patch& p) {
   const double near = model.contact.gap_tolerance;
   return separation(model.cells[p.a][p.cell_a], model.cells[p.b][p.cell_b], near) <= near;
 }
 
-/// A sharp meeting stands on a small area of its own.
-void make_point_patch(const Model& model, const State& state, const Vec3& place, const Vec3& normal, double gap,
-                      NewContact& contact) {
+/// The frame of a sharp contact: s along what the pairs of points lie on, if there are two.
+Mat3 sharp_frame(const Meeting& m) {
+  Vec3 s = m.normal.unitOrthogonal();
+  if (m.on_a.size() == 2) {
+    const Vec3 along = m.on_a[1] + m.on_b[1] - m.on_a[0] - m.on_b[0];
+    s = (along - m.normal.dot(along) * m.normal).normalized();
+  }
   Mat3 frame;
-  frame.col(0) = normal;
-  frame.col(1) = normal.unitOrthogonal();
-  frame.col(2) = normal.cross(frame.col(1));
+  frame << m.normal, s, m.normal.cross(s);
+  return frame;
+}
+
+Vec3 middle_of(const Meeting& m) {
+  Vec3 place = Vec3::Zero();
+  for (std::size_t i = 0; i < m.on_a.size(); ++i) place += (m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
+  return place;
+}
+
+/// A sharp meeting stands on a small area of its own: along shared edges on a strip, whose points all lie on the line
+/// so that it is a hinge (Simpson's rule: exact for what is linear along it, with points at its ends).
+void make_sharp_patch(const Model& model, const State& state, const Meeting& m, NewContact& contact) {
   Patch& p = contact.patch;
-  const double size = std::min(body_size(model, p.a), body_size(model, p.b));
-  p.area = point_share * size * size;
+  const double size = std::min(body_size(model, p.a), body_size(model, p.b)), breadth = edge_breadth * size;
+  const Mat3 frame = sharp_frame(m);
+  const Vec3 place = middle_of(m);
+  const double length = m.on_a.size() == 2 ? frame.col(1).dot(m.on_a[1] - m.on_a[0]) : 0.0;
+  const double half = 0.5 * length, h = 0.5 * breadth;
   place_patch(model, state, place, frame, p);
-  p.gap[0] = gap;
-  set_stiffness(model, state, place, normal, p);
-  contact.points = {{0.0, 0.0, p.area}};
-  const double h = 0.5 * std::sqrt(p.area);
-  contact.corners = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
+  set_stiffness(model, state, place, m.normal, p);
+  if (length <= breadth) {
+    p.area = point_share * size * size;
+    p.gap[0] = m.separation;
+    contact.points = {{0.0, 0.0, p.area}};
+    contact.corners = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
+    return;
+  }
+  p.area = breadth * length;
+  p.ss = p.area * length * length / 12.0;
+  const double first = m.normal.dot(m.on_b[0] - m.on_a[0]), last = m.normal.dot(m.on_b[1] - m.on_a[1]);
+  p.gap[0] = 0.5 * (first + last), p.gap[2] = -(last - first) / length;
+  contact.points = {{-half, 0, p.area / 6}, {0, 0, p.area * 4 / 6}, {half, 0, p.area / 6}};
+  contact.corners = {{-half, -h, 0}, {half, -h, 0}, {half, h, 0}, {-half, h, 0}};
+}
+
+bool has_area(const Meeting& m, double size) {
+  return m.kind == Meeting::Kind::face && m.on_a.size() >= 3 && m.area > least_share * size * size;
+}
+
+/// Whether faces lie flat on each other, in a small spot: no matter of edges.
+bool flat_spot(const Convex& a, const Convex& b, const Meeting& m) {
+  return m.kind == Meeting::Kind::face && m.on_a.size() >= 3 &&
+         (a.planes[std::size_t(m.face_a)].normal + b.planes[std::size_t(m.face_b)].normal).norm() < 1e-3;
+}
+
+/// Whether two cells that share no area lie on either side of a plane that has a face of each: they slide along it
+/// without overlap, and the middle of all directions that part them would resist that.
+bool slides_free(const Model& model, const Convex& a, const Convex& b, const Meeting& m, double size) {
+  constexpr double flat_share = 1e-4;  // of the squared size: less is no area
+  if (flat_spot(a, b, m) && m.area > flat_share * size * size) return false;
+  return lie_flush(a, b, model.contact.gap_tolerance);
+}
+
+/// How cells meet that share no area to speak of. Edges that cross have a normal of the pair already.
+Meeting sharply(const Convex& a, const Convex& b, const Meeting& m, double within, double shrink) {
+  if (m.kind == Meeting::Kind::edge || flat_spot(a, b, m)) return m;
+  return sharp_meeting(a, b, within, shrink).value_or(m);
+}
+
+/// The middle of what the boxes about two cells share: near where they meet.
+Vec3 middle_of_boxes(const Convex& a, const Convex& b) {
+  const Box one = bounding_box(a.vertices), other = bounding_box(b.vertices);
+  return 0.5 * (one.low.cwiseMax(other.low) + one.high.cwiseMin(other.high));
 }
 
 }  // namespace
@@ -129,29 +192,35 @@ Convex placed_cell(const Model& model, const State& state, std::int32_t body, st
                model.bodies[body].centroid, Vec3(p[0], p[1], p[2]));
 }
 
-Examined make_contact(const Model& model, const State& state, const CellPair& cells, const Convex& placed_a,
-                      const Convex& placed_b, double within) {
+Examined make_contact(const Model& model, const State& state, const JointsOfBodies& joints, const CellPair& cells,
+                      const Convex& placed_a, const Convex& placed_b, double within) {
   const auto [a, b, cell_a, cell_b] = cells;
-  const Meeting m = meeting(placed_a, placed_b, within);
+  Meeting m = meeting(placed_a, placed_b, within);
   if (m.kind == Meeting::Kind::apart) return {std::nullopt, std::max(0.0, m.separation)};
-  if (m.on_a.empty()) return {};
   NewContact contact;
   Patch& p = contact.patch;
   p.a = a, p.b = b, p.cell_a = cell_a, p.cell_b = cell_b;
   p.law = model.matter[a].tan_friction <= model.matter[b].tan_friction ? model.contact_law[a] : model.contact_law[b];
-  const double size = std::min(body_size(model, a), body_size(model, b));
-  if (m.kind == Meeting::Kind::face && m.on_a.size() >= 3 && m.area > least_share * size * size) {
+  const double size = std::min(body_size(model, a), body_size(model, b)), shrink = shrink_share * size;
+  if (has_area(m, size) && opens_at_an_edge(placed_a, placed_b, m, 3.0 * shrink))
+    m = on_common_plane(placed_a, placed_b, m, shrink);
+  if (has_area(m, size)) {
     make_face_patch(model, state, m, contact);
-  } else if (m.separation < -point_share * size || (m.kind == Meeting::Kind::edge && !touching_as_built(model, p))) {
-    Vec3 place = Vec3::Zero();
-    for (std::size_t i = 0; i < m.on_a.size(); ++i) place += (m.on_a[i] + m.on_b[i]) / (2.0 * double(m.on_a.size()));
-    make_point_patch(model, state, place, m.normal, m.separation, contact);
   } else {
-    return {};  // edge beside edge: nothing to stand on yet
+    // Edge beside edge: where the stones around stand about it as built, there is nothing to stand on yet.
+    const bool deep = m.separation < -point_share * size;
+    const bool waits = !deep && (m.kind == Meeting::Kind::face || touching_as_built(model, p));
+    if (waits && slides_free(model, placed_a, placed_b, m, size)) return {};
+    if (waits && joints.enclose(state, cells, middle_of_boxes(placed_a, placed_b), point_reach * size)) return {};
+    const Meeting sharp = sharply(placed_a, placed_b, m, within, shrink);
+    if (sharp.kind == Meeting::Kind::apart) return {std::nullopt, std::max(0.0, sharp.separation)};
+    if (sharp.on_a.empty()) return {};
+    if (waits && joints.enclose(state, cells, middle_of(sharp), point_reach * size)) return {};
+    make_sharp_patch(model, state, sharp, contact);
   }
   // Found already overlapping (neighbours that met edge to edge): it begins without force from there.
   double deepest = 0.0;
-  for (const PatchPoint& c : contact.corners.size() > 1 && p.ss > 0.0 ? contact.corners : contact.points)
+  for (const PatchPoint& c : contact.corners.size() > 1 && p.tt > 0.0 ? contact.corners : contact.points)
     deepest = std::min(deepest, p.gap[0] + p.gap[1] * c.t - p.gap[2] * c.s);
   p.gap[0] -= deepest;
   p.point_count = std::int32_t(contact.points.size());

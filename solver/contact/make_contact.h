@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "solver/contact/enclosed.h"
 #include "solver/contact/jump.h"
 
 namespace voussoir {
@@ -22,8 +23,8 @@ struct Examined {
 };
 
 /// Cells in their present placement; a contact is made when they are within `within` (m).
-Examined make_contact(const Model& model, const State& state, const CellPair& cells, const Convex& placed_a,
-                      const Convex& placed_b, double within);
+Examined make_contact(const Model& model, const State& state, const JointsOfBodies& joints, const CellPair& cells,
+                      const Convex& placed_a, const Convex& placed_b, double within);
 
 /// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
 /// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed. Where

@@ -55,6 +55,7 @@ class Search {
         branches_(branches),
         threads_(threads),
         slots_(model, state, branches),
+        joints_(model),
         moved_(model.bodies.size(), 0),
         stale_(model.bodies.size(), 0) {}
 
@@ -230,7 +231,7 @@ class Search {
     if (lost(old)) return {};
     const CellPair cells = {old.a, old.b, old.cell_a, old.cell_b};
     std::optional<NewContact> fresh =
-        make_contact(model_, state_, cells, placed_cell(model_, state_, old.a, old.cell_a),
+        make_contact(model_, state_, joints_, cells, placed_cell(model_, state_, old.a, old.cell_a),
                      placed_cell(model_, state_, old.b, old.cell_b), skin(model_))
             .contact;
     if (!fresh) return {};
@@ -275,7 +276,7 @@ class Search {
       // Bodies that a live patch holds within its limits cannot come at each other unseen: their other cells wait until
       // they touch.
       const double within = joined(model_, state_, a, b) ? 0.0 : skin(model_);
-      found[i] = make_contact(model_, state_, cells[i], placed.of(a, cell_a), placed.of(b, cell_b), within);
+      found[i] = make_contact(model_, state_, joints_, cells[i], placed.of(a, cell_a), placed.of(b, cell_b), within);
     });
     update_.examined += std::int64_t(due.size());
     const double least = least_pair_share * skin(model_);
@@ -297,6 +298,7 @@ class Search {
   int threads_;
   ContactUpdate update_;
   ContactSlots slots_;
+  JointsOfBodies joints_;
   std::vector<char> moved_, stale_;
   bool any_stale_ = false;
   std::vector<NewContact> clipped_;

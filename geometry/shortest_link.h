@@ -1,0 +1,44 @@
+// The normal of a pair of convex cells that meet at edges or corners, where no face of either says what it is: the
+// direction of the shortest link between both cells, each shrunk a little (docs/theory/contacts.md).
+#pragma once
+#include <optional>
+
+#include "geometry/convex.h"
+
+namespace voussoir {
+
+/// The line of shortest distance between two cells that have been shrunk.
+struct ShortestLink {
+  Vec3 normal = Vec3::UnitZ();  // unit, from a to b
+  double distance = 0.0;        // m, between the shrunk cells
+  // Vertices of each that span the features at its ends: a corner, an edge or three corners of a face; and the point
+  // of the cell as it is, not shrunk, that has the same weights in these.
+  std::vector<int> of_a, of_b;
+  Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();
+};
+
+/// Vertices of a cell whose faces have all moved inwards by `shrink` (m): those of a sharp tip move four times as far
+/// at most. Corners within an edge or a face move as it does, so that the shrunk cell does not depend on them.
+std::vector<Vec3> shrunk_vertices(const Convex& shape, double shrink);
+
+/// None if the shrunk cells overlap. Its direction depends on nothing but the two sets of points, continuously
+/// (Gilbert, Johnson & Keerthi 1988 find it).
+std::optional<ShortestLink> shortest_link(const Convex& a, const Convex& b, double shrink);
+
+/// How two cells meet at edges or corners, by the shortest link of both shrunk: Kind::edge with one pair of points, or
+/// with two, at the ends of what edges that lie along each other share. Kind::apart (with the normal and separation)
+/// when farther than `within` along it. None when the shrunk cells overlap.
+std::optional<Meeting> sharp_meeting(const Convex& a, const Convex& b, double within, double shrink);
+
+/// Whether a face of each lies in one plane, the cells on either side of it: within 10⁻³ rad and `within` (m).
+bool lie_flush(const Convex& a, const Convex& b, double within);
+
+/// Whether two faces that meet stand open like a book whose spine may be an edge of each: not flat on each other, and
+/// nearest within `margin` (m) of the border of the face that gave the normal.
+bool opens_at_an_edge(const Convex& a, const Convex& b, const Meeting& m, double margin);
+
+/// The same two faces clipped on the common plane of the pair, the normal being that of the shortest link. The meeting
+/// as it is where that says nothing else; without points where a face is steeper than 45° to that plane.
+Meeting on_common_plane(const Convex& a, const Convex& b, const Meeting& m, double shrink);
+
+}  // namespace voussoir

@@ -1,0 +1,174 @@
+// Stones that meet along edges: their contact's normal is one of the pair.
+#include "solver/step/simulation.h"
+#include "tests/solver/measured.h"
+#include "tests/solver/models.h"
+
+namespace voussoir::test {
+namespace {
+
+constexpr double gravity = 9.81, length = 2.0, thick = 0.2, density = 2000.0;
+const double weight = length * thick * density * gravity;
+/// By moments of a slab about its foot: the force at the ridge is level.
+const double thrust_share =
+    (0.5 * length * std::sin(radians(30)) - 0.5 * thick * std::cos(radians(30))) / (length * std::cos(radians(30)));
+
+/// Two plain slabs lean against each other by 30 degrees from upright, with edges on a floor and at the ridge.
+Assembly roof(double friction_degrees) {
+  const double s = std::sin(radians(30)), c = std::cos(radians(30));
+  Assembly assembly = stone(density, 1e10, std::tan(radians(friction_degrees)));
+  add_box(assembly, {-3, -0.5, -0.5}, {3, 1.5, 0}, true);
+  const Polygon left = {{-length * s, 0, 0},
+                        {0, 0, length * c},
+                        {-thick * c, 0, length * c + thick * s},
+                        {-length * s - thick * c, 0, thick * s}};
+  Polygon right;
+  for (auto p = left.rbegin(); p != left.rend(); ++p) right.emplace_back(-p->x(), p->y(), p->z());
+  for (const Polygon& section : {left, right}) {
+    Polyhedron slab = make_prism(section, {0, 1, 0});
+    if (mass_properties(slab).volume < 0.0)
+      for (auto& face : slab.faces) std::reverse(face.begin(), face.end());
+    add_block(assembly, slab);
+  }
+  return joined(std::move(assembly), 1e10, 4e9, dry_law(std::tan(radians(friction_degrees))));
+}
+
+SolverSettings under_gravity(bool at_rest) {
+  SolverSettings settings;
+  settings.gravity = {0, 0, -gravity};
+  if (at_rest) settings.stages = {StageSettings{}};
+  StageSettings free;
+  free.kind = StageSettings::Kind::free;
+  free.duration = 0.5;
+  if (!at_rest) settings.stages = {free};
+  return settings;
+}
+
+Vec3 moved(const Simulation& simulation, int block) {
+  return Vec3(&simulation.state().pose[pose_width * std::size_t(simulation.model().body_of_block[std::size_t(block)])]);
+}
+
+TEST(Edges, AStableRoofStandsAndMovesAlikeOnBothSides) {
+  ASSERT_NEAR(thrust_share, 0.239, 1e-3) << "feet need 13.4 degrees";
+  for (const bool at_rest : {true, false})
+    for (const double friction : {28.0, 20.0, 15.0}) {
+      const Assembly assembly = roof(friction);
+      ASSERT_TRUE(assembly.joints.empty());
+      Simulation simulation(assembly, under_gravity(at_rest), 1, {});
+      ASSERT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
+      const Vec3 left = moved(simulation, 1), right = moved(simulation, 2);
+      EXPECT_LT(left.norm(), 2e-3) << friction;
+      EXPECT_NEAR(left.x(), -right.x(), 1e-7) << friction;
+      EXPECT_NEAR(left.z(), right.z(), 1e-7) << friction;
+      EXPECT_NEAR(left.y(), 0.0, 1e-7);
+    }
+}
+
+TEST(Edges, ARoofFallsWhereItsFeetCannotHoldIt) {
+  const Assembly assembly = roof(12.0);
+  Simulation simulation(assembly, under_gravity(true), 1, {});
+  simulation.run();
+  EXPECT_GT(moved(simulation, 1).norm(), 0.1);
+}
+
+/// The ridge is a contact from the first search on and carries the level force of equilibrium, without friction.
+TEST(Edges, TheRidgeCarriesALevelForce) {
+  const Assembly assembly = roof(28.0);
+  Bench bench(assembly, undamped({0, 0, -gravity}));
+  update_contacts(bench.model, bench.state, {});
+  bench.stepper.prepare();
+  ASSERT_TRUE(bench.balance(1e-8).converged);
+  int ridges = 0;
+  for (std::size_t slot = 0; slot < bench.state.contacts.size(); ++slot) {
+    const Patch& p = bench.state.contacts[slot];
+    if (!bench.state.has_contact(slot) || std::min(p.a, p.b) == bench.body(0)) continue;
+    if (p.a == bench.body(0) || p.b == bench.body(0)) continue;
+    ++ridges;
+    const Vec3 force = bench.wrench_on(1, bench.model.joints.size() + slot, Vec3::Zero()).first;
+    EXPECT_NEAR(force.x(), -thrust_share * weight, 2e-3 * weight) << "1873 N";
+    EXPECT_LT(std::hypot(force.y(), force.z()), 2e-3 * weight);
+  }
+  EXPECT_EQ(ridges, 1);
+}
+
+/// A block stands with two edges on the inner edges of two walls, its sides in line with theirs: nothing is below it.
+TEST(Edges, ABlockFallsBetweenWallsInLineWithItsSides) {
+  Assembly assembly = stone(density, 1e10, 0.0);
+  add_box(assembly, {-1, -1, -1}, {0, 2, 1}, true);
+  add_box(assembly, {0.5, -1, -1}, {1.5, 2, 1}, true);
+  add_box(assembly, {0, 0, 1}, {0.5, 1, 1.5});
+  const Assembly joined_up = joined(std::move(assembly), 1e10, 4e9, dry_law(0.0));
+  ASSERT_TRUE(joined_up.joints.empty());
+  SolverSettings settings = under_gravity(false);
+  settings.stages[0].duration = 0.1;
+  settings.step.time_step = 1e-4;
+  Simulation simulation(joined_up, settings, 1, {});
+  ASSERT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
+  EXPECT_NEAR(moved(simulation, 2).z(), -0.5 * gravity * 0.01, 1e-3 * 0.05);
+}
+
+/// Random convex stones fall on a floor and on each other.
+struct Rain {
+  double overlap = 0.0, growth = 0.0, kinetic = 0.0;
+  Vec3 place = Vec3::Zero();
+};
+Rain rain(unsigned seed, bool mirrored) {
+  std::mt19937 random(seed);
+  Assembly assembly = stone(2000.0, 1e9, 0.5);
+  std::vector<Polyhedron> stones = {make_box({-3, -3, -1}, {3, 3, 0})};
+  for (int i = 0; i < 2; ++i) {
+    Polyhedron box = make_box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25});
+    box = cut(box, {random_vector(1.0, random).normalized(), 0.2});
+    const Mat3 turn = random_rotation(random).toRotationMatrix();
+    const Vec3 at = Vec3(0.1, 0.1, 0.0).cwiseProduct(random_vector(1.0, random)) + Vec3(0, 0, 0.47 + 0.95 * i);
+    for (Vec3& v : box.vertices) v = turn * v + at;
+    stones.push_back(box);
+  }
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    if (mirrored) {
+      for (Vec3& v : stones[i].vertices) v.x() = -v.x();
+      for (auto& face : stones[i].faces) std::reverse(face.begin(), face.end());
+    }
+    add_block(assembly, stones[i], i == 0);
+  }
+  Bench bench(joined(std::move(assembly), 1e9, 4e8, dry_law(0.5)), undamped({0, 0, -gravity}));
+  update_contacts(bench.model, bench.state, {});
+  bench.stepper.prepare();
+  const double dt = 5e-5;
+  bench.begin(dt);
+  Rain out;
+  double first = 1e300;
+  const bool stayed = bench.run(std::int64_t(0.5 / dt), 10, [&](const BodyPass& pass) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = i + 1; j < 3; ++j) out.overlap = std::max(out.overlap, bench.overlap(i, j));
+    const Energies e = compute_energies(bench.stepper, pass);
+    if (first == 1e300) first = e.stored();
+    out.kinetic = std::max(out.kinetic, e.kinetic);
+    out.growth = std::max(out.growth, e.stored() - first);
+  });
+  EXPECT_TRUE(stayed);
+  out.place = bench.displacement(1);
+  return out;
+}
+
+TEST(Edges, FiveHundredStonesFallAndNonePassesAnother) {
+  double overlap = 0.0, growth = 0.0;
+  for (unsigned seed = 1; seed <= 250; ++seed) {  // two stones each
+    const Rain r = rain(seed, false);
+    overlap = std::max(overlap, r.overlap);
+    growth = std::max(growth, r.growth / r.kinetic);
+  }
+  measured("500 stones dropped: largest overlap over size", 0.0, overlap / 0.5, "-");
+  measured("500 stones dropped: largest growth of energy over kinetic energy", 0.0, growth, "-");
+  EXPECT_LT(overlap, 0.1 * 0.5);
+  EXPECT_LT(growth, 0.01);
+}
+
+TEST(Edges, MirroredStonesFallMirrored) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const Vec3 one = rain(seed, false).place, other = rain(seed, true).place;
+    EXPECT_LT((one - Vec3(-other.x(), other.y(), other.z())).norm(), 1e-9) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace voussoir::test
