@@ -12,24 +12,44 @@ const double weight = length * thick * density * gravity;
 const double thrust_share =
     (0.5 * length * std::sin(radians(30)) - 0.5 * thick * std::cos(radians(30))) / (length * std::cos(radians(30)));
 
+/// A bar along y, its section going round either way.
+Polyhedron bar(const Polygon& section) {
+  Polyhedron shape = make_prism(section, {0, 1, 0});
+  if (mass_properties(shape).volume < 0.0)
+    for (auto& face : shape.faces) std::reverse(face.begin(), face.end());
+  return shape;
+}
+
+/// Two slabs of this section, and its mirror image, on a floor.
+Assembly pair_on_floor(const Polygon& left, double friction_degrees) {
+  Assembly assembly = stone(density, 1e10, std::tan(radians(friction_degrees)));
+  add_box(assembly, {-3, -0.5, -0.5}, {3, 1.5, 0}, true);
+  Polygon right;
+  for (auto p = left.rbegin(); p != left.rend(); ++p) right.emplace_back(-p->x(), p->y(), p->z());
+  add_block(assembly, bar(left));
+  add_block(assembly, bar(right));
+  return joined(std::move(assembly), 1e10, 4e9, dry_law(std::tan(radians(friction_degrees))));
+}
+
 /// Two plain slabs lean against each other by 30 degrees from upright, with edges on a floor and at the ridge.
 Assembly roof(double friction_degrees) {
   const double s = std::sin(radians(30)), c = std::cos(radians(30));
-  Assembly assembly = stone(density, 1e10, std::tan(radians(friction_degrees)));
-  add_box(assembly, {-3, -0.5, -0.5}, {3, 1.5, 0}, true);
-  const Polygon left = {{-length * s, 0, 0},
+  return pair_on_floor({{-length * s, 0, 0},
                         {0, 0, length * c},
                         {-thick * c, 0, length * c + thick * s},
-                        {-length * s - thick * c, 0, thick * s}};
-  Polygon right;
-  for (auto p = left.rbegin(); p != left.rend(); ++p) right.emplace_back(-p->x(), p->y(), p->z());
-  for (const Polygon& section : {left, right}) {
-    Polyhedron slab = make_prism(section, {0, 1, 0});
-    if (mass_properties(slab).volume < 0.0)
-      for (auto& face : slab.faces) std::reverse(face.begin(), face.end());
-    add_block(assembly, slab);
-  }
-  return joined(std::move(assembly), 1e10, 4e9, dry_law(std::tan(radians(friction_degrees))));
+                        {-length * s - thick * c, 0, thick * s}},
+                       friction_degrees);
+}
+
+/// The same with its ridge cut so that the faces there stand open by twice `open` (degrees) above the edges that meet.
+Assembly mitred_roof(double friction_degrees, double open) {
+  const double s = std::sin(radians(30)), c = std::cos(radians(30));
+  const double up = thick / (s + c * std::tan(radians(open)));  // from the ridge to where the cut leaves the slab
+  return pair_on_floor({{-length * s, 0, 0},
+                        {0, 0, length * c},
+                        {-up * std::tan(radians(open)), 0, length * c + up},
+                        {-length * s - thick * c, 0, thick * s}},
+                       friction_degrees);
 }
 
 SolverSettings under_gravity(bool at_rest) {
@@ -88,6 +108,36 @@ TEST(Edges, TheRidgeCarriesALevelForce) {
     EXPECT_LT(std::hypot(force.y(), force.z()), 2e-3 * weight);
   }
   EXPECT_EQ(ridges, 1);
+}
+
+TEST(Edges, AMitredRoofThatStandsOpenMovesAlikeOnBothSides) {
+  for (const double open : {0.2, 1.0, 5.0, 20.0}) {
+    const Assembly assembly = mitred_roof(28.0, open);
+    ASSERT_TRUE(assembly.joints.empty());
+    Simulation simulation(assembly, under_gravity(true), 1, {});
+    ASSERT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
+    const Vec3 left = moved(simulation, 1), right = moved(simulation, 2);
+    EXPECT_LT(left.norm(), 2e-3) << open;
+    EXPECT_NEAR(left.x(), -right.x(), 1e-7) << open;
+    EXPECT_NEAR(left.z(), right.z(), 1e-7) << open;
+  }
+}
+
+/// A bar of three sides stands on its edge on the edge of a square one that lies along it, upright and without
+/// friction: pressed straight up, it leans to neither side.
+TEST(Edges, ABarStandsOnAnEdgeAlongItsOwn) {
+  Assembly assembly = stone(density, 1e10, 0.0);
+  add_block(assembly, bar({{-0.1, -0.5, -0.1}, {0, -0.5, -0.2}, {0.1, -0.5, -0.1}, {0, -0.5, 0}}), true);
+  add_block(assembly, bar({{0, -0.5, 0}, {0.1, -0.5, 0.17}, {-0.1, -0.5, 0.17}}));
+  assembly = joined(std::move(assembly), 1e10, 4e9, dry_law(0.0));
+  SolverSettings settings = under_gravity(false);
+  settings.stages[0].duration = 0.05;
+  settings.step.time_step = 1e-5;
+  Simulation simulation(assembly, settings, 1, {});
+  ASSERT_EQ(simulation.run(), RunEnd::finished) << simulation.failure();
+  const Vec3 on = moved(simulation, 1);
+  EXPECT_NEAR(on.x(), 0.0, 1e-9);
+  EXPECT_GT(on.z(), -1e-5) << "in free fall: 12 mm";
 }
 
 /// A block stands with two edges on the inner edges of two walls, its sides in line with theirs: nothing is below it.
