@@ -286,7 +286,7 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   const Shapes rest = shapes(grids, hidden, 0.0, cut);
-  const Content content = content_of(now, rest, options.outline);
+  const Content content = content_of(now, rest, options.outline || options.undeformed);
   Sheet sheet = make_sheet(options, view, content.points);
   place_camera(renderer, view, content.points, sheet);
   add_lights(renderer, view);

@@ -38,7 +38,7 @@ void draw_fill(const std::string& images, const Assembly& assembly, const Snapsh
   }
 }
 
-/// The assembly on its way down, displacements enlarged to a third of a block.
+/// The assembly on its way down, displacements enlarged to a third of a block; with a fill in the section along its middle.
 void draw_mechanism(const std::string& images, const Simulation& run, const Snapshot& snapshot) {
   const Model& model = run.model();
   const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
@@ -50,6 +50,7 @@ void draw_mechanism(const std::string& images, const Simulation& run, const Snap
   o.crack_mm = 30.0 * stage.collapse.displacement * model.typical_size;
   o.undeformed = true;
   o.hide = {};
+  if (!model.fill.empty()) o.cut = std::string("y");  // soil between walls of plane strain, or behind spandrels
   o.title = fmt::format("Beyond multiplier {:.4g}", run.collapse().multiplier);
   render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
 }
