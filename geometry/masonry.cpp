@@ -1,8 +1,8 @@
 #include "geometry/masonry.h"
 
 #include <algorithm>
+#include <boost/iterator/counting_iterator.hpp>
 #include <cmath>
-#include <ranges>
 
 #include "solver/base/error.h"
 
@@ -137,10 +137,10 @@ std::pair<int, int> sectors_reached(const Polygon& polygon, const Ring& ring) {
     const auto inside = [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset < kNothing; };
     return std::any_of(polygon.begin(), polygon.end(), inside);
   };
-  const auto wedges = std::views::iota(0, ring.wedges());
-  const auto first = std::ranges::partition_point(wedges, [&](int i) { return !reaches(before_joint(ring, i + 1)); });
-  const auto last = std::ranges::partition_point(wedges, [&](int i) { return reaches(past_joint(ring, i)); });
-  return {int(first - wedges.begin()), int(last - wedges.begin())};
+  const boost::counting_iterator<int> begin(0), end(ring.wedges());
+  const auto first = std::partition_point(begin, end, [&](int i) { return !reaches(before_joint(ring, i + 1)); });
+  const auto last = std::partition_point(begin, end, [&](int i) { return reaches(past_joint(ring, i)); });
+  return {*first, *last};
 }
 
 bool clear_of(const Polygon& polygon, const Ring& ring) {
