@@ -16,12 +16,14 @@ const std::map<std::string, double> known_size = {{"intact-shortcut", 1e-7},
                                                   {"fill-rankine", 0.09}};
 
 TEST(KnownMisses, StayAsSmallAsTheyAre) {
-  for (const ladder::Rung& rung : ladder::rungs())
+  for (const ladder::Rung& rung : ladder::rungs()) {
+    if (rung.slow) continue;  // minutes
     for (const ladder::Finding& finding : rung.climb(1)) {
       if (finding.check.miss.empty()) continue;
       ASSERT_TRUE(known_size.count(rung.name)) << rung.name << " has a known miss without a size";
       EXPECT_LT(std::abs(finding.error()), known_size.at(rung.name)) << rung.name << ": " << finding.check.quantity;
     }
+  }
 }
 
 }  // namespace

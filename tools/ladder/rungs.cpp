@@ -22,6 +22,7 @@ const std::vector<Rung>& rungs() {
       fill_triaxial(),       //
       fill_oedometer(),      //
       fill_footing(),        //
+      fill_bearing(),        //
       fill_patch(),          //
       fill_slide(),          //
       fill_rankine(),
