@@ -7,9 +7,9 @@
 
 #include <span>
 
-#include "io/hdf5/atomic_file.h"
-#include "io/vtk/folder.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/folder.h"
 
 namespace voussoir {
 namespace {

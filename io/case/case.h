@@ -7,9 +7,9 @@
 
 #include "geometry/generator.h"
 #include "solver/effects/effect.h"
+#include "solver/model/settings.h"
 #include "solver/motion/pulse.h"
 #include "solver/motion/synthesis.h"
-#include "solver/step/settings.h"
 
 namespace voussoir {
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "io/case/table_reader.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

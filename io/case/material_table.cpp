@@ -1,7 +1,7 @@
 #include "io/case/material_table.h"
 
 #include "io/case/table_reader.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

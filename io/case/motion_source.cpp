@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "io/case/sections.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/records/sets.h"
 #include "io/records/table.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/motion/baseline.h"

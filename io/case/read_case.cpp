@@ -6,8 +6,8 @@
 #include "io/case/degrees.h"
 #include "io/case/material_table.h"
 #include "io/case/sections.h"
-#include "io/hdf5/atomic_file.h"
 #include "solver/base/arrays.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "io/case/sections.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/records/curve.h"
+#include "solver/base/atomic_file.h"
 
 namespace voussoir {
 

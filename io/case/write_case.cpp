@@ -5,8 +5,8 @@
 #include "io/case/degrees.h"
 #include "io/case/motion_source.h"
 #include "io/case/sections.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/records/format.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/hdf5/h5.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

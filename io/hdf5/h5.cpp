@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir::h5 {

@@ -2,8 +2,8 @@
 #pragma once
 #include <array>
 
-#include "io/measured/csv.h"
 #include "io/measured/measured.h"
+#include "solver/base/csv.h"
 
 namespace voussoir {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/measured/parts.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/measured/parts.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

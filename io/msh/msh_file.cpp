@@ -7,9 +7,9 @@
 
 #include "geometry/extent.h"
 #include "geometry/fill_mesh.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/msh/element_kinds.h"
 #include "io/msh/msh_values.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 

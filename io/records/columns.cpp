@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/records/not_read.h"
 #include "io/records/rows.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

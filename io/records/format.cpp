@@ -1,8 +1,8 @@
 #include "io/records/format.h"
 
-#include "io/hdf5/atomic_file.h"
 #include "io/records/rows.h"
 #include "io/records/table.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/records/components.h"
 #include "io/records/left_out.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/motion/filter.h"
 

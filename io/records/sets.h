@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/records/format.h"
-#include "solver/step/settings.h"
+#include "solver/model/settings.h"
 
 namespace voussoir {
 

@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <new>
 
-#include "io/hdf5/atomic_file.h"
-#include "io/vtk/folder.h"
 #include "io/vtk/quiet.h"
 #include "io/vtk/sound.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/folder.h"
 
 namespace voussoir {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/vtk/grid.h"
 #include "io/vtk/grid_arrays.h"
 #include "solver/base/error.h"
-#include "solver/fill/fill_memory.h"
+#include "solver/model/fill_memory.h"
 
 namespace voussoir {
 namespace {

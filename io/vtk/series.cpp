@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <functional>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/vtk/files.h"
-#include "io/vtk/folder.h"
 #include "io/vtk/grid.h"
 #include "io/vtk/quiet.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/folder.h"
 #include "solver/base/parallel.h"
 
 namespace voussoir {

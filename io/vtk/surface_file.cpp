@@ -4,7 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 

@@ -3,8 +3,8 @@
 #include <tuple>
 
 #include "solver/base/error.h"
-#include "solver/modal/loose.h"
-#include "solver/modal/stiffness.h"
+#include "solver/linear/loose.h"
+#include "solver/linear/stiffness.h"
 #include "solver/model/quadrature.h"
 
 namespace voussoir {

@@ -2,19 +2,19 @@
 // differ between two assemblies: what the diagnosis asks for hundreds of times, without building a model for runs.
 #pragma once
 #include "geometry/assembly.h"
-#include "solver/modal/block_matrix.h"
+#include "solver/linear/block_matrix.h"
 
 namespace voussoir {
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 /// Stiffness of a joint for the motions (du_a, dθ_a, du_b, dθ_b) of its blocks: N/m, N, N m. The patch as in
-/// solver/modal/stiffness.h, all of it bonded.
+/// solver/linear/stiffness.h, all of it bonded.
 Matrix12 pair_stiffness(const Assembly& assembly, const Joint& joint);
 
 struct LinearModel {
   Unknowns unknowns;  // sites are the assembly's blocks
-  SparseMatrix k, m;  // lower triangles; ways that nothing holds are held as in solver/modal/loose.h
+  SparseMatrix k, m;  // lower triangles; ways that nothing holds are held as in solver/linear/loose.h
 };
 /// Throws InputError when nothing is held together.
 LinearModel linear_model(const Assembly& assembly);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/assembly.h"
-#include "solver/step/settings.h"
+#include "solver/model/settings.h"
 
 namespace voussoir {
 

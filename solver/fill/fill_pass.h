@@ -11,8 +11,8 @@
 // It is the strain less what plastic flow has added that is averaged: all of it, or neighbours that dilate would drift
 // apart, and tearing would give energy back.
 #pragma once
-#include "solver/fill/fill_memory.h"
 #include "solver/model/branches.h"
+#include "solver/model/fill_memory.h"
 
 namespace voussoir {
 

@@ -6,8 +6,8 @@
 //
 // Elastic stiffness is isotropic: σ_i = λ tr ε + 2 μ ε_i.
 #pragma once
-#include "solver/fill/fill_law.h"
 #include "solver/fill/symmetric.h"
+#include "solver/model/fill_law.h"
 
 namespace voussoir {
 

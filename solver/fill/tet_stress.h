@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/fill/fill_memory.h"
+#include "solver/model/fill_memory.h"
 
 namespace voussoir {
 

@@ -10,7 +10,7 @@
 
 #include "solver/base/error.h"
 #include "solver/identify/ssi.h"
-#include "solver/modal/dense_eigen.h"
+#include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
 

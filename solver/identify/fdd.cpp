@@ -8,7 +8,7 @@
 #include "solver/base/error.h"
 #include "solver/identify/spectra.h"
 #include "solver/identify/subspace.h"
-#include "solver/modal/dense_eigen.h"
+#include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "solver/identify/spectra.h"
-#include "solver/modal/dense_eigen.h"
+#include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/modal/dense_eigen.h"
+#include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
 

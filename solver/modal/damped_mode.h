@@ -1,6 +1,6 @@
 // A mode under the damping of a case: what it rings at and how it decays.
 #pragma once
-#include "solver/step/settings.h"
+#include "solver/model/settings.h"
 
 namespace voussoir {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "solver/base/error.h"
-#include "solver/modal/loose.h"
+#include "solver/linear/loose.h"
 
 namespace voussoir {
 

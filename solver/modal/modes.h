@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "solver/modal/eigenpairs.h"
-#include "solver/modal/stiffness.h"
+#include "solver/linear/eigenpairs.h"
+#include "solver/linear/stiffness.h"
 
 namespace voussoir {
 

@@ -7,7 +7,7 @@
 #include "geometry/curve.h"
 #include "solver/base/buckets.h"
 #include "solver/base/error.h"
-#include "solver/fill/interface.h"
+#include "solver/model/interface.h"
 
 namespace voussoir {
 

@@ -12,10 +12,10 @@
 #include "geometry/convex.h"
 #include "solver/base/arrays.h"
 #include "solver/base/lanes.h"
-#include "solver/fill/fill_model.h"
+#include "solver/model/fill_model.h"
 #include "solver/model/laws.h"
 #include "solver/model/quadrature.h"
-#include "solver/step/settings.h"
+#include "solver/model/settings.h"
 
 namespace voussoir {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "solver/base/arrays.h"
-#include "solver/fill/fill_memory.h"
-#include "solver/fill/interface.h"
 #include "solver/model/branches.h"
+#include "solver/model/fill_memory.h"
+#include "solver/model/interface.h"
 #include "solver/model/model.h"
 
 namespace voussoir {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "solver/step/settings.h"
+#include "solver/model/settings.h"
 
 namespace voussoir {
 

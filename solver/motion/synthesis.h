@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "solver/model/settings.h"
 #include "solver/motion/target.h"
-#include "solver/step/settings.h"
 
 namespace voussoir {
 

@@ -1,6 +1,6 @@
 // The critical time step, 2/ω_max of the intact assembly, by Lanczos's method.
 #pragma once
-#include "solver/modal/unknowns.h"
+#include "solver/linear/unknowns.h"
 #include "solver/model/state.h"
 
 namespace voussoir {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/model/settings.h"
 #include "solver/model/state.h"
-#include "solver/step/settings.h"
 
 namespace voussoir {
 

@@ -1,7 +1,7 @@
 // Dead loads of a stage: an acceleration of all free blocks and forces on groups of them.
 #pragma once
+#include "solver/model/settings.h"
 #include "solver/model/state.h"
-#include "solver/step/settings.h"
 
 namespace voussoir {
 

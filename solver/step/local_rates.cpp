@@ -2,8 +2,8 @@
 
 #include <Eigen/Dense>
 
-#include "solver/modal/dense_eigen.h"
-#include "solver/modal/stiffness.h"
+#include "solver/linear/dense_eigen.h"
+#include "solver/linear/stiffness.h"
 
 namespace voussoir {
 

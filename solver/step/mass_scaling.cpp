@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 
 #include "solver/base/error.h"
-#include "solver/modal/dense_eigen.h"
-#include "solver/modal/eigenpairs.h"
-#include "solver/modal/stiffness.h"
+#include "solver/linear/dense_eigen.h"
+#include "solver/linear/eigenpairs.h"
+#include "solver/linear/stiffness.h"
 
 namespace voussoir {
 

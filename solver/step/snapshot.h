@@ -34,7 +34,7 @@ struct TetSnapshot {
   std::array<double, 6> stress = {};  // Pa, Cauchy: xx, yy, zz, xy, yz, xz; tension positive; without Maxwell branches
   double plastic_shear = 0.0;         // Σ √(⅔ Δe : Δe) of the plastic deviators so far
   double plastic_volume = 0.0;        // plastic volumetric strain: dilation and opening in tension
-  std::uint8_t yield = 0;             // TetYield bits (solver/fill/fill_memory.h)
+  std::uint8_t yield = 0;             // TetYield bits (solver/model/fill_memory.h)
 };
 
 /// The deformable fill, in the order of FillMesh; empty without one.

@@ -6,10 +6,10 @@
 
 #include "solver/base/parallel.h"
 #include "solver/fill/fill_pass.h"
+#include "solver/model/settings.h"
 #include "solver/motion/ground_path.h"
 #include "solver/step/body_pass.h"
 #include "solver/step/damping.h"
-#include "solver/step/settings.h"
 
 namespace voussoir {
 

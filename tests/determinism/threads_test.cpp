@@ -1,5 +1,5 @@
 // The same bits for any number of threads, and as the plain serial loop.
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

@@ -8,9 +8,9 @@
 #include <csignal>
 #include <cstring>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/h5.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 

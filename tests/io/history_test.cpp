@@ -5,7 +5,7 @@
 #include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/h5.h"
 #include "io/hdf5/history_file.h"
-#include "io/hdf5/info.h"
+#include "io/info/describe_file.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 

@@ -3,8 +3,8 @@
 
 #include "io/case/case.h"
 #include "io/hdf5/h5.h"
-#include "io/hdf5/info.h"
 #include "io/hdf5/modes_file.h"
+#include "io/info/describe_file.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 

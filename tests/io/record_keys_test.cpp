@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "io/case/case.h"
-#include "io/hdf5/info.h"
+#include "io/info/describe_file.h"
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 

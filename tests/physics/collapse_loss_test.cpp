@@ -1,6 +1,6 @@
 // What counts as loss of equilibrium on the way to a collapse load: motion that goes on, not a distance; and whether
 // all goes or a part.
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

@@ -1,6 +1,6 @@
 // Collapse loads against limit analysis: the multiplier and the joints that move. Voussoirs are near rigid.
 #include "solver/base/error.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

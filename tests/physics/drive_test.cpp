@@ -1,6 +1,6 @@
 // Fixed blocks that a stage drives: what stands on them goes along, and the ledger knows who did the work.
 #include "solver/base/error.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

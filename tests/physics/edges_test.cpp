@@ -1,5 +1,5 @@
 // Stones that meet along edges: their contact's normal is one of the pair.
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

@@ -4,7 +4,7 @@
 #include "solver/effects/parts.h"
 #include "solver/motion/ground_path.h"
 #include "solver/motion/pulse.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,7 +1,7 @@
 // The energy ledger of whole runs.
 #include "solver/motion/pulse.h"
 #include "solver/motion/synthesis.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,7 +1,7 @@
 // Gravity equilibrium against hand solutions, by Newton and by dynamic relaxation.
-#include "solver/modal/equilibrium.h"
+#include "solver/statics/equilibrium.h"
 
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,6 +1,6 @@
 // Blocks that find their neighbours, and towers that stand (falls and collisions: tools/ladder).
+#include "solver/run/simulation.h"
 #include "solver/step/make_snapshot.h"
-#include "solver/step/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,5 +1,5 @@
 // Stones and fill together: the assembled stiffness is the derivative of the step's forces, modes and equilibrium.
-#include "solver/modal/dense_eigen.h"
+#include "solver/linear/dense_eigen.h"
 #include "tests/solver/models.h"
 #include "tools/ladder/fill_models.h"
 

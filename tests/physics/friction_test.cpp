@@ -1,6 +1,6 @@
 // Blocks that slide, and blocks that must not.
 #include "solver/motion/pulse.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

@@ -1,7 +1,7 @@
 // What a gravity stage leaves: where displacements count from, stones that did not stay, rows of the history.
 #include "solver/motion/pulse.h"
+#include "solver/run/simulation.h"
 #include "solver/step/make_snapshot.h"
-#include "solver/step/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,6 +1,6 @@
 // Guided blocks: fixed ones that may move along some axes but never turn, such as a loading beam kept level.
 #include "solver/base/error.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

@@ -1,6 +1,6 @@
 // Dead loads of a stage: static and eased, and the ledger's account of their work.
 #include "solver/base/error.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 

@@ -1,8 +1,8 @@
 // Eigenvalue analysis (closed forms of chains and columns: tools/ladder).
 #include "solver/base/error.h"
+#include "solver/linear/dense_eigen.h"
+#include "solver/linear/loose.h"
 #include "solver/modal/damped_mode.h"
-#include "solver/modal/dense_eigen.h"
-#include "solver/modal/loose.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,9 +1,9 @@
 // Multigrid for tangents of large assemblies, against factors and a hand solution.
-#include "solver/modal/multigrid.h"
+#include "solver/linear/multigrid.h"
 
-#include "solver/modal/equilibrium.h"
-#include "solver/modal/factor.h"
-#include "solver/modal/stiffness.h"
+#include "solver/linear/factor.h"
+#include "solver/linear/stiffness.h"
+#include "solver/statics/equilibrium.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

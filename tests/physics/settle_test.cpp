@@ -1,5 +1,5 @@
 // States of a run brought to rest.
-#include "solver/modal/settle.h"
+#include "solver/statics/settle.h"
 
 #include "tests/solver/models.h"
 

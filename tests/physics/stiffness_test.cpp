@@ -1,5 +1,5 @@
 // Stiffness and mass of assemblies against the explicit forces (closed forms: tools/ladder).
-#include "solver/modal/dense_eigen.h"
+#include "solver/linear/dense_eigen.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -10,7 +10,7 @@
 
 #include "geometry/generator.h"
 #include "io/hdf5/assembly_file.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "tests/io/folder.h"
 #include "tools/fuzz/readers.h"
 

@@ -5,8 +5,8 @@
 
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/motion/synthesis.h"
+#include "solver/run/simulation.h"
 #include "solver/step/make_snapshot.h"
-#include "solver/step/simulation.h"
 #include "tests/restart/copy_state.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"

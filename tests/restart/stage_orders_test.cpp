@@ -3,7 +3,7 @@
 #include <random>
 
 #include "solver/motion/synthesis.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tests/restart/copy_state.h"
 #include "tests/solver/models.h"
 #include "tools/ladder/fill_models.h"

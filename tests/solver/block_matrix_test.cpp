@@ -1,5 +1,5 @@
 // The symmetric matrix of blocks, against the same one dense.
-#include "solver/modal/block_matrix.h"
+#include "solver/linear/block_matrix.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <cmath>
 
-#include "solver/modal/unknowns.h"
+#include "solver/linear/unknowns.h"
 
 namespace voussoir::test {
 

@@ -1,10 +1,10 @@
 // Rows of blocks and their products, against the same matrices dense.
-#include "solver/modal/block_rows.h"
+#include "solver/linear/block_rows.h"
 
 #include <gtest/gtest.h>
 
 #include "solver/base/subnormals.h"
-#include "solver/modal/single_rows.h"
+#include "solver/linear/single_rows.h"
 #include "tests/solver/block_numbers.h"
 
 namespace voussoir::test {

@@ -2,8 +2,8 @@
 #include "solver/step/critical_step.h"
 
 #include "solver/base/error.h"
-#include "solver/modal/dense_eigen.h"
-#include "solver/step/step_report.h"
+#include "solver/linear/dense_eigen.h"
+#include "solver/run/step_report.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

@@ -1,5 +1,5 @@
 // Hinges of an arch, from how its stones have turned.
-#include "solver/modal/hinges.h"
+#include "solver/statics/hinges.h"
 
 #include "geometry/generator.h"
 #include "tests/solver/models.h"

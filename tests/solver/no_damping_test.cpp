@@ -1,7 +1,7 @@
 // A damping ratio of zero is no damping, whatever kind it is of: no branch without stiffness, no energy that is 0 / 0.
+#include "solver/run/runaway.h"
+#include "solver/run/simulation.h"
 #include "solver/step/energy.h"
-#include "solver/step/runaway.h"
-#include "solver/step/simulation.h"
 #include "tests/solver/models.h"
 
 namespace voussoir::test {

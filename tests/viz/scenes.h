@@ -8,7 +8,7 @@
 #include "geometry/fill_mesh.h"
 #include "geometry/joints.h"
 #include "io/vtk/grid.h"
-#include "solver/fill/fill_memory.h"
+#include "solver/model/fill_memory.h"
 
 namespace voussoir::test {
 

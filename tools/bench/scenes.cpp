@@ -12,7 +12,7 @@
 #include "solver/base/error.h"
 #include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
-#include "solver/modal/equilibrium.h"
+#include "solver/statics/equilibrium.h"
 #include "solver/step/critical_step.h"
 
 namespace voussoir {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/step/settings.h"
+#include "solver/model/settings.h"
 
 namespace voussoir::campaign {
 

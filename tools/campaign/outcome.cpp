@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "tools/campaign/json.h"
 
 namespace voussoir::campaign {

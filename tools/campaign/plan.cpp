@@ -8,8 +8,8 @@
 #include <set>
 
 #include "io/case/motion_source.h"
-#include "io/hdf5/atomic_file.h"
 #include "solver/base/arrays.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/sample.h"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "io/case/motion_source.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/plan.h"

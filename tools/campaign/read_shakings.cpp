@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/case/sections.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/records/sets.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tools/campaign/settings.h"
 

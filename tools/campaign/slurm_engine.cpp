@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "tools/campaign/engine.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/process.h"

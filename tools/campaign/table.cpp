@@ -9,8 +9,8 @@
 #include <limits>
 #include <set>
 
-#include "io/hdf5/atomic_file.h"
-#include "io/measured/csv.h"
+#include "solver/base/atomic_file.h"
+#include "solver/base/csv.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/hdf5/h5.h"
+#include "solver/base/atomic_file.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/outcome.h"

@@ -8,8 +8,8 @@
 
 #include "geometry/generator.h"
 #include "solver/base/error.h"
+#include "solver/run/simulation.h"
 #include "solver/step/critical_step.h"
-#include "solver/step/simulation.h"
 
 namespace voussoir {
 

@@ -9,7 +9,7 @@
 
 #include "geometry/joints.h"
 #include "io/hdf5/assembly_file.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 

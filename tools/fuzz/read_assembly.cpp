@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "io/hdf5/assembly_file.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "tools/fuzz/answer.h"
 #include "tools/fuzz/readers.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "solver/base/error.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tools/ladder/models.h"
 #include "tools/ladder/rung.h"
 

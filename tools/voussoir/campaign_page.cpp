@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <map>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/vtk/series.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tools/campaign/table.h"
 #include "tools/voussoir/damage_words.h"

@@ -9,7 +9,7 @@
 #include <new>
 #include <optional>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/outcome.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/case/checks.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "tools/ladder/rung.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/diagnosis_page.h"
 #include "tools/voussoir/diagnosis_pictures.h"

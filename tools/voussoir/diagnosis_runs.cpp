@@ -8,7 +8,7 @@
 #include "solver/base/error.h"
 #include "solver/identify/driven_modes.h"
 #include "solver/identify/prepare.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tools/voussoir/history_rows.h"
 
 namespace voussoir {

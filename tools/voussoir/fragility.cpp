@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <map>
 
-#include "io/hdf5/atomic_file.h"
-#include "io/measured/csv.h"
-#include "io/vtk/folder.h"
+#include "solver/base/atomic_file.h"
+#include "solver/base/csv.h"
 #include "solver/base/error.h"
+#include "solver/base/folder.h"
 #include "tools/voussoir/fragility_charts.h"
 #include "tools/voussoir/fragility_page.h"
 #include "tools/voussoir/options.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/measured/csv.h"
+#include "solver/base/csv.h"
 #include "tools/voussoir/fragility_words.h"
 
 namespace voussoir {

@@ -7,8 +7,8 @@
 
 #include "geometry/nearest_block.h"
 #include "io/case/case.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/measured/measured.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/diagnosis/fit.h"
 #include "solver/effects/parts.h"

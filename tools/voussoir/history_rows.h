@@ -2,7 +2,7 @@
 #pragma once
 #include "geometry/assembly.h"
 #include "io/hdf5/history_file.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 
 namespace voussoir {
 

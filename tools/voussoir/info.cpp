@@ -1,8 +1,7 @@
 // voussoir info.
-#include "io/hdf5/info.h"
-
 #include <fmt/format.h>
 
+#include "io/info/describe_file.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/modal_report.h"
 #include "tools/voussoir/modal_source.h"

@@ -10,9 +10,9 @@
 #include "solver/base/error.h"
 #include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
-#include "solver/modal/settle.h"
+#include "solver/run/simulation.h"
+#include "solver/statics/settle.h"
 #include "solver/step/loads.h"
-#include "solver/step/simulation.h"
 #include "tools/voussoir/terminal.h"
 
 namespace voussoir {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "io/hdf5/atomic_file.h"
 #include "io/records/table.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "solver/motion/baseline.h"

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <map>
 
-#include "io/hdf5/atomic_file.h"
-#include "io/vtk/folder.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/folder.h"
 #include "solver/base/parallel.h"
 #include "solver/motion/select.h"
 #include "tools/voussoir/html.h"

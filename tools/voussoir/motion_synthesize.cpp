@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "io/hdf5/atomic_file.h"
-#include "io/vtk/folder.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/folder.h"
 #include "solver/base/parallel.h"
 #include "solver/motion/synthesis.h"
 #include "tools/voussoir/html.h"

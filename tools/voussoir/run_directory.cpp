@@ -7,7 +7,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tools/voussoir/history_rows.h"
 
 namespace voussoir {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/case/case.h"
-#include "io/hdf5/atomic_file.h"
 #include "io/hdf5/history_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/motion/intensity.h"
 #include "tools/voussoir/damage_words.h"

@@ -7,7 +7,7 @@
 #include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/history_file.h"
 #include "io/vtk/series.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "tools/voussoir/terminal.h"
 
 namespace voussoir {

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "io/case/case.h"
-#include "io/hdf5/atomic_file.h"
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/run/step_report.h"
 #include "solver/step/damping.h"
-#include "solver/step/step_report.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {

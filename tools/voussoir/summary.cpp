@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "geometry/joint_counts.h"
-#include "solver/modal/hinges.h"
+#include "solver/statics/hinges.h"
 #include "solver/step/loads.h"
 #include "tools/voussoir/damage_words.h"
 #include "tools/voussoir/history_rows.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hdf5/history_file.h"
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 #include "solver/step/snapshot.h"
 
 namespace voussoir {

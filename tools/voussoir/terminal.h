@@ -3,7 +3,7 @@
 #pragma once
 #include <chrono>
 
-#include "solver/step/simulation.h"
+#include "solver/run/simulation.h"
 
 namespace voussoir {
 

@@ -1,0 +1,44 @@
+// What changes of the fill: part of the state (solver/model/state.h), in the order of FillModel.
+#pragma once
+#include "solver/model/fill_model.h"
+
+namespace voussoir {
+
+/// Bits of FillMemory::yield.
+enum TetYield : std::uint8_t {
+  yields_in_shear = 1,
+  yields_in_tension = 2,
+  has_yielded_in_shear = 4,
+  has_yielded_in_tension = 8
+};
+
+constexpr int plastic_width = 8, strain_rows = 7;
+constexpr int row_volume = 6, row_shear = 7;  // of FillMemory::plastic
+
+struct FillMemory {
+  Array<double> pose;     // 4 a node: displacement (m), mean elastic volumetric strain about it at the last
+                          // pass
+  Array<double> motion;   // 4 a node: velocity at the last half step (m/s), unused
+  Array<float> searched;  // 4 a node: displacement relative to the base when patches about it were last looked for (m),
+                          // unused
+  Array<double> plastic;  // 8 rows of lanes a batch: Cp⁻¹ − 1 (xx yy zz xy xz yz), volumetric strain by dilation and
+                          // tension, accumulated plastic shear strain
+  Array<float> last;          // 7 rows of lanes a batch: elastic strain at the last pass, material axes, with the mean
+                              // volumetric strain; then the tetrahedron's own
+  Array<float> branch;        // 6 rows of lanes a batch and branch: q
+  Array<std::uint8_t> yield;  // of each lane, TetYield bits
+  Array<double> lost;         // 4 a tile, J: by plastic flow; work done on branches, by held nodes; by damping of nodes
+};
+
+/// At rest in the reference placement.
+FillMemory initial_fill(const FillModel& fill);
+/// Gives every tetrahedron room for `count` branches; with the same number as before they are kept, else they start
+/// relaxed.
+void set_fill_branches(const FillModel& fill, FillMemory& memory, int count);
+
+/// First of the eight lanes of number c of a batch's plastic memory.
+inline std::size_t plastic_index(std::size_t batch, int c) {
+  return lane_count * (plastic_width * batch + std::size_t(c));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,152 @@
+// A run: the stages of a case one after the other. It calls its observers and knows nothing of files.
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "solver/statics/collapse.h"
+#include "solver/step/contact_bound.h"
+#include "solver/step/damage.h"
+#include "solver/step/energy.h"
+#include "solver/step/mass_scaling.h"
+#include "solver/step/stepper.h"
+
+namespace voussoir {
+
+class Simulation;
+struct Standing;  // solver/run/moved.h
+
+/// Where a run stands, for the progress line.
+struct Progress {
+  std::string stage;             // "gravity", "motion …"
+  bool timed = true;             // false in stages that take no simulated time
+  double time = 0.0, end = 0.0;  // s of simulated time, of the whole run
+  double share = 0.0;            // of the whole run
+  double speed = 0.0;            // simulated over wall time
+  double left = 0.0;             // s of wall time
+  std::string note;              // "Newton 2: 1e-7", "3 % of joints point by point"
+};
+
+/// One row of the history.
+struct Sample {
+  double time = 0.0;
+  Energies energies;
+  double balance_error = 0.0;  // of the energy balance, over the largest term so far
+  Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
+  std::int64_t contacts = 0;
+  std::int64_t stage = 0;             // index in the settings
+  std::vector<double> broken_shares;  // of the bonds of bonded_components()
+  std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
+};
+
+struct Observers {
+  std::function<void(const Simulation&, const Sample&)> history;
+  std::function<void(Simulation&)> fields;
+  std::function<void(Simulation&, bool stage_end)> checkpoint;
+  std::function<void(const Progress&)> progress;
+  std::function<void(const std::string&)> log;
+  const std::atomic<bool>* stop = nullptr;  // set by a signal: the run stops at the next step
+};
+
+/// Where the wall time of a run has gone, s; of this part of it, if it was resumed.
+struct RunCosts {
+  double equilibrium = 0.0, steps = 0.0, searches = 0.0;
+  double history = 0.0, fields = 0.0, checkpoints = 0.0;  // by the observers; history with its energies
+};
+
+enum class RunEnd { finished, interrupted, failed };
+
+/// What must be known beside the state's arrays to go on exactly where a run stopped.
+struct RunPosition {
+  std::int64_t stage = 0;
+  double stage_start = 0.0;                    // s
+  double dt = 0.0;                             // s
+  double highest = 0.0;                        // rad/s, of the intact assembly
+  double stiffest = 0.0, stiffest_node = 0.0;  // 1/s2, see ContactBound
+  double stage_begun = 0.0;                    // 1 once the present stage has its step and damping
+};
+
+class Simulation {
+ public:
+  /// `threads` as asked for; fewer are used where the model is too small to share.
+  Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers);
+
+  /// Throws InputError for a step of the user's own that this assembly does not bear; before anything is written.
+  void check();
+  /// Goes on from a checkpoint: call after the state's arrays have been read into state() and unpacked.
+  void restore(const RunPosition& position);
+  /// Runs the remaining stages, to `until` (s of simulated time; negative: all).
+  RunEnd run(double until = -1.0);
+
+  const Assembly& assembly() const { return *assembly_; }
+  const Model& model() const { return model_; }
+  State& state() { return state_; }
+  const State& state() const { return state_; }
+  const RunPosition& position() const { return position_; }
+  const SolverSettings& settings() const { return settings_; }
+  const std::string& failure() const { return failure_; }  // after RunEnd::failed
+  /// After RunEnd::failed in a gravity stage: the bodies that are on their way, or that have come to rest elsewhere.
+  const std::vector<std::int32_t>& moving() const { return moving_; }
+  const Equilibrium& equilibrium() const { return equilibrium_; }
+  /// Groups of fixed blocks, guided and driven ones among them: whose reactions a Sample holds.
+  const std::vector<std::string>& held_groups() const { return held_groups_; }
+  const Collapse& collapse() const { return collapse_; }        // of a collapse stage, empty without
+  const MassScaling& mass_scaling() const { return scaling_; }  // once the step is chosen
+  int threads() const { return stepper_.threads; }
+  const RunCosts& costs() const { return costs_; }
+  double end_time() const;                                                               // s, of all stages
+  double worst_balance() const { return worst_balance_; }                                // largest share so far
+  void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }  // of the part before a restart
+  std::int64_t intact_patches() const { return last_.intact; }
+  std::int64_t point_patches() const { return last_.points; }
+
+ private:
+  void begin_stage(const StageSettings& stage);
+  bool gravity(const StageSettings& stage);
+  bool stayed(const StageSettings& stage, const Standing& before);
+  bool collapse(const StageSettings& stage);
+  void impose(const StageSettings& stage);
+  void place(const StageSettings& stage);
+  void start_from_rest();
+  Vec3 reaction(const BodyPass& pass, const std::string& group) const;
+  bool stopped() const;
+  RunEnd timed(const StageSettings& stage, double until);
+  void change_contacts();
+  Sample take_sample(const BodyPass& pass) const;
+  void sample(const BodyPass& pass);
+  void sample_at_rest();
+  bool scales_mass() const;
+  void scale();
+  void scale_and_say();
+  void choose_step();
+  void write_fields();
+  void write_checkpoint(bool stage_end);
+  void report_progress(bool force, const std::string& note);
+  void log(const std::string& text) const;
+
+  const Assembly* assembly_;
+  SolverSettings settings_;
+  Observers observers_;
+  Model model_;
+  State state_;
+  Stepper stepper_;
+  RunPosition position_;
+  MassScaling scaling_;
+  Equilibrium equilibrium_;
+  Collapse collapse_;
+  std::vector<std::string> held_groups_;
+  std::string failure_;
+  std::vector<std::int32_t> moving_;
+  Advance last_;
+  RunCosts costs_;
+  ContactBound bound_;
+  LostBonds lost_bonds_;
+  double worst_balance_ = 0.0;
+  std::string exploded_;  // why the ledger is not to be believed; empty while it is
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;
+  double started_time_ = 0.0;
+};
+
+}  // namespace voussoir

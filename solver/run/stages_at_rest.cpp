@@ -1,0 +1,137 @@
+// The stages of a run that take no time: equilibrium and collapse.
+#include <algorithm>
+
+#include "solver/base/process.h"
+#include "solver/base/timed.h"
+#include "solver/run/confirm.h"
+#include "solver/run/moved.h"
+#include "solver/run/simulation.h"
+#include "solver/step/make_snapshot.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr double confirm_margin = 0.02;  // of the multiplier: dynamic runs confirm it from below and from above
+
+/// Diagonal of the box about all bodies, m.
+double extent(const Model& model) {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const Body& body : model.bodies) {
+    low = low.cwiseMin(body.centroid - Vec3::Constant(body.radius));
+    high = high.cwiseMax(body.centroid + Vec3::Constant(body.radius));
+  }
+  return (high - low).norm();
+}
+
+}  // namespace
+
+bool Simulation::gravity(const StageSettings& stage) {
+  const Timed timed(costs_.equilibrium);
+  equilibrium_ = {};  // whatever an earlier stage has found
+  const Standing before = standing_of(state_);
+  stepper_.damping = DampingAtWork{};
+  set_branches(model_, state_, 0);
+  const double tolerance = settings_.step.equilibrium_tolerance;
+  // A fill is a large system whose elements tear and flow on the way: relaxation is there first.
+  const bool by_itself = stage.method == StageSettings::Method::automatic;
+  if (stage.method == StageSettings::Method::newton || (by_itself && model_.fill.empty())) {
+    equilibrium_ = newton_equilibrium(stepper_, tolerance, observers_.stop, [&](int i, double r) {
+      report_progress(true, fmt::format("Newton {}: out-of-balance {:.1e}", i, r));
+    });
+    log(equilibrium_.account);
+  }
+  if (!equilibrium_.converged && !stopped() && stage.method != StageSettings::Method::newton) {
+    if (by_itself && model_.fill.empty()) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
+    RelaxationLimits limits;
+    limits.displacement = extent(model_);  // what has gone so far falls, and would for ever
+    limits.from_unloaded = position_.stage == 0;
+    equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
+      report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
+    });
+    log(equilibrium_.account);
+  }
+  give_memory_back();  // stiffness and its inverse take several times what the steps to come need
+  if (stopped()) return false;
+  if (!stayed(stage, before)) return false;
+  set_baseline(state_);
+  return true;
+}
+
+/// Whether there is an equilibrium, and where the joints held the stones; else the failure names those that move.
+bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
+  constexpr std::size_t named = 3;
+  if (!equilibrium_.converged) {
+    const Array<double>& from = equilibrium_.earlier.empty() ? before.pose : equilibrium_.earlier;
+    moving_ = farthest_moved(model_, from, state_, named);
+    failure_ = fmt::format("no equilibrium under gravity: {}{}{}", equilibrium_.account,
+                           moving_.empty() ? "" : "\nOn their way, in the last steps:",
+                           moved_text(*assembly_, model_, moving_, before, from, state_));
+    return false;
+  }
+  std::vector<std::int32_t> moved = moved_away(*assembly_, model_, before, state_);
+  if (moved.empty()) return true;
+  const std::size_t count = moved.size();
+  moved.resize(std::min(count, named));
+  const std::string words =
+      fmt::format("{} stone{} moved away from where {} joints held {} ({}):{}", count, count == 1 ? "" : "s",
+                  count == 1 ? "its" : "their", count == 1 ? "it" : "them",
+                  "against a neighbour by more than 5 % of the smaller one's size, or turned by more than 3°",
+                  moved_text(*assembly_, model_, moved, before, before.pose, state_));
+  if (stage.allow_motion) {
+    log(words);
+    return true;
+  }
+  moving_ = moved;
+  failure_ = "the assembly does not stand as it was built: it came to rest, but " + words +
+             "\nSet allow_motion = true in this [[stage]] to go on from there, or mend what holds these stones";
+  return false;
+}
+
+/// True unless stopped: an assembly that bears the whole load is an answer too.
+bool Simulation::collapse(const StageSettings& stage) {
+  stepper_.damping = DampingAtWork{};
+  set_branches(model_, state_, 0);
+  const Loads base = loads_after(settings_.stages, std::size_t(position_.stage));
+  const auto loads = [&](double multiplier) { return loads_at(base, stage, model_.gravity, multiplier); };
+  collapse_ = find_collapse(
+      stepper_, stage.collapse, settings_.step.equilibrium_tolerance,
+      [&](double multiplier) { return loads_at_work(*assembly_, model_, {}, loads(multiplier)); }, observers_.stop,
+      [&](const CollapseTry& one, double residual) {
+        report_progress(false, fmt::format("multiplier {:.5g}, step {}: out-of-balance {:.1e}", one.multiplier,
+                                           one.steps, residual));
+      });
+  if (stopped()) return false;
+  log(collapse_.account);
+  log(mechanism_text(*assembly_, collapse_.mechanism));
+  if (!collapse_.found || stage.collapse.confirm <= 0.0) {
+    log(collapse_headline(*assembly_, collapse_));
+    return true;
+  }
+  for (const bool above : {false, true}) {
+    const double multiplier = (above ? 1.0 + confirm_margin : 1.0 - confirm_margin) * collapse_.multiplier;
+    SolverSettings settings = settings_;
+    settings.stages.resize(std::size_t(position_.stage));
+    const bool moves = moves_away(*assembly_, settings, loads(multiplier), stage.collapse.confirm,
+                                  stage.collapse.displacement * model_.typical_size, stepper_.threads, observers_.stop);
+    if (stopped()) return false;
+    (above ? collapse_.falls_above : collapse_.stands_below) = moves == above;
+    log(fmt::format("dynamic run with the multiplier raised to {:.5g}: {}{}", multiplier,
+                    moves ? "it moves away" : "it stands", moves == above ? "" : " (not as the static solver says)"));
+  }
+  log(collapse_headline(*assembly_, collapse_));
+  return true;
+}
+
+/// The row of a stage that takes no time: what balances in the end. Its balance of energy is none: what a relaxation
+/// loses by damping of its own choice is in no ledger.
+void Simulation::sample_at_rest() {
+  const Timed timed(costs_.history);
+  if (!observers_.history) return;
+  look_at_rest(stepper_, [this] {
+    for (std::size_t tile = 0; tile < model_.tiles.size(); ++tile) lost_bonds_.count(model_, state_, tile);
+    observers_.history(*this, take_sample(stepper_.body_pass()));
+  });
+}
+
+}  // namespace voussoir
