@@ -7,7 +7,7 @@
 #include "solver/contact/contact_slots.h"
 #include "solver/contact/interface_search.h"
 #include "solver/contact/pairs.h"
-#include "solver/step/energy.h"
+#include "solver/contact/patch_energy.h"
 
 namespace voussoir {
 

@@ -1,8 +1,8 @@
 #include "solver/linear/stiffness.h"
 
+#include "solver/contact/patch_kernel.h"
 #include "solver/linear/fill_stiffness.h"
 #include "solver/linear/six.h"
-#include "solver/step/body_pass.h"
 
 namespace voussoir {
 

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/contact/patch_energy.h"
 #include "solver/step/stepper.h"
 
 namespace voussoir {
@@ -42,12 +43,5 @@ Energies compute_energies(const Stepper& stepper, const BodyPass& pass);
 Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::size_t tile);
 /// The part of one of the fill's tiles.
 Energies energies_of_fill(const FillPass& pass, std::size_t tile);
-/// Elastic energy of one patch with its branches' springs, J.
-struct PatchEnergy {
-  double elastic = 0.0, branches = 0.0;
-};
-/// `yielding`: between a patch pass and the next, shear past the cone is cut back to it, as the next pass will do.
-PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index,
-                         bool yielding = false);
 
 }  // namespace voussoir
