@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A room includes only rooms up-river of it; VTK stays in io/vtk and viz, OpenMP in solver/base, Gmsh in one file. No type
+# A room includes only rooms up-river of it, and none in a circle; VTK stays in io/vtk and viz, OpenMP in solver/base, Gmsh in one file. No type
 # has the name of another.
 # Usage: check_rooms.sh SOURCE_DIR
 set -u
@@ -27,6 +27,13 @@ if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' -
 fi
 if grep -rnE '#pragma omp' geometry solver/[!b]* io viz tools --include='*.h' --include='*.cpp'; then
   echo "OpenMP pragmas belong in solver/base"; bad=1
+fi
+# Rooms that include each other in a circle, in whatever number of steps.
+circles=$(grep -rnoE '^#include "(geometry|solver|io|viz|tools)/[^"]+"' geometry solver io viz tools --include='*.h' --include='*.cpp' |
+  awk -F'[:"]' 'function room(path, part) { n = split(path, part, "/"); return part[1] == "geometry" || n == 2 ? part[1] : part[1] "/" part[2] }
+    room($1) != room($4) { print room($1), room($4) }' | sort -u | tsort 2>&1 >/dev/null)
+if [ -n "$circles" ]; then
+  printf 'Rooms include each other in a circle:\n%s\n' "$circles"; bad=1
 fi
 # Two types of one name in one namespace: the linker would take the destructor of one for both.
 twice=$(find geometry solver io viz tools -name '*.h' -exec awk '
