@@ -1,5 +1,5 @@
 // Clouds, stripes, collapses and bootstrap bands: campaigns drawn from known curves give them back.
-#include "tools/campaign/fragility.h"
+#include "tools/fragility/fragility.h"
 
 #include <gtest/gtest.h>
 

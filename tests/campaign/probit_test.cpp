@@ -1,13 +1,13 @@
 // Lognormal curves from counts: closed forms, data that determine none, and whether errors are what they are said to
 // be.
-#include "tools/campaign/probit.h"
+#include "tools/fragility/probit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/campaign/synthetic.h"
-#include "tools/campaign/statistics.h"
+#include "tools/fragility/statistics.h"
 
 namespace voussoir {
 namespace {

@@ -1,5 +1,5 @@
 // Campaigns in which one intensity, and one demand, is the best by construction.
-#include "tools/campaign/ranking.h"
+#include "tools/fragility/ranking.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The normal distribution to its far tails, lines and ranks by hand.
-#include "tools/campaign/statistics.h"
+#include "tools/fragility/statistics.h"
 
 #include <gtest/gtest.h>
 

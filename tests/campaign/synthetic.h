@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "solver/base/random.h"
-#include "tools/campaign/fragility.h"
 #include "tools/campaign/table.h"
+#include "tools/fragility/fragility.h"
 
 namespace voussoir::test {
 

@@ -14,7 +14,7 @@
 #include "solver/base/error.h"
 #include "solver/base/program.h"
 #include "tools/bench/scenes.h"
-#include "tools/voussoir/svg.h"
+#include "viz/page/svg.h"
 
 namespace voussoir {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
+#include "tools/campaign/campaign_page.h"
 #include "tools/campaign/engine.h"
 #include "tools/campaign/process.h"
 #include "tools/campaign/write_table.h"
-#include "tools/voussoir/campaign_page.h"
-#include "tools/voussoir/directory_lock.h"
-#include "tools/voussoir/terminal.h"
+#include "tools/run/directory_lock.h"
+#include "tools/run/terminal.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {

@@ -14,9 +14,9 @@
 #include "tools/campaign/json.h"
 #include "tools/campaign/outcome.h"
 #include "tools/campaign/process.h"
+#include "tools/run/run_directory.h"
+#include "tools/run/run_session.h"
 #include "tools/voussoir/options.h"
-#include "tools/voussoir/run_directory.h"
-#include "tools/voussoir/run_session.h"
 
 namespace voussoir {
 

@@ -13,9 +13,9 @@
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "tools/ladder/rung.h"
+#include "tools/run/run_directory.h"
+#include "tools/run/run_session.h"
 #include "tools/voussoir/check_table.h"
-#include "tools/voussoir/run_directory.h"
-#include "tools/voussoir/run_session.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {

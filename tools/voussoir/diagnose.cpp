@@ -5,9 +5,9 @@
 
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
-#include "tools/voussoir/diagnosis_page.h"
-#include "tools/voussoir/diagnosis_pictures.h"
-#include "tools/voussoir/diagnosis_report.h"
+#include "tools/diagnosis/diagnosis_page.h"
+#include "tools/diagnosis/diagnosis_pictures.h"
+#include "tools/diagnosis/diagnosis_report.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {

@@ -10,8 +10,8 @@
 #include "solver/base/csv.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
-#include "tools/voussoir/fragility_charts.h"
-#include "tools/voussoir/fragility_page.h"
+#include "tools/fragility/fragility_charts.h"
+#include "tools/fragility/fragility_page.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {

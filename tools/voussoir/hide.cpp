@@ -12,8 +12,8 @@
 #include "solver/base/error.h"
 #include "solver/diagnosis/fit.h"
 #include "solver/effects/parts.h"
-#include "tools/voussoir/diagnosis_input.h"
-#include "tools/voussoir/hidden_recordings.h"
+#include "tools/diagnosis/diagnosis_input.h"
+#include "tools/diagnosis/hidden_recordings.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {

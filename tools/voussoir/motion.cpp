@@ -12,7 +12,7 @@
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "solver/motion/baseline.h"
-#include "tools/voussoir/html.h"
+#include "viz/page/html.h"
 
 namespace voussoir {
 

@@ -7,8 +7,8 @@
 #include "solver/motion/filter.h"
 #include "solver/motion/intensity.h"
 #include "solver/motion/target.h"
-#include "tools/voussoir/line_chart.h"
 #include "tools/voussoir/verb.h"
+#include "viz/page/line_chart.h"
 
 namespace voussoir {
 

@@ -11,8 +11,8 @@
 #include "solver/base/folder.h"
 #include "solver/base/parallel.h"
 #include "solver/motion/select.h"
-#include "tools/voussoir/html.h"
 #include "tools/voussoir/motion.h"
+#include "viz/page/html.h"
 
 namespace voussoir {
 

@@ -8,8 +8,8 @@
 #include "solver/base/folder.h"
 #include "solver/base/parallel.h"
 #include "solver/motion/synthesis.h"
-#include "tools/voussoir/html.h"
 #include "tools/voussoir/motion.h"
+#include "viz/page/html.h"
 
 namespace voussoir {
 

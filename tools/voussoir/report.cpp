@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "tools/voussoir/campaign_page.h"
-#include "tools/voussoir/run_page.h"
+#include "tools/campaign/campaign_page.h"
+#include "tools/run/run_page.h"
 #include "tools/voussoir/verb.h"
 
 namespace voussoir {

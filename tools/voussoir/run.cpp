@@ -5,9 +5,9 @@
 
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
+#include "tools/run/run_directory.h"
+#include "tools/run/run_session.h"
 #include "tools/voussoir/options.h"
-#include "tools/voussoir/run_directory.h"
-#include "tools/voussoir/run_session.h"
 #include "tools/voussoir/say_remarks.h"
 
 namespace voussoir {

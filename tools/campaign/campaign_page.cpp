@@ -1,0 +1,244 @@
+#include "tools/campaign/campaign_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "io/vtk/series.h"
+#include "solver/base/atomic_file.h"
+#include "solver/base/error.h"
+#include "tools/campaign/table.h"
+#include "tools/run/damage_words.h"
+#include "viz/page/html.h"
+#include "viz/page/line_chart.h"
+#include "viz/palette.h"
+#include "viz/render.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double g = 9.80665;  // m/s2
+
+/// What a table has; NaN where it has no such column.
+double value_at(const CampaignTable& table, const char* column, std::size_t run) {
+  const NumberColumn* found = table.find(column);
+  return found ? found->values[run] : NAN;
+}
+
+bool has_result(const CampaignRun& run) {
+  return run.status == RunStatus::done || run.status == RunStatus::collapsed;
+}
+
+std::string facts(const CampaignTable& table) {
+  std::map<RunStatus, int> count;
+  double seconds = 0.0;
+  for (const CampaignRun& run : table.runs) {
+    ++count[run.status];
+    if (std::isfinite(run.seconds)) seconds += run.seconds;
+  }
+  std::string text = fmt::format("{} runs: {} done", table.runs.size(), count[RunStatus::done]);
+  for (const auto& [status, words] :
+       {std::pair{RunStatus::collapsed, "ended because the bridge fell"}, std::pair{RunStatus::failed, "failed"},
+        std::pair{RunStatus::missing, "not run yet"}})
+    if (count[status] > 0) text += fmt::format(", {} {}", count[status], words);
+  text = paragraph(text + fmt::format("; {:.0f} min of computing.", seconds / 60.0));
+  std::vector<std::string> failures;
+  for (const CampaignRun& run : table.runs)
+    if (run.status == RunStatus::failed) failures.push_back(fmt::format("{}: {}", run.run, run.reason));
+  return failures.empty() ? text : text + heading("What failed") + list(failures);
+}
+
+/// One demand over the peak ground acceleration: a series a case.
+std::string demand_chart(const CampaignTable& table, const char* column, const std::string& title) {
+  if (!table.find(column) || !table.find("im.pga")) return "";
+  const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  LineChart chart;
+  chart.title = title;
+  chart.x_label = "PGA of the scaled motion, geometric mean of the horizontal components (g)";
+  chart.y_label = "largest relative displacement, mean over places (mm)";
+  chart.width = 820.0, chart.height = 420.0, chart.x_low = 0.0;
+  const std::vector<std::string> cases = table.cases();
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    ChartDots dots{cases[c], {}, {}, {}, colour_code(line_colour(c)), markers[c % 4]};
+    for (std::size_t r = 0; r < table.runs.size(); ++r) {
+      const double pga = value_at(table, "im.pga", r) / g, demand = 1e3 * value_at(table, column, r);
+      if (table.runs[r].case_name != cases[c] || !has_result(table.runs[r]) || !std::isfinite(pga + demand)) continue;
+      dots.x.push_back(pga), dots.y.push_back(demand);
+      dots.hints.push_back(fmt::format("{}, {} × {:g}: {:.1f} mm at {:.3f} g", cases[c], table.runs[r].record,
+                                       table.runs[r].scale, demand, pga));
+    }
+    if (!dots.x.empty()) chart.dots.push_back(dots);
+  }
+  double least = INFINITY, most = 0.0;
+  for (const ChartDots& dots : chart.dots)
+    for (const double y : dots.y) least = std::min(least, y), most = std::max(most, y);
+  chart.log_y = least > 0.0 && most > 30.0 * least;  // a bridge that falls beside one that stands
+  if (!chart.log_y) chart.y_low = 0.0;
+  return line_chart(chart);
+}
+
+/// Record and scale whose demands, as shares of the largest of each case, are the largest in the mean over the cases.
+std::pair<std::string, double> worst_shaking(const CampaignTable& table) {
+  std::map<std::string, double> largest;  // by case
+  const auto demand = [&](std::size_t r) {
+    const double y = value_at(table, "edp.spandrel_y", r), x = value_at(table, "edp.keystone_x", r);
+    return std::isfinite(y) ? y : x;
+  };
+  for (std::size_t r = 0; r < table.runs.size(); ++r)
+    if (has_result(table.runs[r]) && std::isfinite(demand(r)))
+      largest[table.runs[r].case_name] = std::max(largest[table.runs[r].case_name], demand(r));
+  std::map<std::pair<std::string, double>, double> sums;
+  for (std::size_t r = 0; r < table.runs.size(); ++r)
+    if (const double most = largest[table.runs[r].case_name]; most > 0.0 && std::isfinite(demand(r)))
+      sums[{table.runs[r].record, table.runs[r].scale}] += demand(r) / most;
+  const auto worst = std::ranges::max_element(sums, {}, [](const auto& entry) { return entry.second; });
+  return worst == sums.end() ? std::pair<std::string, double>() : worst->first;
+}
+
+/// Top of a scale of openings (mm) that tells these runs apart: 1, 2 or 5 times a power of ten near the geometric mean
+/// of their largest openings.
+double common_range(const CampaignTable& table, const std::vector<std::size_t>& runs) {
+  double sum = 0.0;
+  int count = 0;
+  for (const std::size_t r : runs) {
+    double most = 0.0;
+    for (const char* component : {"arch", "spandrel", "pier"})
+      if (const double o = value_at(table, fmt::format("damage.{}.largest_opening", component).c_str(), r); o > most)
+        most = o;
+    if (most > 0.0) sum += std::log(1e3 * most), ++count;
+  }
+  if (count == 0) return 10.0;
+  const double mean = std::clamp(std::exp(sum / count), 1.0, 1000.0),
+               decade = std::pow(10.0, std::floor(std::log10(mean)));
+  return decade * (mean < 1.5 * decade ? 1.0 : mean < 3.5 * decade ? 2.0 : mean < 7.5 * decade ? 5.0 : 10.0);
+}
+
+/// Of each case, the last frame of the run with the worst shaking, all on the same scale.
+std::string damage_pictures(const CampaignTable& table, const std::string& directory) {
+  const auto [record, scale] = worst_shaking(table);
+  std::vector<std::size_t> runs;
+  for (std::size_t r = 0; r < table.runs.size(); ++r)
+    if (table.runs[r].record == record && table.runs[r].scale == scale && has_result(table.runs[r])) runs.push_back(r);
+  RenderOptions o;
+  o.range = common_range(table, runs);
+  std::vector<PagePicture> pictures;
+  std::string without;
+  for (const std::size_t r : runs) {
+    const CampaignRun& run = table.runs[r];
+    const std::string folder = directory + "/runs/" + run.run,
+                      png = fmt::format("{}/images/{}.png", directory, run.run);
+    try {
+      const VtkSeries series(folder);
+      const auto& frames = series.blocks().frames();
+      if (frames.empty()) throw RunError("{} has no frames", folder);
+      render_picture(PictureFiles{series.blocks().file_path(frames.back()), series.joints().file_at(frames.back().time),
+                                  series.fill().file_at(frames.back().time)},
+                     o, png);
+      pictures.push_back({run.case_name,
+                          fmt::format("{}largest opening of joints, deformations twice",
+                                      run.status == RunStatus::collapsed ? "fell; " : ""),
+                          png});
+    } catch (const std::exception& error) {  // a page without pictures is better than none
+      without += note(fmt::format("No picture of {}: {}", run.run, error.what()));
+    }
+  }
+  return pictures_section(pictures, fmt::format("Damage under the worst record, {} × {:g}", record, scale)) + without;
+}
+
+std::string number_text(double value, double factor, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", factor * value, digits) : "–";
+}
+
+std::string runs_section(const CampaignTable& table) {
+  std::string text = heading("Runs") + "<table>\n";
+  text += table_row({words_cell("case"),
+                     words_cell("record"),
+                     {"scale", true},
+                     {"PGA (g)", true},
+                     {"keystones x (mm)", true},
+                     {"at the end", true},
+                     {"spandrels y (mm)", true},
+                     {"at the end", true},
+                     words_cell("status")},
+                    "th");
+  for (std::size_t r = 0; r < table.runs.size(); ++r) {
+    const CampaignRun& run = table.runs[r];
+    const auto number = [&](const char* column, double factor, int digits) {
+      return Cell{number_text(value_at(table, column, r), factor, digits), true};
+    };
+    text += table_row({words_cell(run.case_name), words_cell(run.record), Cell{number_text(run.scale, 1.0, 3), true},
+                       number("im.pga", 1.0 / g, 3), number("edp.keystone_x", 1e3, 1),
+                       number("edp.keystone_x.residual", 1e3, 1), number("edp.spandrel_y", 1e3, 1),
+                       number("edp.spandrel_y.residual", 1e3, 1), words_cell(run_status_name(run.status))},
+                      "td");
+  }
+  return text + "</table>\n";
+}
+
+/// "18 mm, severe".
+std::string median_text(std::vector<double> openings) {
+  std::ranges::sort(openings);
+  const double median = 0.5 * (openings[(openings.size() - 1) / 2] + openings[openings.size() / 2]);
+  return median >= 1.0 ? fmt::format("more than 1 m, {}", damage_word(median))
+                       : fmt::format("{:.1f} mm, {}", 1e3 * median, damage_word(median));
+}
+
+/// Means over the runs of a case; empty cells where a case has no such component.
+std::string damage_section(const CampaignTable& table) {
+  constexpr std::string_view ending = ".broken_share";
+  std::vector<std::string> components;
+  for (const std::string& name : table.names("damage."))
+    if (name.ends_with(ending)) components.push_back(name.substr(7, name.size() - 7 - ending.size()));
+  if (components.empty()) return "";
+  std::vector<Cell> top = {words_cell("component")};
+  const std::vector<std::string> cases = table.cases();
+  for (const std::string& name : cases) top.push_back(words_cell(name));
+  std::string text = heading("Damage by component") + "<table>\n" + table_row(top, "th");
+  for (const std::string& component : components) {
+    std::vector<Cell> row = {words_cell(component)};
+    for (const std::string& name : cases) {
+      double share = 0.0;
+      std::vector<double> openings;
+      int runs = 0;
+      for (std::size_t r = 0; r < table.runs.size(); ++r) {
+        if (table.runs[r].case_name != name || !has_result(table.runs[r])) continue;
+        const double s = value_at(table, ("damage." + component + ".broken_share").c_str(), r),
+                     o = value_at(table, ("damage." + component + ".largest_opening").c_str(), r);
+        if (std::isfinite(s)) share += s, openings.push_back(std::isfinite(o) ? o : 0.0), ++runs;
+      }
+      row.push_back(
+          words_cell(runs == 0 ? "–" : fmt::format("{:.1f} %, {}", 100.0 * share / runs, median_text(openings))));
+    }
+    text += table_row(row, "td");
+  }
+  return text + "</table>\n" +
+         note(
+             "Over the runs of a case: mean share of the bonded joint area broken; median of the largest openings of a "
+             "joint, and its word after Burland, Broms & de Mello (1977).");
+}
+
+}  // namespace
+
+void write_campaign_page(const std::string& directory) {
+  const CampaignTable table = read_table(directory + "/table.csv");
+  std::string body = facts(table);
+  std::error_code ignored;  // writing says what is wrong
+  fs::create_directories(directory + "/images", ignored);
+  for (const auto& [column, name, title] : {std::tuple{"edp.keystone_x", "keystones", "Keystones, longitudinal"},
+                                            std::tuple{"edp.spandrel_y", "spandrels", "Spandrel walls, transverse"}})
+    if (const std::string svg = demand_chart(table, column, title); !svg.empty()) {
+      body += figure(svg);
+      write_atomically(fmt::format("{}/images/{}.svg", directory, name), svg);
+    }
+  body += damage_pictures(table, directory) + damage_section(table) + runs_section(table);
+  write_atomically(directory + "/report.html",
+                   html_page("Campaign " + fs::weakly_canonical(directory).filename().string(), body));
+}
+
+}  // namespace voussoir

@@ -1,0 +1,437 @@
+#include "tools/diagnosis/diagnosis_page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "solver/effects/effect.h"
+#include "tools/diagnosis/diagnosis_charts.h"
+#include "tools/diagnosis/diagnosis_values.h"
+#include "tools/diagnosis/recorded_charts.h"
+#include "viz/page/html.h"
+#include "viz/page/svg.h"
+
+namespace voussoir {
+
+namespace {
+
+// What was found, in sentences.
+
+/// The round that each effect of the best hypothesis comes from.
+std::vector<const Round*> accepted_rounds(const std::vector<Round>& rounds) {
+  std::vector<const Round*> accepted;
+  for (const Round& round : rounds)
+    if (round.accepted) accepted.push_back(&round);
+  return accepted;
+}
+
+/// "abutment restraint at both".
+std::string plain_name(const Candidate& c) {
+  std::string text = candidate_name(c);
+  std::replace(text.begin(), text.begin() + std::ptrdiff_t(c.name.size()), '_', ' ');
+  return text;
+}
+
+std::string found_text(const Fit& best, std::size_t index, const Round& round) {
+  const std::string values = fitted_text(best, index);
+  return fmt::format("{}{}{}, probability {}", plain_name(best.hypothesis.effects[index]), values.empty() ? "" : ", ",
+                     values, probability_text(round.trials[0].probability));
+}
+
+std::string rival_text(const Round& round) {
+  std::string text;
+  for (std::size_t i = 1; i < round.trials.size(); ++i)
+    if (round.trials[i].tie)
+      text += fmt::format("{}{} (probability {})", text.empty() ? "" : ", ", plain_name(round.trials[i].candidate),
+                          probability_text(round.trials[i].probability));
+  if (!text.empty()) return fmt::format("These measurements cannot tell it from {}.", text);
+  if (round.trials.size() < 2) return "";
+  return fmt::format("The runner-up is {}, probability {}.", plain_name(round.trials[1].candidate),
+                     probability_text(round.trials[1].probability));
+}
+
+std::string found_sentences(const Diagnosis& d) {
+  const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i) {
+    text += fmt::format("<p><strong>{}</strong> {}. {}</p>\n",
+                        i == 0 ? "Found:" : "And:", escaped(found_text(d.best, i, *rounds[i])),
+                        escaped(rival_text(*rounds[i])));
+  }
+  return text;
+}
+
+std::string disagreeing_parts(const Location& location) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, location.parts.size()); ++i)
+    text += fmt::format("{}{} ({:.0f} %)", i ? ", " : "", location.parts[i].part, 100.0 * location.parts[i].share);
+  return text;
+}
+
+std::string unexplained_sentences(const DiagnosisResult& result) {
+  const Diagnosis& d = result.diagnosis;
+  std::string factors;
+  for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
+    factors += fmt::format("{}{}", i ? "; " : "", nameless_text(d.nameless_best, i));
+  std::string text = "<p><strong>Unexplained:</strong> no effect of the library brings the residuals to noise. ";
+  text += factors.empty()
+              ? std::string("Nor does a factor on the stiffness or mass of any one part, or a spring to the ground.")
+              : fmt::format("By what the data ask for: {}.", escaped(factors));
+  if (const std::string parts = disagreeing_parts(result.where_after); !parts.empty())
+    text += fmt::format(" The model still disagrees most in {}.", escaped(parts));
+  text += "</p>\n";
+  for (const Round* round : accepted_rounds(d.rounds))
+    text += fmt::format("<p>Helps, but is not enough: {}.</p>\n", escaped(round->trials[0].candidate.text()));
+  return text;
+}
+
+std::string consistent_sentence(const Diagnosis& d) {
+  const bool helped = d.calibrated.gap < 0.9 * d.plain.gap;
+  return fmt::format(
+      "<p><strong>Consistent:</strong> {} agrees with the measurements to within their uncertainty and the model's. "
+      "They do not show that any effect is missing.</p>\n",
+      helped ? "the case, with its materials moved within what is likely," : "the case as it is");
+}
+
+std::string verdict_box(const DiagnosisResult& result) {
+  const Diagnosis& d = result.diagnosis;
+  using Verdict = Diagnosis::Verdict;
+  const std::string text = d.verdict == Verdict::found        ? found_sentences(d)
+                           : d.verdict == Verdict::consistent ? consistent_sentence(d)
+                                                              : unexplained_sentences(result);
+  return fmt::format("<div class=\"verdict {}\">\n{}</div>\n", verdict_name(d.verdict), text);
+}
+
+std::string count_text(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string facts(const DiagnosisInput& input, const DiagnosisResult& result) {
+  std::string text = "<dl>\n";
+  const auto fact = [&](const char* name, const std::string& words) {
+    if (!words.empty()) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escaped(words));
+  };
+  const Measured& m = input.measured;
+  fact("case", std::filesystem::path(input.c.path).filename().string());
+  fact("measured", m.what);
+  fact("when", m.when);
+  fact("notes", m.notes);
+  fact("folder", m.directory);
+  const auto held = std::size_t(
+      std::count_if(result.modes.begin(), result.modes.end(), [](const auto& mode) { return mode.held_back; }));
+  fact("data", fmt::format("{} at {}{}", count_text(result.modes.size(), "mode"), sensors_used(input.full.features),
+                           held ? fmt::format("; {} held back, to be predicted", held) : std::string()));
+  return text + "</dl>\n";
+}
+
+std::string gap_section(const DiagnosisResult& result) {
+  const std::vector<GapRow> rows = gap_rows(result);
+  std::string text = "<p>Gap ";
+  for (const GapRow& row : rows)
+    text += fmt::format("{}of {}: <strong>{}</strong> before → {} with fitted materials → <strong>{}</strong> after",
+                        &row == &rows.front() ? "" : "; ", row.data, gap_text(row.before), gap_text(row.materials),
+                        gap_text(row.after));
+  text += ".</p>\n";
+  text += note(
+      "The gap is the root mean square residual in standard deviations of measurement and model together: about 1 is "
+      "noise. “Modes left out”: each mode in turn, predicted from the others.");
+  return text + figure(gap_chart(rows));
+}
+
+// The modes.
+
+std::string unpaired_note(const std::vector<ModeComparison>& modes) {
+  const bool any = std::any_of(modes.begin(), modes.end(), [](const auto& m) { return m.before <= 0 || m.after <= 0; });
+  return any ? note("“none”: the model has no mode that is like the measured one; it counts as 5 standard deviations.")
+             : std::string();
+}
+
+std::string modes_section(const std::vector<ModeComparison>& modes) {
+  std::string text = heading("Periods") + figure(periods_chart(modes)) + unpaired_note(modes);
+  text += heading("Residuals of the frequencies");
+  text += note("Measured less computed, over the standard deviation of measurement and model together; grey: ± 2.");
+  return text + figure(deviations_chart(modes));
+}
+
+std::string scale_key() {
+  SvgDrawing key(210.0, 18.0, "Colours of the assurance");
+  for (int i = 0; i < 21; ++i)
+    key.rectangle(10.0 * i, 0.0, 10.3, 18.0, {colour_code(scale_colour(0.05 * i)), "none", 1.0, ""});
+  return fmt::format(
+      "<div class=\"key\"><span>MAC 0</span>{}<span>1; framed: the mode that it is paired with</span></div>\n",
+      key.finished());
+}
+
+std::string shapes_section(const DiagnosisInput& input, const DiagnosisResult& result) {
+  const std::string partners = assurance_chart(result.modes), matrix = assurance_matrix(input, result);
+  if (partners.empty() && matrix.empty())
+    return heading("Shapes") + paragraph("No shapes were measured; modes are paired by direction and order.");
+  std::string text = heading("Shapes: modal assurance (MAC)") + figure(partners);
+  if (!matrix.empty()) text += fmt::format("{}{}", figure(matrix), scale_key());
+  std::string charts;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const std::string chart = shape_chart(input, result, m);
+    if (chart.empty()) continue;
+    const ModeComparison& mode = result.modes[m];
+    const auto mac = [](double x) { return std::isfinite(x) ? fmt::format("{:.2f}", x) : std::string("none"); };
+    charts += fmt::format(
+        "<figure><figcaption><strong>{}</strong>, {}{}; MAC {} → {}</figcaption><div class=\"wide\">{}"
+        "</div></figure>\n",
+        escaped(mode_title(mode)), escaped(mode_motion(mode)), mode.held_back ? ", held back" : "",
+        mac(mode.mac_before), mac(mode.mac_after), chart);
+  }
+  if (charts.empty()) return text;
+  text += heading("Shapes at the sensors");
+  text += note(
+      "Black circles: measured, with ± 2 standard deviations of the measurement; the largest is 1. Blue triangles: the "
+      "corrected case. Small hollow squares: the case as it is. Computed shapes are scaled to fit best. Sensors along "
+      "each axis stand in the order of their place along the bridge.");
+  return text + fmt::format("<div class=\"many\">\n{}</div>\n", charts);
+}
+
+std::string where_section(const DiagnosisResult& result) {
+  const std::string chart = where_chart(result.where, result.where_after);
+  std::string text = heading("Where the model disagrees");
+  if (chart.empty()) return text + paragraph("Nothing could be located: no measured mode has a computed partner.");
+  text += note(
+      "Shares of each part in the strain energy of the displacements that would correct the measured modes, with the "
+      "axis along which the residual force does most work. The size is that energy over the modes' own: 1 % is about "
+      "10 % of the squared frequency. Where the size is small the shares are those of noise.");
+  return text + figure(chart);
+}
+
+// Candidates.
+
+std::string help_of(const Candidate& c) {
+  return c.kind == Candidate::Kind::factor ? std::string() : find_effect(c.name).help;
+}
+
+Cell candidate_cell(const Candidate& c) {
+  const std::string help = help_of(c);
+  return {help.empty()
+              ? escaped(candidate_name(c))
+              : fmt::format("{}<br><span class=\"note\">{}</span>", escaped(candidate_name(c)), escaped(help))};
+}
+
+Cell parameters_cell(const Fit& fit, std::size_t index) {
+  std::string html;
+  for (const FittedValue& v : fitted_values(fit, index)) html += (html.empty() ? "" : "<br>") + escaped(v.text());
+  return {html};
+}
+
+std::string trials_table(const Round& round, const Fit& current) {
+  std::string text = "<table>\n" + table_row({{"candidate"},
+                                              {"probability", true},
+                                              {"prior", true},
+                                              {"log evidence<br>above none", true},
+                                              {"gap", true},
+                                              {"predicted<br>gap", true},
+                                              {"collinear with<br>the best", true},
+                                              {"parameters"}},
+                                             "th");
+  for (std::size_t i = 0; i < round.trials.size(); ++i) {
+    const Trial& t = round.trials[i];
+    const bool added = i == 0 && round.accepted;
+    const std::string mark = added ? " (added)" : t.tie ? " (tie)" : "";
+    text += table_row({candidate_cell(t.candidate),
+                       {escaped(probability_text(t.probability)) + mark, true},
+                       {fmt::format("{:.2g}", t.candidate.prior), true},
+                       signed_cell(t.fit.log_evidence - current.log_evidence),
+                       number_cell(t.fit.gap),
+                       number_cell(t.fit.predicted_gap),
+                       number_cell(t.signature, "-"),
+                       parameters_cell(t.fit, t.fit.hypothesis.effects.size() - 1)},
+                      "td", added ? "best" : "");
+  }
+  text += table_row({{"none of them"},
+                     {probability_text(round.none), true},
+                     {"1", true},
+                     {"0", true},
+                     number_cell(current.gap),
+                     number_cell(current.predicted_gap),
+                     {"", true},
+                     {""}},
+                    "td");
+  return text + "</table>\n";
+}
+
+std::string screening_table(const Round& round) {
+  if (round.screened.empty()) return "";
+  std::string text = fmt::format(
+      "<details><summary>All {} that were screened, and the share of the misfit that each could take away</summary>\n"
+      "<table>\n",
+      count_text(round.screened.size(), "candidate"));
+  text += table_row({{"candidate"}, {"explains", true}}, "th");
+  for (const auto& [name, explained] : round.screened)
+    text += table_row({words_cell(name), {fmt::format("{:.0f} %", 100.0 * explained), true}}, "td");
+  return text + "</table>\n</details>\n";
+}
+
+std::string round_section(const Round& round, const Fit& current, std::size_t index) {
+  std::string text = fmt::format(
+      "<h3>Round {}: {}</h3>\n", index + 1,
+      round.accepted ? escaped(plain_name(round.trials[0].candidate)) + " is added" : std::string("nothing is added"));
+  return text + figure(probability_chart(round)) + trials_table(round, current) + screening_table(round);
+}
+
+std::string candidates_section(const Diagnosis& d) {
+  std::string text = heading("Candidates");
+  if (d.rounds.empty())
+    return text + paragraph("None was tried: with its materials within what is likely, the case needs none.");
+  text += note(
+      "Each candidate is fitted with the materials. Probabilities follow from the evidence (how well it fits, less "
+      "what "
+      "its freedom to fit anything costs) and how often such an effect is met; “none” is the model without a further "
+      "one. Collinearity 1: these sensors cannot tell the two apart. A tie is at least a fifth as probable as the "
+      "best.");
+  const Fit* current = &d.calibrated;
+  for (std::size_t i = 0; i < d.rounds.size(); ++i) {
+    text += round_section(d.rounds[i], *current, i);
+    if (d.rounds[i].accepted) current = &d.rounds[i].trials[0].fit;
+  }
+  return text;
+}
+
+/// What is left when no effect has a name: factors on parts, and springs to the ground.
+std::string nameless_section(const Diagnosis& d) {
+  if (d.verdict != Diagnosis::Verdict::unexplained) return "";
+  std::string text = heading("Where stiffness or mass is missing, without a name");
+  const Fit& fit = d.nameless_best;
+  if (fit.hypothesis.effects.empty())
+    return text +
+           paragraph(
+               "No factor on the stiffness or mass of a part and no spring to the ground improves the model either.");
+  const std::vector<const Round*> rounds = accepted_rounds(d.nameless);
+  text += "<table>\n" + table_row({{"part"}, {"what"}, {"value", true}, {"probability", true}}, "th");
+  for (std::size_t i = 0; i < fit.hypothesis.effects.size(); ++i) {
+    const FittedValue value = fitted_values(fit, i).front();
+    const std::string unit = value.name == "factor" ? "×" : value.unit, bound = value.at_bound ? " (at its bound)" : "";
+    text += table_row({words_cell(fit.hypothesis.effects[i].where),
+                       words_cell(fit.hypothesis.effects[i].name),
+                       {fmt::format("{} {}{}", with_std(value.value, value.std), unit, bound), true},
+                       {i < rounds.size() ? probability_text(rounds[i]->trials[0].probability) : std::string(), true}},
+                      "td");
+  }
+  text += fmt::format("</table>\n<p>Gap with these: {:.2f}.</p>\n", fit.gap);
+  return text + note("A factor above 1: the bridge has more of it than the model.");
+}
+
+std::string materials_section(const Diagnosis& d) {
+  const std::string chart = materials_chart(d);
+  if (chart.empty()) return "";
+  std::string text = heading("Fitted materials") + figure(chart);
+  text += note(
+      "Bands: one and two standard deviations of what is likely; “likely” are the factors at two. "
+      "Bars: one standard deviation after the fit.");
+  if (d.alarms.empty()) return text + paragraph("Fitted alone, no material leaves what is likely.");
+  text += paragraph("Fitted alone, materials leave what is likely: they pay for something that the model lacks.");
+  return text + list(d.alarms);
+}
+
+// The rest.
+
+std::string advice_section(const Diagnosis& d) {
+  if (d.advice.empty()) return "";
+  std::string text = heading("What would tell the candidates apart") + "<ul>\n";
+  for (const Advice& a : d.advice)
+    text += fmt::format("<li>from <strong>{}</strong>: {}</li>\n", escaped(a.against), escaped(a.text));
+  return text + "</ul>\n";
+}
+
+std::string model_error_text(const DiagnosisInput& input) {
+  std::string text = fmt::format(
+      "A right model is taken to be right to {:.1f} % of frequencies and {:.1f} % of a shape's largest value.",
+      100.0 * input.coarse.error.frequency, 100.0 * input.coarse.error.shape);
+  if (input.coarse.mesh.scatter > 0.0 || input.coarse.mesh.shift != 0.0)
+    text += fmt::format(
+        " Blocks 1.25 times as large shift all frequencies by {:+.1f} %, scatter them by {:.1f} % and shapes by {:.1f} "
+        "%.",
+        100.0 * input.coarse.mesh.shift, 100.0 * input.coarse.mesh.scatter, 100.0 * input.coarse.mesh.shape);
+  if (input.coarsened)
+    text += fmt::format(
+        " Effects were looked for on a coarser mesh (block_scale {:.2f}); “before” and “after” are on the case's own.",
+        input.block_scale);
+  return text;
+}
+
+/// Runs of the explicit solver against the recording.
+std::string recorded_section(const DiagnosisInput& input, const DiagnosisResult& result) {
+  if (!result.recorded) return "";
+  const RecordedMatch& m = *result.recorded;
+  std::string text = heading("Under the recorded motion of the ground");
+  text += paragraph(fmt::format(
+      "The explicit solver was run under {:.1f} s of {}, from {:.1f} s on, from rest under gravity, on the mesh that "
+      "was searched ({:.0f} s of computing). Below {:.1f} Hz, accelerations differ from the recorded ones by {:.0f} % "
+      "of them before and by "
+      "{:.0f} % after; transfer functions by {:.1f} standard deviations before and by {:.1f} after.",
+      m.duration, m.record, m.from, m.seconds, m.highest_frequency, 100.0 * m.error_before, 100.0 * m.error_after,
+      m.transfer_before, m.transfer_after));
+  text += figure(transfer_chart(input, m));
+  text += note(
+      "Acceleration of a sensor per acceleration of the ground along its axis. Grey: two standard deviations of "
+      "the measured one. All three are estimated alike.");
+  text += figure(history_chart(input, m));
+  text += "<table>\n" +
+          table_row({{"channel"}, {"rms, m/s²", true}, {"differs before, %", true}, {"after, %", true}}, "th");
+  for (const ChannelMatch& c : m.channels)
+    text += table_row({words_cell(c.channel),
+                       {fmt::format("{:.3g}", c.size), true},
+                       {fmt::format("{:.0f}", 100.0 * c.error_before), true},
+                       {fmt::format("{:.0f}", 100.0 * c.error_after), true}},
+                      "td");
+  return text + "</table>\n" +
+         note(
+             "Root mean square of the difference over that of the recording. What resonates a little late differs by "
+             "as much as itself.");
+}
+
+std::string identification_section(const DiagnosisInput& input) {
+  if (!input.ambient) return "";
+  return heading("Modes found in the recordings") + figure(stabilisation_chart(*input.ambient, *input.spectra)) +
+         note(
+             "Stochastic subspace identification: a pole of the model of each order is a full circle where frequency, "
+             "damping and shape agree with the order before, else a small square; lines mark the modes that were "
+             "taken. "
+             "The curve is the first singular value of the spectra (frequency-domain decomposition), on a scale of "
+             "its own.");
+}
+
+std::string data_section(const DiagnosisInput& input) {
+  std::string text = heading("Data and model error") + paragraph(model_error_text(input));
+  if (!input.without.empty())
+    text += paragraph(fmt::format("Left out of the library by request: {}.", fmt::join(input.without, ", ")));
+  std::vector<std::string> items;
+  for (const SetAside& s : input.measured.set_aside) items.push_back(fmt::format("set aside: {}: {}", s.place, s.what));
+  for (const std::string& remark : input.measured.remarks) items.push_back(fmt::format("remark: {}", remark));
+  return items.empty() ? text : text + list(items);
+}
+
+std::string corrected_section(const DiagnosisInput& input, const DiagnosisResult& result) {
+  const std::string& all = result.corrected;
+  const std::size_t own = all.starts_with(input.c.text) ? input.c.text.size() : all.size();
+  std::string text = heading("The corrected case, corrected.toml");
+  text += fmt::format("<pre>{}", escaped(std::string_view(all).substr(0, own)));
+  if (own < all.size())
+    text += fmt::format("<span class=\"added\">{}</span>", escaped(std::string_view(all).substr(own)));
+  return text + "</pre>\n";
+}
+
+}  // namespace
+
+std::string diagnosis_page(const DiagnosisInput& input, const DiagnosisResult& result,
+                           const std::vector<PagePicture>& pictures) {
+  const Diagnosis& d = result.diagnosis;
+  const std::string name = std::filesystem::path(input.c.path).stem().string();
+  std::string page = verdict_box(result) + gap_section(result) + facts(input, result);
+  page += modes_section(result.modes) + shapes_section(input, result) + recorded_section(input, result);
+  page += where_section(result);
+  page += nameless_section(d) + candidates_section(d) + materials_section(d) + advice_section(d);
+  page += pictures_section(pictures) + identification_section(input) + data_section(input) +
+          corrected_section(input, result);
+  return html_page(fmt::format("Diagnosis of {}", name), page);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,35 @@
+// Numbers of a diagnosis in words: fitted parameters with their standard deviations, modes, probabilities.
+#pragma once
+#include "tools/diagnosis/diagnosis_report.h"
+
+namespace voussoir {
+
+/// A fitted parameter in its own unit.
+struct FittedValue {
+  std::string name, unit;
+  double value = 0.0, std = 0.0;
+  bool at_bound = false;
+  /// "stiffness_share 0.48 ± 0.05", with the unit where there is one.
+  std::string text() const;
+};
+/// Parameters of the effect that stands at `index` in the fit's hypothesis; a fault's fixed gain too.
+std::vector<FittedValue> fitted_values(const Fit& fit, std::size_t index);
+/// The same in a row, by commas; empty where it has none.
+std::string fitted_text(const Fit& fit, std::size_t index);
+
+/// "0.48 ± 0.05", "(2.1 ± 0.3) × 10⁸": as many digits as the standard deviation allows.
+std::string with_std(double value, double std);
+/// What a nameless factor or spring says: "stiffness of pier 1 should be 1.8 ± 0.2 times as much".
+std::string nameless_text(const Fit& fit, std::size_t index);
+/// "0.97", "below 0.01", "above 0.99".
+std::string probability_text(double probability);
+/// "sensor_fault at channel A01x, reversed": its text, and what tells apart faults of the same channel.
+std::string candidate_name(const Candidate& candidate);
+/// "0.43"; "none" where it is not finite.
+std::string gap_text(double gap);
+/// "mode 3", or its name where that is a word.
+std::string mode_title(const ModeComparison& mode);
+/// The measured direction; without one, what it was taken for.
+std::string mode_motion(const ModeComparison& mode);
+
+}  // namespace voussoir

@@ -1,0 +1,136 @@
+#include "tools/modal/modal_paper.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "solver/base/atomic_file.h"
+#include "solver/base/error.h"
+#include "tools/modal/modal_report.h"
+#include "tools/modal/modal_source.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr double period_tolerance = 0.10, prototype_tolerance = 0.04, ratio_tolerance = 0.15;
+
+/// A ratio that is known to be outside its tolerance, and why.
+struct KnownMiss {
+  const char *bridge, *motion, *reason;
+};
+const KnownMiss known_misses[] = {
+    {"CS1", "transverse, 1st order",
+     "known: what lengthens the free bridge's period lengthens the restrained one's too, which is at its limit "
+     "already"},
+};
+
+/// A published mode and what was found.
+struct PaperRow {
+  std::string bridge, ends;  // "CS1", "F"
+  ModeWords words;
+  double published = 0.0, prototype = 0.0, found = 0.0;  // s
+  int number = 0;                                        // of the mode found, from 1; 0: none
+};
+
+/// "+3.1 %", and whether it is a miss.
+std::string error_text(double found, double expected, double tolerance, bool& miss) {
+  if (expected <= 0.0) return "";
+  if (found <= 0.0) return miss = true, "none";
+  const double error = found / expected - 1.0;
+  const bool out = std::abs(error) > tolerance;
+  miss = miss || out;
+  return fmt::format("{:+.1f} %{}", 100.0 * error, out ? " !" : "");
+}
+
+std::string case_file(const std::string& name) {
+  std::error_code ignored;
+  const std::string here = "cases/" + name + ".toml";
+  return std::filesystem::is_regular_file(here, ignored) ? here : VOUSSOIR_SOURCE_DIR "/" + here;
+}
+
+std::vector<PaperRow> rows_of(const std::string& bridge, const std::string& ends) {
+  std::string name = bridge + "-" + ends;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const ModalSource source = modal_source(
+      case_file(name), [](ModalSettings&) {}, false, 1, true);
+  const Modes modes = find_modes(source.assembly, source.model, source.state, 6, PatchTangent::intact);
+  fmt::print("{}-{}: {}\n", bridge, ends, effort_text(modes.report));
+  std::fflush(stdout);
+  std::vector<PaperRow> rows;
+  for (const ExpectedPeriod& e : source.c.expected_periods) {
+    const auto same = [&](const auto& words) { return words.direction == e.direction && words.order == e.order; };
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const PaperRow& r) { return same(r.words); });
+    if (row == rows.end()) {
+      rows.push_back({bridge, ends, {e.direction, e.order, ""}});
+      row = rows.end() - 1;
+    }
+    (e.source == "prototype" ? row->prototype : row->published) = e.period;
+    for (std::size_t i = 0; i < modes.modes.size() && row->number == 0; ++i)
+      if (same(modes.modes[i].words)) row->number = int(i) + 1, row->found = modes.modes[i].period();
+  }
+  return rows;
+}
+
+std::string periods_part(const std::vector<PaperRow>& rows, bool& miss) {
+  std::string text =
+      "| bridge | mode | motion | published s | found s | error | prototype s | error |\n| --- | --- | --- | --- | --- "
+      "| "
+      "--- | --- | --- |\n";
+  for (const PaperRow& row : rows)
+    text += fmt::format("| {}-{} | {} | {} | {:.2f} | {:.3f} | {} | {:.3f} | {} |\n", row.bridge, row.ends, row.number,
+                        row.words.text(), row.published, row.found,
+                        error_text(row.found, row.published, period_tolerance, miss), row.prototype,
+                        error_text(row.found, row.prototype, prototype_tolerance, miss));
+  return text;
+}
+
+std::string ratios_part(const std::vector<PaperRow>& rows, bool& miss) {
+  std::string text = "| bridge | motion | published F/R | found F/R | error |\n| --- | --- | --- | --- | --- |\n";
+  for (const PaperRow& f : rows)
+    for (const PaperRow& r : rows) {
+      if (f.ends != "F" || r.ends != "R" || f.bridge != r.bridge || f.words.text() != r.words.text()) continue;
+      const double published = f.published / r.published, found = r.found > 0.0 ? f.found / r.found : 0.0;
+      const auto known = std::find_if(std::begin(known_misses), std::end(known_misses), [&](const KnownMiss& k) {
+        return k.bridge == f.bridge && k.motion == f.words.text();
+      });
+      bool ignored = false;
+      const std::string error =
+          error_text(found, published, ratio_tolerance, known == std::end(known_misses) ? miss : ignored);
+      text += fmt::format("| {} | {} | {:.2f} | {:.2f} | {}{} |\n", f.bridge, f.words.text(), published, found, error,
+                          ignored ? fmt::format(" ({})", known->reason) : "");
+    }
+  return text;
+}
+
+/// The cases list the modes in the published order.
+std::string order_part(const std::vector<PaperRow>& rows, bool& miss) {
+  std::string text;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const PaperRow &before = rows[i - 1], &row = rows[i];
+    if (before.bridge != row.bridge || before.ends != row.ends || before.found > row.found) continue;
+    miss = true;
+    text +=
+        fmt::format("{}-{}: {} should come after {} !\n", row.bridge, row.ends, row.words.text(), before.words.text());
+  }
+  return text.empty() ? "All modes come in the published order.\n" : text;
+}
+
+}  // namespace
+
+int modal_paper(const std::string& file) {
+  std::vector<PaperRow> rows;
+  for (const char* bridge : {"CS1", "CS2"})
+    for (const char* ends : {"F", "R"}) {
+      const std::vector<PaperRow> more = rows_of(bridge, ends);
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
+  bool miss = false;
+  const std::string text = periods_part(rows, miss) + "\n" + order_part(rows, miss) + "\n" + ratios_part(rows, miss);
+  fmt::print("\n{}", text);
+  if (!file.empty()) write_atomically(file, text);
+  return miss ? 1 : 0;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,155 @@
+#include "tools/modal/modal_source.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/checkpoint_file.h"
+#include "io/hdf5/h5.h"
+#include "solver/base/error.h"
+#include "solver/contact/grouping.h"
+#include "solver/contact/search.h"
+#include "solver/run/simulation.h"
+#include "solver/statics/settle.h"
+#include "solver/step/loads.h"
+#include "tools/run/terminal.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The gravity stage alone, as a run would do it.
+void rest_under_gravity(ModalSource& source, int threads, bool quiet) {
+  SolverSettings settings = source.c.settings;
+  const auto stage = std::find_if(settings.stages.begin(), settings.stages.end(),
+                                  [](const StageSettings& s) { return s.kind == StageSettings::Kind::gravity; });
+  settings.stages = {stage == settings.stages.end() ? StageSettings{} : *stage};
+  source.loads = loads_after(settings.stages, 0);
+  ProgressLine progress(quiet);
+  Observers observers;
+  observers.progress = [&](const Progress& p) { progress.show(p); };
+  Simulation run(source.assembly, settings, threads, observers);
+  const RunEnd end = run.run();
+  progress.end();
+  if (end != RunEnd::finished) throw RunError("no equilibrium under gravity: {}", run.failure());
+  source.state = run.state();
+}
+
+/// What a state of a run is when it has come to rest.
+void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
+  // Of an average block's weight: what the joints carry is known well enough, and who touches whom does not change.
+  constexpr double tolerance = 1e-4;
+  ProgressLine line(quiet);
+  const Settled settled = settle(stepper, tolerance, nullptr, [&](std::int64_t step, double residual) {
+    Progress progress;
+    progress.stage = "coming to rest";
+    progress.timed = false;
+    progress.note = fmt::format("relaxation step {}: out-of-balance {:.1e}", step, residual);
+    line.show(progress);
+  });
+  line.end();
+  if (!settled.equilibrium.converged)
+    throw RunError(
+        "the state does not come to rest under gravity, it is still coming down ({}); --as-stored takes it as it is",
+        settled.equilibrium.account);
+  source.about += fmt::format(", at rest after {} steps", settled.equilibrium.steps);
+  if (const std::size_t n = settled.falling.size())
+    source.about += fmt::format(" ({} block{} in the air)", n, n == 1 ? "" : "s");
+}
+
+/// The newest readable checkpoint of a run directory.
+std::string newest_checkpoint(const std::string& directory) {
+  const std::vector<std::string> all = list_checkpoints(directory + "/checkpoints");
+  if (all.empty())
+    throw InputError("{} has no checkpoints: run it first, or give its case.toml for the intact bridge", directory);
+  return all.front();
+}
+
+void load_checkpoint(ModalSource& source, const std::string& file) {
+  const std::string run = fs::weakly_canonical(file).parent_path().parent_path().string();
+  const h5::File h5 = h5::File::open(file);
+  if (h5.has_attribute("/", "format") && h5.text("/", "format") == "voussoir-assembly")
+    throw InputError("{} is a block assembly; name it in a case ([bridge] assembly = \"{}\") and give that", file,
+                     file);
+  if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
+    throw InputError(
+        "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it", file);
+  source.c = read_case(run + "/case.toml", CaseUse::geometry);
+  source.assembly = read_assembly(run + "/assembly.h5");
+  source.model = build_model(source.assembly, source.c.settings);
+  source.state = initial_state(source.model);
+  CheckpointHeader header;
+  try {
+    read_checkpoint(file, header, source.state.arrays());
+  } catch (const RunError& error) {
+    throw InputError("{}", error.what());
+  }
+  if (header.assembly_hash != assembly_hash(source.assembly))
+    throw InputError("{} belongs to another assembly than {}/assembly.h5", file, run);
+  source.state.unpack(source.model);
+  take_joint_order(source.model, source.state);
+  source.tangent = PatchTangent::present;
+  source.damaged = true;
+  source.name = fs::path(run).filename().string();
+  source.about = fmt::format("{} at t = {:.3f} s, joints as they are", source.name, header.time);
+  // Between two stages what acts is what the one before has left.
+  const std::int64_t at = header.numbers["stage_begun"] > 0.0 ? header.stage : header.stage - 1;
+  const auto stages = std::int64_t(source.c.settings.stages.size());
+  if (at >= 0) source.loads = loads_after(source.c.settings.stages, std::size_t(std::min(at, stages - 1)));
+}
+
+void load_case(ModalSource& source, const std::string& file) {
+  source.c = read_case(file, CaseUse::geometry);
+  source.assembly = make_assembly(source.c);
+  source.model = build_model(source.assembly, source.c.settings);
+  source.state = initial_state(source.model);
+  source.name = fs::path(file).stem().string();
+}
+
+}  // namespace
+
+ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool as_stored,
+                         int threads, bool quiet) {
+  ModalSource source;
+  std::error_code ignored;
+  if (!fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
+  if (fs::is_directory(from, ignored))
+    load_checkpoint(source, newest_checkpoint(from));
+  else if (h5::File::is_hdf5(from))
+    load_checkpoint(source, from);
+  else
+    load_case(source, from);
+  ModalSettings& asked = source.c.settings.modal;
+  modal(asked);
+  const bool gravity = asked.state == ModalSettings::State::gravity;
+  if (!source.damaged) {
+    if (as_stored) throw InputError("--as-stored is for the state of a run, and {} is a case", from);
+    if (asked.geometric && !gravity)
+      throw InputError("geometric stiffness needs the forces of a state: add --state gravity");
+    if (gravity) rest_under_gravity(source, threads, quiet);
+    source.tangent = gravity ? PatchTangent::present : PatchTangent::intact;
+    source.about = fmt::format("{}, {}", from, gravity ? "joints as they rest under gravity" : "all joints intact");
+  }
+  for (const std::string& effect : source.assembly.effects) source.about += fmt::format(", effect {}", effect);
+  if (source.tangent == PatchTangent::intact) return source;
+  set_branches(source.model, source.state, 0);
+  Stepper stepper;
+  stepper.model = &source.model;
+  stepper.state = &source.state;
+  stepper.threads = threads;
+  stepper.search_distance = search_distance(source.model);
+  stepper.loads = loads_at_work(source.assembly, source.model, source.loads, source.loads);
+  stepper.prepare();
+  if (source.damaged && !as_stored) settle_down(source, stepper, quiet);
+  stepper.patches_only();  // the tangent is that of the last pass
+  if (asked.geometric) {
+    source.wrenches = stepper.wrenches;
+    source.about += ", with geometric stiffness";
+  }
+  return source;
+}
+
+}  // namespace voussoir

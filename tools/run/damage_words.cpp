@@ -1,0 +1,53 @@
+#include "tools/run/damage_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace voussoir {
+
+namespace {
+
+constexpr double fallen = 1.0;  // m: how far a stone goes on falling says nothing
+
+/// "0.04 mm", "18 mm".
+std::string length_text(double metres) {
+  const double mm = 1e3 * metres;
+  return fmt::format("{:.{}f} mm", mm, mm < 0.1 ? 2 : mm < 10.0 ? 1 : 0);
+}
+
+}  // namespace
+
+const std::vector<DamageClass>& damage_classes() {
+  static const std::vector<DamageClass> classes = {{"negligible", 1e-4}, {"very slight", 1e-3},
+                                                   {"slight", 5e-3},     {"moderate", 15e-3},
+                                                   {"severe", 25e-3},    {"very severe", INFINITY}};
+  return classes;
+}
+
+const char* damage_word(double opening) {
+  for (const DamageClass& c : damage_classes())
+    if (opening < c.below) return c.word;
+  return damage_classes().back().word;
+}
+
+std::string damage_sentence(const nlohmann::json& damage) {
+  const double opening = damage.value("largest_opening", 0.0), slip = damage.value("largest_slip", 0.0),
+               broken = damage.value("broken_share", 0.0);
+  std::string text = damage_word(opening);
+  if (opening >= fallen) {
+    text += fmt::format(": joints opened by more than {:g} m: stones fell", fallen);
+  } else {
+    text += ": joints opened by up to " + length_text(opening);
+    if (damage.contains("residual_opening"))
+      text += fmt::format(" ({} still open)", length_text(damage.value("residual_opening", 0.0)));
+    text += ", slid by up to " + length_text(slip);
+  }
+  if (!damage.value("bonded", true)) return text + "; joints without bond";
+  return text + fmt::format("; {} of the bonded joint area broken",
+                            broken == 0.0    ? "nothing"
+                            : broken < 0.001 ? "less than 0.1 %"
+                                             : fmt::format("{:.{}f} %", 100.0 * broken, broken < 0.1 ? 1 : 0));
+}
+
+}  // namespace voussoir

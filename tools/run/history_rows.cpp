@@ -1,0 +1,93 @@
+#include "tools/run/history_rows.h"
+
+#include <fmt/format.h>
+
+#include "solver/step/damage.h"
+#include "solver/step/make_snapshot.h"
+
+namespace voussoir {
+
+namespace {
+
+/// Mean over the group's blocks of the displacement of their centroids relative to base and gravity state.
+double group_displacement(const Simulation& run, const DemandPoint& point) {
+  const std::vector<std::int64_t>& blocks = run.assembly().groups.at(point.group);
+  double sum = 0.0;
+  for (std::int64_t b : blocks)
+    sum += relative_displacement(run.model(), run.state(), b, run.assembly().blocks[b].centroid)[point.axis];
+  return sum / double(blocks.size());
+}
+
+}  // namespace
+
+double sensor_velocity(const Simulation& run, const Sensor& sensor) {
+  const std::int32_t body = run.model().body_of_block[sensor.block];
+  const double* motion = &run.state().motion[motion_width * std::size_t(body)];
+  const double* pose = &run.state().pose[pose_width * std::size_t(body)];
+  const Eigen::Quaterniond q(pose[3], pose[4], pose[5], pose[6]);
+  const Body& b = run.model().bodies[body];
+  const Vec3 momentum(motion[3], motion[4], motion[5]);
+  const Vec3 spin = q * (b.inverse_inertia * (q.conjugate() * momentum));
+  const Vec3 arm = q * (sensor.position - b.centroid);
+  return sensor.direction.dot(Vec3(motion[0], motion[1], motion[2]) + spin.cross(arm));
+}
+
+std::string demand_channel(const DemandPoint& point) {
+  return fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);
+}
+
+std::vector<DemandPoint> demand_points(const Assembly& assembly) {
+  std::vector<DemandPoint> points;
+  for (const auto& [name, blocks] : assembly.groups) {
+    if (blocks.empty()) continue;
+    if (name.starts_with("keystone")) points.push_back({name, 0});
+    if (name.starts_with("spandrel")) points.push_back({name, 1});
+  }
+  return points;
+}
+
+std::vector<Channel> history_channels(const Assembly& assembly, const std::vector<std::string>& held_groups) {
+  std::vector<Channel> channels = {{"time", "s"}, {"stage", "-"}};
+  for (const auto& term : energy_terms()) channels.push_back({std::string("energy/") + term.first, "J"});
+  channels.push_back({"energy/balance_error", "-"});
+  for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/displacement_{}", axis), "m"});
+  for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/acceleration_{}", axis), "m/s2"});
+  channels.push_back({"contacts", "-"});
+  for (const DemandPoint& point : demand_points(assembly)) channels.push_back({demand_channel(point), "m"});
+  for (const Component component : bonded_components(assembly))
+    channels.push_back({fmt::format("damage/{}/broken_share", component_names()[std::size_t(component)]), "-"});
+  for (const Sensor& sensor : assembly.sensors) {
+    channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
+    channels.push_back({"sensors/" + sensor.id + "/since_built", "m"});
+    channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
+    for (char axis : {'x', 'y', 'z'})
+      channels.push_back({fmt::format("sensors/{}/rotation_{}", sensor.id, axis), "rad"});
+  }
+  for (const std::string& group : held_groups)
+    for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("reactions/{}_{}", group, axis), "N"});
+  return channels;
+}
+
+std::vector<double> history_row(const Simulation& run, const Sample& s) {
+  std::vector<double> row = {s.time, double(s.stage + 1)};
+  for (const auto& term : energy_terms()) row.push_back(s.energies.*term.second);
+  row.push_back(s.balance_error);
+  for (int c = 0; c < 3; ++c) row.push_back(s.base_displacement[c]);
+  for (int c = 0; c < 3; ++c) row.push_back(s.base_acceleration[c]);
+  row.push_back(double(s.contacts));
+  for (const DemandPoint& point : demand_points(run.assembly())) row.push_back(group_displacement(run, point));
+  row.insert(row.end(), s.broken_shares.begin(), s.broken_shares.end());
+  for (const Sensor& sensor : run.assembly().sensors) {
+    const Vec3 u = relative_displacement(run.model(), run.state(), sensor.block, sensor.position);
+    row.push_back(sensor.direction.dot(u));
+    row.push_back(
+        sensor.direction.dot(displacement_since_built(run.model(), run.state(), sensor.block, sensor.position)));
+    row.push_back(sensor_velocity(run, sensor));
+    const Vec3 turn = relative_rotation(run.model(), run.state(), sensor.block);
+    for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
+  }
+  for (const Vec3& reaction : s.reactions) row.insert(row.end(), reaction.begin(), reaction.end());
+  return row;
+}
+
+}  // namespace voussoir

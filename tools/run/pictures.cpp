@@ -1,0 +1,170 @@
+// The pictures every finished run leaves behind.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/records/curve.h"
+#include "tools/run/history_rows.h"
+#include "tools/run/run_session.h"
+#include "viz/plot.h"
+#include "viz/render.h"
+
+namespace voussoir {
+
+namespace {
+
+void draw_state(const std::string& images, const Assembly& assembly, const Snapshot& snapshot) {
+  RenderOptions o;
+  for (const char* view : {"oblique", "front"}) {
+    o.view = view;
+    for (const char* colour : {"opening", "slip"}) {
+      o.colour = colour;
+      render_picture(assembly, snapshot, o, fmt::format("{}/{}_{}.png", images, colour, view));
+    }
+  }
+}
+
+/// What a deformable fill has gone through, in the section along the bridge's middle.
+void draw_fill(const std::string& images, const Assembly& assembly, const Snapshot& snapshot) {
+  RenderOptions o;
+  o.cut = std::string("y");
+  for (const char* colour : {"plastic", "yield"}) {
+    o.colour = colour;
+    o.hide = usually_hidden(colour);
+    for (const char* view : {"oblique", "front"}) {
+      o.view = view;
+      render_picture(assembly, snapshot, o, fmt::format("{}/{}_{}.png", images, colour, view));
+    }
+  }
+}
+
+/// The assembly on its way down, displacements enlarged to a third of a block; with a fill in the section along its
+/// middle.
+void draw_mechanism(const std::string& images, const Simulation& run, const Snapshot& snapshot) {
+  const Model& model = run.model();
+  const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
+  const StageSettings& stage = run.settings().stages.back();
+  RenderOptions o;
+  o.view = "front";
+  o.colour = "displacement";
+  o.amplification = std::max(1.0, std::round(model.typical_size / 3.0 / moved));
+  o.crack_mm = 30.0 * stage.collapse.displacement * model.typical_size;
+  o.undeformed = true;
+  o.hide = {};
+  if (!model.fill.empty()) o.cut = std::string("y");  // soil between walls of plane strain, or behind spandrels
+  o.title = fmt::format("Beyond multiplier {:.4g}", run.collapse().multiplier);
+  render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
+}
+
+/// The outline of where stones were, and the way they go: the farthest by three quarters of a block, whatever it went.
+void draw_way(const std::string& file, const Simulation& run, const Snapshot& snapshot) {
+  const Model& model = run.model();
+  const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
+  const double shown = 0.75 * model.typical_size / std::max(moved, 1e-12);
+  RenderOptions o;
+  o.colour = "displacement";
+  const double digit = std::pow(10.0, std::floor(std::log10(shown)) - 1.0);  // the second one
+  o.amplification = std::min(std::round(shown / digit) * digit, 1e4);
+  o.undeformed = true;
+  o.cracks = false;
+  o.title = "Stones on their way:";
+  for (const std::int32_t body : run.moving())
+    o.title +=
+        fmt::format("{} {}", body == run.moving().front() ? " blocks" : ",", model.block_of_body[std::size_t(body)]);
+  render_picture(run.assembly(), snapshot, o, file);
+}
+
+/// Equilibria on the way to the collapse load.
+void draw_curve(const std::string& images, const Collapse& collapse) {
+  Series along{"loaded points, along the load", {}, {}}, largest{"largest of any block", {}, {}};
+  for (const CollapsePoint& p : collapse.curve) {
+    along.x.push_back(1e3 * p.along), largest.x.push_back(1e3 * p.largest);
+    along.y.push_back(p.multiplier), largest.y.push_back(p.multiplier);
+  }
+  PlotOptions options;
+  options.title = "Load and displacement";
+  options.markers = true;
+  plot_lines({along, largest}, "displacement since the multiplier was zero (mm)", "multiplier (-)", options,
+             images + "/collapse_curve.png");
+}
+
+Series channel(const History& history, const std::string& name, const std::string& path, double factor) {
+  Series s{name, history.time(), history.values(path)};
+  for (double& y : s.y) y *= factor;
+  return s;
+}
+
+void draw_charts(const std::string& images, const Assembly& assembly, const History& history) {
+  if (history.rows() < 2) return;
+  std::vector<Series> energies;
+  for (const char* name : {"kinetic", "elastic", "friction", "fracture", "joint_damping", "external_work"})
+    energies.push_back(channel(history, name, std::string("energy/") + name, 1e-3));
+  plot_lines(energies, "time (s)", "energy (kJ)", "Energy", images + "/energy.png");
+  std::vector<Series> keystones, spandrels;
+  for (const DemandPoint& point : demand_points(assembly)) {
+    const std::string path = fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);
+    (point.axis == 0 ? keystones : spandrels).push_back(channel(history, point.group, path, 1e3));
+  }
+  if (!keystones.empty())
+    plot_lines(keystones, "time (s)", "longitudinal displacement relative to the base (mm)", "Keystones",
+               images + "/keystones.png");
+  if (!spandrels.empty())
+    plot_lines(spandrels, "time (s)", "transverse displacement relative to the base (mm)", "Spandrel walls",
+               images + "/spandrels.png");
+}
+
+/// A label as given, or the channel with its unit.
+std::string axis_label(const std::string& label, const std::string& name, double factor, const History& history) {
+  if (!label.empty()) return label;
+  for (const Channel& channel : history.channels())
+    if (channel.path == name)
+      return factor == 1.0 ? fmt::format("{} ({})", name, channel.unit)
+                           : fmt::format("{} ({:g} {})", name, 1.0 / factor, channel.unit);
+  return name;
+}
+
+void draw_plot(const std::string& images, const PlotSpec& plot, const History& history) {
+  if (history.rows() < 2) return;
+  std::vector<Series> series;
+  for (const MeasuredCurve& measured : plot.measured)
+    if (!measured.text.empty()) {
+      Curve curve = parse_curve(measured.text, measured.file);
+      series.push_back({measured.label, std::move(curve.x), std::move(curve.y)});
+    }
+  Series computed{plot.label, history.values(plot.x), history.values(plot.y)};
+  for (double& x : computed.x) x *= plot.x_factor;
+  for (double& y : computed.y) y *= plot.y_factor;
+  series.push_back(std::move(computed));
+  plot_lines(series, axis_label(plot.x_label, plot.x, plot.x_factor, history),
+             axis_label(plot.y_label, plot.y, plot.y_factor, history), plot.title,
+             fmt::format("{}/{}.png", images, plot.name));
+}
+
+}  // namespace
+
+std::string make_pictures(const std::string& directory, const Case& c, const Simulation& run, const Snapshot& snapshot,
+                          const History& history) {
+  const std::string images = directory + "/images";
+  try {
+    draw_state(images, run.assembly(), snapshot);
+    if (!snapshot.fill.empty()) draw_fill(images, run.assembly(), snapshot);
+    if (run.collapse().found) draw_mechanism(images, run, snapshot);
+    if (run.collapse().curve.size() > 1) draw_curve(images, run.collapse());
+    draw_charts(images, run.assembly(), history);
+    for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
+    return {};
+  } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn
+    return e.what();
+  }
+}
+
+std::string draw_moving(const std::string& directory, const Simulation& run, const Snapshot& snapshot) {
+  try {
+    draw_way(directory + "/images/moving.png", run, snapshot);
+    return {};
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace voussoir

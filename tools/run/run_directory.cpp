@@ -1,0 +1,65 @@
+#include "tools/run/run_directory.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/case/remarks.h"
+#include "io/hdf5/assembly_file.h"
+#include "solver/base/error.h"
+#include "solver/base/suggestion.h"
+#include "solver/run/simulation.h"
+#include "tools/run/history_rows.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Throws InputError for a plot of something that the run does not record.
+void check_plots(const Case& c, const std::vector<Channel>& channels) {
+  std::vector<std::string> known;
+  for (const Channel& channel : channels) known.push_back(channel.path);
+  for (const PlotSpec& plot : c.plots)
+    for (const std::string& name : {plot.x, plot.y})
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError("plot '{}' is of '{}', which this run does not record{}", plot.name, name,
+                         suggestion(name, known));
+}
+
+}  // namespace
+
+DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite,
+                                const std::function<void(const std::string&)>& remark) {
+  std::error_code failed;  // a name that cannot be looked up names no run
+  if (fs::exists(directory + "/case.toml", failed) && !overwrite)
+    throw InputError(
+        "{} already holds a run; go on with it (voussoir resume {}), choose another folder (-o DIR), or give "
+        "--overwrite",
+        directory, directory);
+  // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
+  const Assembly assembly = make_assembly(c);
+  if (remark)
+    for (const std::string& text : remarks(c, assembly)) remark(text);
+  try {
+    Simulation run(assembly, c.settings, 1, {});
+    run.check();
+    check_plots(c, history_channels(assembly, run.held_groups()));
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", c.path, error.what());
+  }
+  fs::create_directories(directory, failed);
+  if (failed)
+    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+  DirectoryLock lock(directory);
+  if (overwrite)
+    for (const char* old :
+         {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
+      if (fs::remove_all(fs::path(directory) / old, failed); failed)
+        throw RunError("cannot remove {}/{}: {}; choose another folder with -o DIR", directory, old, failed.message());
+  write_assembly(directory + "/assembly.h5", assembly);
+  write_resolved_case(c, directory);
+  return lock;
+}
+
+}  // namespace voussoir

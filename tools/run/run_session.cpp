@@ -1,0 +1,328 @@
+#include "tools/run/run_session.h"
+
+#include <fmt/chrono.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "geometry/joint_counts.h"
+#include "io/case/remarks.h"
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/checkpoint_file.h"
+#include "solver/base/atomic_file.h"
+#include "solver/base/error.h"
+#include "solver/base/folder.h"
+#include "solver/step/make_snapshot.h"
+#include "tools/run/history_rows.h"
+#include "tools/run/run_page.h"
+#include "tools/run/summary.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::atomic<bool> stop_flag{false}, late_flag{false};
+
+void ask_to_stop(int) {
+  stop_flag.store(true);
+}
+
+void time_is_up(int) {
+  late_flag.store(true);
+  stop_flag.store(true);
+}
+
+}  // namespace
+
+RunSession::RunSession(const RunRequest& request)
+    : request_(request),
+      case_(read_case(request.directory + "/case.toml")),
+      assembly_(read_assembly(request.directory + "/assembly.h5")),
+      assembly_hash_(assembly_hash(assembly_)),
+      progress_(request.quiet),
+      vtk_(request.directory, request.packing) {
+  simulation_ = std::make_unique<Simulation>(assembly_, case_.settings, request.threads, observers());
+  history_ = History(path("history.h5"), history_channels(assembly_, simulation_->held_groups()));
+}
+
+void RunSession::log(const std::string& text) {
+  std::ofstream file(path("run.log"), std::ios::app);
+  file << fmt::format("{:%Y-%m-%d %H:%M:%S}  {}\n", fmt::localtime(std::time(nullptr)), text);
+  if (request_.quiet) return;
+  progress_.end();
+  fmt::print(stderr, "{}\n", text);
+}
+
+Observers RunSession::observers() {
+  Observers o;
+  o.history = [this](const Simulation&, const Sample& s) { append_history(s); };
+  o.fields = [this](Simulation& run) {
+    vtk_.write(assembly_, make_snapshot(run.model(), run.state()), request_.threads);
+    history_.flush();
+  };
+  o.checkpoint = [this](Simulation&, bool stage_end) { write_checkpoint(stage_end); };
+  o.progress = [this](const Progress& p) { progress_.show(p); };
+  o.log = [this](const std::string& text) { log(text); };
+  o.stop = &stop_flag;
+  return o;
+}
+
+void RunSession::append_history(const Sample& s) {
+  history_.append(history_row(*simulation_, s));
+  if (!fallen_ && has_fallen()) {
+    fallen_ = true;
+    stop_flag.store(true);
+  }
+}
+
+double RunSession::fallen_share() const {
+  const Model& model = simulation_->model();
+  double whole = 0.0, gone = 0.0;
+  for (std::size_t i = 0; i < assembly_.blocks.size(); ++i) {
+    const Body& body = model.bodies[std::size_t(model.body_of_block[i])];
+    if (body.fixed) continue;
+    whole += body.mass;
+    const Vec3 u = relative_displacement(model, simulation_->state(), std::int64_t(i), assembly_.blocks[i].centroid);
+    if (!(u.norm() <= request_.fall_displacement)) gone += body.mass;
+  }
+  return whole > 0.0 ? gone / whole : 0.0;
+}
+
+/// Of the last gravity stage, whether it ran now or before a restart.
+const Equilibrium& RunSession::equilibrium() const {
+  return simulation_->equilibrium().account.empty() ? equilibrium_before_ : simulation_->equilibrium();
+}
+
+void RunSession::write_checkpoint(bool stage_end) {
+  history_.flush();  // first: a resumed run finds every row up to its checkpoint
+  State& state = simulation_->state();
+  const RunPosition& p = simulation_->position();
+  CheckpointHeader header;
+  header.time = state.time();
+  header.step = state.step();
+  header.stage = p.stage;
+  header.stage_time = state.time() - p.stage_start;
+  header.assembly_hash = assembly_hash_;
+  header.case_hash = case_.hash;
+  const Equilibrium& e = equilibrium();
+  header.numbers = {
+      {"stage_start", p.stage_start},
+      {"dt", p.dt},
+      {"highest", p.highest},
+      {"stiffest", p.stiffest},
+      {"stiffest_node", p.stiffest_node},
+      {"stage_begun", p.stage_begun},
+      {"worst_balance", simulation_->worst_balance()},
+      {"history_rows", double(history_.rows())},
+      {"frames", double(vtk_.blocks().frames().size())},
+      {"equilibrium_converged", e.converged ? 1.0 : 0.0},
+      {"newton_iterations", double(e.iterations)},
+      {"relaxation_steps", double(e.steps)},
+      {"out_of_balance", e.residual},
+      {"wall_seconds",
+       before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count()}};
+  const std::string name = checkpoint_name(state.time());
+  voussoir::write_checkpoint(path("checkpoints/") + (stage_end ? fmt::format("stage_{:02}_", p.stage) + name : name),
+                             header, state.arrays());
+  prune_checkpoints(path("checkpoints"), 3);
+}
+
+void RunSession::resume() {
+  const std::vector<std::string> files = list_checkpoints(path("checkpoints"));
+  const bool has_rows = fs::exists(path("history.h5")) && History::load(path("history.h5")).rows() > 0;
+  if (files.empty() && has_rows)
+    throw InputError("{} has no checkpoint to resume from; start again with voussoir run and --overwrite",
+                     request_.directory);
+  if (files.empty()) {  // ended before its first checkpoint: nothing has been begun
+    vtk_.keep_first(0);
+    log("no checkpoint yet: starting from the beginning");
+    return;
+  }
+  for (const std::string& file : files) {
+    CheckpointHeader header;
+    try {
+      State& state = simulation_->state();
+      read_checkpoint(file, header, state.arrays());
+      state.unpack(simulation_->model());
+    } catch (const RunError& e) {
+      log(fmt::format("{}; trying the one before", e.what()));
+      continue;
+    }
+    if (header.assembly_hash != assembly_hash_)
+      throw InputError("{} belongs to another assembly than {}: put back the assembly of this run, or start a new one",
+                       file, path("assembly.h5"));
+    if (header.case_hash != case_.hash)
+      throw InputError("{} belongs to another case than {}: put back the case of this run, or start a new one", file,
+                       path("case.toml"));
+    go_on_from(header);
+    log(fmt::format("resuming at t = {:.4f} s from {}", header.time, file));
+    return;
+  }
+  throw InputError("none of the {} checkpoints in {} can be read; start again with voussoir run and --overwrite",
+                   files.size(), path("checkpoints"));
+}
+
+/// After the state has been read.
+void RunSession::go_on_from(CheckpointHeader& header) {
+  RunPosition p;
+  p.stage = header.stage;
+  p.stage_start = header.numbers["stage_start"];
+  p.dt = header.numbers["dt"];
+  p.highest = header.numbers["highest"];
+  p.stiffest = header.numbers["stiffest"];
+  p.stiffest_node = header.numbers["stiffest_node"];
+  p.stage_begun = header.numbers["stage_begun"];
+  equilibrium_before_.converged = header.numbers["equilibrium_converged"] > 0.0;
+  equilibrium_before_.iterations = int(header.numbers["newton_iterations"]);
+  equilibrium_before_.steps = std::int64_t(header.numbers["relaxation_steps"]);
+  equilibrium_before_.residual = header.numbers["out_of_balance"];
+  before_seconds_ = header.numbers["wall_seconds"];
+  simulation_->restore(p);
+  simulation_->note_balance(header.numbers["worst_balance"]);
+  if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
+  history_.keep_first(std::size_t(header.numbers["history_rows"]));
+  vtk_.keep_first(std::size_t(header.numbers["frames"]));
+}
+
+namespace {
+
+/// An earlier part of the run's; empty when there is none.
+nlohmann::json summary_of(const std::string& file) {
+  std::ifstream in(file);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
+std::string curve_table(const Collapse& collapse) {
+  std::string text = "multiplier,along_m,largest_m,settled\n";
+  for (const CollapsePoint& p : collapse.curve)
+    text += fmt::format("{:.10g},{:.10g},{:.10g},{}\n", p.multiplier, p.along, p.largest, int(p.settled));
+  return text;
+}
+
+}  // namespace
+
+void RunSession::write_summary(RunEnd end) {
+  Simulation& run = *simulation_;
+  const double wall =
+      before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const Equilibrium& e = equilibrium();
+  nlohmann::json json = {{"program_version", VOUSSOIR_VERSION},
+                         {"finished", end == RunEnd::finished},
+                         {"end_time", run.state().time()},
+                         {"steps", run.state().step()},
+                         {"time_step", run.position().dt},
+                         {"wall_seconds", wall},
+                         {"threads", run.threads()},
+                         {"state_hash", fmt::format("{:016x}", hash_arrays(run.state().arrays()))},
+                         {"energy_error", run.worst_balance()},
+                         {"blocks", assembly_.blocks.size()},
+                         {"joints", assembly_.joints.size()},
+                         {"joint_kinds", joint_kinds_json(assembly_)},
+                         {"contacts", run.state().contact_count()},
+                         {"equilibrium",
+                          {{"converged", e.converged},
+                           {"newton_iterations", e.iterations},
+                           {"relaxation_steps", e.steps},
+                           {"out_of_balance", e.residual}}}};
+  json["remarks"] = nlohmann::json::array();
+  for (const std::string& remark : remarks(case_, assembly_))  // where the folder lies does not matter
+    json["remarks"].push_back(remark.starts_with(path("")) ? remark.substr(path("").size()) : remark);
+  if (fallen_) json["fallen"] = {{"time", run.state().time()}, {"share_of_mass", fallen_share()}};
+  const RunCosts& costs = run.costs();
+  json["seconds_of_this_part"] = {
+      {"equilibrium", costs.equilibrium}, {"steps", costs.steps},   {"contact_searches", costs.searches},
+      {"history", costs.history},         {"fields", costs.fields}, {"checkpoints", costs.checkpoints}};
+  if (const MassScaling& scaling = run.mass_scaling(); scaling.at_work())
+    json["mass_scaling"] = {{"share", scaling.share},     {"blocks", scaling.bodies},
+                            {"heavier", scaling.heavier}, {"nodes", scaling.nodes},
+                            {"largest", scaling.largest}, {"largest_rotary", scaling.largest_rotary}};
+  json.update(summary_of_state(run, make_snapshot(run.model(), run.state()), history_));
+  if (!json.contains("collapse"))
+    if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
+      json["collapse"] = before["collapse"];  // found before a restart
+  if (!run.collapse().curve.empty()) write_atomically(path("collapse_curve.csv"), curve_table(run.collapse()));
+  write_atomically(path("summary.json"), json.dump(2) + "\n");
+}
+
+/// The simulation and its files; what cannot be written ends it with words on how to go on.
+RunEnd RunSession::simulate() {
+  try {
+    for (const char* folder : {"checkpoints/", "vtk/"}) make_folder_of(path(folder));
+    fallen_ = simulation_->state().time() > 0.0 && has_fallen();  // resumed from its last moment
+    const RunEnd end = fallen_ ? RunEnd::interrupted : simulation_->run(request_.until);
+    progress_.end();
+    if (fallen_) vtk_.write(assembly_, make_snapshot(simulation_->model(), simulation_->state()), request_.threads);
+    history_.flush();
+    const bool stopped = end == RunEnd::interrupted && stop_flag.load() && !fallen_;
+    if (end == RunEnd::interrupted && !stopped && !fallen_) write_checkpoint(false);  // --until
+    if (!stopped) write_summary(end);
+    return end;
+  } catch (const RunError& error) {
+    progress_.end();
+    throw RunError("{}\nWhat was written before is whole; go on with: voussoir resume {}", error.what(),
+                   request_.directory);
+  }
+}
+
+void RunSession::draw_pictures() {
+  for (const PlotSpec& plot : case_.plots)
+    for (const MeasuredCurve& curve : plot.measured)
+      if (curve.text.empty()) log(fmt::format("{}.png goes without {}: there is no such file", plot.name, curve.file));
+  const std::string missing = make_pictures(request_.directory, case_, *simulation_,
+                                            make_snapshot(simulation_->model(), simulation_->state()), history_);
+  log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
+  try {
+    write_run_page(request_.directory);
+    log(fmt::format("page in {}", path("report.html")));
+  } catch (const std::exception& error) {  // nor because of its page
+    log(fmt::format("no page: {}", error.what()));
+  }
+}
+
+int RunSession::run() {
+  log(fmt::format("{} blocks; {}", assembly_.blocks.size(), joints_text(assembly_)));
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  if (request_.time_limit > 0.0) {
+    std::signal(SIGALRM, time_is_up);
+    ::alarm(unsigned(std::ceil(request_.time_limit)));
+  }
+  const RunEnd end = simulate();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  if (end == RunEnd::failed) {
+    end_ = SessionEnd::failed;
+    if (request_.pictures && !simulation_->moving().empty()) {
+      const std::string missing =
+          draw_moving(request_.directory, *simulation_, make_snapshot(simulation_->model(), simulation_->state()));
+      log(missing.empty() ? fmt::format("where stones have gone: {}", path("images/moving.png"))
+                          : "no picture: " + missing);
+    }
+    throw RunError("{}\nThe last good checkpoints are in {}", simulation_->failure(), path("checkpoints"));
+  }
+  if (fallen_) {
+    end_ = SessionEnd::fallen;
+    log(fmt::format("ended at t = {:.3f} s: {:.0f} % of the mass has moved more than {:g} m", time(),
+                    100.0 * fallen_share(), request_.fall_displacement));
+  } else if (end == RunEnd::interrupted && stop_flag.load()) {
+    end_ = late_flag.load() ? SessionEnd::late : SessionEnd::stopped;
+    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", time(), request_.directory));
+    return 1;
+  } else {
+    end_ = end == RunEnd::finished ? SessionEnd::done : SessionEnd::paused;
+    const std::string done = end == RunEnd::finished ? "done" : "paused";
+    log(time() > 0.0 ? fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", done, time(),
+                                   simulation_->state().step(), duration_text(wall), simulation_->worst_balance())
+                     : fmt::format("{} in {}", done, duration_text(wall)));
+  }
+  if (request_.pictures && end_ != SessionEnd::paused) draw_pictures();
+  return 0;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,82 @@
+// One run directory at work: a simulation whose observers write history, checkpoints, ParaView files, log and pictures.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "io/case/case.h"
+#include "io/hdf5/checkpoint_file.h"
+#include "io/hdf5/history_file.h"
+#include "io/vtk/series.h"
+#include "solver/run/simulation.h"
+#include "tools/run/terminal.h"
+
+namespace voussoir {
+
+struct RunRequest {
+  std::string directory;
+  int threads = 1;
+  bool quiet = false;
+  bool pictures = true;
+  Packing packing = usual_packing;  // of the files for ParaView
+  double until = -1.0;              // s of simulated time; negative: to the end
+  double time_limit = 0.0;          // s of wall time after which it stops with a checkpoint; 0: none
+  double fall_displacement = 0.0;   // m; the run ends once more than …
+  double fall_share = 0.0;          // … of the mass that can move has gone that far; 0: never
+};
+
+enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };  // late: past its time limit
+
+class RunSession {
+ public:
+  /// The directory holds case.toml and assembly.h5. Throws InputError.
+  explicit RunSession(const RunRequest& request);
+  /// Goes on from the newest good checkpoint; damaged ones are named and the one before is used. A run that was ended
+  /// before its first checkpoint starts from the beginning. Throws InputError when no checkpoint is left, or when it
+  /// belongs to another case or assembly.
+  void resume();
+  /// Runs to the end (or `until`); returns the exit status.
+  int run();
+  /// How run() ended, also when it threw: `failed` is the solver's failure, `none` anything else (a full disk).
+  SessionEnd end() const { return end_; }
+  double time() const { return simulation_->state().time(); }  // s, simulated
+  /// Share of the mass that can move which has gone farther than fall_displacement, relative to the ground and to where
+  /// it stood under gravity.
+  double fallen_share() const;
+
+ private:
+  Observers observers();
+  RunEnd simulate();
+  bool has_fallen() const { return request_.fall_share > 0.0 && fallen_share() > request_.fall_share; }
+  void draw_pictures();
+  void go_on_from(CheckpointHeader& header);
+  const Equilibrium& equilibrium() const;
+  void write_checkpoint(bool stage_end);
+  void append_history(const Sample& sample);
+  void write_summary(RunEnd end);
+  void log(const std::string& text);
+  std::string path(const std::string& name) const { return request_.directory + "/" + name; }
+
+  RunRequest request_;
+  Case case_;
+  Assembly assembly_;
+  std::uint64_t assembly_hash_ = 0;
+  ProgressLine progress_;
+  std::unique_ptr<Simulation> simulation_;
+  History history_;
+  VtkSeries vtk_;
+  Equilibrium equilibrium_before_;  // found by a part of this run that ended earlier
+  double before_seconds_ = 0.0;     // wall time of the parts of this run that ended earlier
+  bool fallen_ = false;
+  SessionEnd end_ = SessionEnd::none;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+/// Pictures of the end state and charts of the history (the usual ones, and the plots of the case) in DIR/images.
+/// Returns what could not be made, empty if all was.
+std::string make_pictures(const std::string& directory, const Case& c, const Simulation& run, const Snapshot& snapshot,
+                          const History& history);
+
+/// Stones on their way after a stage without time has failed, in DIR/images/moving.png. Returns as above.
+std::string draw_moving(const std::string& directory, const Simulation& run, const Snapshot& snapshot);
+
+}  // namespace voussoir
