@@ -99,6 +99,8 @@ std::string resolved_text(const Case& c);
 std::string effects_text(const std::vector<EffectSetting>& effects);
 /// Writes DIRECTORY/case.toml = resolved_text() and the records beside it. Throws RunError.
 void write_resolved_case(const Case& c, const std::string& directory);
+/// Whether a file of that name in a run directory is one of those records.
+bool is_copy_for_case(const std::string& name);
 
 /// The case's assembly: generated, or read from its file with the case's joint overrides; with its effects and sensors.
 /// Throws InputError.

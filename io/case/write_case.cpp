@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 #include "io/case/case.h"
 #include "io/case/degrees.h"
@@ -292,6 +293,12 @@ std::string resolved_text(const Case& c) {
     out.set("threshold", limit.threshold);
   }
   return out.text_;
+}
+
+bool is_copy_for_case(const std::string& name) {
+  static const std::regex copies(
+      "motion_[0-9]+_[xyz]\\.txt|measured_[0-9]+_[0-9]+\\.txt");  // motion_file_name(), measured_file_name()
+  return std::regex_match(name, copies);
 }
 
 void write_resolved_case(const Case& c, const std::string& directory) {

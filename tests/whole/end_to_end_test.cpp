@@ -156,6 +156,20 @@ TEST(EndToEnd, AnExistingRunIsNeverOverwrittenUnasked) {
   EXPECT_NE(bytes_of(folder / "run/history.h5"), before.at("history.h5"));
 }
 
+TEST(EndToEnd, OverwritingLeavesNothingOfTheEarlierRun) {
+  Folder folder;
+  write_wall(folder);
+  run_whole(folder, "wall.toml", "run");
+  const std::vector<std::string> stale = {"report.html", "modes/modes.txt", "collapse_curve.csv", "motion_7_y.txt",
+                                          "measured_2_10.txt"};
+  for (const std::string& name : stale) folder.write("run/" + name, "of another run");
+  folder.write("run/motion_mine.txt", "kept");
+  run_whole(folder, "wall.toml", "run", {"--overwrite"});
+  for (const std::string& name : stale)
+    if (exists(folder / ("run/" + name))) EXPECT_NE(bytes_of(folder / ("run/" + name)), "of another run") << name;
+  EXPECT_EQ(bytes_of(folder / "run/motion_mine.txt"), "kept");
+}
+
 TEST(EndToEnd, OverwritingWithACaseThatCannotBeBuiltLosesNothing) {
   Folder folder;
   write_wall(folder);

@@ -27,6 +27,20 @@ void check_plots(const Case& c, const std::vector<Channel>& channels) {
                          suggestion(name, known));
 }
 
+/// All that a run, its pages and its modes leave in their directory, and nothing else that may lie there.
+void remove_run(const fs::path& directory) {
+  std::vector<std::string> names = {"case.toml", "assembly.h5",  "history.h5", "checkpoints", "vtk",
+                                    "images",    "summary.json", "run.log",    "report.html", "collapse_curve.csv",
+                                    "modes"};
+  std::error_code failed;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, failed))
+    if (is_copy_for_case(entry.path().filename().string())) names.push_back(entry.path().filename().string());
+  for (const std::string& name : names)
+    if (fs::remove_all(directory / name, failed); failed)
+      throw RunError("cannot remove {}: {}; choose another folder with -o DIR", (directory / name).string(),
+                     failed.message());
+}
+
 }  // namespace
 
 DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite,
@@ -52,11 +66,7 @@ DirectoryLock prepare_directory(const Case& c, const std::string& directory, boo
   if (failed)
     throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
   DirectoryLock lock(directory);
-  if (overwrite)
-    for (const char* old :
-         {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json", "run.log"})
-      if (fs::remove_all(fs::path(directory) / old, failed); failed)
-        throw RunError("cannot remove {}/{}: {}; choose another folder with -o DIR", directory, old, failed.message());
+  if (overwrite) remove_run(directory);
   write_assembly(directory + "/assembly.h5", assembly);
   write_resolved_case(c, directory);
   return lock;
