@@ -58,6 +58,8 @@ namespace voussoir {
 template <class T>
 struct Triple {
   T x, y, z;
+  [[gnu::always_inline]] T& operator[](int c) { return c == 0 ? x : c == 1 ? y : z; }
+  [[gnu::always_inline]] const T& operator[](int c) const { return c == 0 ? x : c == 1 ? y : z; }
 };
 template <class T>
 [[gnu::always_inline]] inline Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {

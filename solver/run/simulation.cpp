@@ -202,8 +202,8 @@ void Simulation::start_from_rest() {
     const BodyUpdate next = pass.update(i);
     double* motion = &state_.motion[motion_width * i];
     for (int c = 0; c < 3; ++c) {
-      if (!body.held(c)) motion[c] = -0.5 * (&next.velocity.x)[c];
-      if (!body.held(3 + c)) motion[3 + c] = -0.5 * (&next.momentum.x)[c];
+      if (!body.held(c)) motion[c] = -0.5 * next.velocity[c];
+      if (!body.held(3 + c)) motion[3 + c] = -0.5 * next.momentum[c];
     }
   }
   const FillPass fill = stepper_.fill_pass();
@@ -270,7 +270,7 @@ Vec3 Simulation::reaction(const BodyPass& pass, const std::string& group) const 
     const auto i = std::size_t(model_.body_of_block[std::size_t(block)]);
     const Triple<double> f = pass.update(i).force;
     for (int c = 0; c < 3; ++c)
-      if (model_.bodies[i].held(c)) sum[c] -= (&f.x)[c];
+      if (model_.bodies[i].held(c)) sum[c] -= f[c];
   }
   return sum;
 }

@@ -176,14 +176,14 @@ BodyUpdate BodyPass::held_update(std::size_t i, const Triple<double>& patches, c
   for (int c = 0; c < 3; ++c) {
     if (body.held(c)) continue;
     const double v = motion[c], base = 0.5 * (base_velocity_now[c] + base_velocity_next[c]);
-    (&r.load.x)[c] = (&load.x)[c];
-    double& f = (&r.force.x)[c];
-    f += body.mass * model->gravity[c] + (&load.x)[c];
+    r.load[c] = load[c];
+    double& f = r.force[c];
+    f += body.mass * model->gravity[c] + load[c];
     const double cut = local * std::abs(f) * sign(v);
     const double next = ((1.0 - h) * v + dt / body.inertial_mass * (f - cut) + 2.0 * h * base) / (1.0 + h);
     const double mean = 0.5 * (v + next);
     r.loss += dt * cut * v + mass_rate * dt * body.inertial_mass * (mean - base) * mean;
-    (&r.velocity.x)[c] = next;
+    r.velocity[c] = next;
   }
   if (body.turns) {
     r.load_moment = load_moment;
@@ -309,7 +309,7 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
   // the loads.
   for (int c = 0; c < 3; ++c)
-    if (body.held(c)) motion[6] -= 0.5 * dt * (&next.force.x)[c] * (motion[c] + (&next.velocity.x)[c]);
+    if (body.held(c)) motion[6] -= 0.5 * dt * next.force[c] * (motion[c] + next.velocity[c]);
   if (loads && !body.still())
     motion[6] += load_work(*this, i, next, triple(motion) + next.velocity, triple(motion + 3) + next.momentum);
   motion[0] = next.velocity.x, motion[1] = next.velocity.y, motion[2] = next.velocity.z;

@@ -23,7 +23,7 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
   const BodyUpdate next = pass.update(i);
   // The half step that leads up to now; the other half is added with the step itself.
   for (int c = 0; c < 3; ++c)
-    if (body.held(c)) e.external_work -= 0.5 * pass.dt * (&next.force.x)[c] * motion[c];
+    if (body.held(c)) e.external_work -= 0.5 * pass.dt * next.force[c] * motion[c];
   if (body.still()) return;
   e.body_damping += 0.5 * next.loss;
   if (pass.loads) e.external_work += load_work(pass, i, next, triple(motion), triple(motion + 3));
@@ -33,7 +33,7 @@ void add_body(const Stepper& stepper, const BodyPass& pass, std::size_t i, Energ
   const Triple<double> after = turn_back(pose_rotation(pose), next.momentum);
   for (int c = 0; c < 3; ++c) {
     if (body.held(c)) continue;
-    e.kinetic += 0.5 * body.inertial_mass * motion[c] * (&next.velocity.x)[c];
+    e.kinetic += 0.5 * body.inertial_mass * motion[c] * next.velocity[c];
     e.gravitational -= body.mass * stepper.model->gravity[c] * pose[c];
   }
   e.kinetic += 0.5 * Vec3(before.x, before.y, before.z).dot(body.inverse_inertia * Vec3(after.x, after.y, after.z));
