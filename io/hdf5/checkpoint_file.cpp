@@ -98,6 +98,14 @@ bool readable(const std::string& path) {
 
 }  // namespace
 
+double CheckpointHeader::number(const std::string& name) const {
+  const auto found = numbers.find(name);
+  if (found == numbers.end())
+    throw RunError("a checkpoint lacks the attribute '{}' of {}: begin again with voussoir run and --overwrite", name,
+                   numbers_group);
+  return found->second;
+}
+
 std::uint64_t write_checkpoint(const std::string& path, CheckpointHeader header,
                                const std::vector<NamedArray>& arrays) {
   header.state_hash = hash_arrays(arrays);

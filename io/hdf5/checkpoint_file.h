@@ -18,6 +18,8 @@ struct CheckpointHeader {
   std::uint64_t state_hash = 0;           // hash_arrays of the arrays; set by write_checkpoint
   std::string program_version;            // set by write_checkpoint when empty
   std::map<std::string, double> numbers;  // what else the run needs: time step, energies …; kept bit for bit
+  /// One of them. Throws RunError when it is not there.
+  double number(const std::string& name) const;
 };
 
 /// Writes header and arrays atomically; an array's name is its dataset. Returns the state hash. Throws RunError.

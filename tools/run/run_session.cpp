@@ -169,25 +169,25 @@ void RunSession::resume() {
 }
 
 /// After the state has been read.
-void RunSession::go_on_from(CheckpointHeader& header) {
+void RunSession::go_on_from(const CheckpointHeader& header) {
   RunPosition p;
   p.stage = header.stage;
-  p.stage_start = header.numbers["stage_start"];
-  p.dt = header.numbers["dt"];
-  p.highest = header.numbers["highest"];
-  p.stiffest = header.numbers["stiffest"];
-  p.stiffest_node = header.numbers["stiffest_node"];
-  p.stage_begun = header.numbers["stage_begun"];
-  equilibrium_before_.converged = header.numbers["equilibrium_converged"] > 0.0;
-  equilibrium_before_.iterations = int(header.numbers["newton_iterations"]);
-  equilibrium_before_.steps = std::int64_t(header.numbers["relaxation_steps"]);
-  equilibrium_before_.residual = header.numbers["out_of_balance"];
-  before_seconds_ = header.numbers["wall_seconds"];
+  p.stage_start = header.number("stage_start");
+  p.dt = header.number("dt");
+  p.highest = header.number("highest");
+  p.stiffest = header.number("stiffest");
+  p.stiffest_node = header.number("stiffest_node");
+  p.stage_begun = header.number("stage_begun");
+  equilibrium_before_.converged = header.number("equilibrium_converged") > 0.0;
+  equilibrium_before_.iterations = int(header.number("newton_iterations"));
+  equilibrium_before_.steps = std::int64_t(header.number("relaxation_steps"));
+  equilibrium_before_.residual = header.number("out_of_balance");
+  before_seconds_ = header.number("wall_seconds");
   simulation_->restore(p);
-  simulation_->note_balance(header.numbers["worst_balance"]);
+  simulation_->note_balance(header.number("worst_balance"));
   if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
-  history_.keep_first(std::size_t(header.numbers["history_rows"]));
-  vtk_.keep_first(std::size_t(header.numbers["frames"]));
+  history_.keep_first(std::size_t(header.number("history_rows")));
+  vtk_.keep_first(std::size_t(header.number("frames")));
 }
 
 namespace {

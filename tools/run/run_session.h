@@ -48,7 +48,7 @@ class RunSession {
   RunEnd simulate();
   bool has_fallen() const { return request_.fall_share > 0.0 && fallen_share() > request_.fall_share; }
   void draw_pictures();
-  void go_on_from(CheckpointHeader& header);
+  void go_on_from(const CheckpointHeader& header);
   const Equilibrium& equilibrium() const;
   void write_checkpoint(bool stage_end);
   void append_history(const Sample& sample);
