@@ -52,8 +52,11 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
     fmt::print("Usage: voussoir {}\n\n{}\nExample: {}\n", usage, list.str(), example);
     return false;
   }
-  for (const std::string& name : required)
-    if (!values.count(name)) throw InputError("{} is missing; usage: voussoir {}", name, usage);
+  for (const std::string& name : required) {
+    const bool has_place = name == rest || std::ranges::count(positional, name) > 0;
+    if (!values.count(name))
+      throw InputError("{}{} is missing; usage: voussoir {}", has_place ? "" : "--", name, usage);
+  }
   return true;
 }
 
