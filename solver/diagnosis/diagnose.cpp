@@ -184,6 +184,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
   say(fmt::format("screened {} candidates; fitting {}", round.screened.size(), chosen.size()));
   std::vector<std::optional<Trial>> trials(chosen.size());
+  std::vector<std::string> failures(chosen.size());
   for_all(chosen.size(), settings.threads, {}, [&](std::size_t i, EigenMemory& memory) {
     const Candidate& candidate = candidates[chosen[i].candidate];
     Trial trial;
@@ -192,12 +193,16 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
       trial.fit = fit(problem, current.hypothesis.with(candidate),
                       beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations, memory);
       trials[i] = std::move(trial);
-    } catch (const std::runtime_error&) {
-      // It leaves no bridge that stands: no explanation either.
+    } catch (const std::runtime_error& error) {  // it leaves no bridge that stands: no explanation either
+      failures[i] = error.what();
     }
   });
-  for (std::optional<Trial>& trial : trials)
-    if (trial) round.trials.push_back(std::move(*trial));
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (trials[i]) round.trials.push_back(std::move(*trials[i]));
+    if (!failures[i].empty()) round.not_fitted.emplace_back(candidates[chosen[i].candidate].text(), failures[i]);
+  }
+  for (const auto& [candidate, why] : round.not_fitted)
+    say(fmt::format("  {} could not be fitted: {}", candidate, why));
   weigh(round, current);
   if (!round.trials.empty()) mark_ties(round, all, candidates);
   round.accepted = accepts(problem, round, current, settings);

@@ -30,11 +30,12 @@ struct Trial {
 };
 
 struct Round {
-  std::vector<Trial> trials;                             // best first
-  double none = 1.0;                                     // probability that none of them acts
-  bool accepted = false;                                 // the first one
-  bool superseded = false;                               // it was, until a later one made it needless
-  std::vector<std::pair<std::string, double>> screened;  // candidate and what it could explain, best first
+  std::vector<Trial> trials;                                    // best first
+  double none = 1.0;                                            // probability that none of them acts
+  bool accepted = false;                                        // the first one
+  bool superseded = false;                                      // it was, until a later one made it needless
+  std::vector<std::pair<std::string, double>> screened;         // candidate and what it could explain, best first
+  std::vector<std::pair<std::string, std::string>> not_fitted;  // candidates whose fit failed, and why
 };
 
 /// What would tell two candidates apart.

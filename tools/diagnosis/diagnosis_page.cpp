@@ -270,11 +270,19 @@ std::string screening_table(const Round& round) {
   return text + "</table>\n</details>\n";
 }
 
+std::string not_fitted(const Round& round) {
+  std::string text;
+  for (const auto& [name, why] : round.not_fitted)
+    text += note(fmt::format("{} could not be fitted: {}.", name, why));
+  return text;
+}
+
 std::string round_section(const Round& round, const Fit& current, std::size_t index) {
   std::string text = fmt::format(
       "<h3>Round {}: {}</h3>\n", index + 1,
       round.accepted ? escaped(plain_name(round.trials[0].candidate)) + " is added" : std::string("nothing is added"));
-  return text + figure(probability_chart(round)) + trials_table(round, current) + screening_table(round);
+  return text + figure(probability_chart(round)) + trials_table(round, current) + not_fitted(round) +
+         screening_table(round);
 }
 
 std::string candidates_section(const Diagnosis& d) {

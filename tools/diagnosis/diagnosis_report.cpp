@@ -65,6 +65,7 @@ json rounds_json(const std::vector<Round>& rounds) {
     for (const Trial& trial : round.trials) j["trials"].push_back(trial_json(trial));
     for (const auto& [name, explained] : round.screened)
       j["screened"].push_back({{"candidate", name}, {"explains", explained}});
+    for (const auto& [name, why] : round.not_fitted) j["not_fitted"].push_back({{"candidate", name}, {"why", why}});
     all.push_back(j);
   }
   return all;
