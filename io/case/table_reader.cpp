@@ -280,7 +280,7 @@ void TableReader::attempt(const std::function<void()>& read) {
 void TableReader::finish() {
   std::vector<KnownKey> known;
   for (const auto& [name, e] : known_)
-    if (std::none_of(misspelt_.begin(), misspelt_.end(), [&](const auto& m) { return m.second == name; }))
+    if (std::none_of(misspelt_.begin(), misspelt_.end(), [&name = name](const auto& m) { return m.second == name; }))
       known.push_back({name, e.fallback, e.expected});
   for (const auto& [key, node] : *table_)
     if (const std::string name(key.str()); !known_.contains(name)) note_wrong(name, known);

@@ -67,6 +67,8 @@ struct Masks {
   [[gnu::always_inline]] Masks operator^(Masks m) const { return {low ^ m.low, high ^ m.high}; }
   [[gnu::always_inline]] Masks operator~() const { return {~low, ~high}; }
 };
+template <class Half>
+Masks(Half, Half) -> Masks<Half>;
 
 // What a register does.
 
