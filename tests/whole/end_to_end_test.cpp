@@ -162,6 +162,7 @@ TEST(EndToEnd, OverwritingLeavesNothingOfTheEarlierRun) {
   run_whole(folder, "wall.toml", "run");
   const std::vector<std::string> stale = {"report.html", "modes/modes.txt", "collapse_curve.csv", "motion_7_y.txt",
                                           "measured_2_10.txt"};
+  std::filesystem::create_directory(folder / "run/modes");
   for (const std::string& name : stale) folder.write("run/" + name, "of another run");
   folder.write("run/motion_mine.txt", "kept");
   run_whole(folder, "wall.toml", "run", {"--overwrite"});
