@@ -21,8 +21,8 @@ const ChannelUnit* find_unit(const std::string& name);
 
 /// Samples at either end that differentiated() has no derivative for.
 inline constexpr Eigen::Index derivative_reach = 24;
-/// dx/dt of a signal with steps dt, shorter by derivative_reach at either end. Within 1e-3 of the slope up to 0.8 of half
-/// the sampling frequency: the ideal differentiator under a Kaiser window (Oppenheim & Schafer 2010, section 7.5).
+/// dx/dt of a signal with steps dt, shorter by derivative_reach at either end. Within 1e-3 of the slope up to 0.8 of
+/// half the sampling frequency: the ideal differentiator under a Kaiser window (Oppenheim & Schafer 2010, section 7.5).
 Eigen::VectorXd differentiated(const Eigen::VectorXd& x, double dt);
 
 }  // namespace voussoir

@@ -272,8 +272,7 @@ std::string screening_table(const Round& round) {
 
 std::string not_fitted(const Round& round) {
   std::string text;
-  for (const auto& [name, why] : round.not_fitted)
-    text += note(fmt::format("{} could not be fitted: {}.", name, why));
+  for (const auto& [name, why] : round.not_fitted) text += note(fmt::format("{} could not be fitted: {}.", name, why));
   return text;
 }
 
