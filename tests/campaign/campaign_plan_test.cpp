@@ -4,7 +4,9 @@
 #include <set>
 
 #include "io/case/motion_source.h"
+#include "solver/base/error.h"
 #include "tests/campaign/campaign_folder.h"
+#include "tools/campaign/json.h"
 #include "tools/campaign/outcome.h"
 #include "tools/campaign/plan.h"
 
@@ -187,6 +189,16 @@ TEST(CampaignPlan, OutcomesBelongToTheirRun) {
   EXPECT_EQ(read_outcome(folder / "out", draft.plan.runs[0]).status, Status::missing);
   folder.write("out/runs/" + run.id + "/outcome.json", "{ half a fi");
   EXPECT_EQ(read_outcome(folder / "out", draft.plan.runs[0]).status, Status::missing);
+}
+
+TEST(CampaignJson, NumbersThatDoNotFitAreRefused) {
+  const json numbers =
+      json::parse(R"({"beyond": 40296744073709551614, "less": -1, "half": 0.5, "large": 5e9, "whole": 3.0})");
+  for (const char* key : {"beyond", "less", "half"})
+    EXPECT_THROW(need<std::uint64_t>(numbers, key, "plan.json"), InputError) << key;
+  EXPECT_THROW(need<int>(numbers, "large", "plan.json"), InputError);
+  EXPECT_EQ(need<int>(numbers, "whole", "plan.json"), 3);
+  EXPECT_EQ(need<double>(numbers, "half", "plan.json"), 0.5);
 }
 
 }  // namespace

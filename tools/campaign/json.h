@@ -1,9 +1,12 @@
 // Reading JSON with errors a person can act on.
 #pragma once
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "solver/base/error.h"
 
@@ -11,11 +14,25 @@ namespace voussoir::campaign {
 
 using nlohmann::json;
 
+/// Whether a number is a whole one that T holds, where T is whole: a conversion would not say.
+template <class T>
+bool fits(const json& value) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    if (value.is_number_unsigned()) return std::in_range<T>(value.get<std::uint64_t>());
+    if (value.is_number_integer()) return std::in_range<T>(value.get<std::int64_t>());
+    const double number = value.is_number() ? value.get<double>() : 0.0;
+    return number == std::floor(number) && std::abs(number) < 9e15 && std::in_range<T>(std::int64_t(number));
+  }
+  return true;
+}
+
 /// Throws InputError "PLACE: 'KEY' is missing: …" or for a value of another type.
 template <class T>
 T need(const json& object, const char* key, const std::string& place) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end()) throw InputError("{}: '{}' is missing", place, key);
+  if (!fits<T>(*found))
+    throw InputError("{}: '{}' is {}: expected a whole number in range", place, key, found->dump().substr(0, 60));
   try {
     return found->template get<T>();
   } catch (const json::exception&) {
