@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/segment.h"
+
 namespace voussoir {
 namespace {
 
@@ -107,27 +109,12 @@ std::vector<std::pair<Vec3, Vec3>> support_edges(const Convex& shape, const Vec3
   return out;
 }
 
-double ratio(double above, double below) {
-  return below > 0.0 ? std::clamp(above / below, 0.0, 1.0) : 0.0;
-}
-
-/// Nearest points of the segments p and q: the interior solution clamped, each parameter once more for the other.
-std::pair<Vec3, Vec3> nearest(const std::pair<Vec3, Vec3>& p, const std::pair<Vec3, Vec3>& q) {
-  const Vec3 u = p.second - p.first, v = q.second - q.first, w = p.first - q.first;
-  const double uu = u.dot(u), vv = v.dot(v), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double determinant = uu * vv - uv * uv;
-  double s = determinant > 1e-14 * uu * vv ? std::clamp((uv * vw - vv * uw) / determinant, 0.0, 1.0) : 0.5;
-  const double t = ratio(vw + s * uv, vv);
-  s = ratio(t * uv - uw, uu);
-  return {p.first + s * u, q.first + t * v};
-}
-
 Meeting edge_meeting(const Convex& a, const Convex& b, const Axis& axis) {
   Meeting out{Meeting::Kind::edge, axis.separation, axis.normal, -1, -1, {}, {}, 0.0};
   double best = 1e300;
   for (const auto& p : support_edges(a, axis.normal))
     for (const auto& q : support_edges(b, -axis.normal)) {
-      const auto [on_a, on_b] = nearest(p, q);
+      const auto [on_a, on_b] = nearest_points({p.first, p.second}, {q.first, q.second});
       const double distance = (on_b - on_a).norm();
       if (distance >= best) continue;
       best = distance;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/segment.h"
+
 namespace voussoir {
 namespace {
 
@@ -139,25 +141,6 @@ Simplex nearest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& 
   return simplex;
 }
 
-struct Segment {
-  Vec3 from, to;
-};
-
-double ratio(double above, double below) {
-  return below > 0.0 ? std::clamp(above / below, 0.0, 1.0) : 0.0;
-}
-
-/// Nearest points of two segments (either may be a point): the interior solution clamped, each once more for the other.
-std::pair<Vec3, Vec3> nearest(const Segment& p, const Segment& q) {
-  const Vec3 u = p.to - p.from, v = q.to - q.from, w = p.from - q.from;
-  const double uu = u.dot(u), vv = v.dot(v), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double determinant = uu * vv - uv * uv;
-  double s = determinant > 1e-14 * uu * vv ? std::clamp((uv * vw - vv * uw) / determinant, 0.0, 1.0) : 0.5;
-  const double t = ratio(vw + s * uv, vv);
-  s = ratio(t * uv - uw, uu);
-  return {p.from + s * u, q.from + t * v};
-}
-
 Segment segment_of(const std::vector<Vec3>& vertices, const std::vector<int>& ends) {
   return {vertices[std::size_t(ends.front())], vertices[std::size_t(ends.back())]};
 }
@@ -192,7 +175,7 @@ Stretch longest_stretch(const Convex& a, const Convex& b, const ShortestLink& li
       const Segment q{b.vertices[std::size_t(k)], b.vertices[std::size_t(l)]};
       const Vec3 u = p.to - p.from, v = q.to - q.from;
       if (u.cross(v).norm() >= k_along * u.norm() * v.norm()) continue;
-      const auto [x, y] = nearest(shrunk_p, {shrunk_b[std::size_t(k)], shrunk_b[std::size_t(l)]});
+      const auto [x, y] = nearest_points(shrunk_p, {shrunk_b[std::size_t(k)], shrunk_b[std::size_t(l)]});
       if ((y - x).norm() > near) continue;
       const Stretch stretch = shared_stretch(p, q);
       if (stretch.length > best.length) best = stretch;
@@ -204,7 +187,7 @@ Stretch longest_stretch(const Convex& a, const Convex& b, const ShortestLink& li
 /// The pair of points at the ends of the link, on the cells as they are.
 std::pair<Vec3, Vec3> link_points(const Convex& a, const Convex& b, const ShortestLink& link) {
   if (link.of_a.size() <= 2 && link.of_b.size() <= 2)
-    return nearest(segment_of(a.vertices, link.of_a), segment_of(b.vertices, link.of_b));
+    return nearest_points(segment_of(a.vertices, link.of_a), segment_of(b.vertices, link.of_b));
   const double apart = link.normal.dot(link.on_b - link.on_a);
   if (link.of_a.size() > 2) return {link.on_b - apart * link.normal, link.on_b};
   return {link.on_a, link.on_a + apart * link.normal};
