@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::int64_t format_version = 12;
 constexpr const char* numbers_group = "header/numbers";
+constexpr const char* begin_again = "begin again with voussoir run and --overwrite";
 
 void set_hash(h5::File& file, const std::string& name, std::uint64_t value) {
   file.set_text("/", name, fmt::format("{:016x}", value));
@@ -101,9 +103,18 @@ bool readable(const std::string& path) {
 double CheckpointHeader::number(const std::string& name) const {
   const auto found = numbers.find(name);
   if (found == numbers.end())
-    throw RunError("a checkpoint lacks the attribute '{}' of {}: begin again with voussoir run and --overwrite", name,
-                   numbers_group);
+    throw RunError("the checkpoint of t = {:.4f} s lacks the attribute '{}' of {}: {}", time, name, numbers_group,
+                   begin_again);
   return found->second;
+}
+
+std::int64_t CheckpointHeader::count(const std::string& name) const {
+  constexpr double most = 9e15;  // whole numbers that a double holds
+  const double value = number(name);
+  if (!(value >= 0.0 && value < most && value == std::floor(value)))
+    throw RunError("the checkpoint of t = {:.4f} s has {} for '{}' of {}, expected a whole number from 0 on: {}", time,
+                   value, name, numbers_group, begin_again);
+  return std::int64_t(value);
 }
 
 std::uint64_t write_checkpoint(const std::string& path, CheckpointHeader header,

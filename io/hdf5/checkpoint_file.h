@@ -20,6 +20,8 @@ struct CheckpointHeader {
   std::map<std::string, double> numbers;  // what else the run needs: time step, energies …; kept bit for bit
   /// One of them. Throws RunError when it is not there.
   double number(const std::string& name) const;
+  /// The same where it counts something. Throws RunError when it is not a whole number from 0 on.
+  std::int64_t count(const std::string& name) const;
 };
 
 /// Writes header and arrays atomically; an array's name is its dataset. Returns the state hash. Throws RunError.

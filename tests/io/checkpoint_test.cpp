@@ -81,6 +81,9 @@ TEST(Checkpoint, RoundTripIsBitExact) {
   EXPECT_EQ(header.case_hash, expected.case_hash);
   EXPECT_EQ(header.state_hash, hash);
   EXPECT_EQ(header.numbers, expected.numbers);
+  EXPECT_EQ(header.number("time_step"), 1.9e-4);
+  EXPECT_NE(test::message_of<RunError>([&] { (void)header.number("frames"); }).find("frames"), std::string::npos);
+  EXPECT_THROW((void)header.count("time_step"), RunError);
   EXPECT_FALSE(header.program_version.empty());
   write_checkpoint(folder / "d.h5", header, in.arrays());
   EXPECT_EQ(test::bytes_of(folder / "c.h5"), test::bytes_of(folder / "d.h5"));

@@ -179,15 +179,15 @@ void RunSession::go_on_from(const CheckpointHeader& header) {
   p.stiffest_node = header.number("stiffest_node");
   p.stage_begun = header.number("stage_begun");
   equilibrium_before_.converged = header.number("equilibrium_converged") > 0.0;
-  equilibrium_before_.iterations = int(header.number("newton_iterations"));
-  equilibrium_before_.steps = std::int64_t(header.number("relaxation_steps"));
+  equilibrium_before_.iterations = int(header.count("newton_iterations"));
+  equilibrium_before_.steps = header.count("relaxation_steps");
   equilibrium_before_.residual = header.number("out_of_balance");
   before_seconds_ = header.number("wall_seconds");
   simulation_->restore(p);
   simulation_->note_balance(header.number("worst_balance"));
   if (fs::exists(path("history.h5"))) history_ = History::load(path("history.h5"));
-  history_.keep_first(std::size_t(header.number("history_rows")));
-  vtk_.keep_first(std::size_t(header.number("frames")));
+  history_.keep_first(std::size_t(header.count("history_rows")));
+  vtk_.keep_first(std::size_t(header.count("frames")));
 }
 
 namespace {
