@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/assembly.h"
-#include "viz/palette.h"
+#include "viz/page/palette.h"
 
 namespace voussoir {
 

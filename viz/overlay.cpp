@@ -10,10 +10,11 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
+#include <vtkTriangleFilter.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "viz/offscreen.h"
 
 namespace voussoir {
@@ -112,7 +113,7 @@ void Overlay::polyline(const std::vector<std::pair<double, double>>& points, dou
 void Overlay::disc(double x, double y, double radius, const Colour& colour) {
   std::vector<std::pair<double, double>> corners;
   for (int k = 0; k < 24; ++k) {
-    const double angle = 2.0 * std::numbers::pi * k / 24;
+    const double angle = 2.0 * pi * k / 24;
     corners.push_back({x + radius * std::cos(angle), y + radius * std::sin(angle)});
   }
   polygon(corners, colour);
@@ -122,7 +123,15 @@ void Overlay::polygon(const std::vector<std::pair<double, double>>& corners, con
   vtkNew<vtkPolyData> shape;
   const auto cells = add_points(shape, corners);
   shape->SetPolys(cells);
-  renderer_->AddActor2D(flat_actor(shape, colour));
+  if (corners.size() <= 4) {
+    renderer_->AddActor2D(flat_actor(shape, colour));
+    return;
+  }
+  // Drivers fill a polygon as a fan, which is wrong for one that is not convex.
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(shape);
+  triangles->Update();
+  renderer_->AddActor2D(flat_actor(triangles->GetOutput(), colour));
 }
 
 double nice_below(double limit) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "viz/palette.h"
+#include "viz/page/palette.h"
 
 namespace voussoir {
 
@@ -29,7 +29,7 @@ class Overlay {
   /// A line through (x, y) pairs.
   void polyline(const std::vector<std::pair<double, double>>& points, double width, const Colour& colour);
   void disc(double x, double y, double radius, const Colour& colour);
-  /// A filled polygon; (x, y) pairs.
+  /// A filled polygon, convex or not; (x, y) pairs.
   void polygon(const std::vector<std::pair<double, double>>& corners, const Colour& colour);
 
  private:

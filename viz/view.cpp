@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -75,7 +75,7 @@ void fit_orthographic(vtkCamera* camera, const View& view, vtkPoints* points, co
 
 /// Moves the camera until the projected extent fills the frame; a few rounds suffice, the lens being long.
 void fit_perspective(vtkCamera* camera, const View& view, vtkPoints* points, const Frame& frame, double aspect) {
-  const double tangent = std::tan(0.5 * kViewAngle * std::numbers::pi / 180.0);
+  const double tangent = std::tan(0.5 * kViewAngle * pi / 180.0);
   const auto [near, far] = depths(view, points);
   const Extent flat = flat_extent(view, points);
   const double size = std::max({flat.width(), flat.height(), far - near, 1e-6});

@@ -19,7 +19,7 @@
 #include "viz/scene.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 using test::message_of;
@@ -549,5 +549,5 @@ TEST(Grid, OfAModeHasTheFillsMotion) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -15,7 +15,7 @@
 #include "tests/viz/scenes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 using test::message_of;
@@ -509,5 +509,5 @@ TEST(Import, AnAssemblyFile) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

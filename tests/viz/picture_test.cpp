@@ -16,18 +16,17 @@
 #include "solver/base/error.h"
 #include "tests/viz/folder.h"
 #include "tests/viz/scenes.h"
-#include "viz/axis.h"
+#include "viz/chart_picture.h"
 #include "viz/colouring.h"
 #include "viz/display.h"
 #include "viz/overlay.h"
-#include "viz/palette.h"
-#include "viz/plot.h"
+#include "viz/page/palette.h"
 #include "viz/render.h"
 #include "viz/scene.h"
 #include "viz/view.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 using test::message_of;
@@ -297,31 +296,60 @@ TEST(Colours, OfAFillNeedOne) {
 }
 
 TEST_F(NoDisplay, ChartsShowTheirLines) {
-  Series wave{"wave", {}, {}}, flat{"flat", {0.0, 10.0}, {0.5, 0.5}};
+  ChartCurve wave{.name = "wave"};
   for (int i = 0; i < 50000; ++i) {
     wave.x.push_back(2e-4 * i);
     wave.y.push_back(std::sin(3.0 * wave.x.back()));
   }
   wave.y[25000] = std::nan("");
-  PlotOptions options{"Two lines", 600, 400, false, false, false};
-  plot_lines({wave, flat}, "time (s)", "displacement (mm)", options, folder / "chart.png");
-  const Picture chart = read_png(folder / "chart.png");
-  EXPECT_EQ(chart.width, 600);
-  EXPECT_EQ(chart.height, 400);
-  EXPECT_GT(chart.share(line_colour(0), 0.15), 2e-3);
-  EXPECT_GT(chart.share(line_colour(1), 0.15), 5e-4);
-  EXPECT_EQ(chart.share(line_colour(3), 0.05), 0.0);
-  EXPECT_NE(message_of<InputError>([&] {
-              plot_lines({{"x", {1}, {1, 2}}}, "", "", "t", folder / "no.png");
-            }).find("1 x and 2 y"),
-            std::string::npos);
-  EXPECT_NE(message_of<InputError>([&] { plot_lines({}, "", "", "t", folder / "no.png"); }).find("nothing"),
-            std::string::npos);
-  options.log_y = true;
-  EXPECT_NE(message_of<InputError>([&] {
-              plot_lines({{"x", {1}, {-1}}}, "", "", options, folder / "no.png");
-            }).find("above 0"),
-            std::string::npos);
+  LineChart chart{.title = "Two lines", .x_label = "time (s)", .y_label = "displacement (mm)"};
+  chart.width = 600.0, chart.height = 400.0;
+  chart.curves = {wave, {.name = "flat", .x = {0.0, 10.0}, .y = {0.5, 0.5}}};
+  number_curves(chart);
+  write_picture(chart, folder / "chart.png", 900);
+  const Picture picture = read_png(folder / "chart.png");
+  EXPECT_EQ(picture.width, 900);
+  EXPECT_EQ(picture.height, std::lround(1.5 * height_of(chart)));
+  EXPECT_GT(picture.share(line_colour(0), 0.15), 2e-3);
+  EXPECT_GT(picture.share(line_colour(1), 0.15), 5e-4);
+  EXPECT_EQ(picture.share(line_colour(3), 0.05), 0.0);
+}
+
+/// A band, dashes, dots and every marker, each in a colour of its own: what a page shows, a picture shows too.
+TEST_F(NoDisplay, ChartsShowAllThatPagesShow) {
+  LineChart chart{.title = "All", .x_label = "x (-)", .y_label = "y (-)"};
+  chart.width = 600.0, chart.height = 400.0;
+  // A band that is not convex: filled from corner to corner it would cover the marker below it.
+  chart.bands = {{.name = "band", .x = {0, 5, 10}, .low = {1, 8, 1}, .high = {2, 9, 2}, .colour = "#d6e6f2"}};
+  chart.curves = {{.name = "dashed", .x = {0, 10}, .y = {10, 10}, .colour = "#0072b2", .dashes = "6 3"},
+                  {.name = "dotted", .x = {2, 8}, .y = {0, 0}, .colour = "#e69f00", .dots = true}};
+  const char* colours[] = {"#009e73", "#d55e00", "#cc79a7", "#000000"};
+  for (int m = 0; m < 4; ++m)
+    chart.dots.push_back({.x = {5.0}, .y = {2.0 + m}, .colour = colours[m], .marker = Marker(m)});
+  write_picture(chart, folder / "all.png", 1200);
+  const Picture picture = read_png(folder / "all.png");
+  for (const char* code : {"#d6e6f2", "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7"}) {
+    const auto part = [&](int at) {
+      return std::stoi(std::string(code).substr(std::size_t(at), 2), nullptr, 16) / 255.0;
+    };
+    EXPECT_GT(picture.share({part(1), part(3), part(5)}, 0.02), 1e-5) << code;
+  }
+  // The band is a stripe of height 1 over a plot of height 10.
+  EXPECT_LT(picture.share({0xd6 / 255.0, 0xe6 / 255.0, 0xf2 / 255.0}, 0.01), 0.12);
+}
+
+TEST_F(NoDisplay, ChartsWithoutPointsAreRefused) {
+  const auto refusal = [&](LineChart chart) {
+    return message_of<InputError>([&] { write_picture(chart, folder / "no.png"); });
+  };
+  LineChart chart{.title = "t"};
+  EXPECT_NE(refusal(chart).find("nothing"), std::string::npos);
+  chart.curves = {{.name = "x", .x = {1}, .y = {1, 2}}};
+  EXPECT_NE(refusal(chart).find("1 x and 2 y"), std::string::npos);
+  chart.curves = {{.name = "x", .x = {1}, .y = {-1}}};
+  chart.log_y = true;
+  EXPECT_NE(refusal(chart).find("above 0"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
 }
 
 TEST(Scene, AmplifiesDisplacementsRelativeToTheBase) {
@@ -411,25 +439,20 @@ TEST(Colours, TopOfTheScaleIsRoundAndAFallenStoneDoesNotSetIt) {
   EXPECT_TRUE(scale(0).exceeded);
 }
 
-TEST(Axis, TicksAreRound) {
-  const Axis linear = make_axis(-29.3, 27.8, false, true, 7);
-  EXPECT_EQ(linear.low, -30.0);
-  EXPECT_EQ(linear.high, 30.0);
-  ASSERT_EQ(linear.ticks.size(), 7u);
-  EXPECT_EQ(tick_label(linear, linear.ticks[3]), "0");
-  EXPECT_EQ(linear.share(0.0), 0.5);
-  const Axis constant = make_axis(5.0, 5.0, false, true, 5);
+TEST(ChartAxis, TicksAreRound) {
+  const ChartAxis linear{ChartAxis::Kind::linear, -30.0, 30.0, 0.0, 600.0};
+  EXPECT_EQ(linear.ticks(90.0), (std::vector<double>{-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0}));
+  EXPECT_EQ(linear.at(0.0), 300.0);
+  const ChartAxis log{ChartAxis::Kind::logarithmic, 0.01, 10.0, 0.0, 300.0};
+  EXPECT_NEAR(log.at(0.1), 100.0, 1e-9);
+  const std::vector<double> ticks = log.ticks(90.0);
+  EXPECT_EQ(std::ranges::count(ticks, 0.01) + std::ranges::count(ticks, 0.1) + std::ranges::count(ticks, 1.0), 3);
+  const ChartAxis constant = axis_around({5.0, 5.0}, 0.0, 100.0);
   EXPECT_LT(constant.low, 5.0);
   EXPECT_GT(constant.high, 5.0);
-  const Axis log = make_axis(0.012, 2.0, true, true, 7);
-  EXPECT_NEAR(log.low, 0.01, 1e-12);
-  EXPECT_NEAR(log.high, 10.0, 1e-9);
-  EXPECT_EQ(log.ticks.size(), 4u);
-  EXPECT_NEAR(log.share(0.1), 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(tick_text(1e-17), "0");
   EXPECT_EQ(nice_below(0.7), 0.5);
-  EXPECT_EQ(nice_above(2.1), 2.5);
-  EXPECT_EQ(nice_above(100.0), 100.0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

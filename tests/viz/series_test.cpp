@@ -10,7 +10,7 @@
 #include "tests/viz/scenes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 using test::message_of;
@@ -138,5 +138,5 @@ TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
   EXPECT_THROW(PvdSeries series(folder / "blocks.pvd"), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -94,7 +94,7 @@ std::string chart(const std::vector<Program>& programs, const std::map<std::stri
   for (const Program& program : programs)
     for (const auto& [scene, cost] : program.cost) most = std::max(most, cost);
   for (const auto& [scene, aim] : aims) most = std::max(most, aim);
-  const SvgAxis axis = {SvgAxis::Kind::linear, 0.0, most, label, width - 60.0};
+  const ChartAxis axis = {ChartAxis::Kind::linear, 0.0, most, label, width - 60.0};
   SvgDrawing drawing(width, bottom + foot, "What a step costs");
   draw_axis_below(drawing, axis, head, bottom, "µs per block and step");
   std::vector<LegendEntry> legend;

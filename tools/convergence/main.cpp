@@ -9,6 +9,7 @@
 #include "solver/base/error.h"
 #include "solver/base/program.h"
 #include "tools/convergence/studies.h"
+#include "viz/chart_picture.h"
 
 namespace voussoir {
 namespace {
@@ -26,9 +27,11 @@ void show(const NamedStudy& named, const std::string& folder, bool blank_before)
   fmt::print("{}{}", blank_before ? "\n" : "", markdown(study));
   std::cout.flush();
   if (folder.empty()) return;
-  for (const Chart& chart : study.charts)
-    plot_lines(chart.series, chart.x_label, chart.y_label, chart.options,
-               fmt::format("{}/convergence_{}.png", folder, chart.name));
+  for (StudyChart drawn : study.charts) {
+    number_curves(drawn.chart);
+    for (ChartCurve& curve : drawn.chart.curves) curve.dots = drawn.chart.log_x;
+    write_picture(drawn.chart, fmt::format("{}/convergence_{}.png", folder, drawn.name));
+  }
 }
 
 int run(int argc, char** argv) {

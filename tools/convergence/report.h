@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "viz/plot.h"
+#include "viz/page/line_chart.h"
 
 namespace voussoir {
 
@@ -13,17 +13,15 @@ struct Table {
   std::vector<std::vector<std::string>> rows;  // as many cells as headings
 };
 
-struct Chart {
+struct StudyChart {
   std::string name;  // the picture is convergence_NAME.png
-  std::string x_label, y_label;
-  PlotOptions options;
-  std::vector<Series> series;
+  LineChart chart;
 };
 
 struct Study {
   std::string title;
   std::vector<Table> tables;
-  std::vector<Chart> charts;
+  std::vector<StudyChart> charts;
 };
 
 /// The tables of a study as Markdown, with its title as a heading.

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "geometry/generator.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/run/simulation.h"
 #include "solver/step/critical_step.h"
@@ -15,7 +15,6 @@ namespace voussoir {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double gravity = 9.81;      // m/s2
 constexpr double unbreakable = 1e12;  // Pa
 constexpr int sample_count = 40;

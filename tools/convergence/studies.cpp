@@ -28,8 +28,8 @@ std::string power_of_ten(double value) {
   return fmt::format("1e{}", std::lround(std::log10(value)));
 }
 
-Series falling(const std::string& name, const std::vector<double>& x, const std::vector<double>& errors) {
-  Series series = {name, x, {}};
+ChartCurve falling(const std::string& name, const std::vector<double>& x, const std::vector<double>& errors) {
+  ChartCurve series = {.name = name, .x = x};
   for (double e : errors) series.y.push_back(100.0 * std::abs(e));
   return series;
 }
@@ -39,17 +39,24 @@ std::string order_here(const std::vector<double>& x, const std::vector<double>& 
   return i == 0 ? "" : order_text(measured_order(errors[i], errors[i - 1], x[i], x[i - 1]));
 }
 
-PlotOptions log_log(const std::string& title) {
-  PlotOptions options;
-  options.title = title;
-  options.log_x = options.log_y = options.markers = true;
-  return options;
+/// The size of all charts of studies.
+StudyChart study_chart(const std::string& name, const std::string& title, const std::string& x_label,
+                       const std::string& y_label) {
+  return {name, {.title = title, .x_label = x_label, .y_label = y_label, .width = 900.0, .height = 540.0}};
+}
+
+/// The same of errors that fall.
+StudyChart log_log(const std::string& name, const std::string& title, const std::string& x_label,
+                   const std::string& y_label) {
+  StudyChart chart = study_chart(name, title, x_label, y_label);
+  chart.chart.log_x = chart.chart.log_y = true;
+  return chart;
 }
 
 // --- Points a side ---
 
 /// Largest absolute value of a series up to `end`.
-double largest(const Series& series, double end) {
+double largest(const ChartCurve& series, double end) {
   double most = 0.0;
   for (std::size_t i = 0; i < series.x.size(); ++i)
     if (series.x[i] <= end + 1e-9) most = std::max(most, std::abs(series.y[i]));
@@ -57,17 +64,17 @@ double largest(const Series& series, double end) {
 }
 
 /// Beyond the kernel, e/b = 1/6; finely, because the error swings.
-Chart bed_chart() {
-  Chart chart = {"points", "eccentricity over the side (-)", "error of the rotation (%)", {}, {}};
-  chart.options.title = "Partly open square joint: rotation against the closed form";
+StudyChart bed_chart() {
+  StudyChart chart = study_chart("points", "Partly open square joint: rotation against the closed form",
+                                 "eccentricity over the side (-)", "error of the rotation (%)");
   for (int points : point_counts) {
-    Series series = {fmt::format("{} points a side", points), {}, {}};
+    ChartCurve series = {.name = fmt::format("{} points a side", points)};
     for (int i = 20; i <= 90; ++i) {
       const double e = 0.005 * i;
       series.x.push_back(e);
       series.y.push_back(100.0 * (computed_bed(e, points).turn / exact_bed(e).turn - 1.0));
     }
-    chart.series.push_back(series);
+    chart.chart.curves.push_back(series);
   }
   return chart;
 }
@@ -93,12 +100,13 @@ void add_bed(Study& study) {
       table.rows.back().insert(table.rows.back().end(), cells.begin(), cells.end());
   }
   study.tables.push_back(table);
-  const Chart chart = bed_chart();
+  const StudyChart chart = bed_chart();
   Table summary = {
       "Largest error of the rotation, in steps of 0.005.", {"points a side", "e/b up to 0.30", "up to 0.45"}, {}};
   for (std::size_t i = 0; i < point_counts.size(); ++i)
-    summary.rows.push_back({std::to_string(point_counts[i]), fmt::format("{:.1f} %", largest(chart.series[i], 0.3)),
-                            fmt::format("{:.1f} %", largest(chart.series[i], 0.45))});
+    summary.rows.push_back({std::to_string(point_counts[i]),
+                            fmt::format("{:.1f} %", largest(chart.chart.curves[i], 0.3)),
+                            fmt::format("{:.1f} %", largest(chart.chart.curves[i], 0.45))});
   study.tables.push_back(summary);
   study.charts.push_back(chart);
 }
@@ -133,7 +141,7 @@ void add_arch(Study& study) {
 
 // --- Joint stiffness ---
 
-void add_slab(Study& study, Chart& chart) {
+void add_slab(Study& study, StudyChart& chart) {
   Table table = {
       "A block of 1 × 4 m under rising sideways acceleration; rigid: B/H = 0.25. In brackets the loss by the "
       "closed form of the point joint.",
@@ -163,11 +171,11 @@ void add_slab(Study& study, Chart& chart) {
   }
   study.tables.push_back(table);
   for (std::size_t i = 0; i < point_counts.size(); ++i)
-    chart.series.push_back(falling(fmt::format("slab, {} points", point_counts[i]), stiffnesses, errors[i]));
-  chart.series.push_back(falling("slab, elastic face (theory)", stiffnesses, elastic));
+    chart.chart.curves.push_back(falling(fmt::format("slab, {} points", point_counts[i]), stiffnesses, errors[i]));
+  chart.chart.curves.push_back(falling("slab, elastic face (theory)", stiffnesses, elastic));
 }
 
-void add_rigid_arch(Study& study, Chart& chart) {
+void add_rigid_arch(Study& study, StudyChart& chart) {
   Table table = {fmt::format("Oppenheim's arch, 3 points a side; rigid: {}.", oppenheim_rigid),
                  {"kn, Pa/m", "multiplier", "error", "order"},
                  {}};
@@ -179,10 +187,10 @@ void add_rigid_arch(Study& study, Chart& chart) {
                           order_here(compliances(), errors, k)});
   }
   study.tables.push_back(table);
-  chart.series.push_back(falling("Oppenheim's arch, 3 points", stiffnesses, errors));
+  chart.chart.curves.push_back(falling("Oppenheim's arch, 3 points", stiffnesses, errors));
 }
 
-void add_rocking(Study& study, Chart& chart) {
+void add_rocking(Study& study, StudyChart& chart) {
   const double exact = exact_rocking_quarter();
   Table table = {fmt::format("Quarter of the rocking cycle from α/2; rigid: {:.5f} s. As the program does it, and with "
                              "re-clipping off (reclip_angle = 0.5 rad).",
@@ -199,12 +207,12 @@ void add_rocking(Study& study, Chart& chart) {
                           order_here(compliances(), without, k)});
   }
   study.tables.push_back(table);
-  chart.series.push_back(falling("rocking, quarter cycle", stiffnesses, with));
+  chart.chart.curves.push_back(falling("rocking, quarter cycle", stiffnesses, with));
 }
 
 // --- Time step ---
 
-void add_let_go(Study& study, Chart& chart) {
+void add_let_go(Study& study, StudyChart& chart) {
   Table table = {
       "One bonded block let go: frequency against √(kn A/m), beside what the leapfrog must give, "
       "2 asin(½ω Δt)/Δt; displacement after 1¼ cycles (share of the start) against the exact motion.",
@@ -223,11 +231,11 @@ void add_let_go(Study& study, Chart& chart) {
                           percent(displacement[i]), order_here(dt, displacement, i)});
   }
   study.tables.push_back(table);
-  chart.series.push_back(falling("frequency of one block", step_shares, frequency));
-  chart.series.push_back(falling("block let go, displacement", step_shares, displacement));
+  chart.chart.curves.push_back(falling("frequency of one block", step_shares, frequency));
+  chart.chart.curves.push_back(falling("block let go, displacement", step_shares, displacement));
 }
 
-void add_responses(Study& study, Chart& chart) {
+void add_responses(Study& study, StudyChart& chart) {
   Table table = {
       fmt::format("Displacement of the top under a smooth pulse of the base: largest difference from a run "
                   "with {} of the critical step, over the largest displacement.",
@@ -247,11 +255,11 @@ void add_responses(Study& study, Chart& chart) {
                           order_here(step_shares, balance, i)});
   }
   study.tables.push_back(table);
-  chart.series.push_back(falling("bonded column", step_shares, column_errors));
-  chart.series.push_back(falling("rocking block", step_shares, rocking_errors));
+  chart.chart.curves.push_back(falling("bonded column", step_shares, column_errors));
+  chart.chart.curves.push_back(falling("rocking block", step_shares, rocking_errors));
 }
 
-void add_wall(Study& study, Chart& chart) {
+void add_wall(Study& study, StudyChart& chart) {
   Table table = {fmt::format("Dry wall of 4 × 4 blocks that slides and opens under such a pulse: top course, compared "
                              "with a run with {} of the critical step. Last row: the pulse a millionth stronger, "
                              "compared with the row above.",
@@ -276,8 +284,8 @@ void add_wall(Study& study, Chart& chart) {
   add(fmt::format("{:.3g}, pulse × (1 + 1e-6)", step_shares.back()), wall_response(step_shares.back(), 1.0 + 1e-6),
       last, "");
   study.tables.push_back(table);
-  chart.series.push_back(falling("dry wall, displacement", step_shares, errors));
-  chart.series.push_back(falling("dry wall, energy balance", step_shares, balance));
+  chart.chart.curves.push_back(falling("dry wall, displacement", step_shares, errors));
+  chart.chart.curves.push_back(falling("dry wall, energy balance", step_shares, balance));
 }
 
 }  // namespace
@@ -294,8 +302,8 @@ Study study_of_points() {
 Study study_of_stiffness() {
   Study study;
   study.title = "Joint stiffness";
-  Chart chart = {"stiffness", "kn (Pa/m)", "error against rigid blocks (%)", {}, {}};
-  chart.options = log_log("Near rigid blocks: errors against the joint stiffness");
+  StudyChart chart = log_log("stiffness", "Near rigid blocks: errors against the joint stiffness", "kn (Pa/m)",
+                             "error against rigid blocks (%)");
   add_slab(study, chart);
   add_rigid_arch(study, chart);
   add_rocking(study, chart);
@@ -306,12 +314,12 @@ Study study_of_stiffness() {
 Study study_of_steps() {
   Study study;
   study.title = "Time step";
-  Chart chart = {"step", "time step over the critical one (-)", "error (%)", {}, {}};
-  chart.options = log_log("Errors against the time step");
+  StudyChart chart =
+      log_log("step", "Errors against the time step", "time step over the critical one (-)", "error (%)");
   add_let_go(study, chart);
   add_responses(study, chart);
   add_wall(study, chart);
-  chart.series.push_back({"slope of second order", {0.05, 1.0}, {0.0015, 0.6}});
+  chart.chart.curves.push_back({.name = "slope of second order", .x = {0.05, 1.0}, .y = {0.0015, 0.6}});
   study.charts.push_back(chart);
   return study;
 }
@@ -327,18 +335,18 @@ Study study_of_rates() {
       {}};
   std::vector<Push> damped, free;
   for (double t : durations) damped.push_back(push_wall(t, 0.7)), free.push_back(push_wall(t, 0.0));
-  Chart chart = {"rate", "duration of the stroke (s)", "largest reaction (kN)", {}, {}};
-  chart.options.title = "Dry wall under 100 kN, pushed 10 mm";
-  chart.options.log_x = chart.options.markers = true;
-  chart.series = {{"local damping 0.7", durations, {}}, {"undamped", durations, {}}};
+  StudyChart chart =
+      study_chart("rate", "Dry wall under 100 kN, pushed 10 mm", "duration of the stroke (s)", "largest reaction (kN)");
+  chart.chart.log_x = true;
+  chart.chart.curves = {{.name = "local damping 0.7", .x = durations}, {.name = "undamped", .x = durations}};
   for (std::size_t i = 0; i < durations.size(); ++i) {
     const double slowest = damped.back().peak;
     table.rows.push_back({fmt::format("{:.3g}", durations[i]), fmt::format("{:.3f}", 1e-3 * damped[i].peak),
                           percent(damped[i].peak / slowest - 1.0), fmt::format("{:.3f}", 1e-3 * damped[i].end),
                           fmt::format("{:.3f}", 1e-3 * free[i].peak), percent(free[i].peak / slowest - 1.0),
                           fmt::format("{:.3f}", 1e-3 * free[i].end)});
-    chart.series[0].y.push_back(1e-3 * damped[i].peak);
-    chart.series[1].y.push_back(1e-3 * free[i].peak);
+    chart.chart.curves[0].y.push_back(1e-3 * damped[i].peak);
+    chart.chart.curves[1].y.push_back(1e-3 * free[i].peak);
   }
   study.tables.push_back(table);
   study.charts.push_back(chart);

@@ -83,13 +83,13 @@ std::vector<ProbabilityRow> probability_rows(const Round& round) {
 }
 
 /// What is likely: one and two standard deviations about the usual value.
-void draw_prior(SvgDrawing& drawing, const SvgAxis& axis, double y) {
+void draw_prior(SvgDrawing& drawing, const ChartAxis& axis, double y) {
   drawing.rectangle(axis.at(-2.0), y - 10.0, axis.at(2.0) - axis.at(-2.0), 20.0, filled_with(kBandColour));
   drawing.rectangle(axis.at(-1.0), y - 10.0, axis.at(1.0) - axis.at(-1.0), 20.0, filled_with("#d3d3da"));
   drawing.line(axis.at(0.0), y - 10.0, axis.at(0.0), y + 10.0, "#ffffff", 2.0);
 }
 
-void draw_material(SvgDrawing& drawing, const SvgAxis& axis, double y, const Fit& fit, std::size_t i, Marker marker,
+void draw_material(SvgDrawing& drawing, const ChartAxis& axis, double y, const Fit& fit, std::size_t i, Marker marker,
                    const std::string& colour) {
   const double x = fit.best.x[Eigen::Index(i)], std = fit.std[Eigen::Index(i)];
   drawing.error_bar(axis.at(std::max(x - std, axis.low)), y, axis.at(std::min(x + std, axis.high)), y, colour);
@@ -102,15 +102,15 @@ std::string material_number(const Fit& fit, std::size_t i) {
   return with_std(p.value(x), 0.5 * (p.value(x + std) - p.value(x - std)));
 }
 
-SvgAxis materials_axis(const Diagnosis& d, double begin, double end) {
+ChartAxis materials_axis(const Diagnosis& d, double begin, double end) {
   double most = 3.0;
   for (const Fit* fit : {&d.calibrated, &d.best})
     for (std::size_t i = 0; i < fit->hypothesis.materials.size(); ++i)
       most = std::max(most, std::abs(fit->best.x[Eigen::Index(i)]) + fit->std[Eigen::Index(i)] + 0.1);
-  return {SvgAxis::Kind::linear, -most, most, begin, end};
+  return {ChartAxis::Kind::linear, -most, most, begin, end};
 }
 
-SvgAxis gap_axis(const std::vector<GapRow>& rows, double begin, double end) {
+ChartAxis gap_axis(const std::vector<GapRow>& rows, double begin, double end) {
   std::vector<double> values = {0.5, 2.0};
   for (const GapRow& row : rows)
     for (double gap : {row.before, row.materials, row.after})
@@ -132,7 +132,7 @@ std::vector<GapRow> gap_rows(const DiagnosisResult& result) {
 std::string gap_chart(const std::vector<GapRow>& gaps) {
   const ChartRows rows = {kLegendHeight, 34.0, gaps.size()};
   SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Gap between measurement and model");
-  const SvgAxis axis = gap_axis(gaps, kLabelWidth, 700.0);
+  const ChartAxis axis = gap_axis(gaps, kLabelWidth, 700.0);
   if (axis.low < 1.0)
     drawing.rectangle(axis.begin, rows.top, axis.at(std::min(1.0, axis.high)) - axis.begin, rows.bottom() - rows.top,
                       filled_with(kBandColour));
@@ -188,7 +188,7 @@ std::string probability_chart(const Round& round) {
   constexpr double begin = 340.0;
   const ChartRows rows = {4.0, 26.0, bars.size()};
   SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Probabilities of the candidates");
-  const SvgAxis axis = {SvgAxis::Kind::linear, 0.0, 1.0, begin, 860.0};
+  const ChartAxis axis = {ChartAxis::Kind::linear, 0.0, 1.0, begin, 860.0};
   draw_axis_below(drawing, axis, rows.top, rows.bottom(), "probability");
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const ProbabilityRow& bar = bars[i];
@@ -208,7 +208,7 @@ std::string materials_chart(const Diagnosis& d) {
   const bool added = !d.best.hypothesis.effects.empty();
   const ChartRows rows = {kLegendHeight, 36.0, count};
   SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Fitted materials");
-  const SvgAxis axis = materials_axis(d, kLabelWidth, 690.0);
+  const ChartAxis axis = materials_axis(d, kLabelWidth, 690.0);
   draw_row_lines(drawing, rows);
   draw_axis_below(drawing, axis, rows.top, rows.bottom(), "standard deviations of what is likely before any data");
   std::vector<LegendEntry> legend = {{Marker::diamond, materials_colour(), "materials alone"}};

@@ -18,7 +18,7 @@ std::vector<const ModeComparison*> pointers(const std::vector<ModeComparison>& m
   return all;
 }
 
-SvgAxis periods_axis(const std::vector<ModeComparison>& modes, double begin, double end) {
+ChartAxis periods_axis(const std::vector<ModeComparison>& modes, double begin, double end) {
   std::vector<double> values;
   for (const ModeComparison& m : modes) {
     values.insert(values.end(), {m.measured, m.measured + 2.0 * m.std});
@@ -29,7 +29,7 @@ SvgAxis periods_axis(const std::vector<ModeComparison>& modes, double begin, dou
   return axis_around(values, begin, end);
 }
 
-void draw_period(SvgDrawing& drawing, const SvgAxis& axis, double y, const ModeComparison& m) {
+void draw_period(SvgDrawing& drawing, const ChartAxis& axis, double y, const ModeComparison& m) {
   const auto hint = [&](const std::string& words) { return fmt::format("{}: {}", mode_title(m), words); };
   const double low = std::max(m.measured - 2.0 * m.std, axis.low);
   drawing.error_bar(axis.at(low), y, axis.at(m.measured + 2.0 * m.std), y, measured_colour());
@@ -52,7 +52,7 @@ struct Dumbbell {
 
 struct DumbbellChart {
   std::string description, title;  // of the axis
-  SvgAxis axis;
+  ChartAxis axis;
   double band_low = 0.0, band_high = 0.0;  // where all is well
   std::string (*number)(double) = nullptr;
 };
@@ -64,7 +64,7 @@ std::string deviation_number(double value) {
   return signed_number(value);
 }
 
-void draw_dumbbell(SvgDrawing& drawing, const SvgAxis& axis, double y, const Dumbbell& d) {
+void draw_dumbbell(SvgDrawing& drawing, const ChartAxis& axis, double y, const Dumbbell& d) {
   const bool both = std::isfinite(d.before) && std::isfinite(d.after);
   if (both) drawing.line(axis.at(d.before), y, axis.at(d.after), y, kFrameColour, 2.0);
   if (std::isfinite(d.before)) drawing.marker(Marker::square, axis.at(d.before), y, before_colour());
@@ -99,10 +99,10 @@ std::string periods_chart(const std::vector<ModeComparison>& modes) {
   const ChartRows rows = {kLegendHeight, 42.0, modes.size()};
   SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Measured and computed periods");
   draw_mode_rows(drawing, rows, pointers(modes));
-  const SvgAxis axis = periods_axis(modes, kLabelWidth, 700.0);
+  const ChartAxis axis = periods_axis(modes, kLabelWidth, 700.0);
   draw_axis_below(
       drawing, axis, rows.top, rows.bottom(),
-      axis.kind == SvgAxis::Kind::logarithmic ? "period, s (logarithmic)" : "period, s (linear, not from 0)");
+      axis.kind == ChartAxis::Kind::logarithmic ? "period, s (logarithmic)" : "period, s (linear, not from 0)");
   draw_legend(drawing, 0.0, 16.0, {measured_entry(), before_entry(), after_entry()});
   const double columns[] = {800.0, 908.0, kChartWidth - 4.0};
   const char* const headings[] = {"measured, s", "before, s", "after, s"};
@@ -128,7 +128,7 @@ std::string deviations_chart(const std::vector<ModeComparison>& modes) {
       if (std::isfinite(d)) most = std::max(most, 1.1 * std::abs(d));
   }
   const bool far = most > 9.0;
-  const SvgAxis axis = {far ? SvgAxis::Kind::squeezed : SvgAxis::Kind::linear, -most, most, kLabelWidth, 840.0};
+  const ChartAxis axis = {far ? ChartAxis::Kind::squeezed : ChartAxis::Kind::linear, -most, most, kLabelWidth, 840.0};
   return dumbbell_chart(
       {"Residuals of the frequencies",
        far ? "◂ model too stiff or too light | standard deviations, squeezed beyond ± 2 | too soft or too heavy ▸"
@@ -144,7 +144,7 @@ std::string assurance_chart(const std::vector<ModeComparison>& modes) {
   if (dumbbells.empty()) return "";
   return dumbbell_chart({"Modal assurance of each measured mode and its computed partner",
                          "modal assurance criterion (grey: 0.9 and better)",
-                         {SvgAxis::Kind::linear, 0.0, 1.0, kLabelWidth, 840.0},
+                         {ChartAxis::Kind::linear, 0.0, 1.0, kLabelWidth, 840.0},
                          0.9,
                          1.0,
                          assurance_number},

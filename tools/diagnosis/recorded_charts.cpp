@@ -23,7 +23,7 @@ const char* before_dashes() {
 /// A panel of a chart: where it lies and its axes.
 struct Panel {
   double top = 0.0;
-  SvgAxis x, y;
+  ChartAxis x, y;
   double bottom() const { return top + kPanelHeight; }
 };
 
@@ -114,12 +114,12 @@ Points band_of(const TransferFunctions& h, const Resonance& r, const Panel& pane
 }
 
 /// Of the measured curve, and a little more.
-SvgAxis magnitude_axis(const TransferFunctions& h, const Resonance& r, double begin, double end) {
+ChartAxis magnitude_axis(const TransferFunctions& h, const Resonance& r, double begin, double end) {
   double low = 1e300, high = 0.0;
   for (const Eigen::MatrixXcd& line : h.values)
     if (const double size = std::abs(line(r.output, r.input)); std::isfinite(size) && size > 0.0)
       low = std::min(low, size), high = std::max(high, size);
-  return {SvgAxis::Kind::logarithmic, std::max(0.5 * low, 1e-3 * high), 2.0 * std::max(high, 1e-6), begin, end};
+  return {ChartAxis::Kind::logarithmic, std::max(0.5 * low, 1e-3 * high), 2.0 * std::max(high, 1e-6), begin, end};
 }
 
 /// Rows about the largest measured value.
@@ -142,10 +142,6 @@ Points curve_of(const Recording& record, Eigen::Index column, const Window& w, d
   return points;
 }
 
-Eigen::Index column_of(const Recording& record, const std::string& channel) {
-  return Eigen::Index(std::find(record.channels.begin(), record.channels.end(), channel) - record.channels.begin());
-}
-
 }  // namespace
 
 std::string transfer_chart(const DiagnosisInput& input, const RecordedMatch& match) {
@@ -159,7 +155,7 @@ std::string transfer_chart(const DiagnosisInput& input, const RecordedMatch& mat
   for (std::size_t i = 0; i < panels.size(); ++i) {
     Panel panel;
     panel.top = top + double(i) * step;
-    panel.x = {SvgAxis::Kind::linear, 0.0, h.frequencies[h.frequencies.size() - 1], kLeft, kChartWidth - kRight};
+    panel.x = {ChartAxis::Kind::linear, 0.0, h.frequencies[h.frequencies.size() - 1], kLeft, kChartWidth - kRight};
     panel.y = magnitude_axis(h, panels[i], panel.bottom(), panel.top);
     const std::string &output = h.outputs[std::size_t(panels[i].output)],
                       &ground = h.inputs[std::size_t(panels[i].input)];
@@ -181,8 +177,8 @@ std::string stabilisation_chart(const SsiResult& ssi, const Fdd& spectra) {
   double highest = 1.0;
   for (const Pole& pole : ssi.poles)
     orders = std::max(orders, pole.order), highest = std::max(highest, pole.frequency());
-  panel.x = {SvgAxis::Kind::linear, 0.0, 1.02 * highest, kLeft, kChartWidth - kRight};
-  panel.y = {SvgAxis::Kind::linear, 0.0, double(orders) + 2.0, bottom, panel.top};
+  panel.x = {ChartAxis::Kind::linear, 0.0, 1.02 * highest, kLeft, kChartWidth - kRight};
+  panel.y = {ChartAxis::Kind::linear, 0.0, double(orders) + 2.0, bottom, panel.top};
   SvgDrawing drawing(kChartWidth, bottom + kAxisHeight, "stabilisation diagram");
   draw_legend(drawing, kLeft, 18.0,
               {{Marker::circle, after_colour(), "stable pole"}, {Marker::square, before_colour(), "other pole"}});
@@ -193,8 +189,8 @@ std::string stabilisation_chart(const SsiResult& ssi, const Fdd& spectra) {
   drawing.text(16.0, 0.5 * (panel.top + bottom), "order of the model", {.anchor = "middle", .turn = -90.0});
   draw_axis_below(drawing, panel.x, panel.top, bottom, "frequency, Hz");
   const Eigen::VectorXd first = spectra.singular.col(0);
-  const SvgAxis power = {SvgAxis::Kind::logarithmic, std::max(first.minCoeff(), 1e-9 * first.maxCoeff()),
-                         2.0 * first.maxCoeff(), bottom, panel.top};
+  const ChartAxis power = {ChartAxis::Kind::logarithmic, std::max(first.minCoeff(), 1e-9 * first.maxCoeff()),
+                           2.0 * first.maxCoeff(), bottom, panel.top};
   Points curve;
   for (Eigen::Index k = 0; k < first.size() && spectra.frequencies[k] <= panel.x.high; ++k)
     curve.emplace_back(panel.x.at(spectra.frequencies[k]), power.at(std::max(first[k], power.low)));
@@ -234,8 +230,8 @@ std::string history_chart(const DiagnosisInput& input, const RecordedMatch& matc
     Panel panel;
     panel.top = top + double(i) * step;
     const double begin = match.from + double(w.first) * m.dt;
-    panel.x = {SvgAxis::Kind::linear, begin, begin + double(w.count) * m.dt, kLeft, kChartWidth - kRight};
-    panel.y = {SvgAxis::Kind::linear, -1.05 * most, 1.05 * most, panel.bottom(), panel.top};
+    panel.x = {ChartAxis::Kind::linear, begin, begin + double(w.count) * m.dt, kLeft, kChartWidth - kRight};
+    panel.y = {ChartAxis::Kind::linear, -1.05 * most, 1.05 * most, panel.bottom(), panel.top};
     draw_frame(drawing, panel, channels[i], "m/s²");
     draw_axis_below(drawing, panel.x, panel.bottom(), panel.bottom(), "time, s");
     drawing.curve(curve_of(match.before, column, w, match.from, panel), before_colour(), 1.4, before_dashes());

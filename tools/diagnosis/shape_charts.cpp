@@ -110,14 +110,14 @@ std::vector<SensorValue> sensor_values(const DiagnosisInput& input, const Diagno
   return values;
 }
 
-SvgAxis shape_axis(const std::vector<SensorValue>& values, double top, double bottom) {
+ChartAxis shape_axis(const std::vector<SensorValue>& values, double top, double bottom) {
   double most = 1.0;
   for (const SensorValue& v : values) {
     most = std::max(most, std::abs(v.measured) + 2.0 * v.std);
     for (double computed : {v.before, v.after})
       if (std::isfinite(computed)) most = std::max(most, std::abs(computed));
   }
-  return {SvgAxis::Kind::linear, -1.08 * most, 1.08 * most, bottom, top};
+  return {ChartAxis::Kind::linear, -1.08 * most, 1.08 * most, bottom, top};
 }
 
 /// Of all shapes beside the plots.
@@ -137,7 +137,7 @@ void draw_groups(SvgDrawing& drawing, const ShapePlot& plot, const std::vector<S
   }
 }
 
-void draw_sensor(SvgDrawing& drawing, const SvgAxis& axis, double x, const SensorValue& v, const std::string& name) {
+void draw_sensor(SvgDrawing& drawing, const ChartAxis& axis, double x, const SensorValue& v, const std::string& name) {
   drawing.rectangle(x - 2.0, std::min(axis.at(0.0), axis.at(v.measured)), 4.0,
                     std::abs(axis.at(v.measured) - axis.at(0.0)), filled_with("#c9c9cf"));
   drawing.error_bar(x, axis.at(v.measured - 2.0 * v.std), x, axis.at(v.measured + 2.0 * v.std), measured_colour(), 3.5);
@@ -189,7 +189,7 @@ std::string shape_chart(const DiagnosisInput& input, const DiagnosisResult& resu
   const double right = plot.left + double(values.size()) * plot.step;
   SvgDrawing drawing(right + 8.0, plot.bottom + 16.0 + 0.6 * 12.0 * double(longest),
                      fmt::format("Shape of {} at the sensors", mode_title(result.modes[mode])));
-  const SvgAxis axis = shape_axis(values, plot.top, plot.bottom);
+  const ChartAxis axis = shape_axis(values, plot.top, plot.bottom);
   for (double v : axis.ticks(30.0)) {
     drawing.line(plot.left, axis.at(v), right, axis.at(v), kGridColour);
     drawing.text(plot.left - 6.0, axis.at(v) + 4.5, tick_text(v), {.anchor = "end", .size = 12.0});

@@ -20,7 +20,7 @@ constexpr double kEntry = 22.0, kRug = 9.0;                                     
 /// Where a chart's plot lies: below its legend, and beside or between its rugs.
 struct Plot {
   double top = 0.0, bottom = 0.0;
-  SvgAxis x, y;
+  ChartAxis x, y;
 };
 
 std::string case_colour(std::size_t index) {
@@ -92,7 +92,7 @@ void draw_rug(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::si
 }
 
 /// Curves go on beyond the runs; as far as the runs, and where the curves rise.
-SvgAxis intensity_axis(const std::vector<const Fragility*>& curves) {
+ChartAxis intensity_axis(const std::vector<const Fragility*>& curves) {
   std::vector<double> values;
   for (const Fragility* f : curves) {
     for (const CloudRun& t : f->selection.trials) values.push_back(t.im);
@@ -107,7 +107,7 @@ bool any_trials(const std::vector<const Fragility*>& curves) {
 }
 
 /// The part of a curve that an axis shows.
-Fragility cut_to(const Fragility& f, const SvgAxis& x) {
+Fragility cut_to(const Fragility& f, const ChartAxis& x) {
   Fragility cut = f;
   std::erase_if(cut.curve, [&](const CurvePoint& p) { return p.im < x.low || p.im > x.high; });
   return cut;
@@ -141,8 +141,8 @@ void draw_runs(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::s
   }
 }
 
-SvgAxis logarithmic(SvgAxis axis) {
-  if (axis.low > 0.0) axis.kind = SvgAxis::Kind::logarithmic;
+ChartAxis logarithmic(ChartAxis axis) {
+  if (axis.low > 0.0) axis.kind = ChartAxis::Kind::logarithmic;
   return axis;
 }
 
@@ -157,7 +157,7 @@ std::string curves_chart(const std::vector<const Fragility*>& curves) {
   plot.top = kEntry * double(curves.size()) + 12.0 + rugs;
   plot.bottom = plot.top + kPlotHeight;
   plot.x = intensity_axis(curves);
-  plot.y = {SvgAxis::Kind::linear, 0.0, 1.0, plot.bottom, plot.top};
+  plot.y = {ChartAxis::Kind::linear, 0.0, 1.0, plot.bottom, plot.top};
   const Fragility& first = *curves.front();
   SvgDrawing drawing(kWidth, plot.bottom + rugs + kBelow,
                      fmt::format("Fragility curves: {} over {}", limit_words(first.limit), measure_label(first.im)));

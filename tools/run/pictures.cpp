@@ -6,7 +6,7 @@
 #include "io/records/curve.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/run_session.h"
-#include "viz/plot.h"
+#include "viz/chart_picture.h"
 #include "viz/render.h"
 
 namespace voussoir {
@@ -74,43 +74,55 @@ void draw_way(const std::string& file, const Simulation& run, const Snapshot& sn
   render_picture(run.assembly(), snapshot, o, file);
 }
 
-/// Equilibria on the way to the collapse load.
-void draw_curve(const std::string& images, const Collapse& collapse) {
-  Series along{"loaded points, along the load", {}, {}}, largest{"largest of any block", {}, {}};
-  for (const CollapsePoint& p : collapse.curve) {
-    along.x.push_back(1e3 * p.along), largest.x.push_back(1e3 * p.largest);
-    along.y.push_back(p.multiplier), largest.y.push_back(p.multiplier);
-  }
-  PlotOptions options;
-  options.title = "Load and displacement";
-  options.markers = true;
-  plot_lines({along, largest}, "displacement since the multiplier was zero (mm)", "multiplier (-)", options,
-             images + "/collapse_curve.png");
+/// The size of all charts of a run.
+LineChart run_chart(const std::string& title, const std::string& x_label, const std::string& y_label) {
+  return {.title = title, .x_label = x_label, .y_label = y_label, .width = 900.0, .height = 540.0};
 }
 
-Series channel(const History& history, const std::string& name, const std::string& path, double factor) {
-  Series s{name, history.time(), history.values(path)};
-  for (double& y : s.y) y *= factor;
-  return s;
+void add_curve(LineChart& chart, const std::string& name, std::vector<double> x, std::vector<double> y) {
+  chart.curves.push_back({.name = name, .x = std::move(x), .y = std::move(y)});
+}
+
+void write_run_chart(LineChart chart, const std::string& png) {
+  number_curves(chart);
+  write_picture(chart, png);
+}
+
+/// Equilibria on the way to the collapse load.
+void draw_curve(const std::string& images, const Collapse& collapse) {
+  std::vector<double> along, largest, multiplier;
+  for (const CollapsePoint& p : collapse.curve) {
+    along.push_back(1e3 * p.along), largest.push_back(1e3 * p.largest);
+    multiplier.push_back(p.multiplier);
+  }
+  LineChart chart =
+      run_chart("Load and displacement", "displacement since the multiplier was zero (mm)", "multiplier (-)");
+  add_curve(chart, "loaded points, along the load", along, multiplier);
+  add_curve(chart, "largest of any block", largest, multiplier);
+  for (ChartCurve& c : chart.curves) c.dots = true;
+  write_run_chart(chart, images + "/collapse_curve.png");
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& v : values) v *= factor;
+  return values;
 }
 
 void draw_charts(const std::string& images, const Assembly& assembly, const History& history) {
   if (history.rows() < 2) return;
-  std::vector<Series> energies;
+  const auto add = [&](LineChart& chart, const std::string& name, const std::string& path, double factor) {
+    add_curve(chart, name, history.time(), scaled(history.values(path), factor));
+  };
+  LineChart energies = run_chart("Energy", "time (s)", "energy (kJ)");
   for (const char* name : {"kinetic", "elastic", "friction", "fracture", "joint_damping", "external_work"})
-    energies.push_back(channel(history, name, std::string("energy/") + name, 1e-3));
-  plot_lines(energies, "time (s)", "energy (kJ)", "Energy", images + "/energy.png");
-  std::vector<Series> keystones, spandrels;
-  for (const DemandPoint& point : demand_points(assembly)) {
-    const std::string path = fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);
-    (point.axis == 0 ? keystones : spandrels).push_back(channel(history, point.group, path, 1e3));
-  }
-  if (!keystones.empty())
-    plot_lines(keystones, "time (s)", "longitudinal displacement relative to the base (mm)", "Keystones",
-               images + "/keystones.png");
-  if (!spandrels.empty())
-    plot_lines(spandrels, "time (s)", "transverse displacement relative to the base (mm)", "Spandrel walls",
-               images + "/spandrels.png");
+    add(energies, name, std::string("energy/") + name, 1e-3);
+  write_run_chart(energies, images + "/energy.png");
+  LineChart keystones = run_chart("Keystones", "time (s)", "longitudinal displacement relative to the base (mm)");
+  LineChart spandrels = run_chart("Spandrel walls", "time (s)", "transverse displacement relative to the base (mm)");
+  for (const DemandPoint& point : demand_points(assembly))
+    add(point.axis == 0 ? keystones : spandrels, point.group, demand_channel(point), 1e3);
+  if (!keystones.curves.empty()) write_run_chart(keystones, images + "/keystones.png");
+  if (!spandrels.curves.empty()) write_run_chart(spandrels, images + "/spandrels.png");
 }
 
 /// A label as given, or the channel with its unit.
@@ -125,19 +137,16 @@ std::string axis_label(const std::string& label, const std::string& name, double
 
 void draw_plot(const std::string& images, const PlotSpec& plot, const History& history) {
   if (history.rows() < 2) return;
-  std::vector<Series> series;
+  LineChart chart = run_chart(plot.title, axis_label(plot.x_label, plot.x, plot.x_factor, history),
+                              axis_label(plot.y_label, plot.y, plot.y_factor, history));
   for (const MeasuredCurve& measured : plot.measured)
     if (!measured.text.empty()) {
       Curve curve = parse_curve(measured.text, measured.file);
-      series.push_back({measured.label, std::move(curve.x), std::move(curve.y)});
+      add_curve(chart, measured.label, std::move(curve.x), std::move(curve.y));
     }
-  Series computed{plot.label, history.values(plot.x), history.values(plot.y)};
-  for (double& x : computed.x) x *= plot.x_factor;
-  for (double& y : computed.y) y *= plot.y_factor;
-  series.push_back(std::move(computed));
-  plot_lines(series, axis_label(plot.x_label, plot.x, plot.x_factor, history),
-             axis_label(plot.y_label, plot.y, plot.y_factor, history), plot.title,
-             fmt::format("{}/{}.png", images, plot.name));
+  add_curve(chart, plot.label, scaled(history.values(plot.x), plot.x_factor),
+            scaled(history.values(plot.y), plot.y_factor));
+  write_run_chart(chart, fmt::format("{}/{}.png", images, plot.name));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viz/page/svg.h"
+
 namespace voussoir {
 
 namespace {
@@ -39,7 +41,7 @@ double legend_height(const LineChart& chart) {
   return any ? legend.bottom() : 0.0;
 }
 
-void draw_legend_of(SvgDrawing& drawing, const LineChart& chart) {
+void draw_legend_of(Drawing& drawing, const LineChart& chart) {
   Legend legend{chart.width};
   const auto entry = [&](const std::string& name, const auto& symbol) {
     if (name.empty()) return;
@@ -57,14 +59,14 @@ void draw_legend_of(SvgDrawing& drawing, const LineChart& chart) {
     entry(d.name, [&](double x, double y) { drawing.marker(d.marker, x + 0.5 * line_length, y, d.colour); });
 }
 
-SvgAxis axis_of(std::vector<double> values, bool logarithmic, std::optional<double> low, std::optional<double> high,
-                double begin, double end) {
+ChartAxis axis_of(std::vector<double> values, bool logarithmic, std::optional<double> low, std::optional<double> high,
+                  double begin, double end) {
   if (logarithmic) std::erase_if(values, [](double v) { return !(v > 0.0); });
-  SvgAxis axis = axis_around(values, begin, end);
+  ChartAxis axis = axis_around(values, begin, end);
   double least = INFINITY, most = -INFINITY;
   for (const double v : values)
     if (std::isfinite(v)) least = std::min(least, v), most = std::max(most, v);
-  axis.kind = logarithmic ? SvgAxis::Kind::logarithmic : SvgAxis::Kind::linear;
+  axis.kind = logarithmic ? ChartAxis::Kind::logarithmic : ChartAxis::Kind::linear;
   if (!logarithmic && least <= most) {
     const double more = least < most ? 0.05 * (most - least) : std::max(1e-12, 0.1 * std::abs(most));
     axis.low = least - more, axis.high = most + more;
@@ -76,17 +78,18 @@ SvgAxis axis_of(std::vector<double> values, bool logarithmic, std::optional<doub
 }
 
 struct Axes {
-  SvgAxis x, y;
+  ChartAxis x, y;
   /// In pixels; what lies outside the axes is put on their edge for y, left out for x.
   std::pair<double, double> at(double vx, double vy) const {
     const bool shown = std::isfinite(vx) && std::isfinite(vy) && vx >= x.low - 1e-12 && vx <= x.high + 1e-12 &&
-                       (x.kind != SvgAxis::Kind::logarithmic || vx > 0.0);
+                       (x.kind != ChartAxis::Kind::logarithmic || vx > 0.0) &&
+                       (y.kind != ChartAxis::Kind::logarithmic || vy > 0.0);
     if (!shown) return {NAN, NAN};
     return {x.at(vx), y.at(std::clamp(vy, y.low, y.high))};
   }
 };
 
-void draw_frame(SvgDrawing& drawing, const LineChart& chart, const Axes& axes, double top, double bottom) {
+void draw_frame(Drawing& drawing, const LineChart& chart, const Axes& axes, double top, double bottom) {
   draw_axis_below(drawing, axes.x, top, bottom, chart.x_label);
   for (const double v : axes.y.ticks(30.0)) {
     drawing.line(axes.x.begin, axes.y.at(v), axes.x.end, axes.y.at(v), kGridColour);
@@ -107,7 +110,9 @@ Axes axes_of(const LineChart& chart, double top, double bottom) {
   for (const ChartDots& d : chart.dots) more(xs, d.x), more(ys, d.y);
   const auto [low, high] = xs.empty() ? std::pair{0.0, 1.0} : std::pair{std::ranges::min(xs), std::ranges::max(xs)};
   // Curves run from edge to edge; dots stay off the edges.
-  const bool tight = chart.dots.empty() && low < high && (!chart.log_x || low > 0.0);
+  const bool dotted =
+      !chart.dots.empty() || std::ranges::any_of(chart.curves, [](const ChartCurve& c) { return c.dots; });
+  const bool tight = !dotted && low < high && (!chart.log_x || low > 0.0);
   return {axis_of(xs, chart.log_x,
                   chart.x_low ? chart.x_low
                   : tight     ? std::optional(low)
@@ -136,13 +141,15 @@ ChartCurve thinned(const ChartCurve& curve, std::size_t shares) {
   return thin;
 }
 
-std::string line_chart(const LineChart& chart) {
-  if (chart.curves.empty() && chart.dots.empty() && chart.bands.empty()) return "";
-  const double top = legend_height(chart) + above, bottom = top + chart.height - above - below;
-  SvgDrawing drawing(chart.width, bottom + below, chart.title);
+double height_of(const LineChart& chart) {
+  return legend_height(chart) + chart.height;
+}
+
+void draw(Drawing& drawing, const LineChart& chart) {
+  const double bottom = height_of(chart) - below, top = legend_height(chart) + above;
   const Axes axes = axes_of(chart, top, bottom);
   for (const ChartBand& b : chart.bands) {
-    std::vector<std::pair<double, double>> outline;
+    Drawing::Path outline;
     for (std::size_t i = 0; i < b.x.size(); ++i) outline.push_back(axes.at(b.x[i], b.high[i]));
     for (std::size_t i = b.x.size(); i-- > 0;) outline.push_back(axes.at(b.x[i], b.low[i]));
     drawing.area(outline, b.colour);
@@ -150,16 +157,32 @@ std::string line_chart(const LineChart& chart) {
   draw_frame(drawing, chart, axes, top, bottom);
   for (const ChartCurve& whole : chart.curves) {
     const ChartCurve c = thinned(whole);
-    std::vector<std::pair<double, double>> points;
+    Drawing::Path points;
     for (std::size_t i = 0; i < c.x.size(); ++i) points.push_back(axes.at(c.x[i], c.y[i]));
     drawing.curve(points, c.colour, c.width, c.dashes.c_str());
+    for (const auto& [x, y] : points)
+      if (c.dots && std::isfinite(x)) drawing.marker(Marker::circle, x, y, c.colour, {}, 4.0);
   }
   for (const ChartDots& d : chart.dots)
     for (std::size_t i = 0; i < d.x.size(); ++i)
       if (const auto [x, y] = axes.at(d.x[i], d.y[i]); std::isfinite(x))
         drawing.marker(d.marker, x, y, d.colour, i < d.hints.size() ? d.hints[i] : std::string());
   draw_legend_of(drawing, chart);
+}
+
+std::string line_chart(const LineChart& chart) {
+  if (chart.curves.empty() && chart.dots.empty() && chart.bands.empty()) return "";
+  SvgDrawing drawing(chart.width, height_of(chart), chart.title);
+  draw(drawing, chart);
   return drawing.finished();
+}
+
+void number_curves(LineChart& chart) {
+  const char* dashes[] = {"", "6 3", "2 2"};
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    chart.curves[i].colour = colour_code(line_colour(i));
+    chart.curves[i].dashes = dashes[i / kLineColours % 3];
+  }
 }
 
 }  // namespace voussoir

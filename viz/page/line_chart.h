@@ -1,47 +1,56 @@
-// A chart of curves over a common axis, as SVG: histories, spectra, fragilities.
+// A chart of curves over a common axis: histories, spectra, fragilities. As SVG here, as a picture in
+// viz/chart_picture.h.
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "viz/page/svg.h"
+#include "viz/page/drawing.h"
 
 namespace voussoir {
 
 struct ChartCurve {
-  std::string name;          // in the legend; empty: not listed
-  std::vector<double> x, y;  // what is not finite breaks the curve
+  std::string name = {};               // in the legend; empty: not listed
+  std::vector<double> x = {}, y = {};  // what is not finite breaks the curve
   std::string colour = "#1f1f24";
-  double width = 1.8;  // px
-  std::string dashes;  // "6 3"
+  double width = 1.8;       // px
+  std::string dashes = {};  // "6 3"
+  bool dots = false;        // at each point, for few points
 };
 
 struct ChartBand {
-  std::string name;
-  std::vector<double> x, low, high;
+  std::string name = {};
+  std::vector<double> x = {}, low = {}, high = {};
   std::string colour = "#d6e6f2";
 };
 
 struct ChartDots {
-  std::string name;
-  std::vector<double> x, y;
-  std::vector<std::string> hints;  // one a dot, or none
+  std::string name = {};
+  std::vector<double> x = {}, y = {};
+  std::vector<std::string> hints = {};  // one a dot, or none
   std::string colour = "#1f1f24";
   Marker marker = Marker::circle;
 };
 
 struct LineChart {
-  std::string title, x_label, y_label;  // labels with units: "period (s)"
+  std::string title = {}, x_label = {}, y_label = {};  // labels with units: "period (s)"
   double width = 1000.0, height = 380.0;
   bool log_x = false, log_y = false;
-  std::optional<double> x_low, x_high, y_low, y_high;  // of the axes; else around what is shown
-  std::vector<ChartBand> bands;                        // drawn first
-  std::vector<ChartCurve> curves;
-  std::vector<ChartDots> dots;
+  std::optional<double> x_low = {}, x_high = {}, y_low = {}, y_high = {};  // of the axes; else around what is shown
+  std::vector<ChartBand> bands = {};                                       // drawn first
+  std::vector<ChartCurve> curves = {};
+  std::vector<ChartDots> dots = {};
 };
 
-/// Empty where there is nothing to show.
+/// Height of the whole drawing, px: the chart's own and its legend above.
+double height_of(const LineChart& chart);
+void draw(Drawing& drawing, const LineChart& chart);
+
+/// As SVG; empty where there is nothing to show.
 std::string line_chart(const LineChart& chart);
+
+/// Gives the curves the colours of lines in turn, and dashes once these are used up.
+void number_curves(LineChart& chart);
 
 /// Largest and smallest of every share of the curve, in their order: as much as a width of pixels can show.
 ChartCurve thinned(const ChartCurve& curve, std::size_t shares = 900);

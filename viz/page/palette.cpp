@@ -1,4 +1,4 @@
-#include "viz/palette.h"
+#include "viz/page/palette.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,18 @@
+// Numbers that have a name.
+#pragma once
+#include <numbers>
+
+namespace voussoir {
+
+constexpr double pi = std::numbers::pi, two_pi = 2.0 * pi;
+constexpr double standard_gravity = 9.80665;  // m/s2, what a record in g is a multiple of
+
+/// Radians of degrees, and the reverse.
+constexpr double radians(double degrees) {
+  return degrees * pi / 180.0;
+}
+constexpr double degrees(double radians) {
+  return radians * 180.0 / pi;
+}
+
+}  // namespace voussoir
