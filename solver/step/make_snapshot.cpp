@@ -236,4 +236,26 @@ Vec3 relative_rotation(const Model& model, const State& state, std::int64_t bloc
   return turn.angle() * turn.axis();
 }
 
+Vec3 point_velocity(const Model& model, const State& state, std::int64_t block, const Vec3& position) {
+  const auto body = std::size_t(model.body_of_block[std::size_t(block)]);
+  const double* motion = &state.motion[motion_width * body];
+  const Eigen::Quaterniond q = rotation_of(state, body);
+  const Body& b = model.bodies[body];
+  const Vec3 momentum(motion[3], motion[4], motion[5]);
+  const Vec3 spin = q * (b.inverse_inertia * (q.conjugate() * momentum));
+  return Vec3(motion[0], motion[1], motion[2]) + spin.cross(q * (position - b.centroid));
+}
+
+double fallen_share(const Model& model, const State& state, double distance) {
+  double whole = 0.0, gone = 0.0;
+  for (std::size_t block = 0; block < model.body_of_block.size(); ++block) {
+    const Body& body = model.bodies[std::size_t(model.body_of_block[block])];
+    if (body.fixed) continue;
+    whole += body.mass;
+    const Vec3 u = relative_displacement(model, state, std::int64_t(block), body.centroid);
+    if (!(u.norm() <= distance)) gone += body.mass;
+  }
+  return whole > 0.0 ? gone / whole : 0.0;
+}
+
 }  // namespace voussoir

@@ -21,4 +21,12 @@ Vec3 relative_displacement(const Model& model, const State& state, std::int64_t 
 /// Rotation vector (rad) of a block, world axes, since the end of the last gravity stage.
 Vec3 relative_rotation(const Model& model, const State& state, std::int64_t block);
 
+/// Velocity (m/s), the motion of the ground included, at the last half step of a point that was at `position` in the
+/// assembly.
+Vec3 point_velocity(const Model& model, const State& state, std::int64_t block, const Vec3& position);
+
+/// Share of the mass of all free blocks whose centroids have gone farther than `distance` (m) relative to the base and
+/// to the last gravity stage. A displacement that is not a number counts as farther.
+double fallen_share(const Model& model, const State& state, double distance);
+
 }  // namespace voussoir

@@ -10,6 +10,7 @@
 #include "solver/effects/effect.h"
 #include "tools/diagnosis/diagnosis_charts.h"
 #include "tools/diagnosis/diagnosis_values.h"
+#include "tools/diagnosis/measured_features.h"
 #include "tools/diagnosis/recorded_charts.h"
 #include "viz/page/html.h"
 #include "viz/page/svg.h"
@@ -396,8 +397,9 @@ std::string recorded_section(const DiagnosisInput& input, const DiagnosisResult&
 }
 
 std::string identification_section(const DiagnosisInput& input) {
-  if (!input.ambient) return "";
-  return heading("Modes found in the recordings") + figure(stabilisation_chart(*input.ambient, *input.spectra)) +
+  if (!input.identification.ambient) return "";
+  return heading("Modes found in the recordings") +
+         figure(stabilisation_chart(*input.identification.ambient, *input.identification.spectra)) +
          note(
              "Stochastic subspace identification: a pole of the model of each order is a full circle where frequency, "
              "damping and shape agree with the order before, else a small square; lines mark the modes that were "
@@ -417,7 +419,7 @@ std::string data_section(const DiagnosisInput& input) {
 }
 
 std::string corrected_section(const DiagnosisInput& input, const DiagnosisResult& result) {
-  const std::string& all = result.corrected;
+  const std::string& all = result.corrected_text;
   const std::size_t own = all.starts_with(input.c.text) ? input.c.text.size() : all.size();
   std::string text = heading("The corrected case, corrected.toml");
   text += fmt::format("<pre>{}", escaped(std::string_view(all).substr(0, own)));

@@ -24,7 +24,8 @@ struct DiagnosisResult {
   std::vector<ModeComparison> modes;
   Location where, where_after;
   std::optional<RecordedMatch> recorded;  // the explicit solver under the recorded motion of the ground
-  std::string corrected;                  // text of corrected.toml
+  Case corrected;                         // the case with what was found
+  std::string corrected_text;             // of corrected.toml
 };
 
 std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before, const Fit& after);

@@ -9,7 +9,7 @@
 #include "solver/identify/driven_modes.h"
 #include "solver/identify/prepare.h"
 #include "solver/run/simulation.h"
-#include "tools/run/history_rows.h"
+#include "solver/step/make_snapshot.h"
 
 namespace voussoir {
 
@@ -22,11 +22,6 @@ Recording part(const Recording& record, Eigen::Index first, Eigen::Index count) 
   Recording cut = record;
   cut.values = record.values.middleRows(first, count);
   return cut;
-}
-
-Eigen::Index column_of(const Recording& record, const std::string& channel) {
-  const auto at = std::find(record.channels.begin(), record.channels.end(), channel);
-  return at == record.channels.end() ? -1 : Eigen::Index(at - record.channels.begin());
 }
 
 /// The ground's acceleration; zero along axes that were not recorded.
@@ -128,7 +123,9 @@ Recording simulate(const DiagnosisInput& input, const Assembly& assembly, const 
     if (run.position().stage == 0) return;
     if (begin < 0.0) begin = run.position().stage_start;
     std::vector<double> row;
-    for (const Instrument& i : all) row.push_back(sensor_velocity(run, i.sensor));
+    for (const Instrument& i : all)
+      row.push_back(
+          i.sensor.direction.dot(point_velocity(run.model(), run.state(), i.sensor.block, i.sensor.position)));
     // Velocities are those of the half step before.
     velocities.times.push_back(sample.time - 0.5 * run.position().dt);
     velocities.rows.push_back(std::move(row));

@@ -20,18 +20,6 @@ double group_displacement(const Simulation& run, const DemandPoint& point) {
 
 }  // namespace
 
-double sensor_velocity(const Simulation& run, const Sensor& sensor) {
-  const std::int32_t body = run.model().body_of_block[sensor.block];
-  const double* motion = &run.state().motion[motion_width * std::size_t(body)];
-  const double* pose = &run.state().pose[pose_width * std::size_t(body)];
-  const Eigen::Quaterniond q(pose[3], pose[4], pose[5], pose[6]);
-  const Body& b = run.model().bodies[body];
-  const Vec3 momentum(motion[3], motion[4], motion[5]);
-  const Vec3 spin = q * (b.inverse_inertia * (q.conjugate() * momentum));
-  const Vec3 arm = q * (sensor.position - b.centroid);
-  return sensor.direction.dot(Vec3(motion[0], motion[1], motion[2]) + spin.cross(arm));
-}
-
 std::string demand_channel(const DemandPoint& point) {
   return fmt::format("demand/{} {}", point.group, "xyz"[point.axis]);
 }
@@ -82,7 +70,7 @@ std::vector<double> history_row(const Simulation& run, const Sample& s) {
     row.push_back(sensor.direction.dot(u));
     row.push_back(
         sensor.direction.dot(displacement_since_built(run.model(), run.state(), sensor.block, sensor.position)));
-    row.push_back(sensor_velocity(run, sensor));
+    row.push_back(sensor.direction.dot(point_velocity(run.model(), run.state(), sensor.block, sensor.position)));
     const Vec3 turn = relative_rotation(run.model(), run.state(), sensor.block);
     for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
   }

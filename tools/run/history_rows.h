@@ -16,9 +16,6 @@ std::vector<DemandPoint> demand_points(const Assembly& assembly);
 /// "demand/GROUP AXIS"
 std::string demand_channel(const DemandPoint& point);
 
-/// Velocity of a sensor's point along its direction at the last half step, m/s.
-double sensor_velocity(const Simulation& run, const Sensor& sensor);
-
 /// All channels, in the order of a row; held_groups: those of fixed blocks.
 std::vector<Channel> history_channels(const Assembly& assembly, const std::vector<std::string>& held_groups);
 std::vector<double> history_row(const Simulation& run, const Sample& sample);

@@ -82,16 +82,7 @@ void RunSession::append_history(const Sample& s) {
 }
 
 double RunSession::fallen_share() const {
-  const Model& model = simulation_->model();
-  double whole = 0.0, gone = 0.0;
-  for (std::size_t i = 0; i < assembly_.blocks.size(); ++i) {
-    const Body& body = model.bodies[std::size_t(model.body_of_block[i])];
-    if (body.fixed) continue;
-    whole += body.mass;
-    const Vec3 u = relative_displacement(model, simulation_->state(), std::int64_t(i), assembly_.blocks[i].centroid);
-    if (!(u.norm() <= request_.fall_displacement)) gone += body.mass;
-  }
-  return whole > 0.0 ? gone / whole : 0.0;
+  return voussoir::fallen_share(simulation_->model(), simulation_->state(), request_.fall_displacement);
 }
 
 /// Of the last gravity stage, whether it ran now or before a restart.

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "solver/base/atomic_file.h"
-#include "solver/base/error.h"
+#include "tools/diagnosis/diagnose_case.h"
 #include "tools/diagnosis/diagnosis_page.h"
 #include "tools/diagnosis/diagnosis_pictures.h"
-#include "tools/diagnosis/diagnosis_report.h"
+#include "tools/diagnosis/measured_features.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {
@@ -15,38 +15,6 @@ namespace voussoir {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The corrected case: the case's own text with what was found. Faults of sensors are the measurement's, not its.
-std::string corrected_text(const DiagnosisInput& input, const std::vector<EffectSetting>& all) {
-  std::vector<EffectSetting> model;
-  std::string faults;
-  for (const EffectSetting& effect : all) {
-    if (effect.name == "sensor_fault")
-      faults += fmt::format("# of the measurement: {}\n", effect.text());
-    else
-      model.push_back(effect);
-  }
-  return fmt::format("{}\n# Added by voussoir diagnose from {}.\n{}{}", input.c.text, input.measured.directory, faults,
-                     effects_text(model));
-}
-
-/// The hypothesis' faults of sensors and motions of supports alone: what the corrected assembly does not hold.
-Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, const Fit& found) {
-  DiagnosisProblem problem = full;
-  problem.base = std::move(corrected);
-  problem.damping = damping;
-  Hypothesis faults;
-  std::vector<double> x;
-  auto at = Eigen::Index(found.hypothesis.materials.size());
-  for (const Candidate& c : found.hypothesis.effects) {
-    using Kind = Candidate::Kind;
-    const bool fault = c.kind == Kind::gain || c.kind == Kind::swap || c.kind == Kind::clock || c.kind == Kind::motion;
-    if (fault) faults.effects.push_back(c);
-    for (std::size_t i = 0; i < c.parameters.size(); ++i, ++at)
-      if (fault) x.push_back(found.best.x[at]);
-  }
-  return fit(problem, faults, Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size())), 0);
-}
 
 /// Case and records so that the folder stands alone.
 void write_corrected(const Case& corrected, const std::string& text, const std::string& directory) {
@@ -58,7 +26,7 @@ void write_corrected(const Case& corrected, const std::string& text, const std::
   fs::rename(directory + "/case.toml", directory + "/corrected.toml");
 }
 
-int diagnose_case(const DiagnosisRequest& request) {
+int diagnose_and_write(const DiagnosisRequest& request) {
   const auto say = [&](const std::string& line) {
     if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
   };
@@ -66,31 +34,9 @@ int diagnose_case(const DiagnosisRequest& request) {
   say(fmt::format("{} measured modes at {}; model error {:.1f} % of frequencies, {:.1f} % of shapes",
                   input.full.features.modes.size(), sensors_used(input.full.features),
                   100.0 * input.coarse.error.frequency, 100.0 * input.coarse.error.shape));
-  if (input.coarsened) say(fmt::format("effects are looked for with block_scale {:.2f}", input.block_scale));
-  DiagnosisResult result;
-  result.diagnosis = diagnose(input.coarse, request.settings, say);
-  Diagnosis& d = result.diagnosis;
-  result.before = input.coarsened ? fit(input.full, {}, {}, 0) : d.plain;
-  // The same effects on the case's own mesh, whose stiffness is a little different: these values are the ones to
-  // report.
-  if (input.coarsened) {
-    say("fitting the values anew on the case's own mesh");
-    d.best = fit(input.full, d.best.hypothesis, d.best.best.x, 3);
-  }
-  const std::string text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
-  const Case corrected = parse_case(text, input.c.path, CaseUse::geometry);
-  result.corrected = text;
-  result.after = rerun(input.full, make_assembly(corrected), corrected.settings.damping.ratio, d.best);
-  result.modes = compare_modes(input.full, result.before, result.after);
-  result.where = locate(input.full, result.before.best);
-  result.where_after = locate(input.full, result.after.best);
-  try {
-    result.recorded = run_recorded(input, d.best, request.run_seconds, request.settings.threads, say);
-  } catch (const std::runtime_error& error) {
-    say(fmt::format("no runs under the recorded motion: {}", error.what()));
-  }
+  const DiagnosisResult result = diagnose_case(input, request, say);
   fs::create_directories(request.directory);
-  write_corrected(corrected, text, request.directory);
+  write_corrected(result.corrected, result.corrected_text, request.directory);
   write_atomically(request.directory + "/diagnosis.json", diagnosis_json(input, result).dump(2) + "\n");
   if (request.page) {
     const std::vector<PagePicture> pictures = draw_diagnosis(input, result, request.directory, say);
@@ -135,7 +81,7 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   request.settings.threads = threads_asked(values);
   request.quiet = values.count("quiet") > 0;
   request.page = values.count("no-page") == 0;
-  return diagnose_case(request);
+  return diagnose_and_write(request);
 }
 
 }  // namespace

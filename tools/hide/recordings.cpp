@@ -1,4 +1,4 @@
-#include "tools/diagnosis/hidden_recordings.h"
+#include "tools/hide/recordings.h"
 
 #include <algorithm>
 #include <cmath>

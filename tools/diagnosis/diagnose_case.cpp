@@ -1,0 +1,72 @@
+#include "tools/diagnosis/diagnose_case.h"
+
+#include <fmt/format.h>
+
+#include "solver/base/error.h"
+
+namespace voussoir {
+
+namespace {
+
+/// The corrected case: the case's own text with what was found. Faults of sensors are the measurement's, not its.
+std::string corrected_text(const DiagnosisInput& input, const std::vector<EffectSetting>& all) {
+  std::vector<EffectSetting> model;
+  std::string faults;
+  for (const EffectSetting& effect : all) {
+    if (effect.name == "sensor_fault")
+      faults += fmt::format("# of the measurement: {}\n", effect.text());
+    else
+      model.push_back(effect);
+  }
+  return fmt::format("{}\n# Added by voussoir diagnose from {}.\n{}{}", input.c.text, input.measured.directory, faults,
+                     effects_text(model));
+}
+
+/// The hypothesis' faults of sensors and motions of supports alone: what the corrected assembly does not hold.
+Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, const Fit& found) {
+  DiagnosisProblem problem = full;
+  problem.base = std::move(corrected);
+  problem.damping = damping;
+  Hypothesis faults;
+  std::vector<double> x;
+  auto at = Eigen::Index(found.hypothesis.materials.size());
+  for (const Candidate& c : found.hypothesis.effects) {
+    using Kind = Candidate::Kind;
+    const bool fault = c.kind == Kind::gain || c.kind == Kind::swap || c.kind == Kind::clock || c.kind == Kind::motion;
+    if (fault) faults.effects.push_back(c);
+    for (std::size_t i = 0; i < c.parameters.size(); ++i, ++at)
+      if (fault) x.push_back(found.best.x[at]);
+  }
+  return fit(problem, faults, Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size())), 0);
+}
+
+}  // namespace
+
+DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisRequest& request,
+                              const std::function<void(const std::string&)>& say) {
+  if (input.coarsened) say(fmt::format("effects are looked for with block_scale {:.2f}", input.block_scale));
+  DiagnosisResult result;
+  result.diagnosis = diagnose(input.coarse, request.settings, say);
+  Diagnosis& d = result.diagnosis;
+  result.before = input.coarsened ? fit(input.full, {}, {}, 0) : d.plain;
+  // The same effects on the case's own mesh, whose stiffness is a little different: these values are the ones to
+  // report.
+  if (input.coarsened) {
+    say("fitting the values anew on the case's own mesh");
+    d.best = fit(input.full, d.best.hypothesis, d.best.best.x, 3);
+  }
+  result.corrected_text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
+  result.corrected = parse_case(result.corrected_text, input.c.path, CaseUse::geometry);
+  result.after = rerun(input.full, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
+  result.modes = compare_modes(input.full, result.before, result.after);
+  result.where = locate(input.full, result.before.best);
+  result.where_after = locate(input.full, result.after.best);
+  try {
+    result.recorded = run_recorded(input, d.best, request.run_seconds, request.settings.threads, say);
+  } catch (const std::runtime_error& error) {
+    say(fmt::format("no runs under the recorded motion: {}", error.what()));
+  }
+  return result;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,188 @@
+#include "tools/diagnosis/identification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "solver/base/error.h"
+#include "solver/diagnosis/response.h"
+#include "solver/identify/driven_modes.h"
+#include "solver/identify/setups.h"
+
+namespace voussoir {
+
+namespace {
+
+/// A complex shape turned so that the sum of squares of its imaginary parts is least.
+Eigen::VectorXcd turned(const Eigen::VectorXcd& shape) {
+  std::complex<double> sum = 0.0;
+  for (const std::complex<double>& v : shape)
+    if (std::isfinite(v.real())) sum += v * v;
+  return shape * std::polar(1.0, -0.5 * std::arg(sum));
+}
+
+void add_shape(const std::vector<std::string>& channels, const Eigen::VectorXcd& shape, const Eigen::VectorXd& std,
+               const std::vector<MeasuredSensor>& sensors, MeasuredMode& mode) {
+  mode.phases = true;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const auto at = std::find(channels.begin(), channels.end(), sensors[s].id);
+    if (at == channels.end()) continue;
+    const auto channel = Eigen::Index(at - channels.begin());
+    if (std::isfinite(shape[channel].real()))
+      mode.shape.push_back({s, shape[channel].real(), std[channel], shape[channel].imag()});
+  }
+}
+
+MeasuredMode named_mode(const Measured& measured, double frequency, double frequency_std, double damping,
+                        double damping_std) {
+  MeasuredMode mode;
+  mode.name = fmt::format("{}", measured.modes.size() + 1);
+  mode.period = 1.0 / frequency;
+  mode.period_std = frequency_std / (frequency * frequency);
+  mode.damping = damping;
+  mode.damping_std = damping_std;
+  return mode;
+}
+
+/// Channels that are in some recordings only, where these are taken together.
+void set_aside_dropped(Measured& measured) {
+  for (const DroppedChannel& dropped : dropped_channels(measured.records))
+    measured.set_aside.push_back({fmt::format("channel {}", dropped.name), dropped.reason});
+}
+
+/// A shape over `from` as one over `to`, NaN where it is not known.
+Eigen::VectorXcd at_channels(const Eigen::VectorXcd& shape, const std::vector<std::string>& from,
+                             const std::vector<std::string>& to) {
+  Eigen::VectorXcd out = Eigen::VectorXcd::Constant(Eigen::Index(to.size()), {NAN, NAN});
+  for (std::size_t c = 0; c < to.size(); ++c)
+    if (const auto at = std::find(from.begin(), from.end(), to[c]); at != from.end())
+      out[Eigen::Index(c)] = shape[at - from.begin()];
+  return out;
+}
+
+/// The channels that all setups have, or words for none.
+std::string reference_words(const SsiResult& found) {
+  std::vector<std::string> names;
+  for (const int c : found.references) names.push_back(found.channels[std::size_t(c)]);
+  if (names.empty()) return "channels that some of them share";
+  return fmt::format("the references {}", fmt::join(names, ", "));
+}
+
+/// A case that expects next to no damping may find it.
+SsiSettings ssi_settings(const Case& c) {
+  SsiSettings settings;
+  const DampingSettings& damping = c.settings.damping;
+  if (damping.kind != DampingSettings::Kind::none && damping.ratio > 0.0)
+    settings.least_damping = std::min(settings.least_damping, 0.2 * damping.ratio);
+  return settings;
+}
+
+/// Modes under an unknown excitation.
+Identification identify_ambient(Measured& measured, const Case& c) {
+  const auto ambient = std::make_shared<SsiResult>(identify_modes(measured.records, ssi_settings(c)));
+  // Of several setups that of the most channels: a second look at frequencies.
+  const std::vector<Setup> setups = setups_of(measured.records);
+  const Setup& widest = *std::max_element(setups.begin(), setups.end(), [](const Setup& a, const Setup& b) {
+    return a.recordings.front().channels.size() < b.recordings.front().channels.size();
+  });
+  const SsiResult& found = *ambient;
+  const auto decomposed =
+      std::make_shared<Fdd>(decompose_spectra(found.setups > 1 ? widest.recordings : measured.records));
+  const Fdd& spectra = *decomposed;
+  for (const PoorChannel& poor : found.poor)
+    measured.set_aside.push_back({fmt::format("channel {}", found.channels[std::size_t(poor.channel)]), poor.reason});
+  for (const RejectedMode& aside : found.set_aside)
+    measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+  if (found.setups > 1)
+    measured.remarks.push_back(
+        fmt::format("{} setups, whose shapes are put together by {}", found.setups, reference_words(found)));
+  else
+    set_aside_dropped(measured);
+  for (const IdentifiedMode& m : found.modes) {
+    MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
+    add_shape(found.channels, turned(m.shape), m.shape_std, measured.sensors, mode);
+    const FddPeak peak = peak_near(spectra, m.frequency, at_channels(m.shape, found.channels, spectra.channels));
+    measured.remarks.push_back(fmt::format(
+        "mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, m.frequency,
+        m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, m.hits,
+        peak.found
+            ? fmt::format("frequency-domain decomposition: {:.3f} Hz, MAC {:.2f}", peak.frequency, peak.assurance)
+            : std::string("no peak of the frequency-domain decomposition")));
+    measured.modes.push_back(std::move(mode));
+  }
+  return {ambient, decomposed};
+}
+
+/// Windows as long as the number of averages allows that three inputs need: a single earthquake is short. Up to half as
+/// high again as as many modes of the model as are used: of more than a dozen the poles are not all found, and what is
+/// missing pulls at the others.
+TransferSettings transfer_settings(const Measured& measured, const Assembly& assembly, int modes) {
+  EigenMemory memory;
+  const Response plain = response(assembly, linear_model(assembly), {}, modes, memory);
+  double longest = 0.0, dt = 0.0;
+  for (const Recording& r : measured.records) longest = std::max(longest, r.duration()), dt = r.dt;
+  TransferSettings settings;
+  settings.window = longest / 5.0;
+  settings.highest_frequency = std::min({20.0, 0.4 / dt, 1.5 * std::exp(plain.log_frequency.tail(1)[0])});
+  return settings;
+}
+
+/// Modes under a recorded motion of the ground.
+void identify_driven(Measured& measured, const TransferSettings& settings) {
+  const DrivenModes found = driven_modes(transfer_functions(measured.records, settings));
+  for (const UndrivenMode& aside : found.set_aside)
+    measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+  for (const DrivenMode& m : found.modes) {
+    MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
+    add_shape(found.outputs, m.shape, m.shape_std, measured.sensors, mode);
+    std::string parts;
+    for (std::size_t i = 0; i < found.inputs.size(); ++i) {
+      const auto axis = Eigen::Index(found.inputs[i].back() - 'x'), input = Eigen::Index(i);
+      mode.participation[axis] = m.participation[input];
+      mode.participation_std[axis] = m.participation_std[input];
+      parts += fmt::format("{} {} {:.2f} ± {:.2f}", i ? "," : "", "xyz"[axis], std::abs(m.participation[input]),
+                           m.participation_std[input]);
+    }
+    measured.remarks.push_back(
+        fmt::format("mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, driven by the ground "
+                    "along{}",
+                    mode.name, m.frequency, m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, parts));
+    measured.modes.push_back(std::move(mode));
+  }
+  measured.remarks.push_back(fmt::format(
+      "these modes explain {:.0f} % of the transfer functions from the ground's motion", 100.0 * found.explained));
+}
+
+bool names_ground(const std::vector<Recording>& recordings) {
+  return std::any_of(recordings.begin(), recordings.end(), [](const Recording& r) {
+    return std::any_of(r.channels.begin(), r.channels.end(), is_base_channel);
+  });
+}
+
+}  // namespace
+
+Identification identify(Measured& measured, const Case& c, const Assembly& assembly, int most) {
+  Identification identification;
+  if (!measured.modes.empty() || measured.records.empty()) return identification;
+  if (names_ground(measured.records) && has_base_motion(measured.records)) {
+    check_in_common(measured.records);
+    set_aside_dropped(measured);
+    identify_driven(measured, transfer_settings(measured, assembly, most));
+  } else {
+    identification = identify_ambient(measured, c);
+  }
+  if (int(measured.modes.size()) > most) {
+    for (std::size_t m = std::size_t(most); m < measured.modes.size(); ++m)
+      measured.set_aside.push_back({fmt::format("mode {}", measured.modes[m].name),
+                                    fmt::format("only the {} lowest modes are used; see --most-modes", most)});
+    measured.modes.resize(std::size_t(most));
+  }
+  if (measured.modes.empty())
+    throw InputError("{}: no mode can be identified from the recordings; record longer, or give modes.csv",
+                     measured.directory);
+  return identification;
+}
+
+}  // namespace voussoir
