@@ -2,27 +2,25 @@
 
 #include <dlfcn.h>
 
-#include <filesystem>
-
 #include "solver/base/error.h"
+#include "solver/base/shipped.h"
 
 namespace voussoir {
 
 namespace {
 
 /// Gmsh brings a graphical toolkit along that reads files of the user's as it is loaded, and takes a tenth of a second:
-/// it stays out until there is something to mesh. Beside the program, or where it was built.
+/// it stays out until there is something to mesh.
+constexpr const char* mesher_name = "libvoussoir_mesher.so";
+
 void* mesher() {
   static void* const library = [] {
-    std::error_code error;
-    const std::filesystem::path name = std::filesystem::path(VOUSSOIR_MESHER).filename();
-    const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
-    void* found = error ? nullptr : dlopen(beside.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!found) found = dlopen(VOUSSOIR_MESHER, RTLD_NOW | RTLD_LOCAL);
+    // A path with a slash: dlopen() looks for a bare name where the system keeps its libraries.
+    const std::string file = shipped(mesher_name);
+    void* found =
+        dlopen(file.find('/') == std::string::npos ? ("./" + file).c_str() : file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!found)
-      throw RunError(
-          "the library that meshes the fill cannot be loaded: {}; build all of the program, and keep {} beside it",
-          dlerror(), name.string());
+      throw RunError("the library that meshes the fill cannot be loaded: {}; build all of the program anew", dlerror());
     return found;
   }();
   return library;
@@ -31,8 +29,7 @@ void* mesher() {
 template <class Function>
 Function* look_up(const char* name) {
   auto* const function = reinterpret_cast<Function*>(dlsym(mesher(), name));
-  if (!function)
-    throw RunError("{} has no {}: it is of another version; build all of the program", VOUSSOIR_MESHER, name);
+  if (!function) throw RunError("{} has no {}: it is of another version; build all of the program", mesher_name, name);
   return function;
 }
 

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "geometry/generate.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
+#include "solver/base/suggestion.h"
 
 namespace voussoir {
 
@@ -89,7 +91,7 @@ void check_materials(const Generator& generator, const GeneratorInput& input) {
     positive("shear_modulus", m.shear_modulus);
     if (!(m.dilation_angle >= 0.0 && m.dilation_angle <= m.friction_angle)) {
       throw InputError("[materials.{}] dilation_angle = {:g} degrees: 0 to the friction angle, {:g}, is needed",
-                       material.name, m.dilation_angle * 180.0 / M_PI, m.friction_angle * 180.0 / M_PI);
+                       material.name, m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
     }
   }
 }
@@ -112,14 +114,15 @@ const std::vector<Generator>& generators() {
   return all;
 }
 
-const Generator& find_generator(const std::string& name) {
+const Generator& find_generator(const std::string& name, const char* where) {
   std::vector<std::string> names;
   for (const Generator& generator : generators()) {
     if (generator.name == name) return generator;
     names.push_back(generator.name);
   }
-  throw InputError("[bridge] generator = \"{}\": there is none of that name; the generators are: {}", name,
-                   joined(names));
+  const std::string near = nearest_word(name, names);
+  throw InputError("{} \"{}\": there is none of that name{}; the generators are: {}", where, name,
+                   near.empty() ? near : fmt::format(", did you mean \"{}\"?", near), joined(names));
 }
 
 GeneratorInput default_input(const Generator& generator) {
@@ -158,7 +161,7 @@ std::string describe(const Generator& generator) {
       "--- |\n";
   for (const Material& m : generator.materials) {
     text += fmt::format("| `{}` | {:g} | {:g} | {:g} | {:g} | {:g} | {:g} |\n", m.name, m.density, m.youngs_modulus,
-                        m.shear_modulus, m.tensile_strength, m.cohesion, m.friction_angle * 180.0 / M_PI);
+                        m.shear_modulus, m.tensile_strength, m.cohesion, m.friction_angle * 180.0 / pi);
   }
   return text;
 }

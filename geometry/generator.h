@@ -51,8 +51,8 @@ struct Generator {
 };
 
 const std::vector<Generator>& generators();
-/// Throws InputError listing the known names when there is none of that name.
-const Generator& find_generator(const std::string& name);
+/// Throws InputError listing the known names when there is none of that name; `where` is where it was given.
+const Generator& find_generator(const std::string& name, const char* where = "[bridge] generator =");
 /// The defaults of a generator as an input to build().
 GeneratorInput default_input(const Generator& generator);
 

@@ -171,8 +171,11 @@ std::size_t TableReader::word(const std::string& key, const std::vector<std::str
   if (!find(key, fmt::format("one of: {}", fmt::join(words, ", ")), usual)) return fallback;
   const std::string value = text(key, "");
   const auto found = std::find(words.begin(), words.end(), value);
-  if (found == words.end())
-    fail(key, fmt::format("is \"{}\": expected one of: {}", shown(value), fmt::join(words, ", ")));
+  if (found == words.end()) {
+    const std::string near = nearest_word(value, words);
+    fail(key, fmt::format("is \"{}\": {}expected one of: {}", shown(value),
+                          near.empty() ? near : fmt::format("did you mean \"{}\"? ", near), fmt::join(words, ", ")));
+  }
   return std::size_t(found - words.begin());
 }
 

@@ -11,7 +11,7 @@
 #include "solver/base/error.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 Assembly build(const std::string& name, const std::map<std::string, double>& values = {}) {
   GeneratorInput input = default_input(find_generator(name));
@@ -53,6 +53,17 @@ TEST(Generators, DefaultsAreWithinTheirRangesAndNamesAreUnique) {
   }
   for (const char* name : {"cs1", "cs2", "arch", "wall", "column", "filled-arch"})
     EXPECT_EQ(names.count(name), 1u) << name;
+}
+
+TEST(Generators, AMisspeltNameIsSaidWhereItStands) {
+  try {
+    find_generator("archh", "--keys");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("--keys \"archh\": there is none of that name, did you mean \"arch\"?"),
+              0u)
+        << error.what();
+  }
 }
 
 TEST(Generators, UnknownNameListsTheKnownOnes) {
@@ -223,5 +234,5 @@ TEST(Arch, StandsOnButtresses) {
   EXPECT_NE(error_of("arch", slim).find("buttress_width = 1 m is less than the 1.5 m"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

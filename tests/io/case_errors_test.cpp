@@ -7,7 +7,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A case text, and what the message must hold.
 struct Wrong {
@@ -200,7 +200,7 @@ const std::vector<Wrong> table = {
      {"c.toml:4: 'kn'", "is 0: must be above 0 to"}},
     {"JointKind",
      head + "[joints.masonry-masonry]\nkind = \"plastic\"\n" + gravity,
-     {"c.toml:4: 'kind'", "is \"plastic\": expected one of: brittle, softening, elastic"}},
+     {"c.toml:4: 'kind'", "is \"plastic\": did you mean \"elastic\"? expected one of: brittle, softening, elastic"}},
     {"SofteningEnergy",
      head + "[joints.masonry-masonry]\nkind = \"softening\"\n" + gravity,
      {"c.toml:3: ", "needs 'fracture_energy'"}},
@@ -219,6 +219,9 @@ const std::vector<Wrong> table = {
     {"StageKind",
      head + "[[stage]]\nkind = \"static\"\n",
      {"c.toml:4: 'kind'", "expected one of: gravity, motion, free"}},
+    {"StageKindMisspelt",
+     head + "[[stage]]\nkind = \"gravty\"\n",
+     {"c.toml:4: 'kind'", "is \"gravty\": did you mean \"gravity\"? expected one of: gravity, motion, free"}},
     {"MotionDuration",
      head + "[[stage]]\nkind = \"motion\"\n",
      {"c.toml:3: [[stage]] number 1 needs 'duration' (a number in s)"}},
@@ -375,5 +378,5 @@ TEST(Suggestion, NearestWordOrList) {
   EXPECT_EQ(nearest_word(std::string(2000000, 'r'), known), "");  // not compared letter by letter
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

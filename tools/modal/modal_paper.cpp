@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
 
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/shipped.h"
 #include "tools/modal/modal_report.h"
 #include "tools/modal/modal_source.h"
 
@@ -45,9 +45,7 @@ std::string error_text(double found, double expected, double tolerance, bool& mi
 }
 
 std::string case_file(const std::string& name) {
-  std::error_code ignored;
-  const std::string here = "cases/" + name + ".toml";
-  return std::filesystem::is_regular_file(here, ignored) ? here : VOUSSOIR_SOURCE_DIR "/" + here;
+  return shipped("cases/" + name + ".toml");
 }
 
 std::vector<PaperRow> rows_of(const std::string& bridge, const std::string& ends) {

@@ -11,6 +11,7 @@
 #include "io/case/checks.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/shipped.h"
 #include "solver/base/suggestion.h"
 #include "tools/ladder/rung.h"
 #include "tools/run/run_directory.h"
@@ -24,11 +25,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the rungs of the ladder are: beside the present folder, or in the source tree the program was built from.
+/// Where the rungs of the ladder are.
 std::string ladder_folder() {
-  std::error_code ignored;
-  const std::string here = "cases/validation";
-  return fs::is_directory(here, ignored) ? here : VOUSSOIR_SOURCE_DIR "/" + here;
+  return shipped("cases/validation");
 }
 
 /// A rung's name is its file's; case.toml stands for its folder.
@@ -256,7 +255,7 @@ int check(const std::vector<std::string>& arguments) {
   const Climb how = {folder.path, threads_asked(values), values.count("long") > 0};
   const std::vector<CheckRow> rows = climb_all(steps, how, values.count("quiet") > 0);
   if (folder.keep) write_atomically(folder.path + "/check.json", check_json(rows).dump(2) + "\n");
-  if (!table.empty()) write_atomically(table, check_markdown(rows, VOUSSOIR_SOURCE_DIR));
+  if (!table.empty()) write_atomically(table, check_markdown(rows, ladder_folder()));
   const auto good = [](const CheckRow& row) { return row.pass() || row.known_miss(); };
   return std::all_of(rows.begin(), rows.end(), good) ? 0 : 1;
 }

@@ -89,7 +89,7 @@ int generate(const std::vector<std::string>& arguments) {
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   if (values.count("keys")) {
-    fmt::print("{}\n", describe(find_generator(values["keys"].as<std::string>())));
+    fmt::print("{}\n", describe(find_generator(values["keys"].as<std::string>(), "--keys")));
     return 0;
   }
   if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
