@@ -130,7 +130,7 @@ Polygon loop_of(const Convex& shape, int face) {
   return out;
 }
 
-Vec3 mean_of(const Polygon& points) {
+Vec3 plain_mean(const Polygon& points) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p;
   return sum / static_cast<double>(points.size());
@@ -148,7 +148,7 @@ int facing(const Convex& shape, const Vec3& normal, const Vec3& near) {
     const double cosine = shape.planes[f].normal.dot(normal);
     bool take = best < 0 || cosine < best_cosine - k_tie;
     if (!take && cosine <= best_cosine + k_tie) {
-      const Vec3 here = mean_of(loop_of(shape, f)) - near, there = mean_of(loop_of(shape, best)) - near;
+      const Vec3 here = plain_mean(loop_of(shape, f)) - near, there = plain_mean(loop_of(shape, best)) - near;
       const double difference = here.norm() - there.norm();
       take = std::abs(difference) > k_tie ? difference < 0.0 : compare(here, there) < 0;
     }
@@ -187,7 +187,7 @@ Patch clip(const Convex& reference, int face, const Convex& other) {
   const Vec3& n = plane.normal;
   const Polygon window = loop_of(reference, face);
   Patch out;
-  out.facing = facing(other, n, mean_of(window));
+  out.facing = facing(other, n, plain_mean(window));
   const Plane& opposite = other.planes[out.facing];
   const double cosine = opposite.normal.dot(n);
   if (cosine > -k_steep) {
@@ -258,7 +258,7 @@ Convex make_convex(const Polyhedron& shape) {
     const auto same = [&](const Vec3& known) { return known.cross(unit).norm() < k_parallel; };
     if (std::none_of(out.directions.begin(), out.directions.end(), same)) out.directions.push_back(unit);
   }
-  if (!shape.vertices.empty()) out.centre = mean_of(shape.vertices);
+  if (!shape.vertices.empty()) out.centre = plain_mean(shape.vertices);
   return out;
 }
 

@@ -1,16 +1,16 @@
 // A fill that was meshed elsewhere: put into an assembly, with its patches.
 #pragma once
-#include <numbers>
 
 #include "geometry/fill_joints.h"
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
 /// What the patches between stones and such a fill are like: friction only.
 struct FillInterface {
-  double kn = 0.0, ks = 0.0;                        // Pa/m of every patch; both 0: from the stones' moduli
-  double share = 0.20;                              // then: of E/dc and G/dc between two such stones
-  double friction = 35.0 * std::numbers::pi / 180;  // rad
+  double kn = 0.0, ks = 0.0;          // Pa/m of every patch; both 0: from the stones' moduli
+  double share = 0.20;                // then: of E/dc and G/dc between two such stones
+  double friction = 35.0 * pi / 180;  // rad
   JointSearch search;
 };
 

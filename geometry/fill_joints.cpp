@@ -102,7 +102,7 @@ void search_pair(const Polyhedron& shape, const Triangle& triangle, const JointS
   }
 }
 
-std::string place(const Vec3& p) {
+std::string point_text(const Vec3& p) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x(), p.y(), p.z());
 }
 
@@ -117,7 +117,7 @@ void check_cover(const Assembly& assembly, const std::vector<Triangle>& triangle
       throw InputError(
           "{} and {} both cover the fill's surface at {} m: the stones lie in one another, or the fill in one of them; "
           "move them apart",
-          block_label(assembly, other[t]), block_label(assembly, joint.block), place(triangles[t].centre));
+          block_label(assembly, other[t]), block_label(assembly, joint.block), point_text(triangles[t].centre));
     }
     other[t] = joint.block;
   }
@@ -147,7 +147,7 @@ void check_touch(const Assembly& assembly) {
   throw InputError(
       "a part of the fill, from {} to {} m, does not touch the masonry: its surface lies on no face of a stone; check "
       "the units (metres) and the place of the mesh, or raise the gap tolerance",
-      place(box.low), place(box.high));
+      point_text(box.low), point_text(box.high));
 }
 
 void count(FillJointReport& report, const FillJoint& joint, double gap) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/fill_mesh.h"
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
@@ -59,7 +60,7 @@ std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim
   add("  longest edge", fmt::format("{:.4f} m{}", q.longest_edge, bound));
   add("  shortest edge", fmt::format("{:.4f} m", q.shortest_edge));
   add("  edge ratio", fmt::format("{:.2f}, the worst of a tetrahedron", q.edge_ratio));
-  add("  smallest angle", fmt::format("{:.2f} degrees between two faces", q.smallest_angle * 180.0 / M_PI));
+  add("  smallest angle", fmt::format("{:.2f} degrees between two faces", q.smallest_angle * 180.0 / pi));
   add("  smallest height", fmt::format("{:.4f} m, at ({:.2f}, {:.2f}, {:.2f}) m", q.smallest_height, q.lowest.x(),
                                        q.lowest.y(), q.lowest.z()));
   return lines;

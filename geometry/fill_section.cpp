@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "solver/base/constants.h"
+
 namespace voussoir {
 
 namespace {
@@ -129,7 +131,7 @@ class Shortening {
     for (const double step : {0.08, 0.03, 0.01, 0.003})
       for (int d = 0; d < 8; ++d) {
         const Vec3 was = place;
-        place += step * bound_ * Vec3(std::cos(0.25 * M_PI * d), 0.0, std::sin(0.25 * M_PI * d));
+        place += step * bound_ * Vec3(std::cos(0.25 * pi * d), 0.0, std::sin(0.25 * pi * d));
         const double now = bad_around(node);
         if (now < least - gain)
           least = now, moved = true;

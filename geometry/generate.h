@@ -1,6 +1,7 @@
 // The generators, one file each (generate_NAME.cpp; cs1 and cs2 share generate_bridge.cpp); listed in generator.cpp.
 #pragma once
 #include "geometry/generator.h"
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
@@ -13,9 +14,5 @@ Generator filled_arch_generator();  // strip of an arch bridge with a deformable
 
 /// Materials of the case in the order of the generator's own list, so that indices are known to the generator.
 std::vector<Material> in_order(const std::vector<Material>& defaults, const GeneratorInput& input);
-
-inline double radians(double degrees) {
-  return degrees * 3.14159265358979323846 / 180.0;
-}
 
 }  // namespace voussoir

@@ -157,7 +157,7 @@ Buttress read_buttress(const GeneratorInput& in, double least) {
   return b;
 }
 
-Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+Assembly build_arch(const std::vector<Material>& defaults, const GeneratorInput& in) {
   const HalfRing half = read_half(in);
   const int n = int(in("voussoirs"));
   const double width = in("width");
@@ -215,7 +215,7 @@ Generator arch_generator() {
       {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
       {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 10e9, 4e9, 0.0, 0.0, radians(35.0)}};
-  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
+  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build_arch(materials, in); };
   return generator;
 }
 

@@ -11,6 +11,7 @@
 #include "geometry/generate.h"
 #include "geometry/masonry_parts.h"
 #include "geometry/stiffness.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -21,7 +22,7 @@ int voussoirs(const GeneratorInput& in) {
   const int given = int(in("voussoirs"));
   if (given > 0) return given;
   // An even number, so that the crown is a joint and the vault its own mirror image.
-  const double middle = M_PI * 0.5 * (in("clear_span") + in("ring_thickness"));
+  const double middle = pi * 0.5 * (in("clear_span") + in("ring_thickness"));
   return 2 * std::max(2, int(std::ceil(0.5 * middle / (in("voussoir_length") * in("block_scale")) - 1e-9)));
 }
 
@@ -38,7 +39,7 @@ void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
     return Vec3(in("block_scale") * Vec3(in(length), in(width), in(height)));
   };
   bridge.voussoirs = voussoirs(in);
-  bridge.voussoir = Vec3(M_PI * 0.5 * (in("clear_span") + in("ring_thickness")) / bridge.voussoirs,
+  bridge.voussoir = Vec3(pi * 0.5 * (in("clear_span") + in("ring_thickness")) / bridge.voussoirs,
                          in("voussoir_width") * in("block_scale"), in("ring_thickness"));
   bridge.block = size("block_length", "block_width", "block_height");
   bridge.fill = size("fill_length", "fill_width", "fill_height");
@@ -184,7 +185,7 @@ void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const 
   assign_fill_stiffness(assembly, rules, in);
 }
 
-Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+Assembly build_bridge(const std::vector<Material>& defaults, const GeneratorInput& in) {
   check_bridge(in);
   Bridge bridge = read_bridge(in);
   bridge.vault = index_of(defaults, "vault");
@@ -219,7 +220,7 @@ Generator bridge_generator(const std::string& name, const std::string& help, std
   generator.parameters = std::move(parameters);
   generator.choices = std::move(choices);
   generator.materials = materials;
-  generator.build = [materials](const GeneratorInput& in) { return build(materials, in); };
+  generator.build = [materials](const GeneratorInput& in) { return build_bridge(materials, in); };
   return generator;
 }
 

@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace {
 
-Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+Assembly build_column(const std::vector<Material>& defaults, const GeneratorInput& in) {
   const int n = int(in("blocks"));
   const Vec3 half(0.5 * in("width"), 0.5 * in("depth"), 0.0);
   const double height = in("block_height");
@@ -45,7 +45,7 @@ Generator column_generator() {
                           {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
                           {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};
-  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
+  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build_column(materials, in); };
   return generator;
 }
 

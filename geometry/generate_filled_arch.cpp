@@ -158,7 +158,7 @@ void smooth_walls(Assembly& assembly, const Strip& s, const Material& soil) {
     if (is_wall(joint.block)) smooth(joint);
 }
 
-Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+Assembly build_filled_arch(const std::vector<Material>& defaults, const GeneratorInput& in) {
   const Strip s = read_strip(in);
   Layout layout;
   const Unit unit = {Component::arch, 0, masonry, {1.0, 2.0 * s.half, 1.0}};
@@ -208,7 +208,9 @@ Generator filled_arch_generator() {
   generator.materials = {{"masonry", 2039.0, 4.5e9, 1.8e9, 0.0, 0.0, radians(31.0)},
                          {"backfill", 2039.0, 50e6, 19.2e6, 0.0, 7e3, friction},
                          {"wall", 2000.0, 50e6, 19.2e6, 0.0, 0.0, 0.0}};
-  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
+  generator.build = [materials = generator.materials](const GeneratorInput& in) {
+    return build_filled_arch(materials, in);
+  };
   return generator;
 }
 

@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace {
 
-Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
+Assembly build_wall(const std::vector<Material>& defaults, const GeneratorInput& in) {
   const Vec3 block(in("block_length"), in("thickness"), in("block_height"));
   const double length = in("length_blocks") * block.x(), height = in("courses") * block.z(), half = 0.5 * block.y();
   Layout layout;
@@ -47,7 +47,7 @@ Generator wall_generator() {
                           {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
                           {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};
-  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
+  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build_wall(materials, in); };
   return generator;
 }
 

@@ -16,32 +16,32 @@ namespace {
 constexpr double k_exact = 1e-9;    // m: gaps below this are rounding
 constexpr double k_watched = 10.0;  // opposed faces up to this many gaps apart are reported as left open
 
-struct Face {
+struct StoneFace {
   Vec3 normal, centre;
   double radius = 0.0;  // of the sphere about `centre` that holds the face
   Box box;
 };
 
-struct Cell {
+struct StoneCell {
   std::int64_t block = 0;
   std::int32_t cell = 0;
   const Polyhedron* shape = nullptr;
-  std::vector<Face> faces;
+  std::vector<StoneFace> faces;
 };
 
-Face make_face(const Polyhedron& shape, int face) {
+StoneFace make_face(const Polyhedron& shape, int face) {
   const Polygon polygon = face_polygon(shape, face);
-  Face out{polygon_normal(polygon), polygon_centroid(polygon), 0.0, bounding_box(polygon)};
+  StoneFace out{polygon_normal(polygon), polygon_centroid(polygon), 0.0, bounding_box(polygon)};
   for (const Vec3& p : polygon) out.radius = std::max(out.radius, (p - out.centre).norm());
   return out;
 }
 
-std::vector<Cell> collect_cells(const Assembly& assembly) {
-  std::vector<Cell> cells;
+std::vector<StoneCell> collect_cells(const Assembly& assembly) {
+  std::vector<StoneCell> cells;
   for (std::size_t b = 0; b < assembly.blocks.size(); ++b) {
     const Block& block = assembly.blocks[b];
     for (std::size_t c = 0; c < block.cells.size(); ++c) {
-      Cell& cell = cells.emplace_back();
+      StoneCell& cell = cells.emplace_back();
       cell.block = static_cast<std::int64_t>(b);
       cell.cell = static_cast<std::int32_t>(c);
       cell.shape = &block.cells[c];
@@ -69,7 +69,7 @@ bool boxes_apart(const Box& a, const Box& b, double distance) {
 }
 
 /// Whether two faces may be a joint: a cheap test that lets all real ones through.
-bool opposed(const Face& a, const Face& b, double distance, double angle) {
+bool opposed(const StoneFace& a, const StoneFace& b, double distance, double angle) {
   if (a.normal.dot(b.normal) > -0.5 || (a.normal + b.normal).norm() > angle) return false;
   const double slack = distance + angle * (a.radius + b.radius);
   const Vec3 d = b.centre - a.centre;
@@ -78,7 +78,7 @@ bool opposed(const Face& a, const Face& b, double distance, double angle) {
 }
 
 /// The overlap of two opposed faces on the plane midway between them, and how far they are apart there.
-struct Overlay {
+struct FaceOverlay {
   Polygon polygon;
   Vec3 normal;
   double area = 0.0, gap = 0.0;
@@ -90,9 +90,9 @@ Polygon projected(const Polyhedron& shape, int face, const Vec3& on, const Vec3&
   return out;
 }
 
-Overlay overlay(const Cell& a, int face_a, const Cell& b, int face_b) {
-  const Face &fa = a.faces[face_a], &fb = b.faces[face_b];
-  Overlay out;
+FaceOverlay overlay(const StoneCell& a, int face_a, const StoneCell& b, int face_b) {
+  const StoneFace &fa = a.faces[face_a], &fb = b.faces[face_b];
+  FaceOverlay out;
   out.normal = (fa.normal - fb.normal).normalized();
   const Vec3 on = 0.5 * (fa.centre + fb.centre);
   const Polygon pa = projected(*a.shape, face_a, on, out.normal);
@@ -111,14 +111,14 @@ Overlay overlay(const Cell& a, int face_a, const Cell& b, int face_b) {
 }
 
 /// Of a long strip its width.
-double width_of(const Overlay& overlay) {
+double width_of(const FaceOverlay& overlay) {
   double outline = 0.0;
   for (std::size_t i = 0; i < overlay.polygon.size(); ++i)
     outline += (overlay.polygon[(i + 1) % overlay.polygon.size()] - overlay.polygon[i]).norm();
   return outline > 0.0 ? 2.0 * overlay.area / outline : 0.0;
 }
 
-bool is_sliver(const Overlay& overlay, const JointSearch& search) {
+bool is_sliver(const FaceOverlay& overlay, const JointSearch& search) {
   return overlay.area < search.smallest_area ||
          (search.smallest_width > 0.0 && width_of(overlay) < search.smallest_width);
 }
@@ -130,12 +130,12 @@ struct Found {
   std::optional<double> open;
 };
 
-Found search_pair(const Cell& a, const Cell& b, const JointSearch& search) {
+Found search_pair(const StoneCell& a, const StoneCell& b, const JointSearch& search) {
   Found out;
   for (int i = 0; i < static_cast<int>(a.faces.size()); ++i)
     for (int j = 0; j < static_cast<int>(b.faces.size()); ++j) {
       if (!opposed(a.faces[i], b.faces[j], k_watched * search.gap, search.angle)) continue;
-      Overlay found = overlay(a, i, b, j);
+      FaceOverlay found = overlay(a, i, b, j);
       if (is_sliver(found, search) || std::abs(found.gap) > k_watched * search.gap) continue;
       if (std::abs(found.gap) > search.gap) {
         if (found.gap > 0.0) out.open = std::min(out.open.value_or(found.gap), found.gap);
@@ -215,13 +215,13 @@ std::vector<const Polyhedron*> collect_shapes(const Assembly& assembly) {
 
 JointReport find_joints(Assembly& assembly, const JointSearch& search) {
   const std::vector<Box> boxes = collect_boxes(assembly);
-  const std::vector<Cell> cells = collect_cells(assembly);
+  const std::vector<StoneCell> cells = collect_cells(assembly);
   const std::vector<const Polyhedron*> shapes = collect_shapes(assembly);
   OverlapCheck overlaps(shapes, search.gap);
   JointReport report;
   assembly.joints.clear();
   for (const auto& [i, j] : neighbours(boxes, k_watched * search.gap)) {
-    const Cell &a = cells[i], &b = cells[j];  // i < j, so a.block <= b.block
+    const StoneCell &a = cells[i], &b = cells[j];  // i < j, so a.block <= b.block
     if (a.block == b.block || (assembly.blocks[a.block].fixed && assembly.blocks[b.block].fixed)) continue;
     Found found = search_pair(a, b, search);
     count(report, found);

@@ -4,6 +4,7 @@
 #include <boost/iterator/counting_iterator.hpp>
 #include <cmath>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -188,7 +189,7 @@ Ring make_semicircle(const Vec3& centre, double inner_radius, double outer_radiu
   for (int i = 0; i <= wedges; ++i) {
     // The right half mirrors the left one, so that both have the same bits.
     const int j = std::min(i, wedges - i);
-    const double angle = M_PI * j / wedges;
+    const double angle = pi * j / wedges;
     const bool crown = 2 * i == wedges;
     const double c = crown ? 0.0 : (i == j ? -1.0 : 1.0) * std::cos(angle), s = crown ? 1.0 : std::sin(angle);
     ring.intrados.push_back(point(inner_radius, c, s));

@@ -6,7 +6,7 @@
 #include <span>
 
 namespace voussoir {
-namespace {
+inline namespace boxes {
 
 /// The axis along which the box centres differ most.
 int longest_axis(const std::vector<Box>& boxes) {
@@ -99,7 +99,7 @@ Sweep sweep_along(int x, const std::vector<Box>& boxes) {
   return sweep;
 }
 
-}  // namespace
+}  // namespace boxes
 
 std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, double distance) {
   std::vector<std::pair<int, int>> out;

@@ -14,7 +14,7 @@ struct CellFace {
   Vec3 normal, centre;
 };
 
-CellFace make_face(const Polyhedron& cell, int face) {
+CellFace make_cell_face(const Polyhedron& cell, int face) {
   CellFace out{face_polygon(cell, face), {}, {}};
   out.normal = polygon_normal(out.polygon);
   out.centre = polygon_centroid(out.polygon);
@@ -50,7 +50,7 @@ std::vector<Polygon> outer_faces(const Block& block, double gap) {
   std::vector<std::vector<CellFace>> cells;
   for (const Polyhedron& cell : block.cells) {
     auto& faces = cells.emplace_back();
-    for (std::size_t f = 0; f < cell.faces.size(); ++f) faces.push_back(make_face(cell, static_cast<int>(f)));
+    for (std::size_t f = 0; f < cell.faces.size(); ++f) faces.push_back(make_cell_face(cell, static_cast<int>(f)));
   }
   std::vector<Polygon> out;
   for (std::size_t c = 0; c < cells.size(); ++c)

@@ -4,12 +4,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
+
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
 double to_radians(double degrees) {
-  return degrees * (std::numbers::pi / 180.0);
+  return degrees * (pi / 180.0);
 }
 
 std::string number_text(double value) {
@@ -19,7 +20,7 @@ std::string number_text(double value) {
 }
 
 std::string degrees_text(double radians) {
-  const double degrees = radians * (180.0 / std::numbers::pi);
+  const double degrees = radians * (180.0 / pi);
   for (int digits = 6; digits <= 17; ++digits) {
     const double rounded = std::strtod(fmt::format("{:.{}g}", degrees, digits).c_str(), nullptr);
     if (to_radians(rounded) == radians) return number_text(rounded);

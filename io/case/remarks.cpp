@@ -7,6 +7,7 @@
 
 #include "io/case/table_reader.h"
 #include "io/case/usual.h"
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
@@ -106,7 +107,7 @@ void remark_motion(const Case& c, std::size_t i, const toml::table& table, std::
       out.push_back(
           fmt::format("{}the motion of stage {} has a peak of {:.4g} m/s2 ({:.3g} g): {} by 'units' or "
                       "'scale'",
-                      place_of(c, table, "record"), i + 1, peak, peak / 9.80665, text));
+                      place_of(c, table, "record"), i + 1, peak, peak / standard_gravity, text));
   const std::string place = place_of(c, table, "duration");
   if (stage.duration - duration > std::max(ringing, duration))
     out.push_back(

@@ -8,19 +8,18 @@
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <numbers>
+
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
-constexpr double degree = 180.0 / std::numbers::pi;
+constexpr double degree = 180.0 / pi;
 
 const std::map<std::string, Usual>& quantities() {
   static const std::vector<Slip> stress = {{1e9, "GPa"}, {1e6, "MPa"}, {1e3, "kPa"}};
   static const std::vector<Slip> strength = {{1e6, "MPa"}, {1e3, "kPa"}};
-  static const std::vector<Slip> acceleration = {{0.01, "cm/s2"}, {g, "g"}};
+  static const std::vector<Slip> acceleration = {{0.01, "cm/s2"}, {standard_gravity, "g"}};
   static const std::map<std::string, Usual> all = {
       // From pumice to iron; unit weights of masonry are 10 to 30 kN/m3.
       {"density",
@@ -30,7 +29,7 @@ const std::map<std::string, Usual>& quantities() {
         8000.0,
         800.0,
         3500.0,
-        {{1000.0 / g, "kN/m3"}, {1000.0, "t/m3"}, {1.0 / g, "N/m3"}}}},
+        {{1000.0 / standard_gravity, "kN/m3"}, {1000.0, "t/m3"}, {1.0 / standard_gravity, "N/m3"}}}},
       // From loose sand to steel; those who slip have stone or brick.
       {"modulus", {"for stone, brick and fill", "Pa", 5e6, 2.5e11, 1e8, 1.2e11, stress}},
       {"shear modulus", {"for stone, brick and fill", "Pa", 2e6, 1e11, 4e7, 5e10, stress}},
@@ -44,18 +43,19 @@ const std::map<std::string, Usual>& quantities() {
       // Of a part: a chip of stone to a viaduct's pier; of the whole: a model on a table to the longest viaduct.
       {"length", {"for bridges and their stones (or 0)", "m", 1e-3, 250.0, 1e-2, 100.0, {{1e-3, "mm"}, {1e3, "km"}}}},
       {"extent", {"for a structure's largest side", "m", 0.05, 2000.0, 0.3, 1000.0, {{1e-3, "mm"}, {1e3, "km"}}}},
-      {"gravity", {"on Earth", "m/s2", 3.0, 12.0, 9.5, 10.5, {{0.01, "cm/s2"}, {g, "g"}, {1e-3, "mm/s2"}}}},
+      {"gravity",
+       {"on Earth", "m/s2", 3.0, 12.0, 9.5, 10.5, {{0.01, "cm/s2"}, {standard_gravity, "g"}, {1e-3, "mm/s2"}}}},
       {"damping", {"for structures", "of critical", 0.0, 0.25, 0.001, 0.25, {{0.01, "per cent"}}}},
       // A tower of 100 m has 3 s, a rubble wall of a metre 0.01 s.
       {"period", {"for masonry", "s", 5e-3, 5.0, 0.02, 3.0, {{1.0, "Hz", true}, {1e-3, "ms"}}}},
       // The strongest ground motions on record have about 3 g; below a fiftieth of g nothing moves.
       {"peak", {"for strong ground motion", "m/s2", 0.2, 35.0, 0.2, 35.0, acceleration}},
-      {"ag", {"for codes", "g", 0.005, 1.5, 0.005, 1.5, {{1.0 / g, "m/s2"}, {0.01, "per cent"}}}},
-      {"pulse frequency",
-       {"for ground motion", "Hz", 0.05, 60.0, 0.1, 20.0, {{1.0 / (2.0 * std::numbers::pi), "rad/s"}}}},
+      {"ag", {"for codes", "g", 0.005, 1.5, 0.005, 1.5, {{1.0 / standard_gravity, "m/s2"}, {0.01, "per cent"}}}},
+      {"pulse frequency", {"for ground motion", "Hz", 0.05, 60.0, 0.1, 20.0, {{1.0 / (2.0 * pi), "rad/s"}}}},
       {"duration", {"for a stage", "s", 1e-3, 600.0, 0.1, 300.0, {{1e-3, "ms"}}}},
       {"sampling", {"for records", "s", 2e-4, 0.1, 5e-4, 0.05, {{1e-3, "ms"}, {1.0, "samples a second", true}}}},
-      {"force", {"on a group of stones (or 0)", "N", 200.0, 1e9, 200.0, 1e8, {{1e3, "kN"}, {1e3 * g, "t"}}}}};
+      {"force",
+       {"on a group of stones (or 0)", "N", 200.0, 1e9, 200.0, 1e8, {{1e3, "kN"}, {1e3 * standard_gravity, "t"}}}}};
   return all;
 }
 

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t format_version = 12;
+constexpr std::int64_t checkpoint_format_version = 12;
 constexpr const char* numbers_group = "header/numbers";
 constexpr const char* begin_again = "begin again with voussoir run and --overwrite";
 
@@ -55,7 +55,7 @@ auto with_checkpoint(const std::string& path, Work&& work) {
   if (!fs::exists(path)) throw InputError("cannot read {}: there is no such file", path);
   try {
     const h5::File file = h5::File::open(path);
-    h5::check_format(file, "voussoir-checkpoint", format_version);
+    h5::check_format(file, "voussoir-checkpoint", checkpoint_format_version);
     return work(file);
   } catch (const h5::ForeignFile&) {
     throw;
@@ -123,7 +123,7 @@ std::uint64_t write_checkpoint(const std::string& path, CheckpointHeader header,
   if (header.program_version.empty()) header.program_version = VOUSSOIR_VERSION;
   h5::File file = h5::File::create(path);
   file.set_text("/", "format", "voussoir-checkpoint");
-  file.set_integer("/", "format_version", format_version);
+  file.set_integer("/", "format_version", checkpoint_format_version);
   file.set_text("/", "units", "SI");
   file.set_text("/", "program_version", header.program_version);
   file.set_number("/", "time", header.time);
@@ -154,11 +154,11 @@ CheckpointHeader read_checkpoint_header(const std::string& path) {
 void read_checkpoint(const std::string& path, CheckpointHeader& header, const std::vector<NamedArray>& arrays) {
   with_checkpoint(path, [&](const h5::File& file) {
     header = get_header(file);
-    if (const std::int64_t version = file.integer("/", "format_version"); version != format_version)
+    if (const std::int64_t version = file.integer("/", "format_version"); version != checkpoint_format_version)
       throw h5::ForeignFile(
           "{} was written by voussoir {} and keeps the state in another order (version {}, expected {}): go on with "
           "that program, or begin the run anew",
-          path, header.program_version, version, format_version);
+          path, header.program_version, version, checkpoint_format_version);
     for (const NamedArray& array : arrays) read_array(file, array);
     if (const std::size_t found = file.datasets().size(); found != arrays.size())
       file.fail("/", fmt::format("it holds {} arrays, expected {}: another version wrote it ({})", found, arrays.size(),

@@ -8,7 +8,7 @@
 namespace voussoir {
 
 namespace {
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t history_format_version = 1;
 }
 
 History::History(std::string path, std::vector<Channel> channels)
@@ -24,7 +24,7 @@ History::History(std::string path, std::vector<Channel> channels)
 
 History History::load(const std::string& path) {
   const h5::File file = h5::File::open(path);
-  h5::check_format(file, "voussoir-history", format_version);
+  h5::check_format(file, "voussoir-history", history_format_version);
   std::vector<Channel> channels;
   for (const std::string& name : file.texts("/", "channels")) channels.push_back({name, file.unit(name)});
   History history(path, std::move(channels));
@@ -44,7 +44,7 @@ void History::append(std::span<const double> row) {
 void History::flush() {
   h5::File file = h5::File::create(path_);
   file.set_text("/", "format", "voussoir-history");
-  file.set_integer("/", "format_version", format_version);
+  file.set_integer("/", "format_version", history_format_version);
   file.set_text("/", "units", "SI");
   file.set_text("/", "program_version", VOUSSOIR_VERSION);
   std::vector<std::string> names;

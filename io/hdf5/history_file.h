@@ -34,7 +34,6 @@ class History {
 
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
   const std::string& path() const { return path_; }
-  void set_path(std::string path) { path_ = std::move(path); }
   const std::vector<Channel>& channels() const { return channels_; }
   bool has(const std::string& channel) const { return index_.contains(channel); }
   /// Throws InputError naming the file and the channels it does have.

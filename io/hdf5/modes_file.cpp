@@ -6,7 +6,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t modes_format_version = 1;
 
 /// One number of every mode.
 template <class F>
@@ -66,7 +66,7 @@ void write_modes(const std::string& path, const ModesFile& file) {
   const std::size_t n = file.modes.size(), blocks = file.places.centroid.size();
   h5::File h5 = h5::File::create(path);
   h5.set_text("/", "format", "voussoir-modes");
-  h5.set_integer("/", "format_version", format_version);
+  h5.set_integer("/", "format_version", modes_format_version);
   h5.set_text("/", "units", "SI");
   h5.set_text("/", "program_version", VOUSSOIR_VERSION);
   h5.set_text("/", "about", file.about);
@@ -98,7 +98,7 @@ void write_modes(const std::string& path, const ModesFile& file) {
 
 ModesFile read_modes(const std::string& path) {
   const h5::File h5 = h5::File::open(path);
-  h5::check_format(h5, "voussoir-modes", format_version);
+  h5::check_format(h5, "voussoir-modes", modes_format_version);
   ModesFile file;
   file.about = h5.text("/", "about");
   file.assembly_hash = std::uint64_t(h5.integer("/", "assembly_hash"));

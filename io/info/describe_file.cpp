@@ -17,6 +17,7 @@
 #include "io/hdf5/modes_file.h"
 #include "io/records/format.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
 #include "solver/motion/intensity.h"
@@ -199,8 +200,8 @@ void describe_channel(const RecordFile& file, Lines& out) {
   std::vector<double> acceleration = record.values;
   for (double& a : acceleration) a *= file.unit;
   const Intensity i = intensity_of(acceleration, record.dt);
-  out.add("  PGA {:.4f} g, PGV {:.4g} m/s, Arias intensity {:.4g} m/s, 5 to 95 % of it in {:.4g} s", i.pga / 9.80665,
-          i.pgv, i.arias, i.significant());
+  out.add("  PGA {:.4f} g, PGV {:.4g} m/s, Arias intensity {:.4g} m/s, 5 to 95 % of it in {:.4g} s",
+          i.pga / standard_gravity, i.pgv, i.arias, i.significant());
 }
 
 std::string describe_record(const std::string& path) {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "solver/base/constants.h"
+
 namespace voussoir {
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
 
 void replace_all(std::string& text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
@@ -16,11 +16,22 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 }  // namespace
 
 const std::vector<ChannelUnit>& channel_units() {
-  static const std::vector<ChannelUnit> units = {
-      {"m/s2", 1.0, 0},   {"cm/s2", 1e-2, 0}, {"gal", 1e-2, 0},    {"mm/s2", 1e-3, 0},
-      {"um/s2", 1e-6, 0}, {"g", g, 0},        {"mg", 1e-3 * g, 0}, {"ug", 1e-6 * g, 0},
-      {"m/s", 1.0, 1},    {"cm/s", 1e-2, 1},  {"mm/s", 1e-3, 1},   {"um/s", 1e-6, 1},
-      {"m", 1.0, 2},      {"cm", 1e-2, 2},    {"mm", 1e-3, 2},     {"um", 1e-6, 2}};
+  static const std::vector<ChannelUnit> units = {{"m/s2", 1.0, 0},
+                                                 {"cm/s2", 1e-2, 0},
+                                                 {"gal", 1e-2, 0},
+                                                 {"mm/s2", 1e-3, 0},
+                                                 {"um/s2", 1e-6, 0},
+                                                 {"g", standard_gravity, 0},
+                                                 {"mg", 1e-3 * standard_gravity, 0},
+                                                 {"ug", 1e-6 * standard_gravity, 0},
+                                                 {"m/s", 1.0, 1},
+                                                 {"cm/s", 1e-2, 1},
+                                                 {"mm/s", 1e-3, 1},
+                                                 {"um/s", 1e-6, 1},
+                                                 {"m", 1.0, 2},
+                                                 {"cm", 1e-2, 2},
+                                                 {"mm", 1e-3, 2},
+                                                 {"um", 1e-6, 2}};
   return units;
 }
 

@@ -65,7 +65,7 @@ std::vector<RecordFile> read_cwa(const std::string& text, const std::string& nam
   const std::vector<std::string_view> lines = lines_of(text);
   const auto [unit, unit_line] = needed(lines, "#AMPLITUDEUNIT", name);
   if (!upper(unit).starts_with("GAL"))
-    throw InputError("{}:{}: '{}': expected accelerations in gal", name, unit_line, shown(unit));
+    throw InputError("{}:{}: '{}': expected accelerations in gal", name, unit_line, excerpt(unit));
   const auto [rate, rate_line] = needed(lines, "#SAMPLERATE", name);
   const double step = checked_step(1.0 / first_number(rate), name, rate_line);
   std::vector<std::string> roles = {"t", "z", "y", "x"};  // Time U(+); N(+); E(+)

@@ -5,6 +5,7 @@
 
 #include "io/records/format.h"
 #include "io/records/rows.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t heading = 4;  // lines
 
-bool recognises(std::string_view text) {
+bool is_at2(std::string_view text) {
   const std::vector<std::string_view> lines = lines_of(text.substr(0, 2000));
   return lines.size() > heading && upper(lines[heading - 1]).find("NPTS") != std::string::npos &&
          upper(lines[heading - 1]).find("DT") != std::string::npos;
@@ -33,18 +34,18 @@ std::pair<double, double> size_and_step(const std::string& line, const std::stri
   }
   if (numbers.size() < 2)
     throw InputError("{}:{}: '{}' names no number of samples and step (s), expected as in 'NPTS= 4000, DT= .0050 SEC'",
-                     name, heading, shown(line));
+                     name, heading, excerpt(line));
   return {double(checked_samples(numbers[0], name, heading)), checked_step(numbers[1], name, heading)};
 }
 
-RecordFile read(const std::string& text, const std::string& name, double dt) {
+RecordFile read_at2(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   const std::string quantity = upper(lines[2]);
   if (quantity.find("VELOCITY") != std::string::npos || quantity.find("DISPLACEMENT") != std::string::npos)
     throw InputError("{}:3: '{}': velocities and displacements (VT2, DT2) are not needed beside the accelerations",
-                     name, shown(lines[2]));
+                     name, excerpt(lines[2]));
   if (quantity.find("ACCELERATION") == std::string::npos || quantity.find(" G") == std::string::npos)
-    throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, shown(lines[2]));
+    throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, excerpt(lines[2]));
   const auto [samples, step] = size_and_step(upper(lines[heading - 1]), name);
   RecordFile file;
   file.record.dt = dt > 0.0 ? dt : step;
@@ -71,7 +72,7 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
 }  // namespace
 
 RecordFormat peer_at2() {
-  return {"PEER AT2", 9.80665, recognises, one_channel<read>};
+  return {"PEER AT2", standard_gravity, is_at2, one_channel<read_at2>};
 }
 
 }  // namespace voussoir

@@ -13,7 +13,6 @@ namespace voussoir {
 namespace {
 
 constexpr double even = 1e-6;  // s
-constexpr std::string_view separators = " \t,;\r";
 
 struct Row {
   std::size_t number = 0;  // line in the file, from 1
@@ -25,7 +24,7 @@ std::vector<Row> parse_rows(std::string_view text, const std::string& name) {
   std::size_t number = 0;
   for (const std::string_view line : lines_of(text)) {
     Row row{++number, {}};
-    append_numbers(line.substr(0, line.find('#')), separators, name, number,
+    append_numbers(line.substr(0, line.find('#')), column_separators, name, number,
                    "rows must be numbers, headings begin with #", row.values);
     if (!row.values.empty()) rows.push_back(std::move(row));
   }
@@ -59,7 +58,7 @@ Record parse_columns(const std::string& text, const std::string& name, double dt
   for (const std::string_view line : lines_of(text)) {
     const std::string_view row = trimmed(line.substr(0, line.find('#')));
     if (row.empty()) continue;
-    if (!all_numbers(row, separators)) not_read(text, name);
+    if (!all_numbers(row, column_separators)) not_read(text, name);
     break;
   }
   const std::vector<Row> rows = parse_rows(text, name);
@@ -77,10 +76,6 @@ Record parse_columns(const std::string& text, const std::string& name, double dt
   record.dt = checked_step(columns == 1 ? dt : time_step(rows, name), name, rows.front().number);
   for (const Row& row : rows) record.values.push_back(row.values.back());
   return record;
-}
-
-Record read_columns(const std::string& path, double dt) {
-  return parse_columns(read_text(path), path, dt);
 }
 
 }  // namespace voussoir

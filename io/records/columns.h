@@ -17,6 +17,5 @@ struct Record {
 /// "NAME:ROW: …" on text that is not a number, wrong columns, numbers that are not finite, uneven times, fewer than two
 /// rows.
 Record parse_columns(const std::string& text, const std::string& name, double dt = 0.0);
-Record read_columns(const std::string& path, double dt = 0.0);
 
 }  // namespace voussoir

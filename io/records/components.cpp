@@ -15,20 +15,16 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::string_view separators = "_-. ";
 constexpr int longest_number = 9;  // digits of a word that counts as a number
 
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c));
-}
 bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c));
 }
 
 std::string without_ends(std::string text) {
-  const std::size_t begin = text.find_first_not_of(separators);
+  const std::size_t begin = text.find_first_not_of(name_separators);
   if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(separators) - begin + 1);
+  return text.substr(begin, text.find_last_not_of(name_separators) - begin + 1);
 }
 
 int number_of(std::string_view digits) {
@@ -116,7 +112,7 @@ void name_component(RecordComponent& c) {
   } else if (!c.word.empty()) {
     c.set = without_ends(fmt::format("{} {}", c.file.event, c.file.station));
   } else {
-    const std::size_t cut = name.find_last_of(separators);
+    const std::size_t cut = name.find_last_of(name_separators);
     c.word = cut == std::string::npos ? "" : component_word(name.substr(cut + 1));
     c.set = cut == std::string::npos ? name : without_ends(name.substr(0, cut));
   }

@@ -4,15 +4,16 @@
 
 #include "io/records/format.h"
 #include "io/records/rows.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 
 namespace {
 
-constexpr std::size_t needed = 62;  // numbers of each table that are looked at
+constexpr std::size_t numbers_needed = 62;  // numbers of each table that are looked at
 
-bool recognises(std::string_view text) {
+bool is_cosmos(std::string_view text) {
   return upper(text.substr(0, text.find('\n'))).find("(FORMAT V") != std::string::npos;
 }
 
@@ -32,7 +33,7 @@ FixedRows layout_of(const std::string& line) {
 double unit_of(int code) {
   switch (code) {
     case 2:
-      return 9.80665;  // g
+      return standard_gravity;  // g
     case 4:
     case 10:
       return 0.01;  // cm/s2, gal
@@ -80,9 +81,9 @@ Table table_at(const std::vector<std::string_view>& lines, std::size_t& at, std:
 RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& at, const std::string& name) {
   const std::size_t head = at;
   const Table whole = table_at(lines, at, "INTEGER", name), numbers = table_at(lines, at, "REAL", name);
-  if (whole.values.size() < needed || numbers.values.size() < needed)
+  if (whole.values.size() < numbers_needed || numbers.values.size() < numbers_needed)
     throw InputError("{}:{}: tables of {} and {} numbers: expected at least {} each", name, whole.row,
-                     whole.values.size(), numbers.values.size(), needed);
+                     whole.values.size(), numbers.values.size(), numbers_needed);
   const auto code = [&](std::size_t i) { return std::abs(whole.values[i]) < 1e6 ? int(whole.values[i]) : -1; };
   const Table samples = table_at(lines, at, "ACCELERATION", name);
   RecordFile file;
@@ -102,11 +103,11 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   return file;
 }
 
-std::vector<RecordFile> read(const std::string& text, const std::string& name, double dt) {
+std::vector<RecordFile> read_cosmos(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   if (lines.size() < 5) throw InputError("{}: {} lines: the file is not whole; fetch it again", name, lines.size());
   if (upper(lines[0]).find("ACCELERATION") == std::string::npos)
-    throw InputError("{}:1: '{}': take the file of accelerations", name, shown(lines[0]));
+    throw InputError("{}:1: '{}': take the file of accelerations", name, excerpt(lines[0]));
   std::vector<RecordFile> channels;
   for (std::size_t at = 0; at < lines.size();) {
     channels.push_back(channel_of(lines, at, name));
@@ -118,7 +119,7 @@ std::vector<RecordFile> read(const std::string& text, const std::string& name, d
 }  // namespace
 
 RecordFormat cosmos() {
-  return {"COSMOS", 0.01, recognises, read};
+  return {"COSMOS", 0.01, is_cosmos, read_cosmos};
 }
 
 }  // namespace voussoir

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view mark = "POINTS OF ACCEL DATA EQUALLY SPACED AT", title = "CORRECTED ACCELEROGRAM";
 
-bool recognises(std::string_view text) {
+bool is_csmip(std::string_view text) {
   return upper(text).find(mark) != std::string::npos;
 }
 
@@ -57,7 +57,7 @@ Announced announced_in(std::string_view text, const std::string& name, std::size
   const std::string_view before = trimmed(std::string_view(line).substr(0, at)),
                          rest = trimmed(std::string_view(line).substr(at + mark.size()));
   if (!has_any(line, {"CM/SEC/SEC", "CM/SEC2", "CM/SEC^2", "CM/SEC**2", "CM/S/S", "CM/S2", "CM/S^2", "GAL"}))
-    throw InputError("{}:{}: '{}': {}", name, row, shown(text), rule);
+    throw InputError("{}:{}: '{}': {}", name, row, excerpt(text), rule);
   Announced found;
   found.samples = checked_samples(number_in(before, name, row, rule), name, row);
   found.step = checked_step(number_in(rest.substr(0, rest.find(' ')), name, row, rule), name, row);
@@ -77,7 +77,7 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t he
   return file;
 }
 
-std::vector<RecordFile> read(const std::string& text, const std::string& name, double dt) {
+std::vector<RecordFile> read_csmip(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   std::vector<RecordFile> channels;
   std::size_t head = 0;
@@ -98,7 +98,7 @@ std::vector<RecordFile> read(const std::string& text, const std::string& name, d
 }  // namespace
 
 RecordFormat csmip_v2() {
-  return {"CSMIP V2", 0.01, recognises, read};
+  return {"CSMIP V2", 0.01, is_csmip, read_csmip};
 }
 
 }  // namespace voussoir

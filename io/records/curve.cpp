@@ -11,12 +11,10 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::string_view separators = " \t,;\r";
-
 /// Takes one number off the front of a line.
 std::optional<double> take_number(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
-  std::string_view word = line.substr(0, line.find_first_of(separators));
+  line.remove_prefix(std::min(line.find_first_not_of(column_separators), line.size()));
+  std::string_view word = line.substr(0, line.find_first_of(column_separators));
   line.remove_prefix(word.size());
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0.0;
@@ -33,7 +31,7 @@ Curve parse_curve(const std::string& text, const std::string& name) {
   for (std::size_t row = 1; !rest.empty(); ++row) {
     std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    if (line.find_first_not_of(separators) == std::string_view::npos || line.starts_with('#')) continue;
+    if (line.find_first_not_of(column_separators) == std::string_view::npos || line.starts_with('#')) continue;
     const std::string whole(line);
     const std::optional<double> x = take_number(line), y = x ? take_number(line) : std::nullopt;
     if (y) {

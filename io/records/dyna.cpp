@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-bool recognises(std::string_view text) {
+bool is_dyna(std::string_view text) {
   return upper(text.substr(0, 11)) == "EVENT_NAME:";
 }
 
@@ -43,16 +43,16 @@ std::string text_of(const Header& header, std::string_view key) {
   return at == header.values.end() ? "" : at->second.first;
 }
 
-RecordFile read(const std::string& text, const std::string& name, double dt) {
+RecordFile read_dyna(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   const Header header = header_of(lines);
   RecordFile file;
   const std::string type = text_of(header, "DATA_TYPE"), units = text_of(header, "UNITS");
   const std::string kind = upper(type);
   if (kind.find("ACCELERATION") == std::string::npos || kind.find("SPECTR") != std::string::npos)
-    throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, shown(type));
+    throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, excerpt(type));
   if (const std::string unit = upper(units); unit != "CM/S^2" && unit != "CM/S2" && unit != "GAL")
-    throw InputError("{}: UNITS is '{}', expected cm/s^2", name, shown(units));
+    throw InputError("{}: UNITS is '{}', expected cm/s^2", name, excerpt(units));
   const double step = number_of(header, "SAMPLING_INTERVAL_S", name), samples = number_of(header, "NDATA", name);
   checked_step(step, name, header.values.find("SAMPLING_INTERVAL_S")->second.second);
   checked_samples(samples, name, header.values.find("NDATA")->second.second);
@@ -72,7 +72,7 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
 }  // namespace
 
 RecordFormat dyna() {
-  return {"ITACA/ESM ASCII", 0.01, recognises, one_channel<read>};
+  return {"ITACA/ESM ASCII", 0.01, is_dyna, one_channel<read_dyna>};
 }
 
 }  // namespace voussoir

@@ -53,7 +53,8 @@ std::vector<RecordFile> parse_channels(const std::string& text, const std::strin
   if (channels.empty()) throw InputError("{}: {} without a channel: fetch it again", name, format.name);
   for (RecordFile& channel : channels) {
     channel.format = format.name, channel.path = name;
-    for (std::string* word : {&channel.event, &channel.station, &channel.component}) *word = std::string(shown(*word));
+    for (std::string* word : {&channel.event, &channel.station, &channel.component})
+      *word = std::string(excerpt(*word));
     if (channel.unit == 0.0) channel.unit = format.unit;
   }
   return channels;

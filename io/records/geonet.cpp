@@ -11,7 +11,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::size_t text_lines = 16, heading_lines = 26;
+constexpr std::size_t geonet_text_lines = 16, heading_lines = 26;
 constexpr FixedRows rows{8, 10};
 
 bool recognises(std::string_view text) {
@@ -21,7 +21,7 @@ bool recognises(std::string_view text) {
 
 /// What a line of text says after `key`: "Number of points  1200" and "at 0.010 sec intervals". NaN: no line does.
 double said(const std::vector<std::string_view>& lines, std::size_t head, std::string_view key) {
-  for (std::size_t i = head; i < head + text_lines; ++i)
+  for (std::size_t i = head; i < head + geonet_text_lines; ++i)
     if (const std::size_t at = upper(lines[i]).find(key); at != std::string::npos)
       return first_number(lines[i].substr(at + key.size()));
   return std::nan("");
@@ -29,7 +29,7 @@ double said(const std::vector<std::string_view>& lines, std::size_t head, std::s
 
 /// Of a line that ends "… at 0.010 sec intervals".
 double said_step(const std::vector<std::string_view>& lines, std::size_t head) {
-  for (std::size_t i = head; i < head + text_lines; ++i) {
+  for (std::size_t i = head; i < head + geonet_text_lines; ++i) {
     const std::string line = upper(lines[i]);
     const std::size_t end = line.find("SEC INTERVAL"), begin = end == std::string::npos ? end : line.rfind("AT ", end);
     if (begin != std::string::npos) return first_number(std::string_view(line).substr(begin + 3));
@@ -48,7 +48,7 @@ std::string azimuth_of(const std::string& direction) {
 }
 
 std::string component_of(const std::vector<std::string_view>& lines, std::size_t head) {
-  for (std::size_t i = head; i < head + text_lines; ++i) {
+  for (std::size_t i = head; i < head + geonet_text_lines; ++i) {
     const std::vector<std::string_view> words = words_of(lines[i]);
     if (words.size() > 1 && upper(words[0]) == "COMPONENT") return azimuth_of(std::string(words[1]));
   }
@@ -60,7 +60,7 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   if (head + heading_lines > lines.size())
     throw InputError("{}:{}: {} lines are left, but a heading of GeoNet has {}: the file is not whole; fetch it again",
                      name, head + 1, lines.size() - head, heading_lines);
-  at = head + text_lines;
+  at = head + geonet_text_lines;
   const std::vector<double> numbers = fixed_numbers(lines, at, 100, rows, name);
   const bool corrected = upper(lines[head]).find("UNCORRECTED") == std::string::npos;
   // The tables know best; where they are empty the text says it. The step of uncorrected ones stands in the text first.
@@ -68,8 +68,8 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   if (!(samples > 0.0)) samples = said(lines, head, "NUMBER OF POINTS");
   if (!(step > 0.0)) step = corrected ? said_step(lines, head) : numbers[64];
   RecordFile file;
-  const std::size_t count = checked_samples(samples, name, head + text_lines + 4);
-  file.record.dt = dt > 0.0 ? dt : checked_step(step, name, head + text_lines + 7);
+  const std::size_t count = checked_samples(samples, name, head + geonet_text_lines + 4);
+  file.record.dt = dt > 0.0 ? dt : checked_step(step, name, head + geonet_text_lines + 7);
   file.record.values = fixed_numbers(lines, at, count, rows, name);
   const std::vector<std::string_view> first = words_of(lines[head]), site = words_of(lines[head + 1]);
   if (first.size() > 2) file.event = first[2].substr(0, 15);  // 20161113_110256_WTMC_20: date and time
@@ -77,7 +77,7 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   file.component = component_of(lines, head);
   for (const std::size_t others : {34u, 35u})
     if (corrected && numbers[others] > 0.0)
-      fixed_numbers(lines, at, checked_samples(numbers[others], name, head + text_lines + 4), rows, name);
+      fixed_numbers(lines, at, checked_samples(numbers[others], name, head + geonet_text_lines + 4), rows, name);
   return file;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t key_width = 18;
 
-bool recognises(std::string_view text) {
+bool is_knet(std::string_view text) {
   const std::string head = upper(text.substr(0, 3000));
   return head.starts_with("ORIGIN TIME") && head.find("SCALE FACTOR") != std::string::npos;
 }
@@ -52,7 +52,7 @@ double scale_of(const Heading& heading, const std::string& name) {
   const double above = first_number(text),
                below = slash == std::string::npos ? 0.0 : first_number(std::string_view(text).substr(slash + 1));
   if (!(above > 0.0 && above <= 1e6 && below >= 1.0 && below <= 1e12))
-    throw InputError("{}:{}: scale factor '{}': expected as in '3920(gal)/6182761'", name, line, shown(text));
+    throw InputError("{}:{}: scale factor '{}': expected as in '3920(gal)/6182761'", name, line, excerpt(text));
   return above / below;
 }
 
@@ -66,7 +66,7 @@ std::string direction_of(const std::string& text) {
   return word;
 }
 
-RecordFile read(const std::string& text, const std::string& name, double dt) {
+RecordFile read_knet(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   const Heading heading = heading_of(lines);
   const double scale = scale_of(heading, name);
@@ -96,7 +96,7 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
 }  // namespace
 
 RecordFormat knet() {
-  return {"K-NET", 0.01, recognises, one_channel<read>};
+  return {"K-NET", 0.01, is_knet, one_channel<read_knet>};
 }
 
 }  // namespace voussoir

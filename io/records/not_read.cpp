@@ -51,10 +51,10 @@ std::string formats_text() {
 /// What can be printed of the first line that is not empty.
 std::string first_line(std::string_view text) {
   for (const std::string_view line : lines_of(text.substr(0, 2000))) {
-    std::string shown;
+    std::string excerpt;
     for (const char c : trimmed(line).substr(0, 60))
-      shown += std::isprint(static_cast<unsigned char>(c)) || (c & 0x80) ? c : '?';
-    if (!shown.empty()) return shown;
+      excerpt += std::isprint(static_cast<unsigned char>(c)) || (c & 0x80) ? c : '?';
+    if (!excerpt.empty()) return excerpt;
   }
   return "";
 }

@@ -49,7 +49,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-std::string_view shown(std::string_view text) {
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c));
+}
+
+std::string_view excerpt(std::string_view text) {
   return trimmed(text).substr(0, 100);
 }
 

@@ -10,8 +10,11 @@ namespace voussoir {
 std::vector<std::string_view> lines_of(std::string_view text);
 /// Without blanks at both ends.
 std::string_view trimmed(std::string_view text);
+bool is_digit(char c);
+/// What stands between the columns of a table.
+constexpr std::string_view column_separators = " \t,;\r";
 /// What a message shows of a text from a file.
-std::string_view shown(std::string_view text);
+std::string_view excerpt(std::string_view text);
 std::string upper(std::string_view text);
 /// Throws InputError "NAME:ROW: …" for a word that is no number, not finite or beyond 1e12 (no sample and no heading
 /// is that large); `rule` says what rows must be.

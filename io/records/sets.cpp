@@ -10,6 +10,7 @@
 #include "io/records/components.h"
 #include "io/records/left_out.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/motion/filter.h"
 
@@ -23,8 +24,7 @@ struct Unit {
   const char* name;
   double size;  // m/s2
 };
-constexpr Unit units[] = {{"m/s2", 1.0}, {"g", 9.80665}, {"cm/s2", 0.01}};
-constexpr std::string_view separators = "_-. ";
+constexpr Unit units[] = {{"m/s2", 1.0}, {"g", standard_gravity}, {"cm/s2", 0.01}};
 
 /// The channels of a file; its step is replaced where `dt` > 0 (s).
 std::vector<RecordComponent> components_of(const std::string& path, const std::string& text, double dt,
@@ -54,13 +54,14 @@ std::vector<RecordComponent> read_components(const std::string& path, const Colu
 /// "20090406_0132_AQA" is station AQA in the event 20090406_0132.
 void split_name(RecordSet& set) {
   const auto digits = [&](std::size_t at, std::size_t n) { return is_number(set.name.substr(at, n)); };
-  if (set.name.size() > 14 && digits(0, 8) && digits(9, 4) && separators.find(set.name[13]) != std::string_view::npos) {
+  if (set.name.size() > 14 && digits(0, 8) && digits(9, 4) &&
+      name_separators.find(set.name[13]) != std::string_view::npos) {
     set.event = set.name.substr(0, 13);
     set.station = set.name.substr(14);
   }
 }
 
-std::string words_of(const std::vector<const RecordComponent*>& components) {
+std::string component_words(const std::vector<const RecordComponent*>& components) {
   std::string words;
   for (const RecordComponent* c : components)
     words += (words.empty() ? "" : ", ") + (c->word.empty() ? std::string("(none)") : c->word);
@@ -149,7 +150,7 @@ std::string near_namesake(const std::string& name, const Groups& groups) {
   for (const auto& [other, members] : groups)
     if (other != name && without_digits(other) == without_digits(name) && !makes_a_set(members))
       return fmt::format("; '{} ({})' differs by digits only: if they are one recording, name the files alike", other,
-                         words_of(members));
+                         component_words(members));
   return "";
 }
 
@@ -237,7 +238,7 @@ std::array<const RecordComponent*, 3> along_files(const std::array<std::string, 
     try {
       return along_axes(pointers_to(kept[axis]), false);
     } catch (const InputError& error) {
-      throw InputError("{}: channels {}: {}", files[axis], words_of(pointers_to(kept[axis])), error.what());
+      throw InputError("{}: channels {}: {}", files[axis], component_words(pointers_to(kept[axis])), error.what());
     }
   }
   return along;
@@ -286,7 +287,7 @@ RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning&
   for (const auto& [name, members] : groups) try {
       found.sets.push_back(set_of(name, along_axes(members, true), meaning));
     } catch (const std::exception& error) {
-      left_out.push_back({fmt::format("{} ({} of {})", name, words_of(members), counted(members)),
+      left_out.push_back({fmt::format("{} ({} of {})", name, component_words(members), counted(members)),
                           error.what() + near_namesake(name, groups), ""});
     }
   found.left_out = said_once(left_out);

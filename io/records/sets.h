@@ -9,6 +9,9 @@
 
 namespace voussoir {
 
+/// What stands between the words of a file's name.
+constexpr std::string_view name_separators = "_-. ";
+
 /// What files of plain columns do not say themselves.
 struct ColumnsMeaning {
   std::string units = "m/s2";             // m/s2, g or cm/s2

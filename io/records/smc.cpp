@@ -8,10 +8,10 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::size_t text_lines = 11, whole_lines = 6, number_lines = 10;
+constexpr std::size_t smc_text_lines = 11, whole_lines = 6, number_lines = 10;
 constexpr FixedRows whole_rows{10, 8}, number_rows{15, 5}, sample_rows{10, 8};
 
-bool recognises(std::string_view text) {
+bool is_smc(std::string_view text) {
   const std::string first = upper(trimmed(text.substr(0, text.find('\n'))));
   return first.starts_with("1 UNCORRECTED ACCELEROGRAM") || first.starts_with("2 CORRECTED ACCELEROGRAM") ||
          first.starts_with("3 VELOCITY") || first.starts_with("4 DISPLACEMENT");
@@ -24,20 +24,20 @@ std::string direction_of(double from_vertical, double azimuth) {
   return azimuth >= 0.0 && azimuth <= 360.0 ? fmt::format("{:g}", azimuth) : "";
 }
 
-RecordFile read(const std::string& text, const std::string& name, double dt) {
+RecordFile read_smc(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   if (const std::string first = upper(trimmed(lines[0])); first.find("ACCELEROGRAM") == std::string::npos)
-    throw InputError("{}:1: '{}': take the file of accelerations", name, shown(lines[0]));
-  if (lines.size() < text_lines + whole_lines + number_lines)
+    throw InputError("{}:1: '{}': take the file of accelerations", name, excerpt(lines[0]));
+  if (lines.size() < smc_text_lines + whole_lines + number_lines)
     throw InputError("{}: {} lines, but the heading of SMC has {}: the file is not whole; fetch it again", name,
-                     lines.size(), text_lines + whole_lines + number_lines);
-  std::size_t at = text_lines;
+                     lines.size(), smc_text_lines + whole_lines + number_lines);
+  std::size_t at = smc_text_lines;
   const std::vector<double> whole = fixed_numbers(lines, at, whole_lines * whole_rows.per_row, whole_rows, name);
   const std::vector<double> numbers = fixed_numbers(lines, at, number_lines * number_rows.per_row, number_rows, name);
   while (at < lines.size() && lines[at].starts_with('|')) ++at;
   RecordFile file;
-  const std::size_t samples = checked_samples(whole[16], name, text_lines + 3);
-  file.record.dt = checked_step(1.0 / numbers[1], name, text_lines + whole_lines + 1);
+  const std::size_t samples = checked_samples(whole[16], name, smc_text_lines + 3);
+  file.record.dt = checked_step(1.0 / numbers[1], name, smc_text_lines + whole_lines + 1);
   if (dt > 0.0) file.record.dt = dt;
   file.record.values = fixed_numbers(lines, at, samples, sample_rows, name);
   file.event = trimmed(lines[3]);
@@ -50,7 +50,7 @@ RecordFile read(const std::string& text, const std::string& name, double dt) {
 }  // namespace
 
 RecordFormat smc() {
-  return {"SMC", 0.01, recognises, one_channel<read>};
+  return {"SMC", 0.01, is_smc, one_channel<read_smc>};
 }
 
 }  // namespace voussoir

@@ -7,18 +7,15 @@
 
 #include "io/records/rows.h"
 #include "io/records/sets.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 
 namespace {
 
-constexpr std::string_view separators = " \t,;", without_commas = " \t;";
-constexpr double even = 1e-6;  // s
-
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c));
-}
+constexpr std::string_view table_separators = " \t,;", without_commas = " \t;";
+constexpr double even_step = 1e-6;  // s
 
 /// A line of numbers whose every comma stands between digits, beside another separator, and that has no points.
 bool looks_decimal(std::string_view line) {
@@ -46,7 +43,7 @@ bool decimal_commas(const std::vector<std::string_view>& lines) {
   bool some = false;
   for (const std::string_view whole : lines) {
     const std::string_view line = uncommented(whole);
-    if (!all_numbers(line, separators)) continue;
+    if (!all_numbers(line, table_separators)) continue;
     if (looks_decimal(line))
       some = true;
     else if (line.find('.') != std::string_view::npos || line.find(',') != std::string_view::npos)
@@ -103,9 +100,9 @@ double step_of(const TextTable& table, std::size_t column, double unit, const st
   const std::vector<double>& t = table.columns[column];
   const double dt = unit * (t.back() - t.front()) / double(t.size() - 1);
   for (std::size_t i = 1; i < t.size(); ++i)
-    if (const double here = unit * (t[i] - t[i - 1]); !(std::abs(here - dt) <= even) || !(here > 0.0))
+    if (const double here = unit * (t[i] - t[i - 1]); !(std::abs(here - dt) <= even_step) || !(here > 0.0))
       throw InputError("{}:{}: time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s: resample it",
-                       name, table.first_row + i, here, dt, even);
+                       name, table.first_row + i, here, dt, even_step);
   return checked_step(dt, name, table.first_row);
 }
 
@@ -114,7 +111,7 @@ double step_of(const TextTable& table, std::size_t column, double unit, const st
 TextTable parse_table(std::string_view text, const std::string& name) {
   const std::vector<std::string_view> lines = lines_of(text);
   const bool decimal = decimal_commas(lines);
-  const std::string_view between = decimal ? without_commas : separators;
+  const std::string_view between = decimal ? without_commas : table_separators;
   TextTable table;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string line = decimal ? with_points(uncommented(lines[i])) : std::string(uncommented(lines[i]));
@@ -157,10 +154,11 @@ std::string column_role(const std::string& name) {
 
 double column_unit(const std::string& name) {
   static const std::map<std::string, double> known = {
-      {"m/s2", 1.0},  {"m/s/s", 1.0},  {"m/sec2", 1.0},  {"m/sec/sec", 1.0}, {"ms-2", 1.0},
-      {"g", 9.80665}, {"cm/s2", 0.01}, {"cm/s/s", 0.01}, {"cm/sec2", 0.01},  {"cm/sec/sec", 0.01},
-      {"gal", 0.01},  {"gals", 0.01},  {"mm/s2", 0.001}, {"mm/s/s", 0.001},  {"mg", 9.80665e-3},
-      {"s", 1.0},     {"sec", 1.0},    {"seconds", 1.0}, {"ms", 0.001}};
+      {"m/s2", 1.0},     {"m/s/s", 1.0},          {"m/sec2", 1.0},    {"m/sec/sec", 1.0},
+      {"ms-2", 1.0},     {"g", standard_gravity}, {"cm/s2", 0.01},    {"cm/s/s", 0.01},
+      {"cm/sec2", 0.01}, {"cm/sec/sec", 0.01},    {"gal", 0.01},      {"gals", 0.01},
+      {"mm/s2", 0.001},  {"mm/s/s", 0.001},       {"mg", 9.80665e-3}, {"s", 1.0},
+      {"sec", 1.0},      {"seconds", 1.0},        {"ms", 0.001}};
   const std::size_t open = name.find_first_of("([");
   if (open == std::string::npos) return 0.0;
   const std::string unit = name.substr(open + 1, name.find_first_of(")]", open) - open - 1);
@@ -175,7 +173,7 @@ double column_unit(const std::string& name) {
   const auto found = known.find(plain);
   if (found == known.end())
     throw InputError("the unit in '{}' is not known: expected m/s2, cm/s2, mm/s2, gal, g or mg, of times s or ms",
-                     shown(name));
+                     excerpt(name));
   return found->second;
 }
 
@@ -238,7 +236,7 @@ bool has_units(const TextTable& table) {
   }
 }
 
-std::vector<RecordFile> read(const std::string& text, const std::string& name, double dt) {
+std::vector<RecordFile> read_table(const std::string& text, const std::string& name, double dt) {
   const TextTable table = parse_table(text, name);
   std::vector<std::string> roles;
   for (const std::string& column : table.names) {
@@ -247,7 +245,7 @@ std::vector<RecordFile> read(const std::string& text, const std::string& name, d
       throw InputError(
           "{}:{}: column '{}' is no acceleration: name the columns with 'columns', \"\" for one that is "
           "passed over",
-          name, table.first_row - 1, shown(column));
+          name, table.first_row - 1, excerpt(column));
   }
   return channels_of(table, roles, name, dt);
 }
@@ -255,7 +253,7 @@ std::vector<RecordFile> read(const std::string& text, const std::string& name, d
 std::vector<RecordFile> read_with_units(const std::string& text, const std::string& name, double dt) {
   std::vector<RecordFile> channels;
   try {
-    channels = read(text, name, dt);
+    channels = read_table(text, name, dt);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(name)) throw;
@@ -286,7 +284,7 @@ RecordFormat table_with_units() {
 }
 
 RecordFormat headed_table() {
-  return {"table", 0.0, [](std::string_view text) { return names_components(beginning_of(text)); }, read};
+  return {"table", 0.0, [](std::string_view text) { return names_components(beginning_of(text)); }, read_table};
 }
 
 }  // namespace voussoir

@@ -6,25 +6,13 @@
 #include <sstream>
 #include <string_view>
 
+#include "io/records/rows.h"
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 
 namespace voussoir {
 namespace {
-
-/// Splits at blanks.
-std::vector<std::string_view> words_of(std::string_view text) {
-  std::vector<std::string_view> words;
-  std::size_t at = 0;
-  while (true) {
-    at = text.find_first_not_of(" \t\r", at);
-    if (at == std::string_view::npos) return words;
-    const std::size_t end = std::min(text.find_first_of(" \t\r", at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-}
 
 template <class Number>
 std::optional<Number> number(std::string_view word) {
@@ -60,7 +48,7 @@ class ObjReader {
 
  private:
   void read_line(std::string_view text, std::size_t line) {
-    const auto words = words_of(text);
+    const auto words = words_of(text, " \t\r");
     if (words.empty()) return;
     if (words[0] == "v")
       read_vertex(words, line);
@@ -73,7 +61,7 @@ class ObjReader {
   }
 
   static std::string rest(std::string_view text) {
-    const auto words = words_of(text);
+    const auto words = words_of(text, " \t\r");
     if (words.size() < 2) return "";
     const std::size_t begin = std::size_t(words[1].data() - text.data());
     const std::size_t end = std::size_t(words.back().data() - text.data()) + words.back().size();

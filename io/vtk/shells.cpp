@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -137,7 +137,7 @@ double inner_angle(const Part& part, const Edge& edge, int face, int other) {
   // In the plane across the edge: `away` points from the edge into the first face, `there` into the other.
   const Vec3 away = normal.cross(along), there = along.cross(next);
   const double angle = std::atan2(-there.dot(normal), there.dot(away));
-  return angle > 1e-6 ? angle : angle + 2.0 * std::numbers::pi;  // a face is never its own back's neighbour
+  return angle > 1e-6 ? angle : angle + 2.0 * pi;  // a face is never its own back's neighbour
 }
 
 /// Follows the faces over shared edges. Throws when an edge has no second face.

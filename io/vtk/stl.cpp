@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "io/records/rows.h"
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
 
@@ -81,16 +82,6 @@ Surface read_binary(const std::string& path, const std::string& bytes) {
   return surface;
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = line.find_first_not_of(" \t\r"); at != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(" \t\r", end);
-  }
-  return words;
-}
-
 bool is(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](unsigned char a, char b) { return std::tolower(a) == b; });
@@ -115,7 +106,7 @@ Surface read_text_form(const std::string& path, std::string_view text) {
   while (!text.empty()) {
     ++line;
     const std::size_t end = text.find('\n');
-    const auto words = words_of(text.substr(0, end));
+    const auto words = words_of(text.substr(0, end), " \t\r");
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (words.empty()) continue;
     if (is(words[0], "solid")) {

@@ -1,5 +1,6 @@
 // Comma-separated tables with errors a person can act on.
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "solver/base/shown.h"
 
 namespace voussoir {
+
+/// What a table holds where there is no number.
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A text file of a folder, in memory.
 struct TextFile {

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
+
+#include "solver/base/constants.h"
 
 namespace voussoir {
 
@@ -28,7 +29,7 @@ class RandomStream {
       has_spare_ = false;
       return spare_;
     }
-    const double radius = std::sqrt(-2.0 * std::log(uniform())), angle = 2.0 * std::numbers::pi * uniform();
+    const double radius = std::sqrt(-2.0 * std::log(uniform())), angle = 2.0 * pi * uniform();
     spare_ = radius * std::sin(angle);
     has_spare_ = true;
     return radius * std::cos(angle);

@@ -18,8 +18,8 @@ namespace voussoir {
 
 namespace {
 
-constexpr double facing = 0.5;        // |n_face + n_triangle|: 29 degrees
-constexpr double least_share = 0.01;  // of a block's face: overlaps that carry nothing
+constexpr double facing = 0.5;             // |n_face + n_triangle|: 29 degrees
+constexpr double least_face_share = 0.01;  // of a block's face: overlaps that carry nothing
 
 /// A triangle of the fill's surface where it is.
 struct Sheet {
@@ -59,9 +59,9 @@ Overlap overlap(const Convex& cell, int face, const Sheet& sheet) {
 
 using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // body, cell, triangle
 
-class Search {
+class InterfaceSearch {
  public:
-  Search(const Model& model, State& state, const Branches& branches, int threads)
+  InterfaceSearch(const Model& model, State& state, const Branches& branches, int threads)
       : model_(model), state_(state), branches_(branches), threads_(threads) {
     change_.gone.assign(state.interface.patches.size(), 0);
   }
@@ -151,7 +151,7 @@ class Search {
     update_.nodes.insert(update_.nodes.end(), patch.node, patch.node + 3);
   }
 
-  double least_area() const { return least_share * model_.typical_size * model_.typical_size; }
+  double least_area() const { return least_face_share * model_.typical_size * model_.typical_size; }
 
   /// The old patch with another outline. It keeps what its corners have moved across the face, and, along the face, the
   /// mean elastic part of that: no plastic slip is left, and the tractions are as before.
@@ -452,7 +452,7 @@ class Search {
 
 InterfaceUpdate update_interface(const Model& model, State& state, const Branches& branches, bool clip, int threads) {
   if (model.fill.empty()) return {};
-  return Search(model, state, branches, threads).run(clip);
+  return InterfaceSearch(model, state, branches, threads).run(clip);
 }
 
 }  // namespace voussoir

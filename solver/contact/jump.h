@@ -40,11 +40,6 @@ template <class T>
   return j;
 }
 
-/// Force and moment about the world's origin that the patch puts on body a (b gets the opposite).
-struct Wrench {
-  double f[3], m[3];
-};
-
 inline Quat<double> pose_rotation(const double* pose) {
   return {pose[3], {pose[4], pose[5], pose[6]}};
 }

@@ -40,11 +40,7 @@ void set_stiffness(const Model& model, const State& state, const Vec3& place, co
   patch.ks = 1.0 / (da / ma.shear + db / mb.shear);
 }
 
-void store(double* to, const Vec3& from) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-
-void store(double* to, const Eigen::Quaterniond& q) {
+void store_turn(double* to, const Eigen::Quaterniond& q) {
   to[0] = q.w(), to[1] = q.x(), to[2] = q.y(), to[3] = q.z();
 }
 
@@ -62,8 +58,8 @@ void place_patch(const Model& model, const State& state, const Vec3& place, cons
   store(patch.arm_b, arm_b);
   store(patch.place, at_a);
   store(patch.shift, model.bodies[patch.b].centroid + arm_b - at_a);
-  store(patch.e_a, rotation_of(state, std::size_t(patch.a)).conjugate() * e);
-  store(patch.e_b, rotation_of(state, std::size_t(patch.b)).conjugate() * e);
+  store_turn(patch.e_a, rotation_of(state, std::size_t(patch.a)).conjugate() * e);
+  store_turn(patch.e_b, rotation_of(state, std::size_t(patch.b)).conjugate() * e);
 }
 
 /// Gap of the two faces as an affine field over the patch: least squares over the corners (both faces are plane).

@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace {
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_abutment_restraint(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   if (values[0] == 0.0) return;
   for (bool left : {true, false}) {
     if (!acts_at(where, left)) continue;
@@ -27,7 +27,7 @@ Effect abutment_restraint() {
           "the ground behind an abutment holds its end face",
           {{"stiffness_share", "-", "of the adjacent material's joint stiffness", 0.0, 2.0, 0.0, 0.5, 0.3}},
           free_ends,
-          apply,
+          apply_abutment_restraint,
           nullptr};
 }
 

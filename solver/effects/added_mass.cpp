@@ -37,7 +37,7 @@ std::vector<std::size_t> deck_of_fill(const FillMesh& fill) {
   return found;
 }
 
-void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
+void apply_added_mass(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   const BlockSet on_deck = deck(assembly);
   const std::vector<std::size_t> elements = deck_of_fill(assembly.fill);
   double low = 1e300, high = -1e300, volume = 0.0;
@@ -67,7 +67,7 @@ void apply(Assembly& assembly, const std::string&, const std::vector<double>& va
   finish_blocks(assembly);
 }
 
-std::vector<std::string> places(const Assembly&) {
+std::vector<std::string> places_of_added_mass(const Assembly&) {
   return {"deck"};
 }
 
@@ -77,8 +77,8 @@ Effect added_mass() {
   return {"added_mass",
           "mass on the deck that the model does not have: pavement, ballast, a water main",
           {{"mass_per_length", "kg/m", "over the whole length", 0.0, 50000.0, 0.0, 5000.0, 8000.0}},
-          places,
-          apply,
+          places_of_added_mass,
+          apply_added_mass,
           nullptr};
 }
 

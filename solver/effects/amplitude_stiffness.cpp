@@ -14,14 +14,14 @@ bool bonded(const Assembly& assembly, const Patch& patch) {
          law.cohesion > 0.0;
 }
 
-void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
+void apply_amplitude_stiffness(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   for (Joint& joint : assembly.joints)
     if (!bonded(assembly, joint)) joint.kn *= 1.0 - values[0], joint.ks *= 1.0 - values[0];
   for (FillJoint& patch : assembly.fill_joints)
     if (!bonded(assembly, patch)) patch.kn *= 1.0 - values[0], patch.ks *= 1.0 - values[0];
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_amplitude_stiffness(const Assembly& assembly) {
   for (const Joint& joint : assembly.joints)
     if (!bonded(assembly, joint)) return {"all"};
   for (const FillJoint& patch : assembly.fill_joints)
@@ -35,8 +35,8 @@ Effect amplitude_stiffness() {
   return {"amplitude_stiffness",
           "dry joints are partly open at the amplitude of the measurement",
           {{"share_open", "-", "of the area of joints without bond", 0.0, 0.95, 0.0, 0.3, 0.2}},
-          places,
-          apply,
+          places_of_amplitude_stiffness,
+          apply_amplitude_stiffness,
           nullptr};
 }
 

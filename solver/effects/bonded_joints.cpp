@@ -8,7 +8,7 @@ namespace voussoir {
 namespace {
 
 /// The infill of a pier or abutment is left as it is: see grouted_infill.
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_bonded_joints(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const BlockSet part = masonry_part(assembly, where), infill = component(assembly, Component::infill);
   const auto in = [&](std::int64_t block) { return part[std::size_t(block)] && !infill[std::size_t(block)]; };
   strengthen(
@@ -24,7 +24,7 @@ Effect bonded_joints() {
            {"cohesion", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 3e5, 1e5},
            {"stiffness_factor", "-", "on the stiffness of its joints", 1.0, 5.0, 1.0, 1.2, 0.2, true}},
           masonry_parts,
-          apply,
+          apply_bonded_joints,
           nullptr,
           nullptr,
           0.0};

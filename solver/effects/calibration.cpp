@@ -27,7 +27,7 @@ Kind kind_of(const Block& block) {
   }
 }
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_calibration(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const auto kind = Kind(std::find(std::begin(kind_names), std::end(kind_names), where) - std::begin(kind_names));
   for (Joint& joint : assembly.joints) {
     const Kind a = kind_of(assembly.blocks[std::size_t(joint.a)]), b = kind_of(assembly.blocks[std::size_t(joint.b)]);
@@ -41,7 +41,7 @@ void apply(Assembly& assembly, const std::string& where, const std::vector<doubl
   scale_patches(assembly, BlockSet(assembly.blocks.size(), true), values[0]);
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_calibration(const Assembly& assembly) {
   std::vector<std::string> names;
   for (Kind kind : {Kind::masonry, Kind::infill, Kind::fill})
     if ((kind == Kind::fill && !assembly.fill.empty()) ||
@@ -58,8 +58,8 @@ Effect calibration() {
           "what every model is unsure of: no effect that is missing, but factors on a material",
           {{"stiffness", "-", "on the stiffness of its joints", 0.2, 5.0, 1.0, 1.0, 0.25, true},
            {"density", "-", "on its density", 0.5, 2.0, 1.0, 1.0, 0.05, true}},
-          places,
-          apply,
+          places_of_calibration,
+          apply_calibration,
           nullptr,
           nullptr,
           0.0};

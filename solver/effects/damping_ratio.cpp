@@ -6,7 +6,7 @@ namespace voussoir {
 
 namespace {
 
-void apply(SolverSettings& settings, const std::string&, const std::vector<double>& values) {
+void apply_damping_ratio(SolverSettings& settings, const std::string&, const std::vector<double>& values) {
   using Kind = DampingSettings::Kind;
   if (settings.damping.kind != Kind::maxwell && settings.damping.kind != Kind::rayleigh)
     throw InputError(
@@ -14,7 +14,7 @@ void apply(SolverSettings& settings, const std::string&, const std::vector<doubl
   settings.damping.ratio = values[0];
 }
 
-std::vector<std::string> places(const Assembly&) {
+std::vector<std::string> places_of_damping_ratio(const Assembly&) {
   return {"all"};
 }
 
@@ -24,9 +24,9 @@ Effect damping_ratio() {
   return {"damping",
           "the structure damps more, or less, than thought",
           {{"ratio", "-", "share of critical", 0.001, 0.2, 0.02, 0.03, 0.5, true}},
-          places,
+          places_of_damping_ratio,
           nullptr,
-          apply};
+          apply_damping_ratio};
 }
 
 }  // namespace voussoir

@@ -6,12 +6,12 @@ namespace voussoir {
 
 namespace {
 
-void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
+void apply_fill_stiffness(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   scale_inside(assembly, component(assembly, Component::backfill), values[0]);
   scale_fill(assembly, values[0], 1.0);
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_fill_stiffness(const Assembly& assembly) {
   return all_if_filled(assembly);
 }
 
@@ -22,8 +22,8 @@ Effect fill_stiffness() {
           "the backfill is softer or stiffer than thought",
           {{"factor", "-", "on the stiffness of its joints, or on its moduli as a continuum", 0.05, 20.0, 1.0, 1.0, 0.7,
             true}},
-          places,
-          apply,
+          places_of_fill_stiffness,
+          apply_fill_stiffness,
           nullptr};
 }
 

@@ -53,7 +53,7 @@ void put_on_soil(Assembly& assembly, std::int64_t base, double g) {
             elastic_law_index(assembly));
 }
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_foundation_flexibility(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   for (const std::string& support : supports(assembly))
     if (where == "all" || where == support) {
       const std::int64_t base = base_of(assembly, support);
@@ -61,7 +61,7 @@ void apply(Assembly& assembly, const std::string& where, const std::vector<doubl
     }
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_foundation_flexibility(const Assembly& assembly) {
   std::vector<std::string> names = supports(assembly);
   if (names.size() > 1) names.push_back("all");
   return names;
@@ -73,8 +73,8 @@ Effect foundation_flexibility() {
   return {"foundation_flexibility",
           "the soil under a support gives way: it sinks, slides and rocks on springs",
           {{"soil_shear_modulus", "Pa", "of the half-space under the base", 1e6, 1e12, 1e12, 1e8, 1.5, true}},
-          places,
-          apply,
+          places_of_foundation_flexibility,
+          apply_foundation_flexibility,
           nullptr};
 }
 

@@ -21,7 +21,7 @@ bool any(const BlockSet& set) {
 }
 
 /// Masonry parts with infill in them.
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_grouted_infill(const Assembly& assembly) {
   std::vector<std::string> names;
   for (const std::string& name : masonry_parts(assembly))
     if (any(infill_of(assembly, name))) names.push_back(name);
@@ -29,7 +29,7 @@ std::vector<std::string> places(const Assembly& assembly) {
 }
 
 /// The infill's own joints and those with what surrounds it.
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_grouted_infill(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const BlockSet infill = infill_of(assembly, where);
   const auto grouted = [&](const Joint& joint) { return infill[std::size_t(joint.a)] || infill[std::size_t(joint.b)]; };
   strengthen(assembly, grouted, values[0], values[1], values[2]);
@@ -45,8 +45,8 @@ Effect grouted_infill() {
            {"cohesion", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1.5e5, 1e5},
            {"stiffness_factor", "-", "on the stiffness of its joints", 1.0, 20.0, 1.0, 2.0, 0.5, true},
            {"density_factor", "-", "on its density", 1.0, 1.5, 1.0, 1.05, 0.05, true}},
-          places,
-          apply,
+          places_of_grouted_infill,
+          apply_grouted_infill,
           nullptr,
           nullptr,
           0.0};

@@ -41,12 +41,12 @@ void stand_beside(Assembly& assembly, bool left, double stiffness, double mass) 
   add_joint(assembly, neighbour, ground, face, Vec3::UnitX() * (left ? -1.0 : 1.0), k, k, elastic_law_index(assembly));
 }
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_neighbouring_structure(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   stand_beside(assembly, where == "left", values[0], values[1]);
 }
 
 /// One end each: two neighbours are two effects.
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_neighbouring_structure(const Assembly& assembly) {
   std::vector<std::string> names = free_ends(assembly);
   std::erase(names, "both");
   return names;
@@ -59,8 +59,8 @@ Effect neighbouring_structure() {
           "another structure stands against an end of the bridge",
           {{"stiffness", "N/m", "of its springs to the ground, in each direction", 1e5, 1e12, 1e5, 1e9, 1.5, true},
            {"mass", "kg", "that moves with the end face", 1e2, 1e7, 1e2, 1e5, 1.5, true}},
-          places,
-          apply,
+          places_of_neighbouring_structure,
+          apply_neighbouring_structure,
           nullptr,
           nullptr,
           0.2};

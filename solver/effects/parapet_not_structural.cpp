@@ -6,11 +6,11 @@ namespace voussoir {
 
 namespace {
 
-void apply(Assembly& assembly, const std::string&, const std::vector<double>& values) {
+void apply_parapet_not_structural(Assembly& assembly, const std::string&, const std::vector<double>& values) {
   scale_inside(assembly, component(assembly, Component::parapet), values[0]);
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_parapet_not_structural(const Assembly& assembly) {
   return all_if_any(assembly, Component::parapet);
 }
 
@@ -20,8 +20,8 @@ Effect parapet_not_structural() {
   return {"parapet_not_structural",
           "the parapets weigh but do not stiffen the bridge",
           {{"factor", "-", "on the stiffness of the joints inside them", 0.001, 1.0, 1.0, 0.01, 1.0, true}},
-          places,
-          apply,
+          places_of_parapet_not_structural,
+          apply_parapet_not_structural,
           nullptr};
 }
 

@@ -39,7 +39,7 @@ Box box_of_walls(const Assembly& assembly) {
 }
 
 /// Supports that lie under the walls, then the whole length.
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_retrofit_ties(const Assembly& assembly) {
   if (box_of_walls(assembly).low.x() > box_of_walls(assembly).high.x()) return {};
   std::vector<std::string> names = supports(assembly);
   names.push_back("all");
@@ -92,7 +92,7 @@ void add_tie(Assembly& assembly, double x, double z, const Tie& tie) {
   joint.face_a = std::int32_t(number / faces), joint.face_b = std::int32_t(number % faces);
 }
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_retrofit_ties(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const Tie tie = {values[0], values[1], values[2], values[3], values[4]};
   if (tie.pretension > tie.yield_force)
     throw InputError(
@@ -119,8 +119,8 @@ Effect retrofit_ties() {
            {"pretension", "N", "of a tie, in the bridge as built", 0.0, 1e9, 0.0, 0.0, 1e4},
            {"spacing", "m", "along the bridge", 0.2, 100.0, 1.5, 1.5, 1.0},
            {"depth", "m", "below the top of the walls", 0.05, 50.0, 1.0, 1.0, 1.0}},
-          places,
-          apply,
+          places_of_retrofit_ties,
+          apply_retrofit_ties,
           nullptr,
           nullptr,
           0.0};

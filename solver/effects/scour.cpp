@@ -10,14 +10,14 @@ namespace {
 
 const char* const sides[] = {"x-", "x+", "y-", "y+"};
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_scour(const Assembly& assembly) {
   std::vector<std::string> names;
   for (const std::string& support : supports(assembly))
     for (const char* side : sides) names.push_back(support + " " + side);
   return names;
 }
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_scour(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const std::string support = where.substr(0, where.size() - 3), side = where.substr(where.size() - 2);
   const std::int64_t base = base_of(assembly, support);
   const int axis = side[0] == 'x' ? 0 : 1;
@@ -44,8 +44,8 @@ Effect scour() {
   return {"scour",
           "a support has lost its bearing along one side of its base",
           {{"lost_share", "-", "of the base's length or width, from that side", 0.0, 0.9, 0.0, 0.3, 0.2}},
-          places,
-          apply,
+          places_of_scour,
+          apply_scour,
           nullptr};
 }
 

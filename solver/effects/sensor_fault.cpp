@@ -11,7 +11,7 @@ namespace voussoir {
 
 namespace {
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_sensor_fault(const Assembly& assembly) {
   std::vector<std::string> names;
   for (const Sensor& sensor : assembly.sensors) names.push_back("channel " + sensor.id);
   for (std::size_t i = 0; i < assembly.sensors.size(); ++i)
@@ -28,7 +28,7 @@ Sensor& channel(std::vector<Sensor>& sensors, const std::string& id) {
   return *at;
 }
 
-void apply(std::vector<Sensor>& sensors, const std::string& where, const std::vector<double>& values) {
+void apply_sensor_fault(std::vector<Sensor>& sensors, const std::string& where, const std::vector<double>& values) {
   const std::size_t gap = where.find(' '), next = where.find(' ', gap + 1);
   if (gap == std::string::npos)
     throw InputError("effect sensor_fault: '{}' names no channel; give \"channel ID\" or \"channels ID ID\"", where);
@@ -46,10 +46,10 @@ Effect sensor_fault() {
           "a channel has the wrong gain or sign or a late clock, or two of one place are swapped",
           {{"gain", "-", "what it reads of the truth; −1 is a reversed channel", -20.0, 20.0, 1.0, 1.0, 0.5},
            {"delay", "s", "of its clock: in recordings; a run's histories are not shifted", -0.2, 0.2, 0.0, 0.0, 0.02}},
-          places,
+          places_of_sensor_fault,
           nullptr,
           nullptr,
-          apply};
+          apply_sensor_fault};
 }
 
 }  // namespace voussoir

@@ -6,12 +6,12 @@ namespace voussoir {
 
 namespace {
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_spandrel_separation(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const BlockSet wall = masonry_part(assembly, where == "both" ? "spandrels" : where);
   scale_between(assembly, wall, component(assembly, Component::arch), values[0]);
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_spandrel_separation(const Assembly& assembly) {
   std::vector<std::string> names;
   for (const std::string& part : masonry_parts(assembly)) {
     if (part.starts_with("spandrel y")) names.push_back(part);
@@ -26,8 +26,8 @@ Effect spandrel_separation() {
   return {"spandrel_separation",
           "a spandrel wall has come away from the vaults",
           {{"factor", "-", "on the stiffness of the joints between them", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
-          places,
-          apply,
+          places_of_spandrel_separation,
+          apply_spandrel_separation,
           nullptr};
 }
 

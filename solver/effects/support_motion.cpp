@@ -20,7 +20,7 @@ Drive& drive_of(StageSettings& stage, const std::string& group) {
   return stage.drives.back();
 }
 
-void apply(SolverSettings& settings, const std::string& where, const std::vector<double>& values) {
+void apply_support_motion(SolverSettings& settings, const std::string& where, const std::vector<double>& values) {
   // The settings are read before there is an assembly whose only support could be meant.
   if (where.empty()) throw InputError("effect support_motion: which support? Give 'where', such as \"pier 0\"");
   for (StageSettings& stage : settings.stages) {
@@ -40,7 +40,7 @@ Effect support_motion() {
            {"delay", "s", "how much later than the ground; negative: earlier", -0.5, 0.5, 0.0, 0.0, 0.05}},
           supports,
           nullptr,
-          apply};
+          apply_support_motion};
 }
 
 }  // namespace voussoir

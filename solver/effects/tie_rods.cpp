@@ -15,7 +15,7 @@ std::vector<std::string> tied(const Assembly& assembly) {
   return names;
 }
 
-std::vector<std::string> places(const Assembly& assembly) {
+std::vector<std::string> places_of_tie_rods(const Assembly& assembly) {
   std::vector<std::string> names = tied(assembly);
   if (names.size() > 1) names.push_back("all");
   return names;
@@ -33,7 +33,7 @@ void tie(Assembly& assembly, std::int64_t one, std::int64_t other, double axial)
             elastic_law_index(assembly));
 }
 
-void apply(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
+void apply_tie_rods(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   if (values[0] == 0.0) return;
   for (const std::string& support : tied(assembly))
     if (where == "all" || where == support)
@@ -47,8 +47,8 @@ Effect tie_rods() {
   return {"tie_rods",
           "tie rods hold the spandrel walls together above a support",
           {{"axial_stiffness", "N", "E A of the rods at one place", 0.0, 1e10, 0.0, 2e8, 2e8}},
-          places,
-          apply,
+          places_of_tie_rods,
+          apply_tie_rods,
           nullptr};
 }
 

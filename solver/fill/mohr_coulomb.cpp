@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -22,7 +23,7 @@ FillLaw fill_law(const Material& m) {
     throw InputError(
         "the fill's material '{}' has a dilation_angle of {:.2f} degrees, above its friction_angle of "
         "{:.2f}: lower the first",
-        m.name, m.dilation_angle * 180.0 / M_PI, m.friction_angle * 180.0 / M_PI);
+        m.name, m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
   FillLaw law;
   law.density = m.density;
   law.bulk = bulk;

@@ -6,9 +6,10 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
+#include "solver/identify/spectra.h"
 #include "solver/identify/ssi.h"
 #include "solver/linear/dense_eigen.h"
 
@@ -17,7 +18,6 @@ namespace voussoir {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr Eigen::Index least_lines = 16;
 constexpr Eigen::Index background = 3;        // columns of the basis before those of the poles
 constexpr Eigen::Index kept_directions = 24;  // of the columns: more than poles and background can fill
@@ -40,12 +40,6 @@ struct Data {
   double window = 0.0;        // s; 0: not smoothed
 };
 
-double median(std::vector<double> x) {
-  const auto middle = x.begin() + std::ptrdiff_t(x.size() / 2);
-  std::nth_element(x.begin(), middle, x.end());
-  return *middle;
-}
-
 std::vector<Eigen::Index> finite_lines(const TransferFunctions& t) {
   std::vector<Eigen::Index> lines;
   for (std::size_t k = 0; k < t.values.size(); ++k)
@@ -61,7 +55,7 @@ std::vector<Eigen::Index> finite_lines(const TransferFunctions& t) {
 /// Median over the lines of each column's standard deviation; where that is nothing, next to nothing.
 Eigen::RowVectorXd column_spread(const Eigen::MatrixXd& spread, double size) {
   Eigen::RowVectorXd medians(spread.cols());
-  for (Eigen::Index c = 0; c < spread.cols(); ++c) medians[c] = median({spread.col(c).begin(), spread.col(c).end()});
+  for (Eigen::Index c = 0; c < spread.cols(); ++c) medians[c] = median_of({spread.col(c).begin(), spread.col(c).end()});
   const double least = 1e-3 * medians.maxCoeff() + 1e-9 * size;
   return least > 0.0 ? medians.cwiseMax(least).eval() : Eigen::RowVectorXd::Ones(spread.cols()).eval();
 }
@@ -69,7 +63,7 @@ Eigen::RowVectorXd column_spread(const Eigen::MatrixXd& spread, double size) {
 /// A line's standard deviations over those of the median line, root mean square over the columns.
 Eigen::VectorXd line_spread(const Eigen::MatrixXd& spread, const Eigen::RowVectorXd& column) {
   const Eigen::VectorXd ratio = (spread.array().rowwise() / column.array()).square().rowwise().mean().sqrt().matrix();
-  const double usual = median({ratio.begin(), ratio.end()});
+  const double usual = median_of({ratio.begin(), ratio.end()});
   return usual > 0.0 ? (ratio / usual).cwiseMax(0.1).eval() : Eigen::VectorXd::Ones(ratio.size()).eval();
 }
 
@@ -302,7 +296,7 @@ void choose(RankOne& r, const Eigen::VectorXcd& weighted) {
 }
 
 /// The largest component 1 in size and of positive real part, what is known turned to the least imaginary parts.
-void normalise(RankOne& r) {
+void normalise_residue(RankOne& r) {
   const double size = std::abs(r.shape[r.largest]);
   if (!(size > 0.0)) return;
   Complex factor = std::polar(1.0 / size, -0.5 * std::arg(r.shape(r.known).array().square().sum()));
@@ -326,7 +320,7 @@ RankOne rank_one(const Sides& sides, const Eigen::MatrixXcd& residue, const Rank
   } else {
     choose(r, svd.matrixU().col(0));
   }
-  normalise(r);
+  normalise_residue(r);
   return r;
 }
 

@@ -14,16 +14,6 @@ namespace voussoir {
 
 namespace {
 
-int window_samples(const Prepared& p, double seconds) {
-  Eigen::Index longest = 0;
-  for (const Eigen::MatrixXd& x : p.signals) longest = std::max(longest, x.rows());
-  if (seconds == 0.0) return std::max(16, power_of_two_below(double(longest) / 20.0));
-  if (!(seconds >= 8.0 * p.dt) || seconds > double(longest) * p.dt)
-    throw InputError("spectra: the window is {} s: must be from {:.3g} s to {:.3g} s", seconds, 8.0 * p.dt,
-                     double(longest) * p.dt);
-  return power_of_two_below(seconds / p.dt * (1.0 + 1e-9));
-}
-
 void decompose(const Prepared& p, const Eigen::MatrixXcd& density, std::size_t line, Fdd& fdd) {
   const EigenSolution<Eigen::MatrixXcd> solution = eigen_solution(density);
   const Eigen::Index n = density.rows(), kept = fdd.singular.cols();
@@ -99,7 +89,7 @@ Fdd decompose_spectra(const std::vector<Recording>& recordings, const FddSetting
   if (settings.singular_values < 1)
     throw InputError("spectra: {} singular values are asked for; ask for at least 1", settings.singular_values);
   const Prepared p = prepare(recordings, settings.highest_frequency);
-  const int window = window_samples(p, settings.window);
+  const int window = window_samples(p, settings.window, 20.0, "spectra");
   const CrossSpectra spectra = cross_spectra(p.signals, p.dt, window, p.highest_frequency);
   Fdd fdd;
   fdd.channels = p.channels;

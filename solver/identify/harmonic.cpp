@@ -5,6 +5,9 @@
 #include <complex>
 #include <numbers>
 
+#include "solver/base/constants.h"
+#include "solver/identify/spectra.h"
+
 namespace voussoir {
 
 namespace {
@@ -27,8 +30,7 @@ constexpr double half_way = 2.0;    // kurtosis; a harmonic with a tenth of its 
 Eigen::VectorXcd envelopes(const Eigen::VectorXcd& signal, double omega, Eigen::Index window) {
   Eigen::VectorXcd kernel(window);
   for (Eigen::Index i = 0; i < window; ++i)
-    kernel[i] =
-        std::polar(0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * double(i) / double(window)), omega * double(i));
+    kernel[i] = std::polar(0.5 - 0.5 * std::cos(2.0 * pi * double(i) / double(window)), omega * double(i));
   const Eigen::Index hop = std::max<Eigen::Index>(1, window / 2);
   const Eigen::Index count = signal.size() < window ? 0 : (signal.size() - window) / hop + 1;
   Eigen::VectorXcd a(count);
@@ -49,12 +51,6 @@ std::vector<Step> steps_of(const Eigen::VectorXcd& a, double left) {
   return steps;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 Narrowband narrowband_kurtosis(const std::vector<Eigen::MatrixXd>& signals, double dt, double frequency, double damping,
@@ -66,7 +62,7 @@ Narrowband narrowband_kurtosis(const std::vector<Eigen::MatrixXd>& signals, doub
   const auto window = Eigen::Index(std::ceil(seconds / dt));
   std::vector<double> squares;
   for (const Eigen::MatrixXd& x : signals)
-    for (const auto& a : envelopes(x * along.conjugate(), 2.0 * std::numbers::pi * frequency * dt, window))
+    for (const auto& a : envelopes(x * along.conjugate(), 2.0 * pi * frequency * dt, window))
       squares.push_back(std::norm(a));
   Narrowband result;
   if (squares.empty()) return result;
@@ -77,7 +73,7 @@ Narrowband narrowband_kurtosis(const std::vector<Eigen::MatrixXd>& signals, doub
   }
   // Of A cos(ωt + φ) with a slow A the mean fourth power is 3/8 A⁴ and the mean square 1/2 A².
   result.kurtosis = 1.5 * fourth * double(squares.size()) / (second * second);
-  const double memory = 1.0 / (2.0 * std::numbers::pi * frequency * std::max(damping, 1e-6));
+  const double memory = 1.0 / (2.0 * pi * frequency * std::max(damping, 1e-6));
   result.independent = duration / std::max(seconds, memory);
   return result;
 }
@@ -90,10 +86,10 @@ bool is_harmonic(const Narrowband& band, double damping) {
 
 Stops fast_stops(const std::vector<Eigen::MatrixXd>& signals, double dt, double frequency, double damping,
                  const Eigen::VectorXcd& along) {
-  const double memory = 1.0 / (2.0 * std::numbers::pi * std::max(damping, 1e-6));  // cycles
+  const double memory = 1.0 / (2.0 * pi * std::max(damping, 1e-6));  // cycles
   const double cycles = std::clamp(short_of_memory * memory, least_stop_cycles, most_stop_cycles);
   const auto window = Eigen::Index(std::ceil(cycles / (frequency * dt)));
-  const double left = std::exp(-0.5 * double(lag) * cycles / memory), omega = 2.0 * std::numbers::pi * frequency * dt;
+  const double left = std::exp(-0.5 * double(lag) * cycles / memory), omega = 2.0 * pi * frequency * dt;
   std::vector<Step> steps;
   for (const Eigen::MatrixXd& x : signals)
     for (const Step& step : steps_of(envelopes(x * along.conjugate(), omega, window), left)) steps.push_back(step);
@@ -107,7 +103,7 @@ Stops fast_stops(const std::vector<Eigen::MatrixXd>& signals, double dt, double 
   }
   // What a Gaussian excitation adds in that time; or more where other motions hide the mode (an exponential
   // distribution's median is ln 2 of its mean).
-  const double usual = std::max(mean * (1.0 - left * left), median(unforeseen) / std::numbers::ln2);
+  const double usual = std::max(mean * (1.0 - left * left), median_of(unforeseen) / std::numbers::ln2);
   double lost = 0.0, lost_fast = 0.0;
   bool stopping = false;
   for (const Step& step : steps) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/identify/spectra.h"
 
@@ -65,14 +65,13 @@ Eigen::MatrixXd columns(const Recording& recording, const std::vector<std::strin
 Eigen::VectorXd low_pass(double dt, double pass, double stop) {
   constexpr double attenuation = 60.0;  // dB
   constexpr double beta = 0.1102 * (attenuation - 8.7);
-  const double two_pi = 2.0 * std::numbers::pi;
   const int half = int(std::ceil((attenuation - 8.0) / (2.285 * two_pi * (stop - pass) * dt) / 2.0));
   const double cut = two_pi * 0.5 * (pass + stop) * dt;
   Eigen::VectorXd h(half + 1);
-  h[0] = cut / std::numbers::pi;
+  h[0] = cut / pi;
   for (int i = 1; i <= half; ++i) {
     const double r = double(i) / half, taper = std::cyl_bessel_i(0.0, beta * std::sqrt(1.0 - r * r));
-    h[i] = std::sin(cut * i) / (std::numbers::pi * i) * taper / std::cyl_bessel_i(0.0, beta);
+    h[i] = std::sin(cut * i) / (pi * i) * taper / std::cyl_bessel_i(0.0, beta);
   }
   return h / (h[0] + 2.0 * h.tail(half).sum());
 }
@@ -288,6 +287,16 @@ Eigen::VectorXcd over_all_channels(const Prepared& prepared, const Eigen::Vector
   Eigen::VectorXcd all = Eigen::VectorXcd::Constant(Eigen::Index(prepared.channels.size()), {none, none});
   for (std::size_t i = 0; i < prepared.used.size(); ++i) all[prepared.used[i]] = shape[Eigen::Index(i)];
   return all;
+}
+
+int window_samples(const Prepared& p, double seconds, double parts, const char* what) {
+  Eigen::Index longest = 0;
+  for (const Eigen::MatrixXd& x : p.signals) longest = std::max(longest, x.rows());
+  if (seconds == 0.0) return std::max(16, power_of_two_below(double(longest) / parts));
+  if (!(seconds >= 8.0 * p.dt) || seconds > double(longest) * p.dt)
+    throw InputError("{}: the window is {} s: must be from {:.3g} s to {:.3g} s", what, seconds, 8.0 * p.dt,
+                     double(longest) * p.dt);
+  return power_of_two_below(seconds / p.dt * (1.0 + 1e-9));
 }
 
 }  // namespace voussoir

@@ -60,6 +60,10 @@ Prepared gathered(const std::vector<Recording>& recordings, double highest_frequ
 /// none or are all poor, and for recordings with fewer than 64 samples after decimation.
 Prepared prepare(const std::vector<Recording>& recordings, double highest_frequency);
 
+/// Samples, a power of two, of windows of so many seconds; of 0 s: of a `parts`-th of the longest recording, at
+/// least 16. Throws InputError that begins with `what` for less than 8 samples or more than the longest recording.
+int window_samples(const Prepared& prepared, double seconds, double parts, const char* what);
+
 /// A vector over `used` channels as one over all, NaN where a channel was left out.
 Eigen::VectorXcd over_all_channels(const Prepared& prepared, const Eigen::VectorXcd& shape);
 

@@ -1,6 +1,7 @@
 // What a set of instruments recorded together.
 #pragma once
 #include <Eigen/Dense>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,11 @@ struct Recording {
   Eigen::MatrixXd values;             // samples × channels, m/s2
   double duration() const { return values.rows() > 0 ? dt * double(values.rows() - 1) : 0.0; }  // s
 };
+
+/// Column of a channel; −1: it was not recorded.
+inline Eigen::Index column_of(const Recording& record, const std::string& channel) {
+  const auto at = std::find(record.channels.begin(), record.channels.end(), channel);
+  return at == record.channels.end() ? -1 : Eigen::Index(at - record.channels.begin());
+}
 
 }  // namespace voussoir

@@ -1,9 +1,9 @@
 #include "solver/identify/spectra.h"
 
 #include <cmath>
-#include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -14,7 +14,7 @@ constexpr int batch = 16;  // windows whose products are summed by one matrix pr
 
 Eigen::VectorXd hann(int n) {
   Eigen::VectorXd w(n);
-  for (int i = 0; i < n; ++i) w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / n);
+  for (int i = 0; i < n; ++i) w[i] = 0.5 - 0.5 * std::cos(2.0 * pi * i / n);
   return w;
 }
 
@@ -92,6 +92,12 @@ CrossSpectra cross_spectra(const std::vector<Eigen::MatrixXd>& signals, double d
     result.density[k] *= alone ? 0.5 * scale : scale;
   }
   return result;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace voussoir

@@ -21,4 +21,7 @@ CrossSpectra cross_spectra(const std::vector<Eigen::MatrixXd>& signals, double d
 /// The largest power of two not above x, 2 at least.
 int power_of_two_below(double x);
 
+/// The upper one of the two in the middle of an even number of values; there must be one.
+double median_of(std::vector<double> values);
+
 }  // namespace voussoir

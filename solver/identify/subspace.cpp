@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
@@ -131,7 +131,7 @@ CanonicalWeights canonical_weights(const std::vector<Eigen::MatrixXd>& signals, 
 }
 
 double Pole::frequency() const {
-  return std::abs(lambda) / (2.0 * std::numbers::pi);
+  return std::abs(lambda) / (2.0 * pi);
 }
 
 double Pole::damping() const {

@@ -48,16 +48,6 @@ Roles roles_of(const Prepared& p) {
   return roles;
 }
 
-int window_samples(const Prepared& p, double seconds) {
-  Eigen::Index longest = 0;
-  for (const Eigen::MatrixXd& x : p.signals) longest = std::max(longest, x.rows());
-  if (seconds == 0.0) return std::max(16, power_of_two_below(double(longest) / 10.0));
-  if (!(seconds >= 8.0 * p.dt) || seconds > double(longest) * p.dt)
-    throw InputError("transfer functions: the window is {} s: must be from {:.3g} s to {:.3g} s", seconds, 8.0 * p.dt,
-                     double(longest) * p.dt);
-  return power_of_two_below(seconds / p.dt * (1.0 + 1e-9));
-}
-
 /// Inputs whose spectra are each other's at every line leave nothing to tell them apart by.
 void check_independent(const CrossSpectra& spectra, const Prepared& p, const std::vector<int>& inputs) {
   for (std::size_t a = 0; a < inputs.size(); ++a)
@@ -115,7 +105,7 @@ bool has_base_motion(const std::vector<Recording>& recordings) {
 TransferFunctions transfer_functions(const std::vector<Recording>& recordings, const TransferSettings& settings) {
   const Prepared p = gathered(recordings, settings.highest_frequency);
   const Roles roles = roles_of(p);
-  const int window = window_samples(p, settings.window);
+  const int window = window_samples(p, settings.window, 10.0, "transfer functions");
   const CrossSpectra spectra = cross_spectra(p.signals, p.dt, window, p.highest_frequency);
   const double least = double(roles.inputs.size()) + 2.0;
   if (spectra.averages < least)

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/step/damping.h"
 
 namespace voussoir {
@@ -11,8 +11,6 @@ namespace voussoir {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 DampedMode of_pole(Complex s) {
   if (std::abs(s.imag()) <= 1e-12 * std::abs(s)) return {0.0, 1.0};
@@ -48,9 +46,9 @@ DampedMode rayleigh(const DampingSettings& damping, double omega) {
 /// frequencies, and a ratio of velocities of √((1 − c)/(1 + c)) from one passage through zero to the next.
 DampedMode local(double c, double omega) {
   if (c >= 1.0) return {0.0, 1.0};
-  const double half_period = 0.5 * std::numbers::pi / omega * (1.0 / std::sqrt(1.0 + c) + 1.0 / std::sqrt(1.0 - c));
+  const double half_period = 0.5 * pi / omega * (1.0 / std::sqrt(1.0 + c) + 1.0 / std::sqrt(1.0 - c));
   const double decay = 0.5 * std::log((1.0 + c) / (1.0 - c));
-  return {0.5 / half_period, decay / std::hypot(std::numbers::pi, decay)};
+  return {0.5 / half_period, decay / std::hypot(pi, decay)};
 }
 
 }  // namespace

@@ -12,11 +12,6 @@ struct Branches {
   double e[most_branches] = {}, g[most_branches] = {};
 
   double stored[most_branches] = {};  // held by the branch's spring per stiffness: ½ stored q²
-  double total_g() const {
-    double sum = 0.0;
-    for (int i = 0; i < count; ++i) sum += g[i];
-    return sum;
-  }
 };
 
 }  // namespace voussoir

@@ -10,10 +10,6 @@ namespace voussoir {
 
 namespace {
 
-void store(double* to, const Vec3& from) {
-  for (int c = 0; c < 3; ++c) to[c] = from[c];
-}
-
 InterfacePatch make_patch(const Assembly& assembly, const FillJoint& joint, const Model& model) {
   const PatchShape shape = patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
   InterfacePatch patch;

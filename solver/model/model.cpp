@@ -96,10 +96,6 @@ void add_bodies(const Assembly& assembly, Model& model) {
   if (!model.up.isZero(0.0)) model.bottom = bottom;
 }
 
-void store(double* to, const Vec3& from) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-
 PatchShape joint_shape(const Joint& joint, std::size_t index, const Model& model) {
   if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
     throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index,

@@ -19,6 +19,10 @@
 
 namespace voussoir {
 
+inline void store(double* to, const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
 /// Constants of one body; the reference placement is the assembly's.
 struct Body {
   Vec3 centroid = Vec3::Zero();  // m

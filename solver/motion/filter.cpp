@@ -4,14 +4,13 @@
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
 
 namespace voussoir {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A length that the transform likes: 2^a 3^b 5^c.
 std::size_t good_length(std::size_t least) {

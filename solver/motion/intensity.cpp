@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/constants.h"
 #include "solver/motion/baseline.h"
 
 namespace voussoir {
 
 namespace {
-
-constexpr double standard_gravity = 9.80665;  // m/s2
-constexpr double pi = 3.14159265358979323846;
 
 double largest(const std::vector<double>& values) {
   double most = 0.0;

@@ -1,8 +1,8 @@
 #include "solver/motion/pulse.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -17,7 +17,7 @@ namespace {
 /// Value at time t after the pulse began; 0 outside [0, length].
 double value(const PulseSettings& pulse, double frequency, double t) {
   if (pulse.kind == PulseSettings::Kind::rectangular) return pulse.amplitude;
-  return pulse.amplitude * std::sin(2.0 * std::numbers::pi * frequency * t);
+  return pulse.amplitude * std::sin(2.0 * pi * frequency * t);
 }
 
 }  // namespace

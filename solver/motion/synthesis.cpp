@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/random.h"
 #include "solver/motion/baseline.h"
@@ -15,8 +15,6 @@
 namespace voussoir {
 
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double highest_frequency = 25.0;  // Hz; above it neither records nor bridges have much to say
 
 using Complex = std::complex<double>;
@@ -116,15 +114,14 @@ double misfit(const std::vector<double>& response, const std::vector<double>& ta
 
 /// The best of the rounds, since the last need not be: neighbouring periods pull against each other.
 GroundMotion matched(const GroundMotion& noise, const SyntheticSettings& settings) {
-  constexpr double g = 9.80665;
   const std::vector<double> periods = matching_periods(settings);
   GroundMotion result = noise;
   for (int axis = 0; axis < 3; ++axis) {
     if (!settings.axes[std::size_t(axis)]) continue;
     std::vector<double> target;
     for (const double period : periods)
-      target.push_back(g * (axis == 2 ? vertical_spectral_acceleration(*settings.spectrum, period)
-                                      : spectral_acceleration(*settings.spectrum, period)));
+      target.push_back(standard_gravity * (axis == 2 ? vertical_spectral_acceleration(*settings.spectrum, period)
+                                                     : spectral_acceleration(*settings.spectrum, period)));
     GroundMotion now{noise.dt, {}};
     for (const Vec3& a : noise.acceleration) now.acceleration.emplace_back(a[axis], 0.0, 0.0);
     double best = INFINITY;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/contact/jump.h"
 #include "solver/run/runaway.h"
 #include "solver/statics/collapse.h"
@@ -13,8 +13,8 @@ namespace voussoir {
 
 namespace {
 
-constexpr double far_share = 0.05;                         // of the smaller stone's size
-constexpr double far_turn = 3.0 * std::numbers::pi / 180;  // rad
+constexpr double far_share = 0.05;           // of the smaller stone's size
+constexpr double far_turn = 3.0 * pi / 180;  // rad
 
 /// Of one body between two placements.
 struct Way {
@@ -137,7 +137,7 @@ std::string moved_text(const Assembly& assembly, const Model& model, const std::
     const Vec3 at = model.bodies[i].centroid + Vec3(&to.pose[pose_width * i]);
     text += fmt::format("\n  {} at ({:.2f}, {:.2f}, {:.2f}) m: {:.3g} m {}, turned by {:.3g}°{}",
                         body_name(assembly, model, body), at.x() + 0.0, at.y() + 0.0, at.z() + 0.0,
-                        way.displacement.norm(), direction_words(way.displacement), way.turn * 180.0 / std::numbers::pi,
+                        way.displacement.norm(), direction_words(way.displacement), way.turn * 180.0 / pi,
                         joints_text(mechanism, model.block_of_body[i]));
   }
   return text;

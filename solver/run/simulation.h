@@ -99,8 +99,6 @@ class Simulation {
   double end_time() const;                                                               // s, of all stages
   double worst_balance() const { return worst_balance_; }                                // largest share so far
   void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }  // of the part before a restart
-  std::int64_t intact_patches() const { return last_.intact; }
-  std::int64_t point_patches() const { return last_.points; }
 
  private:
   void begin_stage(const StageSettings& stage);

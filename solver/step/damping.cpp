@@ -1,15 +1,13 @@
 #include "solver/step/damping.h"
 
 #include <complex>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 std::complex<double> complex_stiffness(const MaxwellFit& fit, double frequency) {
   std::complex<double> k = 1.0;

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/step/drive.h"
 
 namespace voussoir {
 
 double eased(double time, double duration) {
-  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double turn = 2.0 * pi;
   const double share = std::clamp(time / duration, 0.0, 1.0);
   return share - std::sin(turn * share) / turn;
 }

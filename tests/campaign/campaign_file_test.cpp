@@ -6,7 +6,7 @@
 #include "tools/campaign/sharing.h"
 
 namespace voussoir::campaign {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::CampaignFolder;
 using test::one_record;
@@ -152,5 +152,5 @@ TEST(CampaignFile, CoresAreSharedSensibly) {
   EXPECT_EQ(shared(0, 0, 1, 0), (std::pair{1, 1}));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

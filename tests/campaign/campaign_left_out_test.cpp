@@ -5,7 +5,7 @@
 #include "tools/campaign/plan.h"
 
 namespace voussoir::campaign {
-namespace {
+namespace VOUSSOIR_FILE {
 
 std::string at2(const std::string& component, const std::string& quantity) {
   return fmt::format(
@@ -40,5 +40,5 @@ TEST(CampaignPlan, WhatAFolderLeavesOutStandsInThePlan) {
     EXPECT_GT(case_of(more.plan, run, folder / "camp").settings.stages[1].motion.acceleration.at(1).y(), 0.0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

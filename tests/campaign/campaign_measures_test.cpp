@@ -8,7 +8,7 @@
 #include "tools/campaign/measures.h"
 
 namespace voussoir::campaign {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::vector<double> periods = {0.5, 1.0};
 
@@ -80,5 +80,5 @@ TEST(CampaignMeasures, APartIsCutAtItsDuration) {
   EXPECT_EQ(first_part(m, 100.0).acceleration.size(), m.acceleration.size());
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

@@ -11,7 +11,7 @@
 #include "tools/campaign/plan.h"
 
 namespace voussoir::campaign {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::CampaignFolder;
 using test::one_record;
@@ -201,5 +201,5 @@ TEST(CampaignJson, NumbersThatDoNotFitAreRefused) {
   EXPECT_EQ(need<double>(numbers, "half", "plan.json"), 0.5);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

@@ -7,7 +7,7 @@
 #include "tools/campaign/sample.h"
 
 namespace voussoir::campaign {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr int many = 40000;
 
@@ -118,5 +118,5 @@ TEST(CampaignSample, WhatCannotBeDrawnIsSaid) {
   EXPECT_NE(test::refusal([&] { draw(zero, "k", 0.0, 1, 1); }).find("give 'deviation'"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

@@ -9,7 +9,7 @@
 #include "tools/campaign/write_table.h"
 
 namespace voussoir::campaign {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::CampaignFolder;
 
@@ -88,5 +88,5 @@ TEST(CampaignTable, TheHdf5FileHoldsTheSame) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

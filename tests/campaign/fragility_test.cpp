@@ -9,7 +9,7 @@
 #include "tests/campaign/synthetic.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Cloud;
 using test::draw;
@@ -287,5 +287,5 @@ TEST(Fragility, LimitStatesAreChecked) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

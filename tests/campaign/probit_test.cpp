@@ -10,7 +10,7 @@
 #include "tools/fragility/statistics.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Two levels and two parameters: the curve goes through both shares exactly. z(1/4) = −0.6745, z(3/4) = 0.6745.
 TEST(Counts, TwoLevelsAreMetExactly) {
@@ -108,5 +108,5 @@ TEST(Counts, StripesGiveBackWhatTheyWereDrawnFrom) {
   EXPECT_LT(far, 10);  // 0.27 % are 1.6
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

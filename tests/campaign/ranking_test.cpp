@@ -9,7 +9,7 @@
 #include "tests/campaign/synthetic.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 NumberColumn named(const char* name) {
   return {std::string(name), {}};
@@ -161,5 +161,5 @@ TEST(Ranking, DamageThatDoesNotVaryTellsNothing) {
   EXPECT_TRUE(rank_demands(table, "bridge", 10, 1).empty());
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -8,7 +8,7 @@
 #include "solver/base/random.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(Statistics, NormalDistribution) {
   EXPECT_DOUBLE_EQ(normal_cdf(0.0), 0.5);
@@ -104,5 +104,5 @@ TEST(Statistics, RandomBits) {
   EXPECT_EQ(random.bits(), 3203168211198807973ULL);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -8,7 +8,7 @@
 #include "solver/base/error.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string heading = "run,case,record,event,scale,sample,status,reason,seconds,im.pga,edp.spandrel_y\n";
 
@@ -121,5 +121,5 @@ TEST(CampaignTable, AnUnknownColumnIsNamedWithItsNeighbour) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -7,7 +7,7 @@
 #include "tools/ladder/fill_models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A trough of fixed stones filled with weak soil, four loose stones on top.
 Assembly trough() {
@@ -17,7 +17,7 @@ Assembly trough() {
   ladder::add_box(assembly, {4, -1, 0}, {5, 3, 2}, true);
   for (int i = 0; i < 4; ++i) ladder::add_box(assembly, {1.0 * i, 0, 1.5}, {1.0 * i + 1, 2, 2}, false);
   Material soil = ladder::elastic_fill(1500.0, 80e6, 50e6);
-  soil.cohesion = 3e3, soil.friction_angle = ladder::radians(35.0), soil.dilation_angle = ladder::radians(5.0);
+  soil.cohesion = 3e3, soil.friction_angle = radians(35.0), soil.dilation_angle = radians(5.0);
   return ladder::filled(std::move(assembly), ladder::box_mesh({0, 0, 0}, {4, 2, 1.5}, 9, 6, 5), soil, 5e8, 2e8,
                         ladder::dry_law(0.7));
 }
@@ -166,5 +166,5 @@ TEST(FillThreads, KeepTheLedgerOfBranches) {
   EXPECT_LT(2.0 * half.worst - whole.worst, 0.01 * half.end.joint_damping);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

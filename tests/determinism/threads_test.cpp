@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Strong from the first instant.
 GroundMotion strong_motion(double duration) {
@@ -180,5 +180,5 @@ TEST(Threads, TheSameRunTwiceGivesTheSameBits) {
             shaken_wall(2, DampingSettings::Kind::maxwell, true, 2000));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

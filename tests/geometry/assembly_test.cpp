@@ -10,7 +10,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 
@@ -113,5 +113,5 @@ TEST(FinishBlocks, WantsADensity) {
   EXPECT_THROW(finish_blocks(assembly), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -9,7 +9,7 @@
 #include "solver/base/error.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 GeneratorInput input_of(const std::string& name, double scale = 1.0, bool restrained = false) {
   GeneratorInput input = default_input(find_generator(name));
@@ -403,5 +403,5 @@ TEST(Bridge, TheSameInputGivesTheSameBits) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -5,7 +5,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 using Kind = Meeting::Kind;
@@ -310,5 +310,5 @@ TEST(Separation, IsTheLeastPushThatPartsTheBodies) {
   EXPECT_GT(separation(cube, box({1.5, 0.3, 9}, {1.7, 0.8, 10}), 0.1), 0.1);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -11,7 +11,7 @@
 #include "geometry/fill_sweep.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Rows of equal triangles with sides of `edge` m, that reach from −half to half.
 FillSection equal_triangles(int columns, int rows, double edge, double half) {
@@ -141,5 +141,5 @@ TEST(FillColumns, AFillBesideTheMiddleNeedsNone) {
   expect_sound(section, sweep(section, 0.5, 0.4), 1.1);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -16,7 +16,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// The unit cube in six tetrahedra around a diagonal, half of them numbered the wrong way round.
 FillMesh unit_cube(const Vec3& corner = Vec3::Zero()) {
@@ -406,5 +406,5 @@ TEST(FillOfBridges, PatchesTakeTheRulesOfRigidFill) {
   near(ks.at(Component::restraint), 0.5 * 160e6 / 0.70);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

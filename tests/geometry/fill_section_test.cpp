@@ -8,7 +8,7 @@
 #include <map>
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 std::vector<Side> outline(const std::vector<Vec3>& corners) {
   std::vector<Side> sides;
@@ -125,5 +125,5 @@ TEST(FillSection, WhatIsShortEnoughKeepsItsTriangles) {
   EXPECT_EQ(section.triangles.size(), 24u);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

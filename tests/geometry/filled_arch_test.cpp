@@ -11,7 +11,7 @@
 #include "solver/base/error.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Coarse, of 4 m span, 1 m rise and 0.3 m thickness.
 Assembly small_bridge(const std::map<std::string, double>& more = {}) {
@@ -109,5 +109,5 @@ TEST(FilledArch, WhatCannotBeIsSaid) {
   EXPECT_NE(complaint({{"approach", 0.2}}).find("approach = 0.2 m"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -9,7 +9,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 
@@ -115,5 +115,5 @@ TEST(LayJoints, TakesModuliOrWhatIsGiven) {
   EXPECT_NE(error_of([&] { lay_joints(pile, {}, {5e9, 0.0}); }).find("give both"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

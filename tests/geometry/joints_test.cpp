@@ -10,7 +10,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 
@@ -255,5 +255,5 @@ TEST(FindJoints, OfAWholeBridgesWorthOfBlocks) {
   EXPECT_LT(took.count(), 20.0);  // a search that grows with the square of the count takes minutes
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

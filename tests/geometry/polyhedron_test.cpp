@@ -5,7 +5,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 
@@ -220,5 +220,5 @@ TEST(Cleaned, DropsRepeatedAndStraightCorners) {
   EXPECT_TRUE(cleaned({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1e-12, 0}}).empty());
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

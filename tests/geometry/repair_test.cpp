@@ -5,7 +5,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 
@@ -97,5 +97,5 @@ TEST(ConvexityError, SeesMissingTrianglesAndRecesses) {
   EXPECT_TRUE(says(l, "not convex"));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

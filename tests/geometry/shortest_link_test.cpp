@@ -6,7 +6,7 @@
 #include "tests/geometry/shapes.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using namespace test;
 using Kind = Meeting::Kind;
@@ -194,5 +194,5 @@ TEST(ShortestLink, FacesInOnePlaneLieFlushUnlessOnOneSide) {
   EXPECT_FALSE(flush(placed(make_box({1, 0, 1}, {2, 1, 2}), turn(Vec3::UnitY(), 0.01), {0, 0, 0})));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -12,7 +12,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr int samples = 43;
 constexpr double dt = 0.02;
@@ -280,5 +280,5 @@ TEST(AgencyFormats, EveryBeginningOfAFileIsReadOrRefused) {
       }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

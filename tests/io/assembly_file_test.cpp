@@ -12,7 +12,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 
@@ -413,5 +413,5 @@ TEST(AssemblyFile, JointsThatCannotBeFoundAreAnError) {
   refused({.density = {1600.0, 2000.0, 2700.0}}, {"blocks/density: row 1", "a further row in materials/*"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -10,7 +10,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 
@@ -453,5 +453,5 @@ TEST(Degrees, SurviveWritingAndReading) {
   EXPECT_EQ(writable_angle(writable_angle(0.05)), writable_angle(0.05));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -15,7 +15,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 namespace fs = std::filesystem;
 using test::Folder;
@@ -313,5 +313,5 @@ TEST(Atomic, MissingFolder) {
   EXPECT_NE(message.find("the folder does not exist"), std::string::npos) << message;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

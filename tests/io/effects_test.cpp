@@ -7,7 +7,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 
@@ -127,5 +127,5 @@ TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   holds("[joints.masonry-masonry]\nkind = \"tie\"\n", {"c.toml:5:", "brittle", "elastic"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

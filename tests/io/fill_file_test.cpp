@@ -11,7 +11,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 
@@ -187,5 +187,5 @@ TEST(FillFile, OverridesOfACaseReachThePatches) {
   EXPECT_EQ(in.fill_joints.at(0).ks, stored.fill_joints.at(0).ks);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -10,7 +10,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 
@@ -142,5 +142,5 @@ TEST(Info, SaysWhatEachFileHolds) {
   EXPECT_THROW(describe_file(folder.write("bad.h5", "x")), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

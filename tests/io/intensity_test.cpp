@@ -12,7 +12,7 @@
 #include "io/records/format.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double pi = 3.14159265358979323846, g = 9.80665;
 
@@ -110,5 +110,5 @@ TEST(Intensity, OfRealRecords) {
   EXPECT_GT(compared, 20);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -11,7 +11,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string sensors = "id,x,y,z,direction\na1,0,1,2,z\na2,1.5,1,2,-x\na3,3,1,2,0.7071;0.7071;0\n";
 const std::string modes =
@@ -651,5 +651,5 @@ TEST(PlaceSensors, FindsTheBlockThatHoldsEach) {
   expect_holds(test::message_of<InputError>([&] { place_sensors(m, Assembly{}); }), "there is no block");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -8,7 +8,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 void write_record(const test::Folder& folder, const std::string& text) {
   std::filesystem::create_directory(folder / "records");
@@ -103,5 +103,5 @@ TEST(MeasuredTimes, RoundedOnesWithAGapAreRefused) {
   EXPECT_NE(error_of(folder).find("time step 0.0157 s, elsewhere 0.0078 s"), std::string::npos) << error_of(folder);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -9,7 +9,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 using test::Folder;
 
@@ -158,5 +158,5 @@ TEST(ModalCase, WrongKeysSayLineAndRemedy) {
   holds("[[modal.expected]]\ndirection = \"vertical\"\n", {"c.toml:3:", "period"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

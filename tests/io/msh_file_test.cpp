@@ -12,7 +12,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string two_tets =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1000 0 0\n3 0 1000 0\n4 0 0 1000\n5 0 0 -1000\n"
@@ -189,5 +189,5 @@ TEST(MshFile, FilesOfGmshAndMeshio) {
       std::string::npos);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

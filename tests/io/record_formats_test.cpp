@@ -10,7 +10,7 @@
 #include "solver/base/error.h"
 #include "tests/io/folder.h"
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Samples that are easy to tell: k/1000, the sign by turns.
 double sample(int k) {
@@ -201,5 +201,5 @@ TEST(Records, RealFiles) {
     }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

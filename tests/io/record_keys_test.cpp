@@ -12,7 +12,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string head =
     "[bridge]\ngenerator = \"column\"\nblocks = 3\n[[stage]]\nkind = \"gravity\"\n[[stage]]\nkind = "
@@ -94,5 +94,5 @@ TEST(RecordKeys, SyntheticMotionsAreNotMadeForTheGeometry) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

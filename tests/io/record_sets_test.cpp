@@ -11,7 +11,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 std::string column(int samples, double size) {
   std::string text;
@@ -196,5 +196,5 @@ TEST(RecordSets, RealRecords) {
   EXPECT_EQ(itaca.sets[0].station, "NCR");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -6,7 +6,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 std::string problem(const std::string& text, double dt = 0.0) {
   return test::message_of<InputError>([&] { parse_columns(text, "r.txt", dt); });
@@ -46,5 +46,5 @@ TEST(Columns, StepsMayDifferByAMicrosecond) {
   EXPECT_NE(problem("0 0\n0.010003 1\n0.02 0\n"), "");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

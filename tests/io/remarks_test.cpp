@@ -9,7 +9,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 struct Slipped {
   const char* name;
@@ -157,5 +157,5 @@ TEST(RemarkOnCases, OfTheHouseAreNone) {
   EXPECT_GE(count, 25);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -9,7 +9,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A tetrahedron as a binary STL file whose head begins with these words.
 std::string binary_stl(const std::string& head) {
@@ -63,5 +63,5 @@ TEST(SurfaceFile, ValuesOfMegabytesAreNotEchoedWhole) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -6,7 +6,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A cube pressed into a fixed one by `depth` m, then moved aside by `slide` m.
 std::unique_ptr<Bench> pressed(double depth, double slide, double friction) {
@@ -94,5 +94,5 @@ TEST(Clipping, ForgetsNoSlip) {
   EXPECT_NEAR(snapshot.patches[1].largest_slip, way, 0.02 * way);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A strip of an arch bridge under soft soil, and a pad that a wheel presses into it.
 Assembly soft_strip() {
@@ -119,5 +119,5 @@ TEST(CollapseLoss, DisagreementIsTheHeadline) {
   EXPECT_EQ(collapse_headline(Assembly{}, c).rfind("The static and the dynamic solver disagree", 0), 0u);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 StageSettings pattern_stage(const Loads& pattern, double to, double tolerance) {
   StageSettings stage;
@@ -129,5 +129,5 @@ TEST(Collapse, ThatDoesNotComeAndThatIsConfirmed) {
   EXPECT_EQ(falls.collapse().falls_above, true);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -8,7 +8,7 @@
 #include "tools/convergence/specimens.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Whatever the rule, an elastic face is exact as long as it is wholly closed.
 TEST(Convergence, BedIsExactWithinTheKernel) {
@@ -99,5 +99,5 @@ TEST(Convergence, HalfASecondIsSlowEnoughForTheWall) {
   EXPECT_NEAR(fast, slow, 0.01 * slow);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

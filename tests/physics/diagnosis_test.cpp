@@ -10,7 +10,7 @@
 #include "tests/physics/measured_bridge.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(LinearModel, HasTheModesOfTheModelForRuns) {
   const Assembly assembly = bridge();
@@ -216,5 +216,5 @@ TEST(Localisation, SensitivitiesOfAllPartsAddUp) {
   EXPECT_NEAR(mass, -0.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

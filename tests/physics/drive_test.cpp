@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A block on a plate, and beside the plate another one that stays.
 Assembly on_a_plate() {
@@ -272,5 +272,5 @@ TEST(Drive, RefusesWhatIsNotThereOrNotFixed) {
   refused({steady, {"again", {1, 0, 0}, Vec3::Zero()}});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -5,7 +5,7 @@
 #include "tests/physics/measured_bridge.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::vector<std::string> axes = {"x", "y", "z"};
 
@@ -99,5 +99,5 @@ TEST(DrivenDiagnosis, NamesTheRestraintOfTheAbutments) {
   EXPECT_EQ(d.best.hypothesis.effects[0].text(), "abutment_restraint at both");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

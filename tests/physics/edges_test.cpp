@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double gravity = 9.81, length = 2.0, thick = 0.2, density = 2000.0;
 const double weight = length * thick * density * gravity;
@@ -259,5 +259,5 @@ TEST(Edges, UndampedImpactsErrByTheStep) {
   EXPECT_LT(sums.at(0.2), 0.5 * sums.at(0.4));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

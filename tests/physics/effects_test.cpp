@@ -8,7 +8,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 Assembly bridge(const std::string& abutments = "free") {
   const Generator& generator = find_generator("cs1");
@@ -410,5 +410,5 @@ TEST(Effects, AskedWronglySayWhatIsRight) {
   holds(message("retrofit_ties", "pier 0", {{"depth", 30.0}}), "at 30 m below their top; choose another depth");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 SolverSettings shaken(const GroundMotion& motion, double duration) {
   SolverSettings settings;
@@ -115,5 +115,5 @@ TEST(EnergyBalance, OfADamagedWall) {
   EXPECT_LT(shake_a_wall(DampingSettings::Kind::maxwell, false).worst, 0.01);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

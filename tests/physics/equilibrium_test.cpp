@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double g = 9.81;
 
@@ -196,5 +196,5 @@ TEST(Equilibrium, OfASlidingBlockIsRefused) {
   for (double energy : bench.state.joint.energy) EXPECT_EQ(energy, 0.0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A gap below the neighbour list's skin must close like any other: the block rests on the slab, not in it.
 TEST(Falling, ThroughAGapSmallerThanTheSkin) {
@@ -107,5 +107,5 @@ TEST(Standing, ATowerThatIsPutDownAtOnceSettles) {
   EXPECT_LT(std::hypot(top[0], top[1]), 1e-6);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

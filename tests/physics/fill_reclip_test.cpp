@@ -4,9 +4,7 @@
 #include "tools/ladder/fill_models.h"
 
 namespace voussoir::test {
-namespace {
-
-using ladder::radians;
+namespace VOUSSOIR_FILE {
 
 double covered(const State& state) {
   double area = 0.0;
@@ -120,5 +118,5 @@ TEST(FillReclip, AStoneFallsOnTheFill) {
   EXPECT_LT(bench.velocity(1).norm(), 1e-3);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

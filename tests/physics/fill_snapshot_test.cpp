@@ -5,10 +5,8 @@
 #include "solver/step/make_snapshot.h"
 #include "tools/ladder/fill_models.h"
 
-using namespace voussoir;
-using namespace voussoir::ladder;
-
-namespace {
+namespace voussoir::ladder {
+namespace VOUSSOIR_FILE {
 
 constexpr double bulk = 266e6, shear = 160e6;  // Pa
 
@@ -42,8 +40,6 @@ Assembly heap(const Material& soil) {
   add_block(assembly, make_box({0, 0, -1}, {2, 2, 0}), true);
   return filled(std::move(assembly), box_mesh({0, 0, 0}, {2, 2, 1}, 2, 2, 2), soil, 4e9, 1.6e9, dry_law(0.7));
 }
-
-}  // namespace
 
 /// Hooke's law in small strains, and the same turned where a turn of any size goes before.
 TEST(FillStress, OfUniformStrainIsHookes) {
@@ -153,3 +149,6 @@ TEST(FillSnapshot, WithoutAFillThereIsNone) {
   Bench bench(joined(std::move(assembly), 4e9, 1.6e9, dry_law(0.7)));
   EXPECT_TRUE(make_snapshot(bench.model, bench.state).fill.empty());
 }
+
+}  // namespace VOUSSOIR_FILE
+}  // namespace voussoir::ladder

@@ -4,7 +4,7 @@
 #include "tools/ladder/fill_models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Two free stones on fill in a trough of fixed ones; the interface bonded, so that everything is elastic.
 Assembly bonded_trough() {
@@ -124,5 +124,5 @@ TEST(FillStiffness, TheCriticalStepIsThatOfTheMixedModel) {
   EXPECT_NEAR(critical_step(bench.model, bench.state).step, exact, 3e-3 * exact);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -6,14 +6,8 @@
 #include "solver/step/damping.h"
 #include "tools/ladder/fill_rig.h"
 
-using namespace voussoir;
-using namespace voussoir::ladder;
-
-namespace {
-
-double radians(double degrees) {
-  return degrees * M_PI / 180.0;
-}
+namespace voussoir::ladder {
+namespace VOUSSOIR_FILE {
 
 /// 2 × 3 × 2 m, its inner nodes moved about so that no two tetrahedra are alike.
 FillMesh uneven_mesh() {
@@ -56,8 +50,6 @@ double unbalanced(const FillRig& rig) {
   }
   return std::max(force.norm(), moment.norm()) / most;
 }
-
-}  // namespace
 
 TEST(FillElement, UniformStrainIsExact) {
   for (const bool averaged : {true, false}) {
@@ -180,8 +172,6 @@ TEST(FillElement, StressesTwiceAreTheSameAtConstantVolume) {
   EXPECT_NEAR(rig.memory.lost[0], dissipated, 1e-6 * dissipated);
 }
 
-namespace {
-
 struct Ledger {
   double kinetic = 0.0, elastic = 0.0, lost = 0.0, largest = 0.0;
   double total() const { return kinetic + elastic + lost; }
@@ -220,8 +210,6 @@ double worst_balance(FillRig& rig, double speed, int steps, Ledger& end, double 
   }
   return worst / largest;
 }
-
-}  // namespace
 
 TEST(FillElement, KeepsItsEnergy) {
   FillRig rig(uneven_mesh(), elastic_fill(1500.0, 266e6, 160e6));
@@ -300,3 +288,6 @@ TEST(FillElement, ATetrahedronThatLosesItsVolumeIsNamed) {
     if (rig.fill.nodes[i].z() > 0.5) rig.set_displacement(i, {0, 0, -1.2});
   EXPECT_GE(rig.stresses().inverted, 0);
 }
+
+}  // namespace VOUSSOIR_FILE
+}  // namespace voussoir::ladder

@@ -2,7 +2,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Two blocks joined by an elastic joint, no gravity, nothing fixed.
 Assembly two_free_blocks() {
@@ -110,5 +110,5 @@ TEST(FreeSpin, ConvergesWithTheSquareOfTheStep) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

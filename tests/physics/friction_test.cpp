@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double g = standard_gravity;
 
@@ -183,5 +183,5 @@ TEST(Incline, BlockStaysPutAfterShaking) {
   EXPECT_LT(std::abs(history.back().second - history.front().second), 1e-9);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

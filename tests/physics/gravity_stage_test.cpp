@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A pier on a soft joint that leans under the cap on one of its sides.
 Assembly leaning_pier() {
@@ -154,5 +154,5 @@ TEST(GravityStage, HasARowWithTheReactionsOfAllFixedGroups) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

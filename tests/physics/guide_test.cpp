@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double stiffness = 1e9;         // Pa/m, of joints of 1 m²
 constexpr double weight = 2000.0 * 9.81;  // N, of the block of 1 m³
@@ -217,5 +217,5 @@ TEST(Guide, RefusesWhatCannotBeGuided) {
   refused(settings, "otherwise than the ground ('factor', 'delay'), but a [[guide]] leaves it free along z");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -6,7 +6,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(JointStiffness, OfRandomPolygons) {
   std::mt19937 random(4);
@@ -70,5 +70,5 @@ TEST(JointStiffness, WrenchIsTheGradientOfTheEnergy) {
   check_gradient(prisms_ks, 1e-3);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

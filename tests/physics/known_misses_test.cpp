@@ -6,7 +6,7 @@
 #include "tools/ladder/rung.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Beyond these the reasons given for the misses no longer explain them.
 const std::map<std::string, double> known_size = {{"intact-shortcut", 1e-7},
@@ -26,5 +26,5 @@ TEST(KnownMisses, StayAsSmallAsTheyAre) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double kn = 1e8, ks = 4e7;
 
@@ -105,5 +105,5 @@ TEST(Load, RefusesWhatCannotBeLoaded) {
   refused({"both", {1, 0, 0}, Vec3(0, 0, 0)});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

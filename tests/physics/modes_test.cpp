@@ -6,7 +6,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 Assembly elastic_wall(int length, int courses) {
   Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
@@ -246,5 +246,5 @@ TEST(DampedMode, OfWeakLocalDampingIsItsCoefficientOverPi) {
   EXPECT_NEAR(mode.frequency, 2.0, 0.01);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

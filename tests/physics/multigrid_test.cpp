@@ -7,7 +7,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double g = 9.81;
 
@@ -141,5 +141,5 @@ TEST(Multigrid, FindsHowALargeWallSettles) {
   EXPECT_LT(worst, 1e-4 * settled) << settled;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

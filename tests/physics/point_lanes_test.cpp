@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 struct Given {
   const char* name;
@@ -142,5 +142,5 @@ TEST(PointLanes, FollowTheLawPointByPoint) {
     }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

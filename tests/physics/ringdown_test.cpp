@@ -3,7 +3,7 @@
 #include "tools/ladder/decay.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// ξ = mass/(2ω) + stiffness ω/2 (Clough & Penzien 1993, eq. 12-38), exact at both ends of the band.
 TEST(RingDown, OfRayleighDamping) {
@@ -28,5 +28,5 @@ TEST(RingDown, WithoutDampingDoesNotDecay) {
   EXPECT_NEAR(got.frequency, 3.125, 1e-4 * 3.125);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -4,7 +4,7 @@
 #include "tools/convergence/specimens.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double half_width = 0.3, half_height = 1.2;
 
@@ -128,5 +128,5 @@ TEST(Rocking, UpliftAccelerationOfTheBase) {
   measured("Rocking block: uplift", 0.25, lifted, "g");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A wall whose top stone flies: the wall comes to rest, the stone stays where it was met.
 TEST(Settle, HoldsWhatIsInTheAir) {
@@ -50,5 +50,5 @@ TEST(Settle, LetsGoOfWhatFalls) {
   EXPECT_NEAR(bench.displacement(1).z(), -2000.0 * 9.81 / 1e9, 1e-7);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

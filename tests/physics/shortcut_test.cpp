@@ -3,7 +3,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Maxwell branches are kept in single precision, rounded otherwise on the two paths: of the largest displacement, and
 /// of what is lost. (The motion dies down to a twentieth, the rounding stays what it is.)
@@ -40,5 +40,5 @@ TEST(Shortcut, SameMotionOfAnElasticWall) {
   EXPECT_NEAR(damping_loss[0], damping_loss[1], same_loss * damping_loss[0]);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -3,7 +3,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A bonded pile of odd blocks.
 Assembly odd_pile(bool fixed) {
@@ -97,5 +97,5 @@ TEST(Stiffness, PresentTangentFollowsTheState) {
   EXPECT_EQ(patch_stiffness(bench.model, bench.state, 0, PatchTangent::present).norm(), 0.0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

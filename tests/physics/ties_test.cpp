@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double length = 4.0, axial = 2e8, yield_force = 2e5;  // m, N (E A), N
 constexpr double k = axial / length;                            // N/m
@@ -159,5 +159,5 @@ TEST(Ties, TiedStonesStillTouch) {
   EXPECT_GT(nearest, -0.0106) << "they pass through each other";
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -15,7 +15,7 @@
 #include "tools/fuzz/readers.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 struct Reader {
   const char* name;
@@ -134,5 +134,5 @@ TEST(ReadersOfHdf5, TakeAnAssemblyAndWhatBecomesOfIt) {
   for (int k = 0; k < 300; ++k) fuzz::read_assembly(mutator.mutated(bytes, bytes, 96));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

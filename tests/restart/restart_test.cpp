@@ -12,7 +12,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Gravity, a strong motion, a pause, a second motion: damage and new contacts in every part.
 SolverSettings shaken(DampingSettings::Kind damping) {
@@ -235,5 +235,5 @@ TEST(Restart, FromACheckpointFile) {
   std::filesystem::remove_all(folder);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -9,7 +9,7 @@
 #include "tools/ladder/fill_models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Three loose stones on soil in a trough.
 Assembly stones_on_soil() {
@@ -185,5 +185,5 @@ TEST(StageOrders, ContactsAreLookedForAfterARelaxation) {
   EXPECT_LE(run.state().look_at(), 1);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

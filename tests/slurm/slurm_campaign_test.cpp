@@ -5,7 +5,7 @@
 #include "tests/whole/campaigns.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 class SlurmCampaign : public testing::Test {
  protected:
@@ -56,5 +56,5 @@ TEST_F(SlurmCampaign, WhatSlurmRefusesIsSaid) {
   EXPECT_EQ(campaign({"long.toml", "--engine", "local"}).status, 0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -15,7 +15,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(HashArrays, SeesEveryBitNameAndSize) {
   Array<double> x = {1.0, 2.0, 3.0};
@@ -276,5 +276,5 @@ TEST(BaseMotion, IsIntegratedLikeTheBlocks) {
   EXPECT_EQ(bench.displacement(0), Vec3(bench.state.base_displacement()));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

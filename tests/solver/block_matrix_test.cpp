@@ -6,7 +6,7 @@
 #include "tests/solver/block_numbers.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr std::int32_t sites = 5;
 
@@ -68,5 +68,5 @@ TEST(BlockMatrix, HoldsWhatIsNoUnknown) {
   EXPECT_EQ(Eigen::MatrixXd(k.over(unknowns)), over);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -8,7 +8,7 @@
 #include "tests/solver/block_numbers.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Site 3 has no pair.
 BlockMatrix symmetric_blocks() {
@@ -114,5 +114,5 @@ TEST(NoSubnormals, CountAsZeroWhileItIsThere) {
   EXPECT_GT(small * smaller, 0.0f);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -7,7 +7,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A block of side 1 m on a fixed one.
 Assembly block_on_joint(double kn, double ks) {
@@ -254,5 +254,5 @@ TEST(MassScaling, RefusesToPassItsLimit) {
   EXPECT_EQ(added_share(bench), 0.0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// One branch by hand: k(iω) = 1 + α x/(1 + x), x = iω/ω1; at ω = ω1 it is 1 + α (1 + i)/2.
 TEST(MaxwellFit, RatioOfOneBranchHasItsClosedForm) {
@@ -106,5 +106,5 @@ TEST(StepFactor, IsSharpForNoneAndRayleigh) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

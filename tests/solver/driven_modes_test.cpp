@@ -16,7 +16,7 @@
 #include "tests/solver/signals.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double pi = std::numbers::pi;
 constexpr double fine = 0.001;  // s, the simulation's step
@@ -447,5 +447,5 @@ TEST(DrivenModes, BaseMotionIsAChannelThatMoves) {
   EXPECT_THROW(has_base_motion({}), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -7,9 +7,8 @@
 #include "solver/fill/mohr_coulomb.h"
 #include "solver/fill/principal.h"
 
-using namespace voussoir;
-
-namespace {
+namespace voussoir {
+namespace VOUSSOIR_FILE {
 
 Material soil(double friction, double dilation, double cohesion, double tension) {
   Material m;
@@ -61,8 +60,6 @@ std::vector<Vec3> trials(int count) {
   }
   return all;
 }
-
-}  // namespace
 
 TEST(FillLaw, ReturnsToTheSurfaceAndFlowsAsTheRuleSays) {
   std::set<ReturnRegion> seen;
@@ -269,3 +266,6 @@ TEST(FillLaw, RefusesWhatIsNoMaterial) {
   m.density = 0.0;
   EXPECT_THROW(fill_law(m), std::exception);
 }
+
+}  // namespace VOUSSOIR_FILE
+}  // namespace voussoir

@@ -9,7 +9,7 @@
 #include "solver/base/error.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double pi = std::numbers::pi;
 
@@ -100,5 +100,5 @@ TEST(Filter, CornersOutOfOrderAreRefused) {
   EXPECT_THROW(band_pass(values, 0.01, 1e-9, 10.0), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

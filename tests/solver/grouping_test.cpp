@@ -8,7 +8,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A wall with some bond, shaken until stones slide, rock and meet others.
 std::unique_ptr<Bench> shaken_wall() {
@@ -122,5 +122,5 @@ TEST(Grouping, AnOrderOfAnotherAssemblyIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

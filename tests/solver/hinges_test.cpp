@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Nine voussoirs, 0.2 m thick, of mean radius 2 m; the springings follow as blocks 9 and 10.
 Assembly semicircle() {
@@ -45,5 +45,5 @@ TEST(Hinges, NoneWhereLittleTurns) {
   EXPECT_EQ(hinges[0].edge, hinges[1].edge == "intrados" ? "extrados" : "intrados");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -15,7 +15,7 @@
 #include "tests/solver/modal_models.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double pi = std::numbers::pi;
 
@@ -392,5 +392,5 @@ TEST(Identify, IsQuickWithFortyChannels) {
   EXPECT_EQ(result.references.size(), 8U);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

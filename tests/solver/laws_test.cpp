@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double kn = 1e9, ks = 4e8;  // Pa/m
 
@@ -249,5 +249,5 @@ TEST(ElasticLaw, HasNoLimit) {
   EXPECT_EQ(r.t, 3.0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

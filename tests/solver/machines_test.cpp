@@ -7,7 +7,7 @@
 #include "tests/solver/modal_models.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double pi = std::numbers::pi;
 constexpr double dt = 0.01, hum = 4.1;  // s, Hz
@@ -137,5 +137,5 @@ TEST(Machines, BelowTheLeastDampingAreNamed) {
   EXPECT_NE(aside->reason.find("runs now and then"), std::string::npos) << aside->reason;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

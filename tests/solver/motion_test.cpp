@@ -15,7 +15,7 @@
 #include "solver/motion/target.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 double end_velocity(const GroundMotion& motion, int axis) {
   return integrate(component(motion, axis), motion.dt).back();
@@ -232,5 +232,5 @@ TEST(Synthesis, RefusesNonsense) {
   EXPECT_THROW(synthesize({.peak = 1.0, .duration = 5.0, .axes = {false, false, false}}), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

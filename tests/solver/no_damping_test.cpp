@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(NoDamping, IsWhatARatioOfZeroIs) {
   const Assembly assembly = weak_wall(2, 3);
@@ -44,5 +44,5 @@ TEST(NoDamping, WhatIsNotFiniteIsNamedWithItsPlace) {
   EXPECT_EQ(text.find("kinetic"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

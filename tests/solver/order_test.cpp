@@ -2,7 +2,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 constexpr double edge = 0.5;  // m
 
@@ -37,5 +37,5 @@ TEST(OrderOfBlocks, SlabsAreThinWhereManyStandSideBySide) {
   EXPECT_NEAR(goes_back(beam(31, 30)), 1.0 * edge, 1e-9) << "900: more than 640, but never thinner than 1.4 blocks";
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

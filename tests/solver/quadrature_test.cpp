@@ -5,7 +5,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Area, first and second moments about the origin.
 struct Exact {
@@ -147,5 +147,5 @@ TEST(Quadrature, RefusesOtherNumbersOfPoints) {
   EXPECT_THROW(patch_shape(square, Vec3::UnitZ(), 6), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -9,7 +9,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Cubes of 0.5 m in a row on a slab, `gap` m apart, none joined to another.
 std::unique_ptr<Bench> row_of_cubes(int count, double gap) {
@@ -63,7 +63,7 @@ TEST(Search, FindsWhatComesFromAfarBeforeItTouches) {
   Bench& bench = *made;
   const double least = search_share * skin(bench.model);  // the farthest a body goes before a search
   for (const Vec3& way : std::vector<Vec3>{Vec3(-1, 0, 0), Vec3(-1, 0.3, 0.2), Vec3(-1, 0, -0.02)}) {
-    bench.state = fresh_state(bench.model);
+    bench.state = initial_state(bench.model);
     update_contacts(bench.model, bench.state, {}, false);
     Vec3 at(0, 0, 0.2);
     const Vec3 step = 0.99 * least * way.normalized();
@@ -328,5 +328,5 @@ TEST(Search, LeavesElasticJointsWhereTheyAre) {
   EXPECT_FALSE(bench.state.joint.mode[0] & mode_gone);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -8,7 +8,7 @@
 #include "solver/base/error.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Records whose spectra over the target are these rows' columns.
 SelectionProblem problem(const Eigen::MatrixXd& ratios, std::size_t count) {
@@ -100,5 +100,5 @@ TEST(Select, ContradictionsAreRefused) {
   EXPECT_THROW(select_records(p), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -9,7 +9,7 @@
 #include "tests/solver/modal_models.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const ModalModel& beam() {
   static const ModalModel model = {
@@ -120,5 +120,5 @@ TEST(Setups, DroppedChannelsAreNamed) {
   EXPECT_THROW(check_in_common({a, setup("far", numbers({8}, 9, 20), 2)}), InputError);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(Shown, ShortTextStaysAsItIs) {
   EXPECT_EQ(shown(""), "");
@@ -32,5 +32,5 @@ TEST(Shown, MessagesKeepTheirWordsAndLoseWhatNoPersonReads) {
             "is " + std::string(100, 'x') + "… (5001 bytes) no");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

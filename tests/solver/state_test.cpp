@@ -4,7 +4,7 @@
 #include "tests/solver/models.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A block that has fallen on its corner upon another, so that there are contacts, with damping branches.
 std::unique_ptr<Bench> fallen_block() {
@@ -36,7 +36,7 @@ void copy_arrays(const Model& model, State& from, State& to) {
 TEST(StateArrays, CarryTheContactsOver) {
   auto bench = fallen_block();
   ASSERT_FALSE(bench->state.contacts.empty());
-  State copy = fresh_state(bench->model);
+  State copy = initial_state(bench->model);
   copy_arrays(bench->model, bench->state, copy);
   EXPECT_EQ(hash_arrays(copy.arrays()), hash_arrays(bench->state.arrays()));
   ASSERT_EQ(copy.contacts.size(), bench->state.contacts.size());
@@ -117,5 +117,5 @@ TEST(InitialState, BondsAreAsTheLawsSay) {
   for (std::uint8_t broken : bonded.state.joint.broken) EXPECT_EQ(broken, 0);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

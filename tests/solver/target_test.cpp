@@ -11,7 +11,7 @@
 #include "tests/io/folder.h"
 
 namespace voussoir {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// L'Aquila, 475 years, as the paper has it.
 TargetSpectrum aquila() {
@@ -99,5 +99,5 @@ TEST(Target, AsAnotherProgramHasIt) {
   EXPECT_GT(compared, 40);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

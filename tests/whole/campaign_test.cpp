@@ -10,7 +10,7 @@
 #include "tests/whole/campaigns.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 namespace fs = std::filesystem;
 
@@ -202,5 +202,5 @@ TEST(Campaign, TheExampleIsAPlan) {
   EXPECT_NE(outcome.out.find("24 runs"), std::string::npos) << outcome.out;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -7,7 +7,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string motion = "pulse = { kind = \"sine\", axis = \"y\", amplitude = 9, frequency = 2 }";
 
@@ -209,5 +209,5 @@ TEST(CaseErrors, ThePlaceOfOutputCannotBeMade) {
   EXPECT_EQ(bytes_of(folder / "wall.toml"), case_text({}));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -11,7 +11,7 @@
 #include "tests/whole/program.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// A column that tips at half its weight, and a check of that with so much expected.
 std::string tipping(const std::string& expected, const std::string& value = "collapse.multiplier") {
@@ -144,5 +144,5 @@ TEST(Check, ListsTheElementsOfTheMethodFirst) {
   EXPECT_EQ(listed, files);
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -7,7 +7,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::vector<std::string> verb_names = {"generate", "import", "info",     "run",      "resume",   "modal",
                                              "render",   "check",  "step",     "effects",  "diagnose", "hide",
@@ -167,5 +167,5 @@ TEST(CommandLine, OutputThatCannotBeWrittenIsSaid) {
                {"cannot write to standard output: No space left"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -4,7 +4,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string bridge = R"([bridge]
 generator = "cs2"
@@ -158,5 +158,5 @@ TEST(Hide, SaysWhatIsWrongWithItsInput) {
   EXPECT_FALSE(exists(folder / "out/measured"));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -7,7 +7,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Shares of the run's largest file, from "nothing fits" to "all but the last checkpoints fit".
 class FullDisk : public testing::TestWithParam<double> {};
@@ -61,5 +61,5 @@ TEST(FullDiskElsewhere, PicturesThatCannotBeWrittenDoNotSpoilARun) {
   EXPECT_EQ(outcome.err.find("fault of the program"), std::string::npos) << outcome.err;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -8,7 +8,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 bool has(const std::string& text, const std::string& piece) {
   return text.find(piece) != std::string::npos;
@@ -227,5 +227,5 @@ TEST(EndToEnd, HistoryIsReadableWhileTheRunGoesOn) {
   EXPECT_TRUE(std::is_sorted(history.time().begin(), history.time().end()));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -9,7 +9,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string from_file = R"([bridge]
 assembly = "wall.h5"
@@ -193,5 +193,5 @@ TEST(FileErrors, OverlappingBlocksOfAnAssemblyAreNamed) {
                {"wall.h5", "overlap", "7", "8"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

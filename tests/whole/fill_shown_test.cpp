@@ -6,7 +6,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Two tetrahedra on the upper face of the unit cube.
 const std::string heap =
@@ -119,5 +119,5 @@ TEST_F(FillShown, ModesMoveItInFilesAndPictures) {
   EXPECT_FALSE(exists(folder / "modes/vtk/mode_fill_02.vtu")) << "of the analysis before";
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -4,7 +4,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string bridge =
     "[bridge]\ngenerator = \"cs1\"\nspans = 1\nblock_scale = 3.0\nfill_edge = 1.5\nbackfill = \"deformable\"\n";
@@ -131,5 +131,5 @@ TEST(Fill, ImportInWrongUnitsDoesNotTouch) {
   EXPECT_FALSE(exists(folder / "b.h5"));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

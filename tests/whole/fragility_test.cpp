@@ -10,7 +10,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string heading =
     "run,case,record,event,scale,sample,status,reason,seconds,im.pga,im.sa_0.30,im.d595,edp.spandrel_y,edp.keystone_x,"
@@ -198,5 +198,5 @@ TEST(Fragility, ACampaignWithoutResultsIsRefused) {
   expect_error(fragility(folder, {}), 2, {"none of 2 runs is done (1 failed, 1 not run yet)"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

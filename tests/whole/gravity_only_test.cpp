@@ -6,7 +6,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string column = R"([bridge]
 generator = "column"
@@ -80,5 +80,5 @@ TEST(GravityOnly, WhatFallsIsNamedAndDrawn) {
   EXPECT_TRUE(exists(folder / "run/images/moving.png"));
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -7,7 +7,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::string lower = cube("lower", 0, 0, 0, 1);
 
@@ -157,5 +157,5 @@ TEST(ImportErrors, GarbageOfEveryKind) {
     }
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -7,7 +7,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 nlohmann::json modes_of(const std::string& directory) {
   return nlohmann::json::parse(bytes_of(directory + "/modes.json"));
@@ -161,5 +161,5 @@ TEST(Modal, OfWhatCannotMoveIsRefused) {
   EXPECT_NE(outcome.err.find("move"), std::string::npos) << outcome.err;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -10,7 +10,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 const std::vector<std::string> aquila = {"--target", "ntc2018", "--ag",  "0.2607", "--f0",
                                          "2.360",    "--tc",    "0.350", "--soil", "D"};
@@ -203,5 +203,5 @@ TEST(Report, IsMadeFromARunsFilesAlone) {
   expect_error(voussoir({"report", "run"}, there), 2, {"has not ended", "voussoir resume run"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -8,7 +8,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Width and height in a PNG's header; zeros when it is no PNG.
 std::array<int, 2> size_of(const std::string& png) {
@@ -165,5 +165,5 @@ TEST_F(Pictures, PlotsOfTheCase) {
   expect_same_run(folder / "run", folder / "plotted");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

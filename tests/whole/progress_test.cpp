@@ -5,7 +5,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 TEST(Progress, SomethingIsSaidWithinASecond) {
   Folder folder;
@@ -68,5 +68,5 @@ TEST(Progress, QuietSaysNothing) {
   expect_error(voussoir({"run", "wall.toml", "-o", "run", "-q"}, there), 2, {"already holds a run"});
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

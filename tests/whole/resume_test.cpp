@@ -14,7 +14,7 @@
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Long enough to be stopped in the middle, with contacts that appear and frames, checkpoints and rows all along.
 const Wall shaken{.shaken = 2.0, .checkpoints = 0.05, .fields = 0.1};
@@ -276,5 +276,5 @@ TEST(Threads, OneBitPatternForAnyNumber) {
   expect_same_run(folder / runs[0], folder / "parts");
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -9,7 +9,7 @@
 #include "tests/whole/program.h"
 
 namespace voussoir::test {
-namespace {
+namespace VOUSSOIR_FILE {
 
 /// Ten blocks of 1 × 1 m, axial stiffness k = 4e9 N/m: ω_max is near 2 √(k/m).
 const std::string column =
@@ -56,5 +56,5 @@ TEST(Step, RefusesANegativeNumberOfBodies) {
   EXPECT_NE(outcome.err.find("--bodies is -1"), std::string::npos) << outcome.err;
 }
 
-}  // namespace
+}  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

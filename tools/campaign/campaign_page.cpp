@@ -9,12 +9,13 @@
 
 #include "io/vtk/series.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "tools/campaign/table.h"
 #include "tools/run/damage_words.h"
 #include "viz/page/html.h"
 #include "viz/page/line_chart.h"
-#include "viz/palette.h"
+#include "viz/page/palette.h"
 #include "viz/render.h"
 
 namespace voussoir {
@@ -22,8 +23,6 @@ namespace voussoir {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
 
 /// What a table has; NaN where it has no such column.
 double value_at(const CampaignTable& table, const char* column, std::size_t run) {
@@ -67,7 +66,7 @@ std::string demand_chart(const CampaignTable& table, const char* column, const s
   for (std::size_t c = 0; c < cases.size(); ++c) {
     ChartDots dots{cases[c], {}, {}, {}, colour_code(line_colour(c)), markers[c % 4]};
     for (std::size_t r = 0; r < table.runs.size(); ++r) {
-      const double pga = value_at(table, "im.pga", r) / g, demand = 1e3 * value_at(table, column, r);
+      const double pga = value_at(table, "im.pga", r) / standard_gravity, demand = 1e3 * value_at(table, column, r);
       if (table.runs[r].case_name != cases[c] || !has_result(table.runs[r]) || !std::isfinite(pga + demand)) continue;
       dots.x.push_back(pga), dots.y.push_back(demand);
       dots.hints.push_back(fmt::format("{}, {} × {:g}: {:.1f} mm at {:.3f} g", cases[c], table.runs[r].record,
@@ -173,7 +172,7 @@ std::string runs_section(const CampaignTable& table) {
       return Cell{number_text(value_at(table, column, r), factor, digits), true};
     };
     text += table_row({words_cell(run.case_name), words_cell(run.record), Cell{number_text(run.scale, 1.0, 3), true},
-                       number("im.pga", 1.0 / g, 3), number("edp.keystone_x", 1e3, 1),
+                       number("im.pga", 1.0 / standard_gravity, 3), number("edp.keystone_x", 1e3, 1),
                        number("edp.keystone_x.residual", 1e3, 1), number("edp.spandrel_y", 1e3, 1),
                        number("edp.spandrel_y.residual", 1e3, 1), words_cell(run_status_name(run.status))},
                       "td");

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "solver/base/csv.h"
 #include "solver/motion/filter.h"
 #include "solver/motion/intensity.h"
 
 namespace voussoir::campaign {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 bool moves(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double a) { return a != 0.0; });
@@ -41,7 +39,7 @@ std::vector<double> measure(const GroundMotion& motion, const std::vector<double
   for (int axis : {0, 1})
     if (const std::vector<double> a = component(motion, axis); moves(a))
       horizontals.push_back(of_component(a, motion.dt, periods));
-  std::vector<double> means(5 + periods.size(), none);
+  std::vector<double> means(5 + periods.size(), no_number);
   for (std::size_t i = 0; i < means.size() && !horizontals.empty(); ++i)
     means[i] = horizontals.size() == 1 ? horizontals[0][i] : std::sqrt(horizontals[0][i] * horizontals[1][i]);
   Vec3 peak = Vec3::Zero();

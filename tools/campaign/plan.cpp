@@ -66,7 +66,7 @@ void plan_cases(const Settings& s, Draft& draft) {
     for (const DemandLimit& limit : c.limits) draft.plan.limit_states.push_back({limit, names[i]});
     draft.cases.push_back(c);
   }
-  for (const LimitState& limit : s.limit_states)
+  for (const PlannedLimit& limit : s.limit_states)
     if (!limit.only.empty() && std::ranges::find(names, limit.only) == names.end())
       throw InputError("{}: limit state \"{}\" is of case \"{}\"{}", s.path, limit.name, limit.only,
                        suggestion(limit.only, names));

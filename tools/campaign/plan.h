@@ -33,7 +33,7 @@ struct Plan {
   std::vector<std::string> keys;  // that are sampled
   std::vector<double> periods;    // s
   RunSettings run;
-  std::vector<LimitState> limit_states;
+  std::vector<PlannedLimit> limit_states;
   EngineSettings engine;
   std::vector<std::string> left_out;  // of the folder of records, each reason once
 };

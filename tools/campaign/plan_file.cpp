@@ -132,7 +132,7 @@ json plan_json(const Plan& plan) {
                             {"duration", r.duration},
                             {"measures", values}});
   }
-  for (const LimitState& limit : plan.limit_states)
+  for (const PlannedLimit& limit : plan.limit_states)
     j["limit_states"].push_back({{"name", limit.name},
                                  {"demand", limit.demand},
                                  {"threshold", limit.threshold},

@@ -199,7 +199,7 @@ void read_engine(TableReader& root, Settings& s) {
 
 void read_limit_states(TableReader& root, Settings& s) {
   for (TableReader& table : root.tables("limit_state")) {
-    LimitState limit;
+    PlannedLimit limit;
     static_cast<DemandLimit&>(limit) = read_limit(table);
     limit.only = table.text("case", "");
     table.finish();

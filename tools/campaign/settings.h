@@ -27,7 +27,7 @@ struct Sampled {
 };
 const std::vector<std::string>& distributions();  // in the order of the enumeration
 
-struct LimitState : DemandLimit {
+struct PlannedLimit : DemandLimit {
   std::string only;  // name of a case; empty: all
 };
 
@@ -69,7 +69,7 @@ struct Settings {
   bool significant = false;     // from 2 s before 5 % until 95 % of the Arias intensity have passed
   std::vector<double> periods;  // s, of im.sa_…
   RunSettings run;
-  std::vector<LimitState> limit_states;
+  std::vector<PlannedLimit> limit_states;
   EngineSettings engine;
 };
 

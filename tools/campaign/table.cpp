@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "solver/base/atomic_file.h"
@@ -20,7 +19,6 @@ namespace {
 
 constexpr std::array<const char*, 4> status_names = {"done", "collapsed", "failed", "missing"};
 constexpr std::array<const char*, 4> prefixes = {"material.", "im.", "edp.", "damage."};
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 bool is_number_column(const std::string& name) {
   return std::any_of(prefixes.begin(), prefixes.end(),
@@ -50,9 +48,9 @@ RunStatus status_of(const CsvReader& reader, std::string_view word) {
 }
 
 double number_of(const CsvReader& reader, std::string_view word, const std::string& column) {
-  double value = none;
+  double value = no_number;
   const NumberTrouble trouble = parse_number(word, value);
-  if (trouble == NumberTrouble::empty) return none;
+  if (trouble == NumberTrouble::empty) return no_number;
   if (trouble != NumberTrouble::none) reader.fail(explain(trouble, word, column) + "; leave it empty for no value");
   return value;
 }
@@ -73,7 +71,7 @@ void take_cell(const CsvReader& reader, CampaignRun& run, const std::string& col
 void read_row(CsvReader& reader, CampaignTable& table) {
   CampaignRun run;
   run.row = reader.row();
-  run.scale = run.seconds = none;
+  run.scale = run.seconds = no_number;
   std::size_t number = 0;
   for (std::size_t i = 0; i < reader.columns().size(); ++i) {
     const std::string_view cell = reader.need_cell(i);
@@ -94,7 +92,7 @@ std::string text_cell(std::string text) {
   return text.empty() ? text : csv_cell(text);
 }
 
-std::string number_cell(double value) {
+std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : std::string();  // fmt: shortest that reads back as it was
 }
 
@@ -167,9 +165,9 @@ std::string table_text(const CampaignTable& table) {
   for (std::size_t i = 0; i < table.runs.size(); ++i) {
     const CampaignRun& r = table.runs[i];
     text += fmt::format("{},{},{},{},{},{},{},{},{}", text_cell(r.run), text_cell(r.case_name), text_cell(r.record),
-                        text_cell(r.event), number_cell(r.scale), text_cell(r.sample), run_status_name(r.status),
-                        text_cell(r.reason), number_cell(r.seconds));
-    for (const NumberColumn& c : table.columns) text += fmt::format(",{}", number_cell(c.values[i]));
+                        text_cell(r.event), number_text(r.scale), text_cell(r.sample), run_status_name(r.status),
+                        text_cell(r.reason), number_text(r.seconds));
+    for (const NumberColumn& c : table.columns) text += fmt::format(",{}", number_text(c.values[i]));
     text += "\n";
   }
   return text;

@@ -9,6 +9,7 @@
 
 #include "io/hdf5/h5.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/csv.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/outcome.h"
@@ -18,8 +19,6 @@ namespace voussoir::campaign {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers of one run by column; columns come to be in the order of their names, not of their appearance.
 using Numbers = std::map<std::string, double>;
@@ -90,7 +89,7 @@ void add_results(const std::vector<Numbers>& results, CampaignTable& table) {
     NumberColumn column{name, {}};
     for (const Numbers& numbers : results) {
       const auto found = numbers.find(name);
-      column.values.push_back(found == numbers.end() ? none : found->second);
+      column.values.push_back(found == numbers.end() ? no_number : found->second);
     }
     table.columns.push_back(column);
   }
@@ -156,7 +155,7 @@ CampaignTable gather(const Plan& plan, const std::string& directory) {
     run.sample = planned.sample > 0 ? std::to_string(planned.sample) : "";
     run.reason = outcome.reason, run.status = outcome.status;
     run.scale = planned.scale;
-    run.seconds = outcome.status == Status::missing ? none : outcome.seconds;
+    run.seconds = outcome.status == Status::missing ? no_number : outcome.seconds;
     const bool ended = outcome.status == Status::done || outcome.status == Status::collapsed;
     results.push_back(ended ? numbers_in(folder_of(directory, planned)) : Numbers{});
     table.runs.push_back(run);

@@ -14,7 +14,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::size_t intensities_shown = 8;
+constexpr std::size_t intensities_on_page = 8;
 
 Cell number(double value, const char* format) {
   return {std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("–"), true};
@@ -97,7 +97,7 @@ std::string ranking_table(const IntensityRanking& ranking) {
                      {"R²", true},
                      {"sufficiency"}},
                     "th");
-  for (std::size_t i = 0; i < std::min(intensities_shown, ranking.pairings.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(intensities_on_page, ranking.pairings.size()); ++i) {
     const MeasurePair& p = ranking.pairings[i];
     text += table_row({words_cell(measure_name(p.im)),
                        {fmt::format("{}", p.line.count), true},

@@ -12,7 +12,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr std::size_t intensities_shown = 6;
+constexpr std::size_t intensities_in_report = 6;
 
 nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
@@ -145,7 +145,7 @@ std::string ranking_text(const IntensityRanking& ranking) {
   std::string text = fmt::format(
       "\n{}: intensities for {}, the best first\n  {:<14} {:>5} {:>10} {:>12} {:>11} {:>6}  {}\n", ranking.case_name,
       ranking.demand, "", "runs", "efficiency", "practicality", "proficiency", "R²", "sufficiency");
-  for (std::size_t i = 0; i < std::min(intensities_shown, ranking.pairings.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(intensities_in_report, ranking.pairings.size()); ++i) {
     const MeasurePair& p = ranking.pairings[i];
     std::string tests;
     for (const Sufficiency& s : p.sufficiency)

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "solver/base/csv.h"
 #include "solver/base/error.h"
 #include "tools/fragility/bootstrap.h"
 #include "tools/fragility/fragility.h"
@@ -13,7 +13,6 @@ namespace voussoir {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// What a ground motion is like, not how strong it is.
 constexpr std::array<const char*, 4> characteristics = {"im.d595", "im.d575", "im.magnitude", "im.distance"};
 
@@ -145,14 +144,14 @@ double share_ahead(const Compared& c, const std::vector<double>& first, const st
     ++known;
     ahead += one > two;
   }
-  return known > 0 ? double(ahead) / double(known) : none;
+  return known > 0 ? double(ahead) / double(known) : no_number;
 }
 
 DamageRanking damage_ranking(const CampaignTable& table, const std::string& case_name, const std::string& damage,
                              const std::vector<std::string>& demands, int replicates, std::uint64_t seed) {
   DamageRanking r;
   r.damage = damage;
-  r.ahead = none;
+  r.ahead = no_number;
   const std::vector<double>& values = table.column(damage).values;
   std::vector<const std::vector<double>*> columns = {&values};
   for (const std::string& demand : demands) columns.push_back(&table.column(demand).values);
@@ -177,7 +176,7 @@ double MeasurePair::proficiency() const {
 }
 
 double MeasurePair::least_p() const {
-  double least = none;
+  double least = no_number;
   for (const Sufficiency& s : sufficiency)
     if (!(s.p >= least)) least = s.p;
   return least;

@@ -4,15 +4,16 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
+
+#include "solver/base/constants.h"
+#include "solver/base/csv.h"
 
 namespace voussoir {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double far_tail = -25.0;  // below, four terms of the asymptotic series err by less than 1e-9
 
 /// z² Φ(z)/φ(z) − … of the far tail: Φ(z) = φ(z)/|z| (1 − 1/z² + 3/z⁴ − 15/z⁶ …) (Abramowitz & Stegun 1964, 26.2.12).
@@ -63,12 +64,12 @@ double normal_cdf(double z) {
 
 double log_normal_cdf(double z) {
   if (z > far_tail) return std::log(normal_cdf(z));
-  return -0.5 * z * z - std::log(-z * std::sqrt(2.0 * std::numbers::pi)) + std::log(tail_series(z));
+  return -0.5 * z * z - std::log(-z * std::sqrt(2.0 * pi)) + std::log(tail_series(z));
 }
 
 double inverse_mills(double z) {
   if (z <= far_tail) return -z / tail_series(z);
-  return std::exp(-0.5 * z * z) / (std::sqrt(2.0 * std::numbers::pi) * normal_cdf(z));
+  return std::exp(-0.5 * z * z) / (std::sqrt(2.0 * pi) * normal_cdf(z));
 }
 
 double normal_quantile(double p) {
@@ -80,13 +81,13 @@ double t_quantile(double p, double degrees) {
 }
 
 double t_p_value(double t, double degrees) {
-  if (std::isnan(t) || !(degrees > 0.0)) return none;
+  if (std::isnan(t) || !(degrees > 0.0)) return no_number;
   if (std::isinf(t)) return 0.0;
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(degrees), std::abs(t)));
 }
 
 double Line::p_value() const {
-  if (!known()) return none;
+  if (!known()) return no_number;
   if (slope_std == 0.0) return slope == 0.0 ? 1.0 : 0.0;
   return t_p_value(slope / slope_std, double(count) - 2.0);
 }
@@ -94,7 +95,7 @@ double Line::p_value() const {
 Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   Line line;
   line.count = x.size();
-  line.intercept = line.slope = line.slope_std = line.scatter = line.r2 = none;
+  line.intercept = line.slope = line.slope_std = line.scatter = line.r2 = no_number;
   if (x.empty()) return line;
   line.mean_x = mean_of(x);
   line.spread_x = product_sum(x, x);
@@ -112,16 +113,16 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   const double all = product_sum(y, y);
   line.scatter = std::sqrt(left / (double(line.count) - 2.0));
   line.slope_std = line.scatter / std::sqrt(line.spread_x);
-  line.r2 = all > 0.0 ? std::max(0.0, 1.0 - left / all) : none;
+  line.r2 = all > 0.0 ? std::max(0.0, 1.0 - left / all) : no_number;
   return line;
 }
 
 double added_p_value(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z) {
-  if (x.size() < 4 || !(product_sum(x, x) > 0.0) || !(product_sum(z, z) > 0.0)) return none;
+  if (x.size() < 4 || !(product_sum(x, x) > 0.0) || !(product_sum(z, z) > 0.0)) return no_number;
   // Of multiple regression one coefficient is that of the residuals on the residuals (Frisch & Waugh 1933).
   const std::vector<double> ry = residuals(x, y), rz = residuals(x, z);
   const double zz = product_sum(rz, rz);
-  if (zz < 1e-12 * product_sum(z, z)) return none;
+  if (zz < 1e-12 * product_sum(z, z)) return no_number;
   const double slope = product_sum(rz, ry) / zz, degrees = double(x.size()) - 3.0;
   const double left = std::max(product_sum(ry, ry) - slope * slope * zz, 0.0);
   if (left == 0.0) return slope == 0.0 ? 1.0 : 0.0;
@@ -130,9 +131,9 @@ double added_p_value(const std::vector<double>& x, const std::vector<double>& y,
 
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
   const std::vector<double> rx = ranks(x), ry = ranks(y);
-  if (rx.size() < 2) return none;
+  if (rx.size() < 2) return no_number;
   const double xx = product_sum(rx, rx), yy = product_sum(ry, ry);
-  return xx > 0.0 && yy > 0.0 ? product_sum(rx, ry) / std::sqrt(xx * yy) : none;
+  return xx > 0.0 && yy > 0.0 ? product_sum(rx, ry) / std::sqrt(xx * yy) : no_number;
 }
 
 double quantile(const std::vector<double>& sorted, double share) {

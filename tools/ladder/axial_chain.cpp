@@ -28,7 +28,7 @@ double wave_speed() {
 }
 
 /// ω_j = 2 √(k/m) sin((2j − 1) π/(2 (2N + 1))).
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_axial_chain(int) {
   const Bench bench(axial_chain_of(10));
   std::vector<Mode> modes;
   for (Mode& mode : modes_of(bench, 60))
@@ -53,7 +53,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung axial_chain() {
-  return {.name = "axial-chain", .help = "axial frequencies and wave speed of a chain of blocks", .climb = climb};
+  return {.name = "axial-chain",
+          .help = "axial frequencies and wave speed of a chain of blocks",
+          .climb = climb_axial_chain};
 }
 
 }  // namespace voussoir::ladder

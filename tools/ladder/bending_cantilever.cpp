@@ -6,7 +6,7 @@ namespace voussoir::ladder {
 
 namespace {
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_bending_cantilever(int) {
   std::vector<Finding> findings;
   double worst = 0.0;
   for (const auto& [blocks, expected] : {std::pair{10, 2.0325}, std::pair{20, 2.1287}, std::pair{40, 2.1802}}) {
@@ -22,7 +22,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung bending_cantilever() {
-  return {.name = "bending-cantilever", .help = "first frequency of a column of 10, 20, 40 blocks", .climb = climb};
+  return {.name = "bending-cantilever",
+          .help = "first frequency of a column of 10, 20, 40 blocks",
+          .climb = climb_bending_cantilever};
 }
 
 }  // namespace voussoir::ladder

@@ -42,7 +42,7 @@ Decay rings(const Assembly& assembly, const Mode& mode, const DampingSettings& d
   return measure_decay(u, double(every) * bench.stepper.dt);
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_bridge_ring(int) {
   const Assembly assembly = restrained_bridge();
   const Mode mode = modes_of(Bench(assembly), 1)[0];
   const DampedMode damped = damped_mode({}, mode.frequency);
@@ -58,7 +58,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung bridge_ring() {
-  return {.name = "bridge-ring", .help = "first mode of a whole bridge: run against eigenvalue", .climb = climb};
+  return {.name = "bridge-ring",
+          .help = "first mode of a whole bridge: run against eigenvalue",
+          .climb = climb_bridge_ring};
 }
 
 }  // namespace voussoir::ladder

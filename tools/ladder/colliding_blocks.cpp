@@ -59,7 +59,7 @@ std::vector<Finding> of(const std::string& name, const Collision& c, double allo
           nothing(name + ": change of momentum", c.momentum, 1e-10, "-", "Newton's third law")};
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_colliding_blocks(int) {
   const double side = 0.5;  // m
   std::vector<Finding> findings = of("stiff", collide(1e10), 0.01 * side);
   std::vector<Finding> soft = of("soft", collide(1e8), 0.1 * side);
@@ -71,7 +71,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung colliding_blocks() {
-  return {.name = "colliding-blocks", .help = "two free blocks fly at each other, stiff and soft", .climb = climb};
+  return {.name = "colliding-blocks",
+          .help = "two free blocks fly at each other, stiff and soft",
+          .climb = climb_colliding_blocks};
 }
 
 }  // namespace voussoir::ladder

@@ -73,7 +73,7 @@ Differences press(int points_per_side, bool shortcut) {
   return worst;
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_contact_patch(int) {
   std::vector<Finding> findings;
   for (bool shortcut : {true, false}) {
     Differences worst;
@@ -96,7 +96,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung contact_patch() {
-  return {.name = "contact-patch", .help = "uniform pressure on blocks with faces that do not match", .climb = climb};
+  return {.name = "contact-patch",
+          .help = "uniform pressure on blocks with faces that do not match",
+          .climb = climb_contact_patch};
 }
 
 }  // namespace voussoir::ladder

@@ -105,7 +105,7 @@ std::vector<Finding> come_to_rest() {
           within(name + ": lowest centroid", side / 2, f.lowest, 0.01 * side, "m", "rests on the slab")};
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_falling_blocks(int) {
   std::vector<Finding> findings;
   Fall all;
   for (const Drop& drop : drops()) {
@@ -131,7 +131,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung falling_blocks() {
-  return {.name = "falling-blocks", .help = "a block falls on another: face, edge, corner, any way up", .climb = climb};
+  return {.name = "falling-blocks",
+          .help = "a block falls on another: face, edge, corner, any way up",
+          .climb = climb_falling_blocks};
 }
 
 }  // namespace voussoir::ladder

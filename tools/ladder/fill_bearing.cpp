@@ -1,8 +1,8 @@
 // A rough strip footing on weightless soil with cohesion and friction: Nc = (Nq − 1) cot φ, Nq = e^(π tan φ)
 // tan²(45° + φ/2) (Prandtl 1920, Reissner 1924), for soil that flows along the normal of its yield surface. On two
 // meshes, pressed in and then left to rest, and pressed in as quickly without rest; and at constant volume.
-#include <numbers>
 
+#include "solver/base/constants.h"
 #include "tools/ladder/footing.h"
 #include "tools/ladder/rung.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 double expected(double friction) {
   const double tan = std::tan(radians(friction)), way = std::tan(radians(45.0 + 0.5 * friction));
-  return (std::exp(std::numbers::pi * tan) * way * way - 1.0) / tan;
+  return (std::exp(pi * tan) * way * way - 1.0) / tan;
 }
 
 Footing on_soil(double friction, double dilation, double cell, int rest) {
@@ -24,7 +24,7 @@ Footing on_soil(double friction, double dilation, double cell, int rest) {
   return f;
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_bearing(int) {
   const std::string source = "Prandtl 1920, Reissner 1924";
   const auto found = [&](const std::string& what, double friction, double dilation, double cell, int rest,
                          double share) {
@@ -45,7 +45,7 @@ std::vector<Finding> climb(int) {
 Rung fill_bearing() {
   return {.name = "fill-bearing",
           .help = "strip footing on soil with friction: mesh, speed, dilation",
-          .climb = climb,
+          .climb = climb_fill_bearing,
           .slow = true};
 }
 

@@ -7,7 +7,7 @@ namespace voussoir::ladder {
 
 namespace {
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_footing(int) {
   const std::string source = "Prandtl: 2 + pi";
   return {
       near("bearing pressure over cohesion", 5.1416, bearing_factor({}), 0.03, "-", source),
@@ -18,8 +18,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_footing() {
-  return {
-      .name = "fill-footing", .help = "strip footing on clay, with and without mixed discretisation", .climb = climb};
+  return {.name = "fill-footing",
+          .help = "strip footing on clay, with and without mixed discretisation",
+          .climb = climb_fill_footing};
 }
 
 }  // namespace voussoir::ladder

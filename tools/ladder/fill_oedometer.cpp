@@ -71,7 +71,7 @@ double yield_strain() {
   return (r[1].vertical - slope * 0.008) / (stiff - slope);
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_oedometer(int) {
   const std::string source = "closed form (associated flow, two equal middle stresses)";
   const std::vector<Reading> yields = compress(flowing(), {0.02});
   const std::vector<Reading> never = compress(backfill(), {0.005, 0.02});
@@ -93,7 +93,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_oedometer() {
-  return {.name = "fill-oedometer", .help = "fill pressed between walls: elastic, and flowing", .climb = climb};
+  return {.name = "fill-oedometer",
+          .help = "fill pressed between walls: elastic, and flowing",
+          .climb = climb_fill_oedometer};
 }
 
 }  // namespace voussoir::ladder

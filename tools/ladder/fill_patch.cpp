@@ -69,7 +69,7 @@ double worst_remainder(const Eigen::Quaterniond& turn) {
   return worst / pressure;
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_patch(int) {
   const Eigen::Quaterniond askew = Eigen::Quaterniond(0.8, 0.3, -0.4, 0.2).normalized();
   return {
       nothing("forces left over a pressure", worst_remainder(Eigen::Quaterniond::Identity()), 1e-9, "m2", "uniform"),
@@ -79,7 +79,7 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_patch() {
-  return {.name = "fill-patch", .help = "constant pressure between stones and tetrahedra", .climb = climb};
+  return {.name = "fill-patch", .help = "constant pressure between stones and tetrahedra", .climb = climb_fill_patch};
 }
 
 }  // namespace voussoir::ladder

@@ -11,14 +11,15 @@ namespace voussoir::ladder {
 
 namespace {
 
-constexpr double height = 4.0, length = 4.0, cell = 0.25;               // m; a slice of one cell
-constexpr double density = 1800.0, youngs = 10e6, poisson = 1.0 / 3.0;  // kg/m3, Pa: loose, so that it gives way slowly
-constexpr double kn = 2e9, weight = 9.81 * density;                     // Pa/m, N/m3
-constexpr std::int64_t wall = 1;                                        // block
+constexpr double height = 4.0, length = 4.0, cell = 0.25;  // m; a slice of one cell
+constexpr double density = 1800.0, rankine_youngs = 10e6,
+                 poisson = 1.0 / 3.0;                                // kg/m3, Pa: loose, so that it gives way slowly
+constexpr double rankine_kn = 2e9, rankine_weight = 9.81 * density;  // Pa/m, N/m3
+constexpr std::int64_t wall = 1;                                     // block
 
 /// Without cohesion.
 Material sand(double friction, double dilation) {
-  Material m = elastic_fill(density, youngs / (3.0 - 6.0 * poisson), youngs / (2.0 + 2.0 * poisson));
+  Material m = elastic_fill(density, rankine_youngs / (3.0 - 6.0 * poisson), rankine_youngs / (2.0 + 2.0 * poisson));
   m.cohesion = m.tensile_strength = 0.0;
   m.friction_angle = radians(friction), m.dilation_angle = radians(dilation);
   return m;
@@ -31,7 +32,7 @@ Assembly trench(const Material& soil) {
   add_box(assembly, {-1, 0, 0}, {0, cell, height + 0.5}, true);
   add_box(assembly, {length, 0, 0}, {length + 1, cell, height + 0.5}, true);
   FillMesh mesh = box_mesh({0, 0, 0}, {length, cell, height}, int(length / cell), 1, int(height / cell));
-  return filled(std::move(assembly), std::move(mesh), soil, kn, 0.4 * kn, dry_law(0.0));
+  return filled(std::move(assembly), std::move(mesh), soil, rankine_kn, 0.4 * rankine_kn, dry_law(0.0));
 }
 
 /// Settled already, as if between walls that do not give way; in plane strain.
@@ -40,7 +41,8 @@ void settle(Bench& bench) {
   const double stiff = fill.laws[0].stiff();
   for (std::size_t i = 0; i < fill.nodes.size(); ++i) {
     const double z = fill.nodes[i].z();
-    move_node(bench.state, i, {0, 0, -weight * height / kn - weight / stiff * (height * z - 0.5 * z * z)});
+    move_node(bench.state, i,
+              {0, 0, -rankine_weight * height / rankine_kn - rankine_weight / stiff * (height * z - 0.5 * z * z)});
     fill.held[i] |= 2;
   }
 }
@@ -63,7 +65,7 @@ double thrust(Bench& bench, int steps) {
     sum -= bodies.update(std::size_t(bench.body(wall))).force.x / (steps / 10);
   };
   if (!bench.run(steps, 10, sample)) throw RunError("the fill behind the wall ran away");
-  return sum / (0.5 * weight * height * height * cell);
+  return sum / (0.5 * rankine_weight * height * height * cell);
 }
 
 struct Pressure {
@@ -89,7 +91,7 @@ Pressure on_wall(double friction, double dilation) {
   return p;
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_rankine(int) {
   std::vector<Finding> findings;
   const auto add = [&](double friction, double dilation, const char* how) {
     const double sine = std::sin(radians(friction));
@@ -109,7 +111,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_rankine() {
-  return {.name = "fill-rankine", .help = "earth pressure at rest, and on a wall that moves away", .climb = climb};
+  return {.name = "fill-rankine",
+          .help = "earth pressure at rest, and on a wall that moves away",
+          .climb = climb_fill_rankine};
 }
 
 }  // namespace voussoir::ladder

@@ -41,7 +41,7 @@ double acceleration(double degrees) {
   return (momentum() - before) / mass / (bench.state.time() - time);
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_slide(int) {
   const double angle = radians(40.0);
   const double expected = 9.81 * (std::sin(angle) - friction * std::cos(angle));
   return {near("acceleration on a plane of 40 degrees", expected, acceleration(40.0), 5e-3, "m/s2", "Coulomb"),
@@ -51,7 +51,7 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_slide() {
-  return {.name = "fill-slide", .help = "a slab of fill on an inclined stone", .climb = climb};
+  return {.name = "fill-slide", .help = "a slab of fill on an inclined stone", .climb = climb_fill_slide};
 }
 
 }  // namespace voussoir::ladder

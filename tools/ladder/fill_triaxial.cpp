@@ -43,7 +43,7 @@ double strength(double confining) {
 }
 
 /// σ1 = σ3 tan²(45° + φ/2) + 2 c tan(45° + φ/2), c = 20 kPa, φ = 40°.
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_triaxial(int) {
   std::vector<Finding> findings;
   const double expected[3] = {85.780, 315.726, 1005.562}, confining[3] = {0.0, 50.0, 200.0};
   for (int i = 0; i < 3; ++i)
@@ -55,7 +55,8 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_triaxial() {
-  return {.name = "fill-triaxial", .help = "strength of the fill under confining pressure", .climb = climb};
+  return {
+      .name = "fill-triaxial", .help = "strength of the fill under confining pressure", .climb = climb_fill_triaxial};
 }
 
 }  // namespace voussoir::ladder

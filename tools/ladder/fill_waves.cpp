@@ -44,7 +44,7 @@ double wave_speed(int along, double expected) {
 }
 
 /// κ + 4/3 μ = 480 MPa and μ = 160 MPa over 1500 kg/m3.
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_fill_waves(int) {
   return {near("speed of a compressive wave", 565.685, wave_speed(2, 565.685), 0.01, "m/s", "sqrt((K + 4/3 G)/rho)"),
           near("speed of a shear wave", 326.599, wave_speed(0, 326.599), 0.01, "m/s", "sqrt(G/rho)")};
 }
@@ -52,7 +52,7 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung fill_waves() {
-  return {.name = "fill-waves", .help = "compressive and shear waves through tetrahedra", .climb = climb};
+  return {.name = "fill-waves", .help = "compressive and shear waves through tetrahedra", .climb = climb_fill_waves};
 }
 
 }  // namespace voussoir::ladder

@@ -14,7 +14,7 @@ double spin_energy(Bench& bench) {
   return 0.5 * local.dot(body.inverse_inertia * local);
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_free_spin(int) {
   Bench bench(asymmetric_block());
   bench.begin(2 * pi / 4000);  // spin 1 rad/s: 4000 steps a turn
   bench.stepper.search_distance = 1e300;
@@ -37,7 +37,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung free_spin() {
-  return {.name = "free-spin", .help = "an unsymmetric block spins 100 turns about its middle axis", .climb = climb};
+  return {.name = "free-spin",
+          .help = "an unsymmetric block spins 100 turns about its middle axis",
+          .climb = climb_free_spin};
 }
 
 }  // namespace voussoir::ladder

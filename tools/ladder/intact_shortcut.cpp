@@ -131,7 +131,7 @@ double difference(const Motion& motion, Damping damping) {
   return worst;
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_intact_shortcut(int) {
   std::vector<Finding> findings;
   const std::pair<const char*, Damping> dampings[] = {
       {"undamped", Damping::none}, {"Rayleigh", Damping::rayleigh}, {"Maxwell", Damping::maxwell}};
@@ -151,8 +151,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung intact_shortcut() {
-  return {
-      .name = "intact-shortcut", .help = "wrench of intact joints by six springs, and point by point", .climb = climb};
+  return {.name = "intact-shortcut",
+          .help = "wrench of intact joints by six springs, and point by point",
+          .climb = climb_intact_shortcut};
 }
 
 }  // namespace voussoir::ladder

@@ -9,7 +9,7 @@ namespace voussoir::ladder {
 
 namespace {
 
-constexpr double kn = prisms_kn, ks = prisms_ks;
+constexpr double stiffness_kn = prisms_kn, stiffness_ks = prisms_ks;
 
 /// ∫ dA, and ∫ r rᵀ dA about the centroid, by fans of triangles about corner 0 (mid-edge rule, exact for quadratics).
 struct Section {
@@ -54,14 +54,15 @@ Response respond(Bench& bench, const Vec3& centroid, const Vec3& delta, const Ve
 
 /// Force −(kn n nᵀ + ks (1 − n nᵀ)) A δ.
 Vec3 expected_force(const Section& s, const Vec3& n, const Vec3& delta) {
-  return -s.area * (kn * n * n.transpose() + ks * (Mat3::Identity() - n * n.transpose())) * delta;
+  return -s.area * (stiffness_kn * n * n.transpose() + stiffness_ks * (Mat3::Identity() - n * n.transpose())) * delta;
 }
 
 /// Moment −∫ r × K (θ × r) dA for a small turn θ: bending kn [n]ₓ S [n]ₓᵀ θ, torsion ks tr(S) n nᵀ θ.
 Vec3 expected_moment(const Section& s, const Vec3& n, const Vec3& turn) {
   Mat3 cross;
   cross << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-  return -kn * cross * s.second * cross.transpose() * turn - ks * s.second.trace() * n * n.dot(turn);
+  return -stiffness_kn * cross * s.second * cross.transpose() * turn -
+         stiffness_ks * s.second.trace() * n * n.dot(turn);
 }
 
 void raise(double& worst, double found) {
@@ -105,7 +106,7 @@ Finding of_inertia(const std::string& shape, const StiffnessErrors& errors) {
   return nothing("error of kn I and ks J, " + shape, errors.moment, 1e-12, "-", "beam theory");
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_joint_stiffness(int) {
   std::mt19937 random(3);
   StiffnessErrors square, triangle, hexagon;
   for (bool shortcut : {true, false}) {
@@ -132,7 +133,7 @@ Assembly two_prisms(const Polygon& polygon, const Eigen::Quaterniond& rotation, 
     assembly.blocks[0].cells = {make_prism(placed, -0.7 * normal)};
   if (mass_properties(assembly.blocks[1].cells[0]).volume < 0.0)
     assembly.blocks[1].cells = {make_prism(reversed, 0.6 * normal)};
-  return joined(std::move(assembly), kn, ks, elastic_law());
+  return joined(std::move(assembly), stiffness_kn, stiffness_ks, elastic_law());
 }
 
 void compare_stiffness(const Polygon& polygon, std::mt19937& random, bool shortcut, StiffnessErrors& worst) {
@@ -154,8 +155,9 @@ void compare_stiffness(const Polygon& polygon, std::mt19937& random, bool shortc
 }
 
 Rung joint_stiffness() {
-  return {
-      .name = "joint-stiffness", .help = "elastic stiffness of a square, triangular, hexagonal joint", .climb = climb};
+  return {.name = "joint-stiffness",
+          .help = "elastic stiffness of a square, triangular, hexagonal joint",
+          .climb = climb_joint_stiffness};
 }
 
 }  // namespace voussoir::ladder

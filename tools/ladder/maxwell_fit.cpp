@@ -21,7 +21,7 @@ std::vector<Finding> ripple(const MaxwellFit& fit) {
           nothing("error of the fit's own least and greatest", said, 1e-6, "-", "scan of the band")};
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_maxwell_fit(int) {
   const MaxwellFit fit = fit_maxwell(0.02, {0.5, 12.0}, 3);
   const double stiffness[3] = {0.0611, 0.0425, 0.0689}, frequency[3] = {0.446, 2.498, 14.28};
   std::vector<Finding> findings;
@@ -37,7 +37,8 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung maxwell_fit() {
-  return {.name = "maxwell-fit", .help = "branches of Maxwell damping: 2 % on 0.5 to 12 Hz", .climb = climb};
+  return {
+      .name = "maxwell-fit", .help = "branches of Maxwell damping: 2 % on 0.5 to 12 Hz", .climb = climb_maxwell_fit};
 }
 
 }  // namespace voussoir::ladder

@@ -41,7 +41,7 @@ std::vector<Finding> published(bool shortcut, Errors& errors) {
           near("ratio of 3.125 Hz" + path, 0.02028, got.ratio, 0.03, "-", "independent least-squares fit")};
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_maxwell_ring(int) {
   Errors middle, band;
   std::vector<Finding> findings = published(true, middle);
   for (Finding& finding : published(false, middle)) findings.push_back(std::move(finding));
@@ -58,7 +58,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung maxwell_ring() {
-  return {.name = "maxwell-ring", .help = "frequency and ratio of an oscillator with Maxwell damping", .climb = climb};
+  return {.name = "maxwell-ring",
+          .help = "frequency and ratio of an oscillator with Maxwell damping",
+          .climb = climb_maxwell_ring};
 }
 
 }  // namespace voussoir::ladder

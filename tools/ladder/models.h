@@ -2,12 +2,12 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include "geometry/generator.h"
 #include "geometry/joints.h"
+#include "solver/base/constants.h"
 #include "solver/contact/make_contact.h"
 #include "solver/contact/search.h"
 #include "solver/modal/modes.h"
@@ -17,13 +17,6 @@
 #include "solver/step/stepper.h"
 
 namespace voussoir::ladder {
-
-constexpr double pi = std::numbers::pi;
-constexpr double standard_gravity = 9.80665;  // m/s2
-
-inline double radians(double degrees) {
-  return degrees * pi / 180.0;
-}
 
 /// A spring without limits.
 inline JointLaw elastic_law() {
@@ -152,19 +145,11 @@ inline Vec3 random_vector(double scale, std::mt19937& random) {
   return scale * Vec3(unit(random), unit(random), unit(random));
 }
 
-template <class M>
-State fresh_state(const M& model) {
-  if constexpr (requires { initial_state(model, 0); })
-    return initial_state(model, 0);
-  else
-    return initial_state(model);
-}
-
 /// Model, state and stepper held together, driven by hand; blocks are those of the assembly.
 class Bench {
  public:
   explicit Bench(Assembly a, const SolverSettings& s = undamped())
-      : assembly(std::move(a)), settings(s), model(build_model(assembly, s)), state(fresh_state(model)) {
+      : assembly(std::move(a)), settings(s), model(build_model(assembly, s)), state(initial_state(model)) {
     stepper.model = &model;
     stepper.state = &state;
     stepper.shortcut = s.step.intact_shortcut;

@@ -6,10 +6,10 @@ namespace voussoir::ladder {
 
 namespace {
 
-constexpr double kn = 4e9, size = 1.0;  // Pa/m, m
+constexpr double rotation_kn = 4e9, size = 1.0;  // Pa/m, m
 
 Assembly bonded_stack() {
-  Assembly assembly = generated("column", {{"blocks", 5}, {"kn", kn}, {"ks", 0.4 * kn}});
+  Assembly assembly = generated("column", {{"blocks", 5}, {"kn", rotation_kn}, {"ks", 0.4 * rotation_kn}});
   JointLaw law = dry_law(0.6);
   law.tension = law.cohesion = 1e5;
   set_law(assembly, law);
@@ -44,12 +44,12 @@ std::vector<Finding> turned(bool shortcut) {
   for (std::uint8_t mode : bench.state.joint.mode) broken += (mode & mode_broken) != 0;
   for (double energy : bench.state.joint.energy) lost = std::max(lost, energy);
   const std::string path = shortcut ? ", shortcut" : ", points", source = "no strain";
-  return {nothing("largest stress over kn × size" + path, stress / (kn * size), 1e-9, "-", source),
+  return {nothing("largest stress over kn × size" + path, stress / (rotation_kn * size), 1e-9, "-", source),
           nothing("points that broke" + path, broken, 0.0, "-", source),
           nothing("energy lost in a joint" + path, lost, 1e-9, "J", source)};
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_rigid_rotation(int) {
   std::vector<Finding> findings = turned(true);
   for (Finding& finding : turned(false)) findings.push_back(std::move(finding));
   return findings;
@@ -58,7 +58,9 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung rigid_rotation() {
-  return {.name = "rigid-rotation", .help = "a bonded stack turned through 90 degrees without load", .climb = climb};
+  return {.name = "rigid-rotation",
+          .help = "a bonded stack turned through 90 degrees without load",
+          .climb = climb_rigid_rotation};
 }
 
 }  // namespace voussoir::ladder

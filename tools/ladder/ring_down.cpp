@@ -26,7 +26,7 @@ double rings_at(const Assembly& assembly, const Mode& mode) {
   return measure_decay(u, double(every) * dt).frequency;
 }
 
-std::vector<Finding> climb(int) {
+std::vector<Finding> climb_ring_down(int) {
   const Assembly chain = axial_chain_of(10), column = bending_column_of(10);
   const Bench bench(chain);
   Mode axial;
@@ -42,7 +42,7 @@ std::vector<Finding> climb(int) {
 }  // namespace
 
 Rung ring_down() {
-  return {.name = "ring-down", .help = "frequency of a run against the eigenvalue", .climb = climb};
+  return {.name = "ring-down", .help = "frequency of a run against the eigenvalue", .climb = climb_ring_down};
 }
 
 }  // namespace voussoir::ladder

@@ -11,7 +11,7 @@ namespace voussoir::ladder {
 
 namespace {
 
-constexpr double kn = 1e10, ks = 4e9, GI = 50.0, GII = 200.0, area = 2.0;  // Pa/m, J/m2, m2
+constexpr double joint_kn = 1e10, joint_ks = 4e9, GI = 50.0, GII = 200.0, area = 2.0;  // Pa/m, J/m2, m2
 
 /// A flat block between a base, on a softening joint of 2 m2, and a plate on a spring of so many Pa/m.
 Assembly between_base_and_plate(double spring) {
@@ -24,7 +24,7 @@ Assembly between_base_and_plate(double spring) {
   softening.kind = JointLaw::Kind::softening;
   softening.tension = 2e5, softening.cohesion = 4e5;
   softening.fracture_energy = {GI, GII};
-  assembly = joined(std::move(assembly), kn, ks, softening);
+  assembly = joined(std::move(assembly), joint_kn, joint_ks, softening);
   assembly.laws.push_back(elastic_law());
   for (Joint& joint : assembly.joints)
     if (joint.a == 2 || joint.b == 2) joint.kn = joint.ks = spring, joint.law = 1;
@@ -65,7 +65,7 @@ struct Pull {
   double energy;        // J/m2
 };
 
-std::vector<Finding> climb(int threads) {
+std::vector<Finding> climb_softening_joint(int threads) {
   const Pull pulls[] = {{"GI × area, stiff spring", 1e11, critical, {0, 0, 5e-3}, GI},
                         {"GI × area, snapping back", 1e8, third, {0, 0, 5e-3}, GI},
                         {"GII × area, stiff spring", 1e11, critical, {8e-3, 0, 0}, GII},
@@ -84,7 +84,9 @@ std::vector<Finding> climb(int threads) {
 }  // namespace
 
 Rung softening_joint() {
-  return {.name = "softening-joint", .help = "fracture energy of a joint pulled and sheared through", .climb = climb};
+  return {.name = "softening-joint",
+          .help = "fracture energy of a joint pulled and sheared through",
+          .climb = climb_softening_joint};
 }
 
 }  // namespace voussoir::ladder

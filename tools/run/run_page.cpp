@@ -9,20 +9,20 @@
 #include "io/case/case.h"
 #include "io/hdf5/history_file.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/motion/intensity.h"
 #include "tools/run/damage_words.h"
 #include "viz/page/html.h"
 #include "viz/page/line_chart.h"
-#include "viz/palette.h"
+#include "viz/page/palette.h"
+#include "viz/page/svg.h"
 
 namespace voussoir {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
 
 struct RunFiles {
   std::string directory, name;
@@ -208,16 +208,17 @@ std::string ground_spectra(const RunFiles& run) {
                      colour_code(line_colour(std::size_t(axis))),
                      1.6,
                      ""};
-    for (double& v : curve.y) v /= g;
+    for (double& v : curve.y) v /= standard_gravity;
     chart.curves.push_back(curve);
   }
   return figure(line_chart(chart));
 }
 
 std::string histories_section(const RunFiles& run) {
-  std::string text = channels_chart(
-      run, "Acceleration of the base", "acceleration (g)",
-      {{"base/acceleration_x", "x"}, {"base/acceleration_y", "y"}, {"base/acceleration_z", "z"}}, 1.0 / g);
+  std::string text =
+      channels_chart(run, "Acceleration of the base", "acceleration (g)",
+                     {{"base/acceleration_x", "x"}, {"base/acceleration_y", "y"}, {"base/acceleration_z", "z"}},
+                     1.0 / standard_gravity);
   text += ground_spectra(run);
   text += channels_chart(run, "Keystones, longitudinal", "x relative to the base (mm)",
                          demand_channels(run, "keystone"), 1e3);

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "geometry/joint_counts.h"
+#include "solver/base/constants.h"
 #include "solver/statics/hinges.h"
 #include "solver/step/loads.h"
 #include "tools/run/damage_words.h"
@@ -118,7 +118,7 @@ nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
                        {"moves_until", last > 0 ? history.time()[last - 1] : 0.0},
                        {"first_zero", first_zero},
                        {"largest_rotation", most_turned},
-                       {"overturned", most_turned > 0.25 * std::numbers::pi}};
+                       {"overturned", most_turned > 0.25 * pi}};
   }
   return json;
 }
@@ -197,7 +197,7 @@ nlohmann::json collapse_json(const Simulation& run) {
                          {"falls_above", c.falls_above ? nlohmann::json(*c.falls_above) : nlohmann::json()}};
   add_loss(run, json);
   json["curve"] = curve_json(c);
-  if (stage.collapse.tilt) json["tilt_degrees"] = std::atan(c.multiplier) * 180.0 / std::numbers::pi;
+  if (stage.collapse.tilt) json["tilt_degrees"] = std::atan(c.multiplier) * 180.0 / pi;
   const Loads loads = loads_at({}, stage, run.model().gravity, c.multiplier);
   double weight = 0.0;
   for (const Body& body : run.model().bodies)

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numbers>
 
 #include "geometry/fill_import.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/msh/msh_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 
@@ -22,7 +22,7 @@ bool given(const options::variables_map& values, const char* name) {
 
 /// A new material for the fill: what is not given is that of a loose gravel fill, not of a stone.
 Material new_material(const options::variables_map& values, const std::string& name) {
-  Material m = {name, 1500.0, 4e8, 1.6e8, 0.0, 2e4, 40.0 * std::numbers::pi / 180.0};
+  Material m = {name, 1500.0, 4e8, 1.6e8, 0.0, 2e4, 40.0 * pi / 180.0};
   if (given(values, "density")) m.density = values["density"].as<double>();
   if (given(values, "youngs-modulus")) m.youngs_modulus = values["youngs-modulus"].as<double>();
   if (given(values, "shear-modulus")) m.shear_modulus = values["shear-modulus"].as<double>();
@@ -32,7 +32,7 @@ Material new_material(const options::variables_map& values, const std::string& n
   m.dilation_angle = angle(values, "dilation");
   if (m.dilation_angle > m.friction_angle)
     throw InputError("--dilation is {} degrees; it must not be more than the friction angle, {:g} degrees",
-                     values["dilation"].as<double>(), m.friction_angle * 180.0 / std::numbers::pi);
+                     values["dilation"].as<double>(), m.friction_angle * 180.0 / pi);
   return m;
 }
 
@@ -67,7 +67,7 @@ FillInterface interface_of(const options::variables_map& values) {
 }  // namespace
 
 double angle(const options::variables_map& values, const char* name) {
-  return values[name].as<double>() * std::numbers::pi / 180.0;
+  return values[name].as<double>() * pi / 180.0;
 }
 
 bool is_fill_file(const std::string& path) {

@@ -9,10 +9,12 @@
 
 #include "io/records/table.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "solver/motion/baseline.h"
 #include "viz/page/html.h"
+#include "viz/page/svg.h"
 
 namespace voussoir {
 
@@ -22,8 +24,6 @@ const char* const axis_colour[3] = {"#0072b2", "#d55e00", "#009e73"};
 const char* const axis_word[3] = {"x", "y", "z"};
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
 
 struct Part {
   const char *name, *summary;
@@ -133,7 +133,7 @@ nlohmann::json target_json(const TargetSpectrum& t) {
 
 std::vector<double> target_values(const TargetSpectrum& target, const std::vector<double>& periods) {
   std::vector<double> values;
-  for (const double period : periods) values.push_back(g * spectral_acceleration(target, period));
+  for (const double period : periods) values.push_back(standard_gravity * spectral_acceleration(target, period));
   return values;
 }
 
@@ -226,7 +226,8 @@ std::string measures_row(const std::string& name, const std::array<Intensity, 3>
     const Intensity& i = of[axis];
     if (i.pga == 0.0) continue;
     text += fmt::format("{:<24} {:>4} {:>9.4f} {:>9.4f} {:>10.4f} {:>8.2f} {:>9.3f}\n", text.empty() ? name : "",
-                        axis_word[axis], f * i.pga / g, f * i.pgv, f * f * i.arias, i.significant(), f * i.cav);
+                        axis_word[axis], f * i.pga / standard_gravity, f * i.pgv, f * f * i.arias, i.significant(),
+                        f * i.cav);
   }
   return text;
 }
@@ -249,10 +250,11 @@ std::string measures_table(const std::vector<std::string>& names, const std::vec
       if (i.pga == 0.0) continue;
       const double f = factors[r];
       const auto number = [](double v) { return Cell{fmt::format("{:.3f}", v), true}; };
-      text += table_row({words_cell(first ? names[r] : ""), first ? number(f) : words_cell(""),
-                         words_cell(axis_word[axis]), number(f * i.pga / g), number(f * i.pgv), number(f * f * i.arias),
-                         Cell{fmt::format("{:.2f}", i.significant()), true}, number(f * i.cav)},
-                        "td");
+      text +=
+          table_row({words_cell(first ? names[r] : ""), first ? number(f) : words_cell(""), words_cell(axis_word[axis]),
+                     number(f * i.pga / standard_gravity), number(f * i.pgv), number(f * f * i.arias),
+                     Cell{fmt::format("{:.2f}", i.significant()), true}, number(f * i.cav)},
+                    "td");
       first = false;
     }
   }
@@ -277,7 +279,7 @@ std::string histories_figure(const std::string& name, const GroundMotion& motion
     for (std::size_t k = 0; k < 3; ++k) {
       ChartCurve curve{k == 0 ? axis_word[axis] : "", time, *values[k], axis_colour[axis], 1.0, ""};
       if (k == 0)
-        for (double& value : curve.y) value /= g;
+        for (double& value : curve.y) value /= standard_gravity;
       charts[k].curves.push_back(thinned(curve));
     }
   }

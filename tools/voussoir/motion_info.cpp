@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/parallel.h"
@@ -14,8 +15,6 @@
 namespace voussoir {
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
 
 std::vector<std::string> paths_of(const options::variables_map& values) {
   std::vector<std::string> paths = {values["RECORDS"].as<std::string>()};
@@ -61,7 +60,7 @@ LineChart spectra_chart(const RecordSet& set, const std::optional<TargetSpectrum
   chart.log_x = true;
   chart.y_low = 0.0;
   const auto in_g = [](std::vector<double> values) {
-    for (double& v : values) v /= g;
+    for (double& v : values) v /= standard_gravity;
     return values;
   };
   for (std::size_t axis = 0; axis < 3; ++axis)

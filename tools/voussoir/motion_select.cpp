@@ -7,6 +7,7 @@
 #include <map>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/parallel.h"
@@ -17,8 +18,6 @@
 namespace voussoir {
 
 namespace {
-
-constexpr double g = 9.80665;         // m/s2
 constexpr double period_step = 0.01;  // s, between the periods that are compared
 
 struct SelectRequest {
@@ -103,14 +102,15 @@ std::string spectra_figure(const Selected& s) {
   const std::vector<double> periods = chart_periods();
   std::vector<RecordSet> chosen;
   for (const std::size_t r : s.selection.records) chosen.push_back(s.sets[r]);
-  const Eigen::MatrixXd spectra = horizontal_spectra(chosen, periods, s.request.target.damping, s.request.threads) / g;
+  const Eigen::MatrixXd spectra =
+      horizontal_spectra(chosen, periods, s.request.target.damping, s.request.threads) / standard_gravity;
   LineChart chart;
   chart.title = "Spectra of the selection: mean of the two horizontal components at the record's factor";
   chart.x_label = "period (s)";
   chart.y_label = fmt::format("pseudo-acceleration, {:g} % damping (g)", 100.0 * s.request.target.damping);
   chart.height = 470.0, chart.log_x = true, chart.y_low = 0.0;
   std::vector<double> target = target_values(s.request.target, periods), mean(periods.size(), 0.0);
-  for (double& v : target) v /= g;
+  for (double& v : target) v /= standard_gravity;
   ChartBand band{fmt::format("{:g} to {:g} of the target, {:g} to {:g} s", s.request.problem.low,
                              s.request.problem.high, s.request.range[0], s.request.range[1]),
                  {},
@@ -159,7 +159,7 @@ std::string measures_figure(const Selected& s) {
     double (*of)(const Intensity&);
     bool scales;
   };
-  const Measure measures[] = {{"PGA (g)", [](const Intensity& i) { return i.pga / g; }, true},
+  const Measure measures[] = {{"PGA (g)", [](const Intensity& i) { return i.pga / standard_gravity; }, true},
                               {"PGV (m/s)", [](const Intensity& i) { return i.pgv; }, true},
                               {"D5–95 (s)", [](const Intensity& i) { return i.significant(); }, false}};
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle};
@@ -207,7 +207,7 @@ std::string selection_text(const Selected& s, double seconds) {
                                  "event", "factor", "PGA x, y, z (g)");
   for (std::size_t i = 0; i < s.names.size(); ++i) {
     const RecordSet& set = s.sets[s.selection.records[i]];
-    const double f = s.selection.factors[i] / g;
+    const double f = s.selection.factors[i] / standard_gravity;
     text +=
         fmt::format("{:<24} {:<16} {:>7.3f} {:>6.3f}{:>6.3f}{:>6.3f}\n", set.name, set.event, s.selection.factors[i],
                     f * s.measures[i][0].pga, f * s.measures[i][1].pga, f * s.measures[i][2].pga);

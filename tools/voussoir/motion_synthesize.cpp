@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/parallel.h"
@@ -14,8 +15,6 @@
 namespace voussoir {
 
 namespace {
-
-constexpr double g = 9.80665;  // m/s2
 
 double target_at(const TargetSpectrum& target, int axis, double period) {
   return axis == 2 ? vertical_spectral_acceleration(target, period) : spectral_acceleration(target, period);
@@ -40,7 +39,7 @@ LineChart fit_chart(const SyntheticSettings& settings, const GroundMotion& motio
     const auto i = std::size_t(axis);
     if (spectra[i].empty()) continue;
     ChartCurve curve{axis_word[i], periods, spectra[i], axis_colour[i], 1.5, ""};
-    for (double& v : curve.y) v /= g;
+    for (double& v : curve.y) v /= standard_gravity;
     chart.curves.push_back(curve);
   }
   for (const int axis : {0, 2}) {
@@ -60,7 +59,7 @@ std::pair<double, double> fit_of(const SyntheticSettings& settings, const Ground
       response_spectrum(component(motion, axis), motion.dt, periods, settings.spectrum->damping);
   double least = INFINITY, most = 0.0;
   for (std::size_t k = 0; k < periods.size(); ++k) {
-    const double ratio = response[k] / (g * target_at(*settings.spectrum, axis, periods[k]));
+    const double ratio = response[k] / (standard_gravity * target_at(*settings.spectrum, axis, periods[k]));
     least = std::min(least, ratio), most = std::max(most, ratio);
   }
   return {least, most};
