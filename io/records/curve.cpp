@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "io/records/rows.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
