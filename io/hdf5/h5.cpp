@@ -204,16 +204,17 @@ void File::write(const std::string& name, std::span<const T> values, Shape shape
   write_raw(name, values.data(), values.size(), memory_type<T>(), sizeof(T), std::move(shape), unit);
 }
 
-void File::write_texts(const std::string& name, const std::vector<std::string>& values) {
-  std::size_t longest = 1;
+PaddedTexts::PaddedTexts(const std::vector<std::string>& values) : type(H5Tcopy(H5T_C_S1), H5Tclose) {
   for (const std::string& value : values) longest = std::max(longest, value.size());
-  std::string padded;
-  for (const std::string& value : values) padded += value + std::string(longest - value.size(), '\0');
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  for (const std::string& value : values) bytes += value + std::string(longest - value.size(), '\0');
   H5Tset_size(type.id(), longest);
   H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
-  write_raw(name, padded.data(), values.size(), type.id(), longest, {}, "");
+}
+
+void File::write_texts(const std::string& name, const std::vector<std::string>& values) {
+  const PaddedTexts texts(values);
+  write_raw(name, texts.bytes.data(), values.size(), texts.type.id(), texts.longest, {}, "");
 }
 
 std::vector<std::string> File::read_texts(const std::string& name) const {

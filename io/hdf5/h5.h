@@ -41,6 +41,14 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
+/// Texts as HDF5 keeps them here: UTF-8 of one length, padded with nulls to the longest.
+struct PaddedTexts {
+  explicit PaddedTexts(const std::vector<std::string>& values);
+  std::size_t longest = 1;
+  std::string bytes;
+  Handle type;
+};
+
 /// An HDF5 file. Paths of datasets are "group/name"; groups on the way are made as needed. A new file is built in
 /// memory and reaches the disk in one piece with save(), so a full disk or a kill leaves no half file. Reading throws
 /// InputError, writing RunError.

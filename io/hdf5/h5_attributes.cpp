@@ -61,23 +61,15 @@ void File::set_integer(const std::string& object, const std::string& name, std::
   write_scalar(object, name, &value, H5T_NATIVE_INT64);
 }
 
-/// Fixed-length UTF-8 strings, padded with nulls to the longest.
 void File::write_strings(const std::string& object, const std::string& name, const std::vector<std::string>& values,
                          bool scalar) {
-  std::size_t longest = 1;
-  for (const std::string& value : values) longest = std::max(longest, value.size());
-  std::string padded;
-  for (const std::string& value : values) padded += value + std::string(longest - value.size(), '\0');
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), longest);
-  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  const PaddedTexts texts(values);
   const hsize_t size = values.size();
   const Handle space(scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, nullptr), H5Sclose);
   const Handle owner = open_object(object);
-  const Handle attribute(H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+  const Handle attribute(H5Acreate2(owner.id(), name.c_str(), texts.type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
-  if (!attribute.valid() || (size > 0 && H5Awrite(attribute.id(), type.id(), padded.data()) < 0))
+  if (!attribute.valid() || (size > 0 && H5Awrite(attribute.id(), texts.type.id(), texts.bytes.data()) < 0))
     throw RunError("cannot write {}: attribute '{}' of {}: {}", path_, name, object, last_reason());
 }
 
