@@ -9,16 +9,13 @@ namespace voussoir {
 
 namespace {
 
-/// Gmsh brings a graphical toolkit along that reads files of the user's as it is loaded, and takes a tenth of a second:
-/// it stays out until there is something to mesh.
 constexpr const char* mesher_name = "libvoussoir_mesher.so";
 
+/// Gmsh brings a graphical toolkit along that reads files of the user's as it is loaded, and takes a tenth of a second:
+/// it stays out until there is something to mesh.
 void* mesher() {
   static void* const library = [] {
-    // A path with a slash: dlopen() looks for a bare name where the system keeps its libraries.
-    const std::string file = shipped(mesher_name);
-    void* found =
-        dlopen(file.find('/') == std::string::npos ? ("./" + file).c_str() : file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* found = dlopen(shipped_library(mesher_name).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!found)
       throw RunError("the library that meshes the fill cannot be loaded: {}; build all of the program anew", dlerror());
     return found;

@@ -6,6 +6,7 @@
 #include <span>
 
 namespace voussoir {
+// Not unnamed: BoxIndex::Content has members of these types, and stands in a header.
 inline namespace boxes {
 
 /// The axis along which the box centres differ most.

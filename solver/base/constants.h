@@ -1,4 +1,4 @@
-// Numbers that have a name.
+// Constants of mathematics and physics that have one value in the whole program.
 #pragma once
 #include <numbers>
 
@@ -7,12 +7,8 @@ namespace voussoir {
 constexpr double pi = std::numbers::pi, two_pi = 2.0 * pi;
 constexpr double standard_gravity = 9.80665;  // m/s2, what a record in g is a multiple of
 
-/// Radians of degrees, and the reverse.
 constexpr double radians(double degrees) {
   return degrees * pi / 180.0;
-}
-constexpr double degrees(double radians) {
-  return radians * 180.0 / pi;
 }
 
 }  // namespace voussoir

@@ -13,37 +13,38 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> shelves() {
-  std::vector<std::string> folders = {"."};
+/// The program's folder and those above it, `count` in all, and a folder beside the program's; none where the system
+/// does not say which program runs.
+std::vector<std::string> folders_of_program(int count, const char* installed) {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return folders;
-  fs::path folder = program.parent_path();
-  for (const char* installed : {"lib/voussoir", "share/voussoir"})
-    folders.push_back((folder.parent_path() / installed).string());
-  for (int up = 0; up < 4; ++up, folder = folder.parent_path()) folders.push_back(folder.string());
+  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return {};
+  std::vector<std::string> folders;
+  folders.push_back((folder.parent_path() / installed).string());
+  for (int up = 0; up < count; ++up, folder = folder.parent_path()) folders.push_back(folder.string());
   return folders;
+}
+
+std::string found_in(const std::vector<std::string>& folders, const std::string& path) {
+  std::error_code ignored;
+  for (const std::string& folder : folders)
+    if (std::string there = folder + "/" + path; fs::exists(there, ignored)) return there;
+  throw RunError(
+      "'{}', which comes with the program, is in none of these folders: {}; run the program where it was built or "
+      "installed, or copy the file beside it",
+      path, fmt::join(folders, ", "));
 }
 
 }  // namespace
 
-std::string find_shipped(const std::string& path) {
+std::string shipped(const std::string& path) {
   std::error_code ignored;
-  for (const std::string& folder : shelves()) {
-    const std::string there = folder == "." ? path : folder + "/" + path;
-    if (fs::exists(there, ignored)) return there;
-  }
-  return {};
+  if (fs::exists(path, ignored)) return path;
+  return found_in(folders_of_program(4, "share/voussoir"), path);
 }
 
-std::string shipped(const std::string& path) {
-  std::string there = find_shipped(path);
-  if (there.empty())
-    throw RunError(
-        "'{}', which comes with the program, is in none of these folders: {}; run the program where it was built or "
-        "installed, or copy the file beside it",
-        path, fmt::join(shelves(), ", "));
-  return there;
+std::string shipped_library(const std::string& name) {
+  return found_in(folders_of_program(2, "lib/voussoir"), name);
 }
 
 }  // namespace voussoir

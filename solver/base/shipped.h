@@ -4,12 +4,14 @@
 
 namespace voussoir {
 
-/// Where a file or folder of the program's is, by its path in the source tree ("cases/validation") or by its name
-/// ("libvoussoir_mesher.so"): in the present folder, beside the program, in the folders above it (a build folder lies
-/// in the source tree), or in lib/voussoir and share/voussoir of where it is installed. Empty: in none of these.
-std::string find_shipped(const std::string& path);
-
-/// The same; throws RunError that names the folders that were looked at.
+/// Where a file or folder of the source tree is ("cases/validation"): in the present folder, in the program's, in one
+/// of the three above it (a build folder lies in the source tree), or in share/voussoir beside the program's folder.
+/// Throws RunError that names the folders that were searched.
 std::string shipped(const std::string& path);
+
+/// Where a library is that the program loads ("libvoussoir_mesher.so"), as an absolute path: in the program's folder,
+/// in the one above it (test programs), or in lib/voussoir beside the program's folder. Never in the present folder:
+/// what is loaded is run. Throws RunError that names the folders that were searched.
+std::string shipped_library(const std::string& name);
 
 }  // namespace voussoir
