@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/base/error.h"
+#include "solver/linear/dense_solve.h"
 
 namespace voussoir {
 
@@ -148,6 +149,11 @@ double mean_square_root(const Eigen::VectorXd& r) {
   return r.size() > 0 ? std::sqrt(r.squaredNorm() / double(r.size())) : 0.0;
 }
 
+/// Second derivatives of half the misfit, the priors' with it.
+Eigen::MatrixXd curvature_of(const Eigen::MatrixXd& j) {
+  return Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j;
+}
+
 /// Leaving each mode out in turn of a linear fit with priors.
 struct LeftOut {
   double gap = 0.0;  // root mean square of what the others leave of its rows
@@ -161,8 +167,7 @@ LeftOut leave_out(const std::vector<ResidualRow>& rows, const Split& split, cons
                   const Eigen::MatrixXd& j) {
   LeftOut result = {mean_square_root(r), Eigen::VectorXd::Zero(j.cols())};
   if (j.cols() == 0) return result;
-  const Eigen::MatrixXd inverse =
-      (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j).ldlt().solve(j.transpose());
+  const Eigen::MatrixXd turned = j.transpose(), inverse = solve_symmetric(curvature_of(j), turned);
   double sum = 0.0;
   Eigen::Index count = 0;
   int modes = 0;
@@ -171,8 +176,8 @@ LeftOut leave_out(const std::vector<ResidualRow>& rows, const Split& split, cons
     while (end < split.fitted.size() && rows[std::size_t(split.fitted[end])].mode == mode) ++end;
     const auto at = Eigen::Index(begin), n = Eigen::Index(end - begin);
     const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - j.middleRows(at, n) * inverse.middleCols(at, n);
-    const Eigen::VectorXd predicted = left.ldlt().solve(r.segment(at, n));
-    sum += r.segment(at, n).dot(predicted);
+    const Eigen::VectorXd own = r.segment(at, n), predicted = solve_symmetric(left, own);
+    sum += own.dot(predicted);
     result.std += (inverse.middleCols(at, n) * predicted).cwiseAbs2();
     count += n;
     ++modes;
@@ -207,9 +212,8 @@ Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<Resi
 }
 
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x) {
-  const Eigen::MatrixXd curvature = Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j;
   if (j.cols() == 0) return -0.5 * r.squaredNorm();
-  const Eigen::VectorXd pivots = curvature.ldlt().vectorD();
+  const Eigen::VectorXd pivots = pivots_of(curvature_of(j));
   return -0.5 * (r.squaredNorm() + x.squaredNorm()) - 0.5 * pivots.array().log().sum();
 }
 
@@ -251,12 +255,7 @@ Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eig
   const Eigen::VectorXd r = result.best.residuals(split.fitted);
   const Eigen::MatrixXd j = result.jacobian(split.fitted, Eigen::all);
   const LeftOut left_out = leave_out(rows, split, r, j);
-  if (best.size() > 0)
-    result.std = (Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j)
-                     .inverse()
-                     .diagonal()
-                     .cwiseSqrt()
-                     .cwiseMax(left_out.std);
+  if (best.size() > 0) result.std = inverse_of(curvature_of(j)).diagonal().cwiseSqrt().cwiseMax(left_out.std);
   result.misfit = r.squaredNorm() + best.squaredNorm();
   result.log_evidence = log_evidence(r, j, best);
   result.gap = mean_square_root(r);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "solver/effects/parts.h"
+#include "solver/linear/dense_solve.h"
 
 namespace voussoir {
 
@@ -42,9 +43,10 @@ Eigen::VectorXd expansion(const DiagnosisProblem& problem, const Evaluation& at,
     const double apart = at.response.eigenvalues[j] - lambda;
     penalty[j] = apart * apart / (at.response.eigenvalues[j] * lambda) * unit * unit / (trust * trust);
   }
-  return (a.transpose() * a + Eigen::MatrixXd(penalty.asDiagonal()) + 1e-9 * Eigen::MatrixXd::Identity(count, count))
-      .ldlt()
-      .solve(a.transpose() * b);
+  const Eigen::VectorXd right = a.transpose() * b;
+  return solve_symmetric(
+      a.transpose() * a + Eigen::MatrixXd(penalty.asDiagonal()) + 1e-9 * Eigen::MatrixXd::Identity(count, count),
+      right);
 }
 
 /// Twice the energy of u in each joint, half to each of its blocks; all of it to the free one where one is fixed.

@@ -6,6 +6,7 @@
 
 #include "solver/diagnosis/assignment.h"
 #include "solver/diagnosis/fit.h"
+#include "solver/linear/dense_solve.h"
 
 namespace voussoir {
 
@@ -222,7 +223,7 @@ void set_shape_errors(DiagnosisProblem& problem, const Response& plain) {
     }
     problem.quadrature_mixing[m] = problem.quadrature_mixing[m].cwiseSqrt();
     problem.participation_mixing[m] = problem.participation_mixing[m].cwiseSqrt();
-    problem.whitening[m] = covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(shape.count(), shape.count()));
+    problem.whitening[m] = whitening_of(covariance);
   }
 }
 

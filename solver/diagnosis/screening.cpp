@@ -6,6 +6,7 @@
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "solver/linear/dense_solve.h"
 
 namespace voussoir {
 
@@ -31,7 +32,7 @@ Eigen::VectorXd with_priors(const Linearised& l, const Eigen::VectorXd& residual
 
 /// What no change of the parameters takes away.
 Eigen::VectorXd left_over(const Linearised& l, const Eigen::VectorXd& r) {
-  return r - l.j * l.j.colPivHouseholderQr().solve(r);
+  return r - l.j * least_squares(l.j, r);
 }
 
 Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x) {

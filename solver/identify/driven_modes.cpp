@@ -12,6 +12,7 @@
 #include "solver/identify/spectra.h"
 #include "solver/identify/ssi.h"
 #include "solver/linear/dense_eigen.h"
+#include "solver/linear/dense_solve.h"
 
 namespace voussoir {
 
@@ -356,7 +357,7 @@ Fitted fitted(const Data& d, const Unknowns& x) {
   const Eigen::MatrixXcd across = slopes.adjoint() * slopes, residues = f.residues * f.residues.adjoint();
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) normal(i, j) = (across(i, j) * residues(j / 2, i / 2)).real();
-  f.moves = normal.completeOrthogonalDecomposition().solve(pull);
+  f.moves = shortest_least_squares(normal, pull);
   return f;
 }
 

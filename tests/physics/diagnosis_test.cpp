@@ -7,6 +7,7 @@
 #include "solver/diagnosis/assignment.h"
 #include "solver/diagnosis/diagnose.h"
 #include "solver/diagnosis/locate.h"
+#include "solver/linear/dense_solve.h"
 #include "tests/physics/measured_bridge.h"
 
 namespace voussoir::test {
@@ -107,9 +108,9 @@ TEST(Evidence, OfALinearModelIsThatOfItsNormalDistribution) {
   Eigen::VectorXd r0(5);
   r0 << 1.0, -2.0, 0.5, 0.3, 4.0;
   const Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(2, 2) + j.transpose() * j;
-  const Eigen::VectorXd x = -hessian.ldlt().solve(j.transpose() * r0);
+  const Eigen::VectorXd x = -inverse_of(hessian) * j.transpose() * r0;
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(5, 5) + j * j.transpose();
-  const double expected = -0.5 * r0.dot(covariance.ldlt().solve(r0)) - 0.5 * std::log(covariance.determinant());
+  const double expected = -0.5 * r0.dot(inverse_of(covariance) * r0) - 0.5 * std::log(covariance.determinant());
   EXPECT_NEAR(log_evidence(r0 + j * x, j, x), expected, 1e-10);
   // A prior ten times as wide costs ln 10 a parameter that the data fix.
   EXPECT_NEAR(

@@ -8,6 +8,7 @@
 
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/contact/search.h"
+#include "solver/linear/dense_solve.h"
 #include "solver/step/energy.h"
 
 namespace voussoir {
@@ -135,7 +136,7 @@ std::vector<Phase> step_phases(Running& r, std::int64_t steps) {
     times[i] = c.patches;
     bodies += c.bodies;
   }
-  const Eigen::Vector4d each = counts.completeOrthogonalDecomposition().solve(times);
+  const Eigen::Vector4d each = shortest_least_squares(counts, times);
   const double n = double(p.steps);
   const Eigen::Vector4d all = counts.colwise().sum().transpose() / n;
   const int branches = r.stepper.damping.branches.count;
