@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 #include "tests/whole/program.h"
 
@@ -34,7 +35,7 @@ TEST(Check, PassesAndMisses) {
   const Outcome both = voussoir({"check", "good.toml", "bad.toml", "-o", "runs"}, there);
   EXPECT_EQ(both.status, 1);
   EXPECT_NE(both.out.find("MISS"), std::string::npos) << both.out;
-  const nlohmann::json rows = nlohmann::json::parse(bytes_of(folder / "runs/check.json"));
+  const nlohmann::json rows = read_json(folder / "runs/check.json");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0]["name"], "good");
   EXPECT_TRUE(rows[0]["pass"].get<bool>());
@@ -80,7 +81,7 @@ TEST(Check, AKnownMissIsSaidAndDoesNotFail) {
   EXPECT_NE(known.out.find("known: the block is too tall"), std::string::npos) << known.out;
   EXPECT_NE(known.out.find("0 of 1 quantities within their tolerance, 1 known miss\n"), std::string::npos) << known.out;
   EXPECT_EQ(known.out.find("MISS"), std::string::npos) << known.out;
-  const nlohmann::json rows = nlohmann::json::parse(bytes_of(folder / "runs/check.json"));
+  const nlohmann::json rows = read_json(folder / "runs/check.json");
   EXPECT_EQ(rows.at(0).at("known_miss"), "the block is too tall");
   EXPECT_FALSE(rows[0]["pass"].get<bool>());
 

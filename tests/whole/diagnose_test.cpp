@@ -1,6 +1,7 @@
 // voussoir hide and diagnose, as a user calls them.
 #include <gtest/gtest.h>
 
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -14,7 +15,7 @@ block_scale = 3.0
 )";
 
 nlohmann::json diagnosis(const std::string& directory) {
-  return nlohmann::json::parse(bytes_of(directory + "/diagnosis.json"));
+  return read_json(directory + "/diagnosis.json");
 }
 
 void hide(const Folder& folder, const std::vector<std::string>& more) {

@@ -1,6 +1,7 @@
 // A deformable fill as a user meets it: generated, looked at, imported, run, resumed, asked for its modes.
 #include <gtest/gtest.h>
 
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -53,7 +54,7 @@ TEST(Fill, RunsAndGoesOnFromItsCheckpoints) {
   expect_same_run(folder / "whole", folder / "parts");
   const nlohmann::json found = summary(folder / "whole");
   EXPECT_TRUE(found.at("finished").get<bool>());
-  EXPECT_LT(found.at("energy_error").get<double>(), 0.01) << found.dump(2);
+  EXPECT_LT(found.at("energy_error").get<double>(), 0.01) << json_text(found);
 }
 
 TEST(Fill, TheStepNamesANode) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "solver/base/json_file.h"
 #include "solver/base/random.h"
 #include "tests/whole/cases.h"
 
@@ -34,7 +35,7 @@ std::string cloud_table() {
 }
 
 nlohmann::json fragility_json(const std::string& folder) {
-  return nlohmann::json::parse(bytes_of(folder + "/fragility.json"));
+  return read_json(folder + "/fragility.json");
 }
 
 Outcome fragility(const Folder& folder, const std::vector<std::string>& more) {
@@ -181,7 +182,7 @@ TEST(Fragility, SaysWhatIsWrong) {
   expect_error(fragility(folder, {"--im", "sa_0.3"}), 2, {"no column 'im.sa_0.3'", "im.sa_0.30"});
   expect_error(fragility(folder, {"--bootstrap", "-1"}), 2, {"--bootstrap is -1"});
   for (const auto& [json, piece] : std::vector<std::pair<std::string, std::string>>{
-           {"{", "this is not JSON"},
+           {"{", "is no valid JSON"},
            {R"({"limit_states": 3})", "'limit_states' is no list"},
            {R"({"limit_states": [3]})", "needs 'name', 'demand' and 'threshold'"},
            {R"({"limit_states": [{"name": "d", "demand": "edp.keystone_x"}]})", "has no number 'threshold'"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/hdf5/history_file.h"
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -40,7 +41,7 @@ TEST(GravityOnly, EveryStageHasItsRowAndFrame) {
   EXPECT_EQ(frames, 2);
 
   const nlohmann::json found = summary(folder / "run");
-  ASSERT_EQ(found.at("stages").size(), 2u) << found.dump(2);
+  ASSERT_EQ(found.at("stages").size(), 2u) << json_text(found);
   const nlohmann::json &first = found["stages"][0], &second = found["stages"][1];
   EXPECT_EQ(second["label"], "pushed");
   const double weight = first["reactions"]["base"][2].get<double>();

@@ -130,7 +130,8 @@ TEST(ImportErrors, JointsAreCountedFromImportToRun) {
   const Outcome run = voussoir({"run", "case.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.err.find("2 blocks; 1 joints: 1 bonded, 0 dry"), std::string::npos) << run.err;
-  EXPECT_EQ(summary(folder / "run")["joint_kinds"], nlohmann::json::parse(R"({"bonded":1,"dry":0,"ties":0,"fill":0})"));
+  EXPECT_EQ(summary(folder / "run")["joint_kinds"],
+            (nlohmann::json{{"bonded", 1}, {"dry", 0}, {"ties", 0}, {"fill", 0}}));
 }
 
 TEST(ImportErrors, GarbageOfEveryKind) {

@@ -4,13 +4,14 @@
 #include <filesystem>
 
 #include "io/hdf5/assembly_file.h"
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
 namespace VOUSSOIR_FILE {
 
 nlohmann::json modes_of(const std::string& directory) {
-  return nlohmann::json::parse(bytes_of(directory + "/modes.json"));
+  return read_json(directory + "/modes.json");
 }
 
 const std::string column = R"([bridge]

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hdf5/history_file.h"
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 
 namespace voussoir::test {
@@ -25,7 +26,7 @@ bool has(const std::string& text, const std::string& piece) {
 }
 
 nlohmann::json json_of(const std::string& path) {
-  return nlohmann::json::parse(bytes_of(path));
+  return read_json(path);
 }
 
 /// Six artificial records of 8 s in the folder "made".

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "solver/base/json_file.h"
 #include "tests/whole/cases.h"
 #include "tests/whole/program.h"
 
@@ -17,8 +17,7 @@ const std::string column =
     "[[stage]]\nkind = \"gravity\"\n[[stage]]\nkind = \"free\"\nduration = 0.01\n";
 
 nlohmann::json json_of(const std::string& file) {
-  std::ifstream in(file);
-  return nlohmann::json::parse(in);
+  return read_json(file);
 }
 
 TEST(Step, SaysWhatSetsIt) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "solver/base/program.h"
 #include "tools/bench/scenes.h"
 #include "viz/page/svg.h"
@@ -40,11 +41,9 @@ std::pair<std::string, std::string> named(const std::string& text, const std::st
 }
 
 std::map<std::string, double> costs_in(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError("{}: cannot be read; give the bench.json that voussoir-bench has written", file);
   std::map<std::string, double> costs;
   try {
-    const auto all = nlohmann::json::parse(in);
+    const nlohmann::json all = read_json(file);
     for (const auto& [scene, result] : all.items()) costs[scene] = result.at("us_per_block_step").get<double>();
   } catch (const nlohmann::json::exception& e) {
     throw InputError("{}: not a bench.json ({})", file, e.what());

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "solver/base/program.h"
 #include "solver/contact/search.h"
 #include "tools/bench/machine.h"
@@ -235,7 +235,7 @@ int run(int argc, char** argv) {
   nlohmann::json all = nlohmann::json::object();
   for (const std::string& name : o.scenes) {
     all[name] = run_scene(find_scene(name), o, peak);
-    std::ofstream(folder + "/bench.json") << all.dump(2) << "\n";
+    write_json(folder + "/bench.json", all);
   }
   return 0;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 
 namespace voussoir::campaign {
 
@@ -32,11 +33,11 @@ T need(const json& object, const char* key, const std::string& place) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end()) throw InputError("{}: '{}' is missing", place, key);
   if (!fits<T>(*found))
-    throw InputError("{}: '{}' is {}: expected a whole number in range", place, key, found->dump().substr(0, 60));
+    throw InputError("{}: '{}' is {}: expected a whole number in range", place, key, json_excerpt(*found));
   try {
     return found->template get<T>();
   } catch (const json::exception&) {
-    throw InputError("{}: '{}' is {}, which is of the wrong type", place, key, found->dump().substr(0, 60));
+    throw InputError("{}: '{}' is {}, which is of the wrong type", place, key, json_excerpt(*found));
   }
 }
 
@@ -50,14 +51,6 @@ T value_or(const json& object, const char* key, const T& fallback, const std::st
 /// NaN is null.
 inline json number_json(double value) {
   return std::isfinite(value) ? json(value) : json();
-}
-
-inline json parse_json(const std::string& text, const std::string& path) {
-  try {
-    return json::parse(text);
-  } catch (const json::exception& error) {
-    throw InputError("{} is no valid JSON: {}", path, error.what());
-  }
 }
 
 }  // namespace voussoir::campaign

@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "solver/base/atomic_file.h"
+#include "solver/base/json_file.h"
 #include "tools/campaign/json.h"
 
 namespace voussoir::campaign {
@@ -46,9 +46,7 @@ Outcome read_outcome(const std::string& directory, const PlannedRun& run) {
   std::error_code ignored;
   outcome.begun = fs::exists(folder_of(directory, run) + "/case.toml", ignored);
   outcome.reason = outcome.begun ? "begun, not ended" : "not begun";
-  const std::string file = file_of(directory, run);
-  if (!fs::exists(file, ignored)) return outcome;
-  const json j = json::parse(read_text(file), nullptr, false);
+  const json j = json_if_any(file_of(directory, run));
   if (!j.is_object() || j.value("hash", "") != hash_of(run)) return outcome;
   const auto found =
       std::ranges::find(names, j.value("status", ""), [](const char* name) { return std::string(name); });
@@ -71,7 +69,7 @@ void write_outcome(const std::string& directory, const PlannedRun& run, Outcome 
                   {"goes_on", outcome.goes_on}};
   std::error_code ignored;  // of what cannot be made the next line says why
   fs::create_directories(folder_of(directory, run), ignored);
-  write_atomically(file_of(directory, run), j.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_json(file_of(directory, run), j, 1);
 }
 
 std::size_t forget_failures(const std::string& directory, const Plan& plan) {

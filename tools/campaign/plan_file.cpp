@@ -6,6 +6,7 @@
 
 #include "io/case/motion_source.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/json_file.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/plan.h"
@@ -251,7 +252,7 @@ bool holds_plan(const std::string& directory) {
 Plan read_plan(const std::string& directory) {
   const std::string path = file_of(directory);
   if (!holds_plan(directory)) throw InputError("{} holds no campaign: it has no campaign.json", directory);
-  const json j = parse_json(read_text(path), path);
+  const json j = read_json(path);
   if (value_or<std::string>(j, "format", "", path) != format)
     throw InputError("{} is no plan of a campaign: expected format \"{}\"", path, format);
   if (const int version = need<int>(j, "format_version", path); version > format_version)
@@ -277,7 +278,7 @@ Plan read_plan(const std::string& directory) {
 }
 
 void write_draft(const Draft& draft, const std::string& directory) {
-  const std::string text = plan_json(draft.plan).dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(plan_json(draft.plan), 1);
   if (!holds_plan(directory))
     check_free(directory);
   else if (check_extends(draft.plan, directory); read_text(file_of(directory)) == text)

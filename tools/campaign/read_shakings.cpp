@@ -6,6 +6,7 @@
 #include "io/records/sets.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "tools/campaign/settings.h"
 
 namespace voussoir::campaign {
@@ -64,10 +65,9 @@ Shaking read_entry(const json& entry, const std::string& path, const std::string
 std::vector<Shaking> read_selection(const std::string& path, bool correct) {
   json file;
   try {
-    file = json::parse(read_text(path));
-  } catch (const json::exception& error) {
-    throw InputError("{} is no valid JSON ({}): expected a selection that voussoir motion select wrote, or a folder",
-                     path, error.what());
+    file = read_json(path);
+  } catch (const InputError& error) {
+    throw InputError("{}: expected a selection that voussoir motion select wrote, or a folder", error.what());
   }
   if (!file.is_object() || !file.contains("records") || !file["records"].is_array())
     throw InputError("{} has no list 'records': expected a selection that voussoir motion select wrote", path);

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "io/hdf5/h5.h"
-#include "solver/base/atomic_file.h"
 #include "solver/base/csv.h"
+#include "solver/base/json_file.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/outcome.h"
@@ -61,9 +61,7 @@ int rank(const std::string& column) {
 }
 
 Numbers numbers_in(const std::string& folder) {
-  std::error_code ignored;
-  const std::string file = folder + "/summary.json";
-  return fs::exists(file, ignored) ? numbers_of(json::parse(read_text(file), nullptr, false)) : Numbers{};
+  return numbers_of(json_if_any(folder + "/summary.json"));
 }
 
 void add_plan(const Plan& plan, CampaignTable& table) {

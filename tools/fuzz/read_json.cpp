@@ -6,7 +6,7 @@ namespace voussoir::fuzz {
 
 void read_json(const std::string& bytes) {
   answer([&] {
-    const campaign::json object = campaign::parse_json(bytes, "plan.json");
+    const campaign::json object = parse_json(bytes, "plan.json");
     answer([&] { campaign::need<std::string>(object, "name", "plan.json"); });
     answer([&] { campaign::need<double>(object, "value", "plan.json"); });
     answer([&] { campaign::need<std::vector<std::string>>(object, "runs", "plan.json"); });

@@ -11,6 +11,7 @@
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "solver/motion/intensity.h"
 #include "tools/run/damage_words.h"
 #include "viz/page/html.h"
@@ -42,7 +43,7 @@ RunFiles run_files(const std::string& directory) {
   files.directory = directory;
   files.name = fs::weakly_canonical(directory).filename().string();
   files.c = read_case(directory + "/case.toml");
-  files.summary = nlohmann::json::parse(read_text(directory + "/summary.json"), nullptr, false);
+  files.summary = json_if_any(directory + "/summary.json");
   if (!files.summary.is_object()) throw InputError("{}/summary.json is damaged: run the case again", directory);
   if (fs::exists(directory + "/history.h5", ignored)) files.history = History::load(directory + "/history.h5");
   return files;

@@ -16,6 +16,7 @@
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
+#include "solver/base/json_file.h"
 #include "solver/step/make_snapshot.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/run_page.h"
@@ -185,8 +186,7 @@ namespace {
 
 /// An earlier part of the run's; empty when there is none.
 nlohmann::json summary_of(const std::string& file) {
-  std::ifstream in(file);
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  const nlohmann::json json = json_if_any(file);
   return json.is_object() ? json : nlohmann::json::object();
 }
 
@@ -239,7 +239,7 @@ void RunSession::write_summary(RunEnd end) {
     if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
       json["collapse"] = before["collapse"];  // found before a restart
   if (!run.collapse().curve.empty()) write_atomically(path("collapse_curve.csv"), curve_table(run.collapse()));
-  write_atomically(path("summary.json"), json.dump(2) + "\n");
+  write_json(path("summary.json"), json);
 }
 
 /// The simulation and its files; what cannot be written ends it with words on how to go on.

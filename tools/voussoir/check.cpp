@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/case/checks.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "solver/base/shipped.h"
 #include "solver/base/suggestion.h"
 #include "tools/ladder/rung.h"
@@ -126,9 +126,9 @@ nlohmann::json run_summary(const std::string& text, const std::string& file, con
   } catch (const RunError& error) {
     failure = error.what();
   }
-  std::ifstream in(directory + "/summary.json");
-  if (!in) throw RunError("{}", failure.empty() ? "the run was stopped" : failure);
-  return nlohmann::json::parse(in);
+  const nlohmann::json summary = json_if_any(directory + "/summary.json");
+  if (!summary.is_object()) throw RunError("{}", failure.empty() ? "the run was stopped" : failure);
+  return summary;
 }
 
 /// How it is to be climbed.
@@ -254,7 +254,7 @@ int check(const std::vector<std::string>& arguments) {
   const RunsFolder folder(values["output"].as<std::string>());
   const Climb how = {folder.path, threads_asked(values), values.count("long") > 0};
   const std::vector<CheckRow> rows = climb_all(steps, how, values.count("quiet") > 0);
-  if (folder.keep) write_atomically(folder.path + "/check.json", check_json(rows).dump(2) + "\n");
+  if (folder.keep) write_json(folder.path + "/check.json", check_json(rows));
   if (!table.empty()) write_atomically(table, check_markdown(rows, ladder_folder()));
   const auto good = [](const CheckRow& row) { return row.pass() || row.known_miss(); };
   return std::all_of(rows.begin(), rows.end(), good) ? 0 : 1;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/json_file.h"
 #include "tools/diagnosis/diagnose_case.h"
 #include "tools/diagnosis/diagnosis_page.h"
 #include "tools/diagnosis/diagnosis_pictures.h"
@@ -37,7 +38,7 @@ int diagnose_and_write(const DiagnosisRequest& request) {
   const DiagnosisResult result = diagnose_case(input, request, say);
   fs::create_directories(request.directory);
   write_corrected(result.corrected, result.corrected_text, request.directory);
-  write_atomically(request.directory + "/diagnosis.json", diagnosis_json(input, result).dump(2) + "\n");
+  write_json(request.directory + "/diagnosis.json", diagnosis_json(input, result));
   if (request.page) {
     const std::vector<PagePicture> pictures = draw_diagnosis(input, result, request.directory, say);
     write_atomically(request.directory + "/diagnosis.html", diagnosis_page(input, result, pictures));

@@ -10,6 +10,7 @@
 #include "solver/base/csv.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
+#include "solver/base/json_file.h"
 #include "tools/fragility/fragility_charts.h"
 #include "tools/fragility/fragility_page.h"
 #include "tools/voussoir/options.h"
@@ -65,12 +66,7 @@ std::vector<LimitState> limits_in(const std::string& path, const CampaignTable& 
   std::vector<LimitState> limits;
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return limits;
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(read_text(path));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError("{}: this is not JSON: {}", path, error.what());
-  }
+  const nlohmann::json json = read_json(path);
   if (!json.is_object() || !json.contains("limit_states")) return limits;
   if (!json["limit_states"].is_array()) throw InputError("{}: 'limit_states' is no list", path);
   for (const auto& one : json["limit_states"]) {
@@ -168,7 +164,7 @@ std::string plain(std::string name) {
 
 void write_report(const std::string& out, const std::string& title, const FragilityReport& report) {
   make_folder_of(out + "/fragility.json");
-  write_atomically(out + "/fragility.json", report_json(report).dump(2) + "\n");
+  write_json(out + "/fragility.json", report_json(report));
   write_atomically(out + "/fragility.csv", report_csv(report));
   write_atomically(out + "/fragility.html", fragility_page(title, report));
   std::map<std::string, int> written;  // a name may have other thresholds for other bridges

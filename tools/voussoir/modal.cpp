@@ -12,6 +12,7 @@
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
+#include "solver/base/json_file.h"
 #include "tools/modal/modal_paper.h"
 #include "tools/modal/modal_report.h"
 #include "tools/modal/modal_source.h"
@@ -217,7 +218,7 @@ int analyse(const ModalRequest& request) {
   make_folder_of(directory + "/modes.json");
   remove_earlier(directory);
   write_modes(directory + "/modes.h5", f.file);
-  write_atomically(directory + "/modes.json", fmt::format("{}\n", f.json.dump(2)));
+  write_json(directory + "/modes.json", f.json);
   write_atomically(directory + "/modes.txt", f.text);
   write_shapes(directory, source.assembly, f.modes.modes);
   if (request.pictures) draw_shapes(directory, request, source, f.modes);

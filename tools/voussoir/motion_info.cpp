@@ -8,6 +8,7 @@
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
+#include "solver/base/json_file.h"
 #include "solver/base/parallel.h"
 #include "tools/voussoir/motion.h"
 #include "viz/page/html.h"
@@ -129,7 +130,7 @@ int motion_info(const std::vector<std::string>& arguments) {
     json["records"].push_back(record);
     body += histories_figure(sets[r].name, sets[r].motion);
   }
-  write_atomically(out + "/motion.json", json.dump(2) + "\n");
+  write_json(out + "/motion.json", json);
   write_atomically(out + "/motion.html", html_page("Ground motions", body));
   if (!quiet) fmt::print("\n{0}/motion.json, {0}/motion.html\n", out);
   return 0;

@@ -10,6 +10,7 @@
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
+#include "solver/base/json_file.h"
 #include "solver/base/parallel.h"
 #include "solver/motion/select.h"
 #include "tools/voussoir/motion.h"
@@ -266,7 +267,7 @@ int select(SelectRequest& request) {
     selected.measures.push_back(intensities_of(sets[r].motion));
   }
   make_folder_of(request.out + "/selection.json");
-  write_atomically(request.out + "/selection.json", selection_json(selected).dump(2) + "\n");
+  write_json(request.out + "/selection.json", selection_json(selected));
   const std::string spectra = spectra_figure(selected);
   write_atomically(request.out + "/selection.html", selection_page(selected, spectra));
   write_atomically(request.out + "/spectra.svg", spectra);

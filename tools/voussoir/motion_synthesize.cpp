@@ -7,6 +7,7 @@
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
+#include "solver/base/json_file.h"
 #include "solver/base/parallel.h"
 #include "solver/motion/synthesis.h"
 #include "tools/voussoir/motion.h"
@@ -125,7 +126,7 @@ int motion_synthesize(const std::vector<std::string>& arguments) {
     json["records"].push_back(record);
     body += figure(line_chart(fit_chart(settings[i], motions[i]))) + histories_figure(name, motions[i]);
   }
-  write_atomically(out + "/synthetic.json", json.dump(2) + "\n");
+  write_json(out + "/synthetic.json", json);
   write_atomically(out + "/synthetic.html", html_page("Synthetic ground motions", body));
   if (!quiet) fmt::print("\n{}/synthetic.json, synthetic.html\n", out);
   return 0;

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/case/case.h"
-#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "solver/run/step_report.h"
 #include "solver/step/damping.h"
 #include "tools/voussoir/options.h"
@@ -124,8 +124,7 @@ int step(const std::vector<std::string>& arguments) {
     print_report(assembly, model, report);
     print_budgets(rows, report.critical.step);
   }
-  if (values.count("output"))
-    write_atomically(values["output"].as<std::string>(), report_json(model, report, rows).dump(2) + "\n");
+  if (values.count("output")) write_json(values["output"].as<std::string>(), report_json(model, report, rows));
   return 0;
 }
 
