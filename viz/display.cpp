@@ -1,10 +1,8 @@
 #include "viz/display.h"
 
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,51 +10,13 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "solver/base/child.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 namespace {
 
 constexpr int kStartLimit = 30000;  // ms a server may take to start; a busy cluster node can be slow
-
-/// The reading and writing ends of a pipe; closed on leaving.
-struct Pipe {
-  int read = -1, write = -1;
-  Pipe() {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC)) throw RunError("cannot make a pipe for Xvfb ({})", std::strerror(errno));
-    read = ends[0], write = ends[1];
-  }
-  ~Pipe() {
-    ::close(read);
-    close_write();
-  }
-  void close_write() {
-    if (write >= 0) ::close(write);
-    write = -1;
-  }
-};
-
-/// In the child: becomes Xvfb, writing its display number to `out`; says errno through `trouble` when that fails.
-[[noreturn]] void become_server(int out, int trouble, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(0);  // the parent died before the line above
-  ::setsid();                             // Ctrl-C in the terminal is for the parent, which ends us when it is done
-  const int null = ::open("/dev/null", O_RDWR);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, stream);
-  ::fcntl(out, F_SETFD, 0);
-  char number[16];
-  // Digits by hand: between fork and exec only async-signal-safe calls are allowed.
-  int n = 0, tens = 1;
-  while (out / tens >= 10) tens *= 10;
-  for (; tens > 0; tens /= 10) number[n++] = char('0' + (out / tens) % 10);
-  number[n] = 0;
-  ::execlp("Xvfb", "Xvfb", "-displayfd", number, "-screen", "0", "1920x1440x24", "-nolisten", "tcp", "-noreset",
-           static_cast<char*>(nullptr));
-  const int reason = errno;
-  [[maybe_unused]] const auto written = ::write(trouble, &reason, sizeof reason);
-  ::_exit(127);
-}
 
 /// The display number that the server writes once it listens, or empty when it ends or is too slow.
 std::string read_number(int from) {
@@ -88,23 +48,24 @@ struct Server {
   std::string number;
 };
 
-Server start_server() {
-  Pipe number, trouble;
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child < 0) throw RunError("cannot start Xvfb ({})", std::strerror(errno));
-  if (child == 0) become_server(number.write, trouble.write, parent);
-  number.close_write();
-  trouble.close_write();
-  int reason = 0;
-  if (::read(trouble.read, &reason, sizeof reason) == sizeof reason) {  // closed by a successful exec
-    ::waitpid(child, nullptr, 0);
-    throw InputError(
-        "pictures: there is no display, and Xvfb, which draws without one, cannot be started ({}); install "
-        "the package xvfb",
-        std::strerror(reason));
+pid_t start_xvfb(const Pipe& number) {
+  try {
+    return start({.words = {"Xvfb", "-displayfd", std::to_string(number.ends[1]), "-screen", "0", "1920x1440x24",
+                            "-nolisten", "tcp", "-noreset"},
+                  .kept = number.ends[1],
+                  .group = Launch::Group::session,  // Ctrl-C in the terminal is for us, who end it when we are done
+                  .signal_at_our_end = SIGTERM});
+  } catch (const RunError& error) {
+    throw InputError("pictures: there is no display, and Xvfb draws without one, but {}; install the package xvfb",
+                     error.what());
   }
-  const std::string text = read_number(number.read);
+}
+
+Server start_server() {
+  Pipe number;
+  const pid_t child = start_xvfb(number);
+  number.close_end(1);
+  const std::string text = read_number(number.ends[0]);
   if (text.empty()) {
     end_server(child);
     throw RunError("pictures: Xvfb did not start within {} s; run 'Xvfb -displayfd 1' to see why", kStartLimit / 1000);

@@ -1,14 +1,11 @@
 #include "tests/slurm/cluster.h"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <pwd.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -96,37 +93,27 @@ void write_key(const std::string& file) {
 }  // namespace
 
 Daemon::Daemon(const std::vector<std::string>& words, const std::string& log, const std::string& conf) {
-  std::vector<std::string> copies = words;
-  std::vector<char*> arguments;
-  for (std::string& word : copies) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  const pid_t parent = ::getpid();
-  process_ = ::fork();
-  if (process_ != 0) return;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(126);
-  ::setpgid(0, 0);
-  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
-  ::dup2(::open("/dev/null", O_RDONLY), 0);
-  ::dup2(out, 1);
-  ::dup2(out, 2);
-  ::setenv("SLURM_CONF", conf.c_str(), 1);
-  ::execv(arguments[0], arguments.data());
-  ::_exit(127);
+  const LogFile output(log);
+  process_ = start({.words = words,
+                    .environment = {{"SLURM_CONF", conf}},
+                    .out = output.descriptor,
+                    .err = output.descriptor,
+                    .group = Launch::Group::own,
+                    .signal_at_our_end = SIGKILL});
 }
 
 bool Daemon::running() {
-  if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == process_) process_ = -1;
+  if (Finished how; process_ > 0 && has_ended(process_, how)) process_ = -1;
   return process_ > 0;
 }
 
 Daemon::~Daemon() {
   if (process_ <= 0) return;
   ::kill(process_, SIGTERM);
-  for (int i = 0; i < 250 && running(); ++i) ::usleep(20000);
+  for (int i = 0; i < 250 && running(); ++i) pause_milliseconds(20);
   if (!running()) return;
   ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
+  wait_for(process_);
 }
 
 std::string Cluster::missing() {

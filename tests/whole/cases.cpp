@@ -6,6 +6,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "solver/base/json_file.h"
+
 namespace voussoir::test {
 
 std::string case_text(const Wall& wall) {
@@ -62,7 +64,7 @@ std::string write_wall(const Folder& folder, const Wall& wall, const std::string
 }
 
 nlohmann::json summary(const std::string& run_directory) {
-  return nlohmann::json::parse(bytes_of(run_directory + "/summary.json"));
+  return read_json(run_directory + "/summary.json");
 }
 
 void run_whole(const Folder& folder, const std::string& case_file, const std::string& run,

@@ -1,12 +1,13 @@
 // The program as a user starts it: a process of its own in a temporary folder, watched from outside.
 #pragma once
-#include <sys/types.h>
-
 #include <chrono>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "solver/base/child.h"
+#include "tests/folder.h"
 
 namespace voussoir::test {
 
@@ -43,12 +44,12 @@ class Program {
 
  private:
   void drain(int milliseconds);
-  void reap(int options);
+  void take_end(const Finished& how);
   double age() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
 
   pid_t process_ = -1;
   bool ended_ = false;
-  int out_ = -1, err_ = -1;
+  Pipe out_, err_;
   Outcome outcome_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
@@ -56,28 +57,6 @@ class Program {
 /// Runs the program to its end.
 Outcome voussoir(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 
-/// A temporary folder of one test, removed when it ends.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& text) const;
-
- private:
-  std::string path_;
-};
-
-bool exists(const std::string& path);
-std::string bytes_of(const std::string& path);
-void set_bytes(const std::string& path, const std::string& bytes);
-/// Names in a folder, sorted; empty when there is no such folder.
-std::vector<std::string> names_in(const std::string& folder);
-/// Everything below a folder: relative path → contents.
-std::map<std::string, std::string> contents(const std::string& folder);
 /// Waits until `ready()` or until the program has ended or `limit` s have passed; what ready() says then.
 bool wait_until(Program& program, const std::function<bool()>& ready, double limit = 60.0);
 

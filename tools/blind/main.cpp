@@ -1,7 +1,6 @@
 // voussoir-blind: hides effects in measurements, has them diagnosed by the program, which is given nothing but the case
 // and the measurements, and scores what it says.
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,7 +17,9 @@
 #include <sstream>
 #include <thread>
 
+#include "solver/base/child.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "solver/base/program.h"
 #include "tools/blind/trials.h"
 
@@ -47,19 +48,8 @@ constexpr double shows = 15.0;
 
 /// Runs a program without a shell, its output in a file; its exit status.
 int execute(const std::vector<std::string>& words, const std::string& log) {
-  const pid_t child = fork();
-  if (child < 0) throw RunError("no further process can be started");
-  if (child == 0) {
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    if (!freopen(log.c_str(), "a", stdout) || dup2(1, 2) < 0) _exit(127);
-    execv(arguments[0], arguments.data());
-    _exit(127);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  const LogFile output(log);
+  return wait_for(start({.words = words, .out = output.descriptor, .err = output.descriptor})).status;
 }
 
 void write_case(const std::string& bridge, const std::string& file) {
@@ -205,8 +195,7 @@ Outcome run_trial(std::size_t number, const std::string& program, const std::str
   if (execute(diagnose, log) != 0) {
     o.said = fmt::format("failed: see {}", log);
   } else {
-    std::ifstream file(folder + "/said/diagnosis.json");
-    score(json::parse(file), o);
+    score(read_json(folder + "/said/diagnosis.json"), o);
   }
   o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return o;

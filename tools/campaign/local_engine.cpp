@@ -7,9 +7,9 @@
 #include <cstring>
 #include <filesystem>
 
+#include "solver/base/child.h"
 #include "solver/base/error.h"
 #include "tools/campaign/engine.h"
-#include "tools/campaign/process.h"
 #include "tools/campaign/sharing.h"
 
 namespace voussoir::campaign {
@@ -69,10 +69,14 @@ class Local {
     std::error_code failed;
     if (fs::create_directories(folder, failed); failed)
       throw RunError("cannot make the folder {}: {}", folder, failed.message());
-    children_.push_back({start({work_.program, "campaign-run", work_.directory, run.id, "--threads",
-                                std::to_string(sharing_.threads), "--parent", std::to_string(::getpid())},
-                               folder + "/" + output_name),
-                         number});
+    const LogFile output(folder + "/" + output_name);
+    // In a group of its own: Ctrl-C on a terminal goes to the campaign, which passes it on once.
+    const pid_t child = start({.words = {work_.program, "campaign-run", work_.directory, run.id, "--threads",
+                                         std::to_string(sharing_.threads), "--parent", std::to_string(::getpid())},
+                               .out = output.descriptor,
+                               .err = output.descriptor,
+                               .group = Launch::Group::own});
+    children_.push_back({child, number});
   }
 
   void take_ended() {

@@ -9,9 +9,10 @@
 #include <set>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/child.h"
+#include "solver/base/json_file.h"
 #include "tools/campaign/engine.h"
 #include "tools/campaign/json.h"
-#include "tools/campaign/process.h"
 
 namespace voussoir::campaign {
 
@@ -41,7 +42,7 @@ std::vector<Batch> read_batches(const std::string& directory) {
   for (const auto& entry : fs::directory_iterator(directory + "/slurm", ignored)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("batch_") || !name.ends_with(".json")) continue;
-    const json j = json::parse(read_text(entry.path().string()), nullptr, false);
+    const json j = json_if_any(entry.path().string());
     if (!j.is_object()) continue;
     batches.push_back({name, j.value("job", ""), j.value("runs", std::vector<std::string>{})});
   }
@@ -51,7 +52,7 @@ std::vector<Batch> read_batches(const std::string& directory) {
 
 void write_batch(const std::string& directory, const Batch& batch) {
   const json j = {{"job", batch.job}, {"runs", batch.runs}};
-  write_atomically(directory + "/slurm/" + batch.name, j.dump(1) + "\n");
+  write_json(directory + "/slurm/" + batch.name, j, 1);
 }
 
 std::string first_line(const std::string& text) {

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
+#include "solver/base/child.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "tools/campaign/campaign_page.h"
 #include "tools/campaign/engine.h"
-#include "tools/campaign/process.h"
 #include "tools/campaign/write_table.h"
 #include "tools/run/directory_lock.h"
 #include "tools/run/terminal.h"

@@ -9,11 +9,11 @@
 #include <new>
 #include <optional>
 
-#include "solver/base/atomic_file.h"
+#include "solver/base/child.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/outcome.h"
-#include "tools/campaign/process.h"
 #include "tools/run/run_directory.h"
 #include "tools/run/run_session.h"
 #include "tools/voussoir/options.h"
@@ -96,7 +96,7 @@ void drop_checkpoints(const std::string& folder) {
 }
 
 double seconds_of(const std::string& folder) {
-  const json summary = json::parse(read_text(folder + "/summary.json"), nullptr, false);
+  const json summary = json_if_any(folder + "/summary.json");
   return summary.is_object() ? summary.value("wall_seconds", 0.0) : 0.0;
 }
 
@@ -158,7 +158,7 @@ int work(const Job& job) {
 /// Which run of a list that was given to Slurm.
 std::string run_of_batch(const std::string& directory, const std::string& batch, int task) {
   const std::string file = directory + "/slurm/" + fs::path(batch).filename().string();
-  const auto runs = need<std::vector<std::string>>(parse_json(read_text(file), file), "runs", file);
+  const auto runs = need<std::vector<std::string>>(read_json(file), "runs", file);
   if (task < 0 || std::size_t(task) >= runs.size())
     throw InputError("{} has {} runs, from 0: there is no {}", file, runs.size(), task);
   return runs[std::size_t(task)];
