@@ -31,7 +31,7 @@ TEST_P(CampaignError, SaysPlaceAndRemedy) {
   folder.write("types.json", "{\"records\": [{\"name\": \"a\", \"files\": \"x.txt\"}]}");
   std::filesystem::create_directory(folder / "nothing");
   const std::string file = folder.campaign(GetParam().lines, GetParam().tables);
-  const std::string said = test::refusal([&] { make_draft(read_settings(file)); });
+  const std::string said = test::message_of<InputError>([&] { make_draft(read_settings(file)); });
   for (const std::string& piece : GetParam().pieces)
     EXPECT_NE(said.find(piece), std::string::npos) << "'" << piece << "' is not in: " << said;
 }
@@ -99,7 +99,7 @@ TEST(CampaignFile, CasesAreChecked) {
   CampaignFolder folder;
   const auto refused = [&](const std::string& cases) {
     const std::string file = folder.write("c.toml", "[campaign]\ncases = " + cases + "\n" + one_record);
-    return test::refusal([&] { make_draft(read_settings(file)); });
+    return test::message_of<InputError>([&] { make_draft(read_settings(file)); });
   };
   EXPECT_NE(refused("[\"none.toml\"]").find("c.toml:2"), std::string::npos);
   EXPECT_NE(refused("[]").find("at least one case"), std::string::npos);
@@ -108,8 +108,9 @@ TEST(CampaignFile, CasesAreChecked) {
   EXPECT_NE(refused("[\"still.toml\"]").find("has 0 motion stages"), std::string::npos);
   folder.write("bad.toml", "[bridge]\ngenerator = \"colum\"\n");
   EXPECT_NE(refused("[\"bad.toml\"]").find("bad.toml:2"), std::string::npos);
-  EXPECT_NE(test::refusal([&] { read_settings(folder / "column.toml"); }).find("is a case, not a campaign"),
-            std::string::npos);
+  EXPECT_NE(
+      test::message_of<InputError>([&] { read_settings(folder / "column.toml"); }).find("is a case, not a campaign"),
+      std::string::npos);
 }
 
 TEST(CampaignFile, SelectionsAndFolders) {

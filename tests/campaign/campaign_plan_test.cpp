@@ -5,6 +5,7 @@
 
 #include "io/case/motion_source.h"
 #include "solver/base/error.h"
+#include "solver/base/json_file.h"
 #include "tests/campaign/campaign_folder.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/outcome.h"
@@ -131,7 +132,7 @@ TEST(CampaignPlan, ARunsCaseIsWhatThePlanSays) {
 TEST(CampaignPlan, GrowsButDoesNotChange) {
   CampaignFolder folder;
   const auto write = [&](const std::string& lines, const std::string& tables) {
-    return test::refusal(
+    return test::message_of<InputError>(
         [&] { write_draft(make_draft(read_settings(folder.campaign(lines, tables))), folder / "out"); });
   };
   EXPECT_EQ(write("scales = [1.0]", one_record), "");
@@ -148,8 +149,8 @@ TEST(CampaignPlan, GrowsButDoesNotChange) {
 TEST(CampaignPlan, AForeignFolderIsLeftAlone) {
   CampaignFolder folder;
   folder.write("out/thesis.tex", "x");
-  const std::string why =
-      test::refusal([&] { write_draft(make_draft(read_settings(folder.campaign(""))), folder / "out"); });
+  const std::string why = test::message_of<InputError>(
+      [&] { write_draft(make_draft(read_settings(folder.campaign(""))), folder / "out"); });
   EXPECT_NE(why.find("something else than a campaign (thesis.tex)"), std::string::npos) << why;
 }
 
@@ -192,8 +193,8 @@ TEST(CampaignPlan, OutcomesBelongToTheirRun) {
 }
 
 TEST(CampaignJson, NumbersThatDoNotFitAreRefused) {
-  const json numbers =
-      json::parse(R"({"beyond": 40296744073709551614, "less": -1, "half": 0.5, "large": 5e9, "whole": 3.0})");
+  const json numbers = parse_json(
+      R"({"beyond": 40296744073709551614, "less": -1, "half": 0.5, "large": 5e9, "whole": 3.0})", "plan.json");
   for (const char* key : {"beyond", "less", "half"})
     EXPECT_THROW(need<std::uint64_t>(numbers, key, "plan.json"), InputError) << key;
   EXPECT_THROW(need<int>(numbers, "large", "plan.json"), InputError);

@@ -69,7 +69,7 @@ TEST(CampaignTable, TheHdf5FileHoldsTheSame) {
   Campaign c;
   write_table(c.plan, c.folder / "out");
   const CampaignTable table = gather(c.plan, c.folder / "out");
-  EXPECT_EQ(c.folder.read("out/table.csv"), table_text(table));
+  EXPECT_EQ(test::bytes_of(c.folder / "out/table.csv"), table_text(table));
   const h5::File file = h5::File::open(c.folder / "out/table.h5");
   EXPECT_EQ(h5::check_format(file, "voussoir-campaign-table", 1), 1);
   std::vector<std::string> order = fixed_columns();

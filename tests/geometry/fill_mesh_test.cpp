@@ -13,7 +13,7 @@
 #include "geometry/fill_sweep.h"
 #include "geometry/generator.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

@@ -9,7 +9,7 @@
 #include "io/records/format.h"
 #include "io/records/sets.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

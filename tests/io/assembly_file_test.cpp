@@ -9,7 +9,7 @@
 #include "io/hdf5/h5.h"
 #include "io/hdf5/shape_arrays.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

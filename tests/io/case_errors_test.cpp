@@ -4,7 +4,7 @@
 #include "io/case/case.h"
 #include "io/case/table_reader.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

@@ -7,7 +7,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "io/records/curve.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

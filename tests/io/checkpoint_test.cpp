@@ -12,7 +12,7 @@
 #include "io/hdf5/h5.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

@@ -8,7 +8,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

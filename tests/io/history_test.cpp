@@ -7,7 +7,7 @@
 #include "io/hdf5/history_file.h"
 #include "io/info/describe_file.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {
@@ -65,7 +65,7 @@ TEST(History, CutBackAndContinuedItIsTheSame) {
 TEST(History, ManyChannels) {
   const Folder folder;
   std::vector<Channel> many = {{"time", "s"}};
-  for (int i = 0; i < 3000; ++i) many.push_back({"sensors/a rather long name of a sensor " + std::to_string(i), "m"});
+  for (int i = 0; i < 1500; ++i) many.push_back({"sensors/a rather long name of a sensor " + std::to_string(i), "m"});
   History history(folder / "h.h5", many);
   history.append(std::vector<double>(many.size(), 1.5));
   history.flush();

@@ -6,7 +6,7 @@
 #include "io/hdf5/modes_file.h"
 #include "io/info/describe_file.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

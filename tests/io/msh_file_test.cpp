@@ -9,7 +9,7 @@
 
 #include "geometry/fill_mesh.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

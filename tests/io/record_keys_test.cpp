@@ -9,7 +9,7 @@
 #include "io/case/case.h"
 #include "io/info/describe_file.h"
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "io/case/case.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

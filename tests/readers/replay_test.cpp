@@ -11,7 +11,7 @@
 #include "geometry/generator.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/atomic_file.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 #include "tools/fuzz/readers.h"
 
 namespace voussoir {

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "solver/base/error.h"
-#include "tests/io/folder.h"
+#include "tests/folder.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {

@@ -14,7 +14,7 @@
 
 #include "io/vtk/series.h"
 #include "solver/base/error.h"
-#include "tests/viz/folder.h"
+#include "tests/folder.h"
 #include "tests/viz/scenes.h"
 #include "viz/chart_picture.h"
 #include "viz/colouring.h"
@@ -123,7 +123,7 @@ TEST_F(NoDisplay, ServerEndsWithAProcessThatIsKilled) {
   ::waitpid(child, nullptr, 0);
   // Whoever adopts it may be slow to collect it: a zombie counts as ended.
   const auto ended = [&] {
-    const std::string status = test::read_text(fmt::format("/proc/{}/stat", server));
+    const std::string status = test::bytes_of(fmt::format("/proc/{}/stat", server));
     return status.empty() || status.find(") Z ") != std::string::npos;
   };
   for (int i = 0; i < 500 && !ended(); ++i) ::usleep(10000);
@@ -134,7 +134,7 @@ TEST_F(NoDisplay, ServerEndsWithAProcessThatIsKilled) {
 
 TEST_F(NoDisplay, MissingXvfbIsSaid) {
   const std::string path = ::getenv("PATH");
-  ::setenv("PATH", folder.str().c_str(), 1);
+  ::setenv("PATH", folder.path().c_str(), 1);
   const std::string message = message_of<InputError>([] { const Display display; });
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_NE(message.find("install the package xvfb"), std::string::npos) << message;
@@ -169,7 +169,7 @@ TEST_F(NoDisplay, TheSamePictureTwiceHasTheSamePixels) {
   const Snapshot snapshot = test::damaged(assembly);
   render_picture(assembly, snapshot, small("oblique"), folder / "a.png");
   render_picture(assembly, snapshot, small("oblique"), folder / "b.png");
-  EXPECT_EQ(test::read_text(folder / "a.png"), test::read_text(folder / "b.png"));
+  EXPECT_EQ(test::bytes_of(folder / "a.png"), test::bytes_of(folder / "b.png"));
 }
 
 TEST_F(NoDisplay, OptionsChangeThePicture) {
@@ -205,7 +205,7 @@ TEST_F(NoDisplay, OptionsChangeThePicture) {
 TEST_F(NoDisplay, PictureFromStoredFrameEqualsPictureFromState) {
   const Assembly assembly = test::arch_and_wall();
   const Snapshot snapshot = test::damaged(assembly);
-  VtkSeries series(folder.str());
+  VtkSeries series(folder.path());
   series.write(assembly, snapshot);
   const Display display;
   render_picture(assembly, snapshot, small(), folder / "state.png");
@@ -213,7 +213,7 @@ TEST_F(NoDisplay, PictureFromStoredFrameEqualsPictureFromState) {
   render_picture(
       PictureFiles{series.blocks().file_at(12.5), series.joints().file_at(12.5), series.fill().file_at(12.5)}, small(),
       folder / "frame.png");
-  EXPECT_EQ(test::read_text(folder / "state.png"), test::read_text(folder / "frame.png"));
+  EXPECT_EQ(test::bytes_of(folder / "state.png"), test::bytes_of(folder / "frame.png"));
 }
 
 TEST_F(NoDisplay, WrongOptionsAreNamed) {

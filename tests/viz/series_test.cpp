@@ -6,7 +6,7 @@
 #include "io/vtk/files.h"
 #include "io/vtk/grid.h"
 #include "solver/base/error.h"
-#include "tests/viz/folder.h"
+#include "tests/folder.h"
 #include "tests/viz/scenes.h"
 
 namespace voussoir {
@@ -19,14 +19,14 @@ TEST(VtkSeries, ListsFramesAndForgetsLaterOnes) {
   const Folder folder;
   const Assembly assembly = test::two_cubes();
   Snapshot snapshot = rest_snapshot(assembly);
-  VtkSeries series(folder.str());
+  VtkSeries series(folder.path());
   for (const double t : {0.0, 0.5, 12.5}) {
     snapshot.time = t;
     series.write(assembly, snapshot);
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "vtk/blocks_000012.500.vtu"));
   EXPECT_TRUE(std::filesystem::exists(folder / "vtk/joints_000012.500.vtp"));
-  VtkSeries resumed(folder.str());
+  VtkSeries resumed(folder.path());
   ASSERT_EQ(resumed.blocks().frames().size(), 3u);
   EXPECT_EQ(resumed.blocks().frames()[2].time, 12.5);
   EXPECT_EQ(resumed.joints().frames()[1].file, "joints_000000.500.vtp");
@@ -45,12 +45,12 @@ TEST(VtkSeries, NoFrameTakesTheFileOfAnother) {
   const Folder folder;
   const Assembly assembly = test::two_cubes();
   Snapshot snapshot = rest_snapshot(assembly);
-  VtkSeries series(folder.str());
+  VtkSeries series(folder.path());
   for (const double t : {0.0, 0.0, 0.0, 0.0002, 0.5}) {
     snapshot.time = t;
     series.write(assembly, snapshot);
   }
-  const VtkSeries read(folder.str());
+  const VtkSeries read(folder.path());
   const std::vector<PvdSeries::Frame>& frames = read.blocks().frames();
   ASSERT_EQ(frames.size(), 5u);
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -68,13 +68,13 @@ TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
   const Folder folder;
   const Assembly assembly = test::heap_on_cube();
   Snapshot snapshot = test::heap_flowing(assembly);
-  VtkSeries series(folder.str());
+  VtkSeries series(folder.path());
   for (const double t : {0.0, 0.5}) {
     snapshot.time = t;
     series.write(assembly, snapshot);
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "vtk/fill_000000.500.vtu"));
-  VtkSeries resumed(folder.str());
+  VtkSeries resumed(folder.path());
   ASSERT_EQ(resumed.fill().frames().size(), 2u);
   EXPECT_EQ(read_vtu(resumed.fill().file_at(0.5))->GetNumberOfCells(), 4);
   resumed.keep_first(1);
@@ -83,25 +83,24 @@ TEST(VtkSeries, AFillHasAFrameBesideTheStones) {
   // Without a fill there is no trail of one.
   const Folder other;
   const Assembly cubes = test::two_cubes();
-  VtkSeries plain(other.str());
+  VtkSeries plain(other.path());
   plain.write(cubes, rest_snapshot(cubes));
-  EXPECT_EQ(test::files_in(other / "vtk"), 4u);
+  EXPECT_EQ(test::names_in(other / "vtk").size(), 4u);
 }
 
 TEST(VtkSeries, ThreadsWriteTheSameBytes) {
   const Assembly assembly = test::heap_on_cube();
   const Snapshot snapshot = test::heap_flowing(assembly);
   const Folder one, three;
-  VtkSeries(one.str()).write(assembly, snapshot, 1);
-  VtkSeries series(three.str());
+  VtkSeries(one.path()).write(assembly, snapshot, 1);
+  VtkSeries series(three.path());
   for (int turn = 0; turn < 20; ++turn) {
     series.keep_first(0);
     series.write(assembly, snapshot, 3);
   }
-  ASSERT_EQ(test::files_in(three / "vtk"), 6u);
+  ASSERT_EQ(test::names_in(three / "vtk").size(), 6u);
   for (const auto& file : std::filesystem::directory_iterator(one / "vtk"))
-    EXPECT_EQ(test::read_text(file.path().string()),
-              test::read_text(three / ("vtk/" + file.path().filename().string())))
+    EXPECT_EQ(test::bytes_of(file.path().string()), test::bytes_of(three / ("vtk/" + file.path().filename().string())))
         << file.path();
 }
 
@@ -110,10 +109,10 @@ TEST(VtkSeries, IsPackedAsAsked) {
   const Assembly assembly = test::two_cubes();
   for (const auto& [word, mark] : {std::pair{"lz4", "vtkLZ4DataCompressor"}, {"zlib", "vtkZLibDataCompressor"}}) {
     const Folder folder;
-    VtkSeries series(folder.str(), packing_of(word));
+    VtkSeries series(folder.path(), packing_of(word));
     series.write(assembly, rest_snapshot(assembly));
     for (const PvdSeries* part : {&series.blocks(), &series.joints()})
-      EXPECT_NE(test::read_text(part->file_at(0.0)).find(mark), std::string::npos) << word;
+      EXPECT_NE(test::bytes_of(part->file_at(0.0)).find(mark), std::string::npos) << word;
   }
   EXPECT_NE(message_of<InputError>([&] { packing_of("zip"); }).find("lz4, zlib or none"), std::string::npos);
 }
@@ -121,20 +120,20 @@ TEST(VtkSeries, IsPackedAsAsked) {
 TEST(VtkSeries, AFileThatCannotBeWrittenIsNamed) {
   const Folder folder;
   const Assembly assembly = test::two_cubes();
-  test::write_text(folder / "vtk", "no folder");
+  test::set_bytes(folder / "vtk", "no folder");
   for (const int threads : {1, 2})
     EXPECT_NE(message_of<RunError>([&] {
-                VtkSeries(folder.str()).write(assembly, rest_snapshot(assembly), threads);
+                VtkSeries(folder.path()).write(assembly, rest_snapshot(assembly), threads);
               }).find("vtk"),
               std::string::npos);
 }
 
 TEST(VtkSeries, RefusesAFileThatIsNoCollection) {
   const Folder folder;
-  test::write_text(folder / "blocks.pvd", "<VTKFile type=\"Other\"></VTKFile>");
+  test::set_bytes(folder / "blocks.pvd", "<VTKFile type=\"Other\"></VTKFile>");
   EXPECT_NE(message_of<InputError>([&] { PvdSeries series(folder / "blocks.pvd"); }).find("blocks.pvd"),
             std::string::npos);
-  test::write_text(folder / "blocks.pvd", "garbage");
+  test::set_bytes(folder / "blocks.pvd", "garbage");
   EXPECT_THROW(PvdSeries series(folder / "blocks.pvd"), InputError);
 }
 
