@@ -52,11 +52,11 @@ struct Shaken : ladder::Bench {
 TEST(FillThreads, GiveTheSameBits) {
   Shaken one(1);
   ASSERT_GT(one.model.fill.tiles.size(), 3u);
-  ASSERT_TRUE(one.run(3000));
+  ASSERT_TRUE(one.run(1500));
   EXPECT_GT(one.flowed(), 100);
   for (const int threads : {2, 3}) {
     Shaken many(threads);
-    ASSERT_TRUE(many.run(3000));
+    ASSERT_TRUE(many.run(1500));
     EXPECT_EQ(many.hash(), one.hash()) << threads;
   }
 }

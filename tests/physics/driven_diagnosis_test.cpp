@@ -30,7 +30,7 @@ TEST(Participation, OfAllSupportsIsThatOfTheGround) {
 
 /// The effective masses of all modes are the mass of what is free.
 TEST(Participation, SquaredAndSummedIsTheMass) {
-  const Assembly assembly = bridge(5.0);
+  const Assembly assembly = bridge(6.0);
   EigenMemory memory;
   const LinearModel model = linear_model(assembly);
   const Response r = response(assembly, model, {}, int(model.unknowns.count), memory, true);
