@@ -4,6 +4,7 @@
 #include "io/records/rows.h"
 #include "io/records/table.h"
 #include "solver/base/error.h"
+#include "solver/base/words.h"
 
 namespace voussoir {
 

@@ -6,6 +6,7 @@
 #include "io/records/format.h"
 #include "io/records/rows.h"
 #include "solver/base/error.h"
+#include "solver/base/words.h"
 
 namespace voussoir {
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "solver/base/error.h"
+#include "solver/base/words.h"
 
 namespace voussoir {
 
@@ -87,17 +88,6 @@ void append_numbers(std::string_view line, std::string_view separators, const st
     const std::size_t length = std::min(line.find_first_of(separators), line.size());
     values.push_back(number_in(line.substr(0, length), name, row, rule));
     line.remove_prefix(length);
-  }
-}
-
-std::vector<std::string_view> words_of(std::string_view line, std::string_view separators) {
-  std::vector<std::string_view> words;
-  while (true) {
-    const std::size_t begin = line.find_first_not_of(separators);
-    if (begin == std::string_view::npos) return words;
-    line.remove_prefix(begin);
-    words.push_back(line.substr(0, line.find_first_of(separators)));
-    line.remove_prefix(words.back().size());
   }
 }
 

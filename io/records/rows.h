@@ -22,8 +22,6 @@ double number_in(std::string_view word, const std::string& name, std::size_t row
 /// Appends the numbers of a line, with any of `separators` between them.
 void append_numbers(std::string_view line, std::string_view separators, const std::string& name, std::size_t row,
                     std::string_view rule, std::vector<double>& values);
-/// Text between `separators`.
-std::vector<std::string_view> words_of(std::string_view line, std::string_view separators = " \t");
 /// The first number in a text ("at .0050 sec" holds 0.005); none: NaN.
 double first_number(std::string_view text);
 /// Whether rows of numbers can be told from words: every word between `separators` is a number, and there is one.

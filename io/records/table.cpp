@@ -9,6 +9,7 @@
 #include "io/records/sets.h"
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
+#include "solver/base/words.h"
 
 namespace voussoir {
 

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <string_view>
 
-#include "io/records/rows.h"
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
+#include "solver/base/words.h"
 
 namespace voussoir {
 namespace {

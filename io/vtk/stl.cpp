@@ -7,9 +7,9 @@
 #include <map>
 #include <string_view>
 
-#include "io/records/rows.h"
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"
+#include "solver/base/words.h"
 
 namespace voussoir {
 namespace {
