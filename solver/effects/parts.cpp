@@ -28,11 +28,15 @@ std::string part_name(Component component, const std::string& family, int part) 
   return fmt::format("{} {}", family, part);
 }
 
-/// Infill carries the number of its support from the left: 0 is the left abutment, then the piers.
-std::pair<Component, int> owner_of_infill(const Assembly& assembly, int support) {
+int last_support_of_infill(const Assembly& assembly) {
   int last = 0;
   for (const Block& b : assembly.blocks)
     if (b.component == Component::infill) last = std::max(last, int(b.part));
+  return last;
+}
+
+/// Infill carries the number of its support from the left: 0 is the left abutment, then the piers.
+std::pair<Component, int> owner_of_infill(int support, int last) {
   if (support == 0) return {Component::abutment, 0};
   if (support == last) return {Component::abutment, 1};
   return {Component::pier, support - 1};
@@ -72,13 +76,18 @@ std::vector<std::string> masonry_parts(const Assembly& assembly) {
 BlockSet masonry_part(const Assembly& assembly, const std::string& name) {
   if (name == "all") return blocks_where(assembly, [](const Block& b) { return is_masonry(b.component); });
   if (name == "backing") return component(assembly, Component::backing);
-  return blocks_where(assembly, [&](const Block& b) {
-    Component own = b.component;
-    int part = b.part;
-    if (own == Component::infill) std::tie(own, part) = owner_of_infill(assembly, part);
+  const int last = last_support_of_infill(assembly);
+  const auto is_it = [&](Component own, int part) {
+    if (own == Component::infill) std::tie(own, part) = owner_of_infill(part, last);
     for (const auto& [family_component, family] : families)
       if (own == family_component) return name == plural(family) || name == part_name(own, family, part);
     return false;
+  };
+  std::map<std::pair<Component, int>, bool> known;  // names are compared once
+  return blocks_where(assembly, [&](const Block& b) {
+    const auto [at, fresh] = known.try_emplace({b.component, b.part}, false);
+    if (fresh) at->second = is_it(b.component, b.part);
+    return at->second;
   });
 }
 
@@ -234,8 +243,11 @@ std::int64_t add_box_block(Assembly& assembly, const Vec3& low, const Vec3& high
   block.component = kind;
   block.material = material;
   block.fixed = fixed;
-  assembly.blocks.push_back(std::move(block));
-  finish_blocks(assembly);
+  Assembly alone;  // the others are finished
+  alone.materials = assembly.materials;
+  alone.blocks.push_back(std::move(block));
+  finish_blocks(alone);
+  assembly.blocks.push_back(std::move(alone.blocks[0]));
   return std::int64_t(assembly.blocks.size()) - 1;
 }
 
@@ -287,8 +299,12 @@ std::int32_t elastic_law_index(Assembly& assembly) {
 
 void sort_joints(Assembly& assembly) {
   const auto key = [](const Joint& j) { return std::tuple(j.a, j.b, j.cell_a, j.cell_b, j.face_a, j.face_b); };
-  std::stable_sort(assembly.joints.begin(), assembly.joints.end(),
-                   [&](const Joint& x, const Joint& y) { return key(x) < key(y); });
+  const auto before = [&](const Joint& x, const Joint& y) { return key(x) < key(y); };
+  // Mostly a few stand at the end that have just been added.
+  const auto first = assembly.joints.begin(), last = assembly.joints.end();
+  const auto unsorted = std::is_sorted_until(first, last, before);
+  std::stable_sort(unsorted, last, before);
+  std::inplace_merge(first, unsorted, last, before);
 }
 
 }  // namespace voussoir
