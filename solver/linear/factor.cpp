@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "solver/base/error.h"
 #include "solver/base/parallel.h"
 
 namespace voussoir {
@@ -70,7 +71,19 @@ bool Factor::lacked_memory() {
 
 Eigen::MatrixXd Factor::solve(const Eigen::MatrixXd& x) const {
   const Turn turn;
-  return cholesky_.solve(x);
+  cholmod_common own;  // what a call keeps books in: the factor's own is for one thread
+  cholmod_start(&own);
+  own.print = 0;
+  Eigen::MatrixXd right = x;
+  cholmod_dense b = Eigen::viewAsCholmod(right);
+  cholmod_dense* found = cholmod_solve(CHOLMOD_A, cholesky_.factor(), &b, &own);
+  Eigen::MatrixXd result(x.rows(), x.cols());
+  const bool solved = found != nullptr;
+  if (solved) result = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(found->x), x.rows(), x.cols());
+  cholmod_free_dense(&found, &own);
+  cholmod_finish(&own);
+  if (!solved && result.size() > 0) throw RunError("there is not enough memory for solutions of {} unknowns", x.rows());
+  return result;
 }
 
 }  // namespace voussoir

@@ -15,14 +15,17 @@ class Factor {
   /// so many operations, of which a core did 13e9 to 27e9 a second (docs/theory/equilibrium.md).
   bool compute(const SparseMatrix& a, double most_operations = 1e300);
   bool lacked_memory();
-  /// a⁻¹ x, of as many columns as x has.
+  /// a⁻¹ x, of as many columns as x has; several threads may ask at once.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const;
   double operations() { return cholesky_.cholmod().fl; }  // known as soon as the pattern is analysed
   double entries() { return cholesky_.cholmod().lnz; }
   double bytes() { return double(cholesky_.cholmod().memory_usage); }
 
  private:
-  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky_;
+  struct Supernodal : Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> {
+    cholmod_factor* factor() const { return m_cholmodFactor; }
+  };
+  Supernodal cholesky_;
   std::vector<int> outer_, inner_;  // the pattern that was analysed
 };
 
