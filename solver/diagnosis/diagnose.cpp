@@ -168,6 +168,14 @@ bool excludes(const Candidate& there, const Candidate& c) {
   return on_springs(there, c) || on_springs(c, there);
 }
 
+/// The model of a hypothesis at x; that of the base is there already.
+std::shared_ptr<const Origin> origin_at(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
+                                        const Eigen::VectorXd& x) {
+  if (problem.origin && hypothesis.effects.empty() && x.isZero(0.0)) return problem.origin;
+  return std::make_shared<Origin>(hypothesis.assembly(problem.base, x), problem.features.sensors, problem.modes,
+                                  problem.features.driven());
+}
+
 Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
                 const std::vector<Candidate>& all_candidates, const Say& say) {
   Round round;
@@ -178,20 +186,26 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
       candidates.push_back(c);
   Eigen::VectorXd x = current.best.x;
   x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
-  const std::vector<Signature> all = signatures(problem, current.hypothesis, x, candidates, settings.threads);
+  const std::shared_ptr<const Origin> own = origin_at(problem, current.hypothesis, x);
+  const Origin& origin = *own;
+  const Vectors shared =
+      material_vectors(origin, problem.base, current.hypothesis, x, question_of(problem, origin.response()).wanted);
+  const std::vector<Signature> all =
+      signatures(problem, current.hypothesis, x, candidates, settings.threads, origin, shared);
   for (const Signature& s : shortlist(all, all.size()))
     round.screened.emplace_back(candidates[s.candidate].text(), s.explained);
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
   say(fmt::format("screened {} candidates; fitting {}", round.screened.size(), chosen.size()));
   std::vector<std::optional<Trial>> trials(chosen.size());
   std::vector<std::string> failures(chosen.size());
-  for_all(chosen.size(), settings.threads, {}, [&](std::size_t i, EigenMemory& memory) {
+  for_all(chosen.size(), settings.threads, [&](std::size_t i) {
     const Candidate& candidate = candidates[chosen[i].candidate];
     Trial trial;
     trial.candidate = candidate;
     try {
-      trial.fit = fit(problem, current.hypothesis.with(candidate),
-                      beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations, memory);
+      trial.fit =
+          fit(problem, current.hypothesis.with(candidate),
+              beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations, origin, shared);
       trials[i] = std::move(trial);
     } catch (const std::runtime_error& error) {  // it leaves no bridge that stands: no explanation either
       failures[i] = error.what();
@@ -204,6 +218,8 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   for (const auto& [candidate, why] : round.not_fitted)
     say(fmt::format("  {} could not be fitted: {}", candidate, why));
   weigh(round, current);
+  for (Trial& trial : round.trials)
+    if (trial.probability > 0.1 * round.trials[0].probability) make_whole(problem, trial.fit);
   if (!round.trials.empty()) mark_ties(round, all, candidates);
   round.accepted = accepts(problem, round, current, settings);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i)
@@ -288,9 +304,16 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   Diagnosis d;
   const Hypothesis none = {calibrations(problem.base), {}};
   const Eigen::VectorXd usual = Eigen::VectorXd::Zero(Eigen::Index(none.size()));
-  d.plain = fit(problem, none, usual, 0);
+  if (!problem.origin) problem.origin = origin_at(problem, none, usual);
+  const std::shared_ptr<const Origin> base_model = problem.origin;
+  const Origin& origin = *base_model;
+  const Vectors shared =
+      material_vectors(origin, problem.base, none, usual, question_of(problem, origin.response()).wanted);
+  d.plain = fit(problem, none, usual, 0, origin, shared);
+  d.plain.best = evaluate(problem, residual_rows(problem), none, usual, origin);
   say(fmt::format("the case as it is: gap {:.2f}", d.plain.gap));
-  d.calibrated = fit(problem, none, usual, 2 * settings.iterations);
+  d.calibrated = fit(problem, none, usual, 2 * settings.iterations, origin, shared);
+  make_whole(problem, d.calibrated);
   d.alarms = alarms_of(d.calibrated);
   say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}", d.calibrated.gap, d.alarms.size(),
                   d.alarms.size() == 1 ? "" : "s"));
@@ -311,6 +334,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     d.best = d.calibrated;  // what only helps is not named
     say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
     problem = asked;
+    problem.origin = base_model;
     // They say where something is missing, not what: no prediction is asked of them.
     DiagnosisSettings lenient = settings;
     lenient.predict = false;

@@ -11,33 +11,6 @@ namespace voussoir {
 
 namespace {
 
-double step_down(const FitParameter& p, double x, double step) {
-  return std::max(x - step, std::min(x, p.x(p.low)));
-}
-double step_up(const FitParameter& p, double x, double step) {
-  return std::min(x + step, std::max(x, p.x(p.high)));
-}
-
-/// By central difference: K and M are linear in most parameters, or in their exponentials; a step of a thousandth of
-/// the prior's spread leaves errors of its square in the others.
-Derivative model_derivative(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
-                            Eigen::Index index) {
-  constexpr double step = 1e-3;
-  const FitParameter p = hypothesis.parameters()[std::size_t(index)];
-  Eigen::VectorXd low = x, high = x;
-  low[index] = step_down(p, x[index], step);
-  high[index] = step_up(p, x[index], step);
-  return derivative(hypothesis.assembly(problem.base, low), hypothesis.assembly(problem.base, high),
-                    high[index] - low[index]);
-}
-
-std::vector<bool> paired(const ModePairs& pairing, Eigen::Index modes) {
-  std::vector<bool> wanted(std::size_t(modes), false);
-  for (int c : pairing.computed)
-    if (c >= 0) wanted[std::size_t(c)] = true;
-  return wanted;
-}
-
 ModalData along(const ModalData& modes, const ModalData& d, double step) {
   ModalData moved = modes;
   moved.log_frequency += step * d.log_frequency;
@@ -45,21 +18,6 @@ ModalData along(const ModalData& modes, const ModalData& d, double step) {
   if (d.participation.size() > 0) moved.participation += step * d.participation;
   for (std::size_t k = 0; k < d.at_support.size(); ++k) moved.at_support[k] += step * d.at_support[k];
   return moved;
-}
-
-/// Column of the Jacobian: the residuals a small step along the derivative of the response.
-Eigen::VectorXd column(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                       const Hypothesis& hypothesis, const Evaluation& at, Eigen::Index index,
-                       const EigenMemory& memory) {
-  constexpr double step = 1e-5;
-  const Derivative change = model_derivative(problem, hypothesis, at.x, index);
-  const ModalData d = response_derivative(at.assembly, at.response, at.model, change, problem.features.sensors, memory,
-                                          paired(at.pairing, at.response.eigenvalues.size()));
-  Eigen::VectorXd x = at.x;
-  x[index] += step;
-  const Eigen::VectorXd moved =
-      residuals(problem, rows, at.pairing, hypothesis.observe(along(at.response, d, step), problem.damping, x));
-  return (moved - at.residuals) / step;
 }
 
 struct Split {
@@ -85,14 +43,8 @@ Eigen::VectorXd within_bounds(const Hypothesis& hypothesis, Eigen::VectorXd x) {
 class Cost : public ceres::CostFunction {
  public:
   Cost(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const std::vector<ResidualRow>& rows,
-       const Split& split, EigenMemory& memory, Evaluation& last, int& evaluations)
-      : problem_(&problem),
-        hypothesis_(&hypothesis),
-        rows_(&rows),
-        split_(&split),
-        memory_(&memory),
-        last_(&last),
-        evaluations_(&evaluations) {
+       const Split& split, const ModelFamily& family)
+      : problem_(&problem), hypothesis_(&hypothesis), rows_(&rows), split_(&split), family_(&family) {
     mutable_parameter_block_sizes()->push_back(int(hypothesis.size()));
     set_num_residuals(int(split.fitted.size() + hypothesis.size()));
   }
@@ -100,28 +52,31 @@ class Cost : public ceres::CostFunction {
     const auto n = Eigen::Index(hypothesis_->size()), m = Eigen::Index(split_->fitted.size());
     const Eigen::VectorXd x = within_bounds(*hypothesis_, Eigen::Map<const Eigen::VectorXd>(parameters[0], n));
     // Ceres asks for the derivatives where it has just been.
-    if (last_->x.size() != n || last_->x != x) {
-      *last_ = evaluate(*problem_, *rows_, *hypothesis_, x, *memory_);
-      ++*evaluations_;
+    if (member_.x.size() != n || member_.x != x) {
+      member_ = family_->member(x);
+      last_ = evaluate(*problem_, *rows_, *hypothesis_, *family_, member_);
+      ++evaluations_;
     }
     Eigen::Map<Eigen::VectorXd> residuals(r, m + n);
-    residuals << last_->residuals(split_->fitted), x;
+    residuals << last_.residuals(split_->fitted), x;
     if (jacobians && jacobians[0]) {
-      const Eigen::MatrixXd all = jacobian(*problem_, *rows_, *hypothesis_, *last_, *memory_);
+      const Eigen::MatrixXd all = jacobian(*problem_, *rows_, *hypothesis_, *family_, member_, last_);
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(jacobians[0], m + n, n);
       j << all(split_->fitted, Eigen::all), Eigen::MatrixXd::Identity(n, n);
     }
     return residuals.allFinite();
   }
+  int evaluations() const { return evaluations_; }
 
  private:
   const DiagnosisProblem* problem_;
   const Hypothesis* hypothesis_;
   const std::vector<ResidualRow>* rows_;
   const Split* split_;
-  EigenMemory* memory_;
-  Evaluation* last_;
-  int* evaluations_;
+  const ModelFamily* family_;
+  mutable ModelFamily::Member member_;
+  mutable Evaluation last_;
+  mutable int evaluations_ = 0;
 };
 
 /// Parameters beyond their bounds count as if at them: no bounds are needed here, whose line searches would cost an
@@ -189,14 +144,13 @@ LeftOut leave_out(const std::vector<ResidualRow>& rows, const Split& split, cons
 
 }  // namespace
 
-Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
-                    const Eigen::VectorXd& x, EigenMemory& memory) {
+namespace {
+
+Evaluation seen(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                const Eigen::VectorXd& x, const Response& response) {
   Evaluation e;
   e.x = x;
-  e.assembly = hypothesis.assembly(problem.base, x);
-  e.model = linear_model(e.assembly);
-  e.response =
-      response(e.assembly, e.model, problem.features.sensors, problem.modes, memory, problem.features.driven());
+  e.response = response;
   const Observed observed = hypothesis.observe(e.response, problem.damping, x);
   e.readings = observed.readings;
   e.pairing = pair_features(problem.features, e.response, e.readings);
@@ -204,11 +158,52 @@ Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualR
   return e;
 }
 
+}  // namespace
+
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x, EigenMemory& memory) {
+  const Assembly assembly = hypothesis.assembly(problem.base, x);
+  const LinearModel model = linear_model(assembly);
+  Evaluation e =
+      seen(problem, rows, hypothesis, x,
+           response(assembly, model, problem.features.sensors, problem.modes, memory, problem.features.driven()));
+  e.assembly = assembly, e.model = model;
+  return e;
+}
+
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x, const Origin& origin) {
+  Evaluation e = seen(problem, rows, hypothesis, x, origin.response());
+  e.assembly = origin.assembly(), e.model = origin.model();
+  return e;
+}
+
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const ModelFamily& family, const ModelFamily::Member& member) {
+  return seen(problem, rows, hypothesis, member.x, family.response(member));
+}
+
 Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                         const Hypothesis& hypothesis, const Evaluation& at, const EigenMemory& memory) {
+                         const Hypothesis& hypothesis, const ModelFamily& family, const ModelFamily::Member& member,
+                         const Evaluation& at) {
+  constexpr double step = 1e-5;  // along the derivative of the response
   Eigen::MatrixXd j(Eigen::Index(rows.size()), at.x.size());
-  for (Eigen::Index p = 0; p < at.x.size(); ++p) j.col(p) = column(problem, rows, hypothesis, at, p, memory);
+  for (Eigen::Index p = 0; p < at.x.size(); ++p) {
+    Eigen::VectorXd x = at.x;
+    x[p] += step;
+    const ModalData moved = along(at.response, family.derivative(member, p), step);
+    j.col(p) =
+        (residuals(problem, rows, at.pairing, hypothesis.observe(moved, problem.damping, x)) - at.residuals) / step;
+  }
   return j;
+}
+
+Question question_of(const DiagnosisProblem& problem, const Response& response) {
+  Question q = {problem.features.sensors, problem.modes, int(problem.features.modes.size()), problem.features.driven()};
+  for (const int c : pair_features(problem.features, response, response.sensors).computed)
+    q.wanted = std::max(q.wanted, c + 1);
+  q.wanted = std::min(q.wanted + 2, q.modes);
+  return q;
 }
 
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x) {
@@ -224,34 +219,30 @@ double chi_square_tail(double sum, int n) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-void make_quick(EigenMemory& memory) {
-  memory.tolerance = 1e-7;
-  memory.repeated = false;
-}
+namespace {
 
-Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {
-  EigenMemory memory;
-  make_quick(memory);
-  return fit(problem, hypothesis, x, iterations, memory);
-}
-
-Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
-        EigenMemory& memory) {
+Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
+           int iterations) {
+  constexpr double tolerance = 1e-4;  // of eigenvalues; what is left after the last vectors is less still
+  constexpr int tries = 3;
   const std::vector<ResidualRow> rows = residual_rows(problem);
   const Split split = split_rows(problem, rows);
   Fit result;
   result.hypothesis = hypothesis;
   Eigen::VectorXd best = x;
-  if (iterations > 0 && x.size() > 0) {
-    const Cost cost(problem, hypothesis, rows, split, memory, result.best, result.evaluations);
-    solve(cost, best, iterations);
+  // Again while the basis was not good enough where the last fit went.
+  for (int i = 0; i < tries && iterations > 0 && x.size() > 0; ++i) {
+    const Cost cost(problem, hypothesis, rows, split, family);
+    solve(cost, best, i == 0 ? iterations : 3);
     best = within_bounds(hypothesis, best);
+    result.evaluations += cost.evaluations();
+    if (family.refine(best) < tolerance) break;
+    family.converge(best, tolerance);
   }
-  if (result.best.x.size() != best.size() || result.best.x != best || best.size() == 0) {
-    result.best = evaluate(problem, rows, hypothesis, best, memory);
-    ++result.evaluations;
-  }
-  result.jacobian = jacobian(problem, rows, hypothesis, result.best, memory);
+  const ModelFamily::Member member = family.member(best);
+  result.best = evaluate(problem, rows, hypothesis, family, member);
+  ++result.evaluations;
+  result.jacobian = jacobian(problem, rows, hypothesis, family, member, result.best);
   const Eigen::VectorXd r = result.best.residuals(split.fitted);
   const Eigen::MatrixXd j = result.jacobian(split.fitted, Eigen::all);
   const LeftOut left_out = leave_out(rows, split, r, j);
@@ -268,6 +259,35 @@ Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eig
     result.at_bound.push_back(at < p.x(p.low) + 1e-3 || at > p.x(p.high) - 1e-3);
   }
   return result;
+}
+
+}  // namespace
+
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
+        const Origin& origin, const Vectors& shared) {
+  ModelFamily family(origin, problem.base, hypothesis, question_of(problem, origin.response()), x,
+                     ModelFamily::Use::often);
+  family.append(shared);
+  family.converge(x, 1e-3);
+  return fit_in(family, problem, hypothesis, x, iterations);
+}
+
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {
+  const Origin origin(hypothesis.assembly(problem.base, x), problem.features.sensors, problem.modes,
+                      problem.features.driven());
+  const Question question = question_of(problem, origin.response());
+  Fit result = fit(problem, hypothesis, x, iterations, origin,
+                   material_vectors(origin, problem.base, hypothesis, x, question.wanted));
+  if (result.best.x == x)
+    result.best = evaluate(problem, residual_rows(problem), hypothesis, x, origin);
+  else
+    make_whole(problem, result);
+  return result;
+}
+
+void make_whole(const DiagnosisProblem& problem, Fit& fit) {
+  EigenMemory memory;
+  fit.best = evaluate(problem, residual_rows(problem), fit.hypothesis, fit.best.x, memory);
 }
 
 }  // namespace voussoir

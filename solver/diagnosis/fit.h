@@ -4,6 +4,7 @@
 
 #include "solver/diagnosis/features.h"
 #include "solver/diagnosis/mesh_error.h"
+#include "solver/diagnosis/model_family.h"
 
 namespace voussoir {
 
@@ -17,8 +18,9 @@ struct DiagnosisProblem {
   ModelError apart_from_mesh;
   std::shared_ptr<const CoarserMesh> coarser;
   MeshError mesh;
-  double damping = 0.0;  // ratio of the case; 0: it has none
-  int modes = 20;        // to compute
+  std::shared_ptr<const Origin> origin;  // of the base; null: it is solved where it is needed
+  double damping = 0.0;                  // ratio of the case; 0: it has none
+  int modes = 20;                        // to compute
   /// By measured mode: what turns the differences of its shape, in the order of its rows, into independent ones of
   /// standard deviation 1. Empty: no shape.
   std::vector<Eigen::MatrixXd> whitening;
@@ -74,9 +76,15 @@ struct Evaluation {
 };
 Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
                     const Eigen::VectorXd& x, EigenMemory& memory);
-/// Derivatives of the residuals, row × parameter; the memory must be that of the evaluation.
+/// The same in a basis: without the model and its vectors.
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const ModelFamily& family, const ModelFamily::Member& member);
+/// Derivatives of the residuals, row × parameter.
 Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                         const Hypothesis& hypothesis, const Evaluation& at, const EigenMemory& memory);
+                         const Hypothesis& hypothesis, const ModelFamily& family, const ModelFamily::Member& member,
+                         const Evaluation& at);
+/// What its models are asked, of which this is a response.
+Question question_of(const DiagnosisProblem& problem, const Response& response);
 
 struct Fit {
   Hypothesis hypothesis;
@@ -94,12 +102,17 @@ struct Fit {
   double predicted_gap = 0.0;
 };
 
-/// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds.
+/// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds: in a basis about
+/// `origin`, which begins with the vectors `shared` by all such fits. Without the whole model of the end.
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
-        EigenMemory& memory);
+        const Origin& origin, const Vectors& shared);
+/// About the model at x, and the whole model in the end.
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations);
-/// For solutions by the hundred: as exact as fits need.
-void make_quick(EigenMemory& memory);
+/// The whole model of the origin, which is that of the hypothesis at x.
+Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
+                    const Eigen::VectorXd& x, const Origin& origin);
+/// Solves the whole model of its end.
+void make_whole(const DiagnosisProblem& problem, Fit& fit);
 /// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
 /// Probability that a sum of squares of n standard normal numbers is larger.

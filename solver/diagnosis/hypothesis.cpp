@@ -276,6 +276,11 @@ std::vector<FitParameter> Hypothesis::parameters() const {
 
 Assembly Hypothesis::assembly(const Assembly& base, const Eigen::VectorXd& x) const {
   Assembly changed = base;
+  change(changed, x);
+  return changed;
+}
+
+void Hypothesis::change(Assembly& changed, const Eigen::VectorXd& x) const {
   // Materials first: what an effect takes from its surroundings then follows them.
   for (const EffectSetting& setting : settings(x))
     if (setting.name != "sensor_fault") apply_effect(changed, setting);
@@ -284,7 +289,6 @@ Assembly Hypothesis::assembly(const Assembly& base, const Eigen::VectorXd& x) co
     if (c.kind == Candidate::Kind::factor) c.apply(changed, c.parameters[0].value(x[at]));
     at += Eigen::Index(c.parameters.size());
   }
-  return changed;
 }
 
 namespace {

@@ -78,6 +78,8 @@ struct Hypothesis {
   std::vector<EffectSetting> settings(const Eigen::VectorXd& x) const;
   /// Throws InputError where an effect cannot act.
   Assembly assembly(const Assembly& base, const Eigen::VectorXd& x) const;
+  /// The same in a copy of the base that is there already.
+  void change(Assembly& copy, const Eigen::VectorXd& x) const;
   /// What would be observed of modes, with faults of sensors and motions of supports; `damping` (share of critical) is
   /// that of the case.
   Observed observe(const ModalData& modes, double damping, const Eigen::VectorXd& x) const;

@@ -1,6 +1,6 @@
 // What a model says of the measured features: modes as the sensors see them, and their derivatives.
 #pragma once
-#include "solver/diagnosis/linear_model.h"
+#include "solver/diagnosis/model_change.h"
 #include "solver/modal/modes.h"
 
 namespace voussoir {
@@ -21,6 +21,15 @@ struct GroundForces {
   std::vector<Eigen::MatrixXd> pull;  // −K_uf e of each base that moves alone
 };
 
+/// Unit translations of all that moves, a column an axis.
+Eigen::MatrixXd translations(const Assembly& assembly, const Unknowns& unknowns);
+/// `inertia`: M of those.
+GroundForces ground_forces(const Assembly& assembly, const Unknowns& unknowns, const Eigen::MatrixXd& inertia);
+
+/// A vector over the unknowns as mode_words() wants it.
+ModeWords words_of(const Assembly& assembly, const Unknowns& unknowns, double eigenvalue,
+                   const Eigen::VectorXd& vector);
+
 struct Response : ModalData {
   Eigen::VectorXd eigenvalues;  // rad2/s2, ascending
   std::vector<ModeWords> words;
@@ -32,13 +41,6 @@ struct Response : ModalData {
 /// The `count` lowest modes; fewer where there are fewer. `driven`: with what the ground's motion does to them.
 Response response(const Assembly& assembly, const LinearModel& model, const std::vector<Sensor>& sensors, int count,
                   EigenMemory& memory, bool driven = false);
-
-/// λ′ = φᵀ (K′ − λ M′) φ (Fox and Kapoor 1968, eq. 8), and φ′ from all modes that are known and a static solution for
-/// the others (Wang 1991, eq. 20): of what those others take part with a share λ/λ_n is left out. Only of
-/// the modes that are `wanted`; the memory must be that of the response.
-ModalData response_derivative(const Assembly& assembly, const Response& response, const LinearModel& model,
-                              const Derivative& d, const std::vector<Sensor>& sensors, const EigenMemory& memory,
-                              const std::vector<bool>& wanted);
 
 /// How the bridge follows its supports without resonance: accelerations that the sensors read (rows) for a unit
 /// acceleration of one support's base alone along x, y, z, K⁻¹ of its pull; the memory must be that of the response.

@@ -20,8 +20,7 @@ struct Linearised {
   Evaluation at;
   Eigen::VectorXd r;  // fitted rows, then x
   Eigen::MatrixXd j;
-  double misfit = 0.0;    // least that the parameters reach
-  Eigen::VectorXd start;  // for further solutions
+  double misfit = 0.0;  // least that the parameters reach
 };
 
 Eigen::VectorXd with_priors(const Linearised& l, const Eigen::VectorXd& residuals) {
@@ -35,19 +34,21 @@ Eigen::VectorXd left_over(const Linearised& l, const Eigen::VectorXd& r) {
   return r - l.j * least_squares(l.j, r);
 }
 
-Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x) {
+Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
+                     const Origin& origin, const Vectors& shared) {
   Linearised l;
   l.problem = &problem;
   l.rows = residual_rows(problem);
   for (std::size_t i = 0; i < l.rows.size(); ++i)
     if (!problem.features.modes[std::size_t(l.rows[i].mode)].held_back) l.fitted.push_back(int(i));
-  EigenMemory memory;
-  make_quick(memory);
-  l.at = evaluate(problem, l.rows, hypothesis, x, memory);
-  const Eigen::MatrixXd j = jacobian(problem, l.rows, hypothesis, l.at, memory);
+  ModelFamily family(origin, problem.base, hypothesis, question_of(problem, origin.response()), x,
+                     ModelFamily::Use::often);
+  family.append(shared);
+  const ModelFamily::Member member = family.member(x);
+  l.at = evaluate(problem, l.rows, hypothesis, family, member);
+  const Eigen::MatrixXd j = jacobian(problem, l.rows, hypothesis, family, member, l.at);
   l.j.resize(Eigen::Index(l.fitted.size()) + x.size(), x.size());
   l.j << j(l.fitted, Eigen::all), Eigen::MatrixXd::Identity(x.size(), x.size());
-  l.start = memory.start;
   l.r = with_priors(l, l.at.residuals);
   l.misfit = left_over(l, l.r).squaredNorm();
   return l;
@@ -55,12 +56,18 @@ Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothes
 
 /// Residuals with the candidate in place at its start.
 Eigen::VectorXd residuals_with(const Linearised& l, const Hypothesis& hypothesis, const Candidate& candidate,
-                               const std::vector<double>& start, EigenMemory& memory) {
+                               const std::vector<double>& start, const Origin& origin) {
+  constexpr double tolerance = 1e-3;  // of eigenvalues
   const Hypothesis more = hypothesis.with(candidate);
   Eigen::VectorXd x(Eigen::Index(more.size()));
   x << l.at.x, Eigen::Map<const Eigen::VectorXd>(start.data(), Eigen::Index(start.size()));
   const bool model_changes = candidate.kind == Candidate::Kind::effect || candidate.kind == Candidate::Kind::factor;
-  if (model_changes) return evaluate(*l.problem, l.rows, more, x, memory).residuals;
+  if (model_changes) {
+    ModelFamily family(origin, l.problem->base, more, question_of(*l.problem, origin.response()), x,
+                       ModelFamily::Use::once);
+    family.converge(x, tolerance);
+    return evaluate(*l.problem, l.rows, more, family, family.member(x)).residuals;
+  }
   const Observed observed = more.observe(l.at.response, l.problem->damping, x);
   const ModePairs pairing = pair_features(l.problem->features, l.at.response, observed.readings);
   return residuals(*l.problem, l.rows, pairing, observed);
@@ -83,16 +90,12 @@ Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {
 
 }  // namespace
 
-void for_all(std::size_t n, int threads, const Eigen::VectorXd& start,
-             const std::function<void(std::size_t, EigenMemory&)>& work) {
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> errors(n);
   run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int) {
-    EigenMemory memory;
-    make_quick(memory);
     for (std::size_t i = next++; i < n; i = next++) try {
-        memory.start = start;
-        work(i, memory);
+        work(i);
       } catch (...) {
         errors[i] = std::current_exception();
       }
@@ -102,8 +105,9 @@ void for_all(std::size_t n, int threads, const Eigen::VectorXd& start,
 }
 
 std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
-                                  const Eigen::VectorXd& x, const std::vector<Candidate>& candidates, int threads) {
-  const Linearised l = linearise(problem, hypothesis, x);
+                                  const Eigen::VectorXd& x, const std::vector<Candidate>& candidates, int threads,
+                                  const Origin& origin, const Vectors& shared) {
+  const Linearised l = linearise(problem, hypothesis, x, origin, shared);
   std::vector<Signature> all;
   for (std::size_t c = 0; c < candidates.size(); ++c)
     for (std::size_t start = 0; start < candidates[c].starts.size(); ++start) {
@@ -112,10 +116,10 @@ std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothe
       s.start = start;
       all.push_back(s);
     }
-  for_all(all.size(), threads, l.start, [&](std::size_t i, EigenMemory& memory) {
+  for_all(all.size(), threads, [&](std::size_t i) {
     const Candidate& candidate = candidates[all[i].candidate];
     try {
-      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start], memory));
+      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start], origin));
       s.candidate = all[i].candidate;
       s.start = all[i].start;
       all[i] = s;

@@ -13,18 +13,16 @@ struct Signature {
   Eigen::VectorXd direction;  // unit, of fitted rows and prior rows, without what the materials can do
 };
 
-/// One eigenvalue solution a start of each candidate, against the hypothesis at x; faults of sensors need none. Ordered
-/// as the candidates and their starts.
+/// Against the hypothesis at x, of which `origin` is the model, in a basis each; `shared` as fit() has them. Faults of
+/// sensors need none. Ordered as the candidates and their starts.
 std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
-                                  const Eigen::VectorXd& x, const std::vector<Candidate>& candidates, int threads);
+                                  const Eigen::VectorXd& x, const std::vector<Candidate>& candidates, int threads,
+                                  const Origin& origin, const Vectors& shared);
 
 /// |cosine| between two signatures: 1 where these sensors cannot tell them apart.
 double collinearity(const Signature& a, const Signature& b);
 
-/// Calls work(i, memory) for all i < n in `threads` threads. Each call finds `start` as the memory's; what else a
-/// memory holds saves time and changes nothing, so the results do not depend on the threads. The first exception (by i)
-/// is thrown at the end.
-void for_all(std::size_t n, int threads, const Eigen::VectorXd& start,
-             const std::function<void(std::size_t, EigenMemory&)>& work);
+/// Calls work(i) for all i < n in `threads` threads. The first exception (by i) is thrown at the end.
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work);
 
 }  // namespace voussoir

@@ -69,9 +69,14 @@ TEST_P(EachCandidate, DerivativesAreThoseOfFiniteDifferences) {
 
   // And the residuals, through eigenvalues and vectors.
   const std::vector<ResidualRow> rows = residual_rows(problem);
-  EigenMemory memory;
-  const Evaluation at = evaluate(problem, rows, hypothesis, x, memory);
-  const Eigen::MatrixXd j = jacobian(problem, rows, hypothesis, at, memory);
+  const Origin origin(hypothesis.assembly(base, x), problem.features.sensors, problem.modes, true);
+  const Question question = question_of(problem, origin.response());
+  ModelFamily family(origin, problem.base, hypothesis, question, x, ModelFamily::Use::often);
+  family.append(material_vectors(origin, problem.base, hypothesis, x, question.wanted));
+  family.converge(x + Eigen::VectorXd::Constant(x.size(), 1e-2), 1e-6);
+  const ModelFamily::Member member = family.member(x);
+  const Evaluation at = evaluate(problem, rows, hypothesis, family, member);
+  const Eigen::MatrixXd j = jacobian(problem, rows, hypothesis, family, member, at);
   const double step = 1e-3;
   for (Eigen::Index p = 0; p < x.size(); ++p) {
     const auto moved = [&](double by) {

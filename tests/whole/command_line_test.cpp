@@ -108,7 +108,7 @@ TEST(CommandLine, NumbersOutOfRangeAreRefusedBeforeAnythingIsRead) {
       {{"hide", "none.toml", "-o", "out"},
        {"modes", "minutes", "shaken", "noise", "scatter", "materials", "defects", "mesh"}},
       {{"diagnose", "none.toml", "--measured", "none"},
-       {"effects", "fits", "model-error", "unknowns", "most-modes", "run-seconds"}},
+       {"effects", "fits", "model-error", "most-modes", "run-seconds"}},
       {{"fragility", "none"}, {"bootstrap"}},
   };
   Folder folder;

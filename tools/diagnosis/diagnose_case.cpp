@@ -44,23 +44,16 @@ Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, cons
 
 DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisRequest& request,
                               const std::function<void(const std::string&)>& say) {
-  if (input.coarsened) say(fmt::format("effects are looked for with block_scale {:.2f}", input.block_scale));
   DiagnosisResult result;
-  result.diagnosis = diagnose(input.coarse, request.settings, say);
+  result.diagnosis = diagnose(input.problem, request.settings, say);
   Diagnosis& d = result.diagnosis;
-  result.before = input.coarsened ? fit(input.full, {}, {}, 0) : d.plain;
-  // The same effects on the case's own mesh, whose stiffness is a little different: these values are the ones to
-  // report.
-  if (input.coarsened) {
-    say("fitting the values anew on the case's own mesh");
-    d.best = fit(input.full, d.best.hypothesis, d.best.best.x, 3);
-  }
+  result.before = d.plain;
   result.corrected_text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
   result.corrected = parse_case(result.corrected_text, input.c.path, CaseUse::geometry);
-  result.after = rerun(input.full, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
-  result.modes = compare_modes(input.full, result.before, result.after);
-  result.where = locate(input.full, result.before.best);
-  result.where_after = locate(input.full, result.after.best);
+  result.after = rerun(input.problem, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
+  result.modes = compare_modes(input.problem, result.before, result.after);
+  result.where = locate(input.problem, result.before.best);
+  result.where_after = locate(input.problem, result.after.best);
   try {
     result.recorded = run_recorded(input, d.best, request.run_seconds, request.settings.threads, say);
   } catch (const std::runtime_error& error) {

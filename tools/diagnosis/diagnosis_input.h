@@ -1,4 +1,4 @@
-// What a diagnosis starts from: the case, on a mesh that is quick to solve, and the measured features.
+// What a diagnosis starts from: the case and the measured features.
 #pragma once
 #include "solver/diagnosis/diagnose.h"
 #include "tools/diagnosis/identification.h"
@@ -7,7 +7,6 @@ namespace voussoir {
 
 struct DiagnosisRequest {
   std::string case_file, measured, directory;
-  int unknowns = 12000;                // of the mesh that effects are looked for on, at most
   double model_error = 0.01;           // of frequencies, beside what the mesh does
   double shape_error = 0.01;           // of shapes, share of the largest component, beside what the mesh does
   std::vector<std::string> hold_back;  // names of modes
@@ -20,9 +19,8 @@ struct DiagnosisRequest {
 struct DiagnosisInput {
   Case c;
   Measured measured;
-  DiagnosisProblem full, coarse;  // the case's own mesh; the one that is searched on
-  bool coarsened = false;
-  double block_scale = 0.0;          // of the coarse mesh; 0: it has none
+  DiagnosisProblem problem;
+  DiagnosisProblem runs;             // the same on a mesh that the explicit solver is quick on
   std::vector<std::string> without;  // effects that are not tried
   Identification identification;
 };

@@ -123,7 +123,7 @@ std::string facts(const DiagnosisInput& input, const DiagnosisResult& result) {
   fact("folder", m.directory);
   const auto held = std::size_t(
       std::count_if(result.modes.begin(), result.modes.end(), [](const auto& mode) { return mode.held_back; }));
-  fact("data", fmt::format("{} at {}{}", count_text(result.modes.size(), "mode"), sensors_used(input.full.features),
+  fact("data", fmt::format("{} at {}{}", count_text(result.modes.size(), "mode"), sensors_used(input.problem.features),
                            held ? fmt::format("; {} held back, to be predicted", held) : std::string()));
   return text + "</dl>\n";
 }
@@ -352,16 +352,12 @@ std::string advice_section(const Diagnosis& d) {
 std::string model_error_text(const DiagnosisInput& input) {
   std::string text = fmt::format(
       "A right model is taken to be right to {:.1f} % of frequencies and {:.1f} % of a shape's largest value.",
-      100.0 * input.coarse.error.frequency, 100.0 * input.coarse.error.shape);
-  if (input.coarse.mesh.scatter > 0.0 || input.coarse.mesh.shift != 0.0)
+      100.0 * input.problem.error.frequency, 100.0 * input.problem.error.shape);
+  if (input.problem.mesh.scatter > 0.0 || input.problem.mesh.shift != 0.0)
     text += fmt::format(
         " Blocks 1.25 times as large shift all frequencies by {:+.1f} %, scatter them by {:.1f} % and shapes by {:.1f} "
         "%.",
-        100.0 * input.coarse.mesh.shift, 100.0 * input.coarse.mesh.scatter, 100.0 * input.coarse.mesh.shape);
-  if (input.coarsened)
-    text += fmt::format(
-        " Effects were looked for on a coarser mesh (block_scale {:.2f}); “before” and “after” are on the case's own.",
-        input.block_scale);
+        100.0 * input.problem.mesh.shift, 100.0 * input.problem.mesh.scatter, 100.0 * input.problem.mesh.shape);
   return text;
 }
 

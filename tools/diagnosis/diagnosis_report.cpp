@@ -217,10 +217,10 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
   }
   for (const SetAside& s : input.measured.set_aside) j["set_aside"].push_back({{"place", s.place}, {"what", s.what}});
   j["remarks"] = input.measured.remarks;
-  j["model_error"] = {{"frequency", input.coarse.error.frequency},
-                      {"shape", input.coarse.error.shape},
-                      {"mesh_shift", input.coarse.mesh.shift},
-                      {"mesh_scatter", input.coarse.mesh.scatter}};
+  j["model_error"] = {{"frequency", input.problem.error.frequency},
+                      {"shape", input.problem.error.shape},
+                      {"mesh_shift", input.problem.mesh.shift},
+                      {"mesh_scatter", input.problem.mesh.scatter}};
   if (result.recorded) j["recorded"] = recorded_json(*result.recorded);
   j["without"] = input.without;
   j["seconds"] = d.seconds;

@@ -114,7 +114,7 @@ Recording accelerations(const Velocities& v, double begin, const Recording& like
 
 Recording simulate(const DiagnosisInput& input, const Assembly& assembly, const std::vector<EffectSetting>& effects,
                    const Recording& recorded, int threads, const std::string& name, const Say& say) {
-  const std::vector<Instrument> all = instruments(input.coarse.features.sensors, effects);
+  const std::vector<Instrument> all = instruments(input.runs.features.sensors, effects);
   const SolverSettings settings = settings_for(input, ground_of(recorded), effects, 0.5 * recorded.dt);
   Velocities velocities;
   Observers observers;
@@ -232,7 +232,7 @@ std::optional<RecordedMatch> run_recorded(const DiagnosisInput& input, const Fit
   m.duration = recorded.duration();
   say(fmt::format("running {:.1f} s of {} with the explicit solver, before and after", m.duration, m.record));
   const std::vector<EffectSetting> effects = best.hypothesis.settings(best.best.x);
-  const DiagnosisProblem& p = input.coarse;
+  const DiagnosisProblem& p = input.runs;
   const double highest = highest_of(p.features, recorded);
   m.highest_frequency = highest;
   m.measured = filtered(recorded, highest);
@@ -241,7 +241,7 @@ std::optional<RecordedMatch> run_recorded(const DiagnosisInput& input, const Fit
       filtered(simulate(input, best.hypothesis.assembly(p.base, best.best.x), effects, recorded, threads, "after", say),
                highest);
   match_channels(p.features, m);
-  match_transfer(p.error, m);
+  match_transfer(input.problem.error, m);
   m.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   say(fmt::format("  differs from the recording by {:.0f} % of it before, {:.0f} % after", 100.0 * m.error_before,
                   100.0 * m.error_after));

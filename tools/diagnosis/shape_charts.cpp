@@ -90,8 +90,8 @@ void sort_sensors(const std::vector<Sensor>& sensors, std::vector<SensorValue>& 
 }
 
 std::vector<SensorValue> sensor_values(const DiagnosisInput& input, const DiagnosisResult& result, std::size_t mode) {
-  const MeasuredFeature& feature = input.full.features.modes[mode];
-  const std::vector<Sensor>& sensors = input.full.features.sensors;
+  const MeasuredFeature& feature = input.problem.features.modes[mode];
+  const std::vector<Sensor>& sensors = input.problem.features.sensors;
   double largest = 0.0;
   for (double v : feature.shape)
     if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
@@ -158,8 +158,8 @@ std::string assurance_matrix(const DiagnosisInput& input, const DiagnosisResult&
   const Evaluation& at = result.after.best;
   std::vector<std::size_t> shaped;
   int last = 3;
-  for (std::size_t m = 0; m < input.full.features.modes.size(); ++m) {
-    if (input.full.features.modes[m].shape.size() == 0) continue;
+  for (std::size_t m = 0; m < input.problem.features.modes.size(); ++m) {
+    if (input.problem.features.modes[m].shape.size() == 0) continue;
     shaped.push_back(m);
     last = std::max(last, at.pairing.computed[m]);
   }
@@ -173,8 +173,8 @@ std::string assurance_matrix(const DiagnosisInput& input, const DiagnosisResult&
   for (std::size_t i = 0; i < shaped.size(); ++i) {
     const double y = top + double(i) * kCell;
     draw_row_label(drawing, y + 0.5 * kCell, mode_title(result.modes[shaped[i]]), mode_motion(result.modes[shaped[i]]));
-    draw_assurance_row(drawing, at, input.full.features.modes[shaped[i]].shape, at.pairing.computed[shaped[i]], columns,
-                       y);
+    draw_assurance_row(drawing, at, input.problem.features.modes[shaped[i]].shape, at.pairing.computed[shaped[i]],
+                       columns, y);
   }
   return drawing.finished();
 }
@@ -182,7 +182,7 @@ std::string assurance_matrix(const DiagnosisInput& input, const DiagnosisResult&
 std::string shape_chart(const DiagnosisInput& input, const DiagnosisResult& result, std::size_t mode) {
   const std::vector<SensorValue> values = sensor_values(input, result, mode);
   if (values.empty()) return "";
-  const std::vector<Sensor>& sensors = input.full.features.sensors;
+  const std::vector<Sensor>& sensors = input.problem.features.sensors;
   const ShapePlot plot;
   std::size_t longest = 1;
   for (const SensorValue& v : values) longest = std::max(longest, characters(shortened(sensors[v.sensor].id, 12)));

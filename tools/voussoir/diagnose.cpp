@@ -33,8 +33,8 @@ int diagnose_and_write(const DiagnosisRequest& request) {
   };
   const DiagnosisInput input = diagnosis_input(request);
   say(fmt::format("{} measured modes at {}; model error {:.1f} % of frequencies, {:.1f} % of shapes",
-                  input.full.features.modes.size(), sensors_used(input.full.features),
-                  100.0 * input.coarse.error.frequency, 100.0 * input.coarse.error.shape));
+                  input.problem.features.modes.size(), sensors_used(input.problem.features),
+                  100.0 * input.problem.error.frequency, 100.0 * input.problem.error.shape));
   const DiagnosisResult result = diagnose_case(input, request, say);
   fs::create_directories(request.directory);
   write_corrected(result.corrected, result.corrected_text, request.directory);
@@ -63,8 +63,6 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "candidates that are fitted fully in a round")(
       "model-error", real_option("model-error", 1e-9, 0.999, &request.model_error)->default_value(request.model_error),
       "of a right model's frequencies, share, beside its mesh")(
-      "unknowns", whole_option("unknowns", 1, 100'000'000, &request.unknowns)->default_value(request.unknowns),
-      "of the mesh that effects are looked for on, at most")(
       "most-modes", whole_option("most-modes", 1, 30, &request.most_modes)->default_value(request.most_modes),
       "of those found in recordings: the lowest are used")(
       "run-seconds", real_option("run-seconds", 0.0, 3600.0, &request.run_seconds)->default_value(request.run_seconds),

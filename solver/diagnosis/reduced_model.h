@@ -1,0 +1,90 @@
+// Models that differ from one whose modes are known, in a basis of few vectors: its modes, and how it gives way
+// statically to the forces that they leave out of balance in a changed model (docs/theory/diagnosis.md).
+#pragma once
+#include "solver/diagnosis/model_change.h"
+#include "solver/diagnosis/response.h"
+
+namespace voussoir {
+
+/// A model whose modes and factor are known, and what each of its joints adds to K. Several threads may use it at once.
+class Origin {
+ public:
+  /// Its lowest modes as response() has them. Throws InputError when nothing is held together.
+  Origin(const Assembly& assembly, const std::vector<Sensor>& sensors, int modes, bool driven = false);
+  Origin(const Origin&) = delete;
+
+  const Assembly& assembly() const { return assembly_; }
+  const LinearModel& model() const { return model_; }
+  const Response& response() const { return response_; }
+  /// Of each joint, in their order.
+  const std::vector<Derivative::Pair>& pairs() const { return pairs_; }
+  /// (K − σ M)⁻¹ F, σ being next to nothing.
+  Vectors give_way(const Vectors& forces) const;
+  double shift() const { return response_.shift; }  // σ
+
+ private:
+  Assembly assembly_;
+  LinearModel model_;
+  EigenMemory memory_;
+  Response response_;
+  std::vector<Derivative::Pair> pairs_;
+};
+
+/// Modes in a basis: λ ascending; q a column a mode, qᵀ (Vᵀ M V) q = 1.
+struct ReducedModes {
+  Eigen::VectorXd eigenvalues;  // rad2/s2
+  Eigen::MatrixXd q;
+};
+
+/// A basis for models of a kind. Every vector costs one projection of each class.
+class ReducedModel {
+ public:
+  /// Begins with the origin's modes and with unit motions of what moves in `changed` alone. Without classes all that
+  /// changes is among the others: right for a model that is looked at once.
+  ReducedModel(const Origin& origin, const Assembly& changed, Classes classes);
+
+  const Vectors& basis() const { return v_; }
+  const Unknowns& unknowns() const { return unknowns_; }
+  const Classes& classes() const { return classes_; }
+
+  /// Vᵀ K V and Vᵀ M V of a changed model.
+  struct Matrices {
+    Eigen::MatrixXd k, m;
+  };
+  Matrices matrices(const Change& change) const;
+  /// As many modes as the basis has vectors that matter.
+  ReducedModes modes(const Matrices& matrices) const;
+
+  /// Adds what the forces move in the origin that the lowest `wanted` modes of a changed model leave out of balance.
+  /// Returns the largest share of an eigenvalue that they would take away along those motions alone: about the error
+  /// before.
+  double refine(const Change& change, int wanted);
+  /// Until that is small; at most `most` times. Returns the last one.
+  double converge(const Change& change, int wanted, double tolerance, int most);
+  void append(const Vectors& more) { append(more, nullptr); }
+
+  /// φⱼᵀ M₀ y of the origin's modes (rows) and the lowest `count` of these.
+  Eigen::MatrixXd along_origin(const ReducedModes& modes, Eigen::Index count) const;
+  /// The lowest `count` modes over the unknowns.
+  Eigen::MatrixXd vectors(const ReducedModes& modes, Eigen::Index count) const;
+  /// K X and M X of a changed model.
+  Vectors times_stiffness(const Change& change, const Vectors& x) const;
+  Vectors times_mass(const Change& change, const Vectors& x) const;
+
+ private:
+  struct Projected {
+    Eigen::MatrixXd whole;                 // of the origin
+    std::vector<Eigen::MatrixXd> classes;  // of the origin's part of each
+  };
+  Eigen::MatrixXd sum(const Projected& p, const std::vector<double>& factors) const;
+  /// `stiffness`: K₀ of them where it is known.
+  void append(const Vectors& more, const Vectors* stiffness);
+
+  const Origin* origin_;
+  Classes classes_;
+  Unknowns unknowns_;
+  Vectors v_;
+  Projected k_, m_;
+};
+
+}  // namespace voussoir
