@@ -56,8 +56,10 @@ pid_t start_xvfb(const Pipe& number) {
                   .group = Launch::Group::session,  // Ctrl-C in the terminal is for us, who end it when we are done
                   .signal_at_our_end = SIGTERM});
   } catch (const RunError& error) {
-    throw InputError("pictures: there is no display, and Xvfb draws without one, but {}; install the package xvfb",
-                     error.what());
+    throw InputError(
+        "pictures: there is no display, and Xvfb, which draws without one, did not start ({}); install the package "
+        "xvfb",
+        error.what());
   }
 }
 

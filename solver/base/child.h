@@ -17,11 +17,11 @@ struct Launch {
   int kept = -1;                                     // a further descriptor that it finds under the same number
   enum class Group { ours, own, session } group = Group::ours;  // `session`: away from our terminal as well
   int signal_at_our_end = 0;                                    // sent to it when the thread that started it ends
-  long file_size = -1;  // bytes a file of its may have (RLIMIT_FSIZE); −1: no limit
+  long file_size = -1;  // bytes a file that it writes may have (RLIMIT_FSIZE); −1: no limit
 };
 
-/// Starts it; signals that we ignore or handle have their usual effect in it. Throws RunError "cannot start PROGRAM: …"
-/// with the system's reason when it cannot be executed.
+/// Starts it; SIGINT, SIGTERM, SIGPIPE and SIGXFSZ have their default effect in it, also where we ignore them. Throws
+/// RunError "cannot start PROGRAM: …" with the system's reason when it cannot be executed.
 pid_t start(const Launch& launch);
 
 struct Finished {

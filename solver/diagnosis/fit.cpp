@@ -221,9 +221,10 @@ double chi_square_tail(double sum, int n) {
 
 namespace {
 
+constexpr double basis_tolerance = 1e-4;  // of eigenvalues; what is left after the last vectors is less still
+
 Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
            int iterations) {
-  constexpr double tolerance = 1e-4;  // of eigenvalues; what is left after the last vectors is less still
   constexpr int tries = 3;
   const std::vector<ResidualRow> rows = residual_rows(problem);
   const Split split = split_rows(problem, rows);
@@ -236,8 +237,9 @@ Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesi
     solve(cost, best, i == 0 ? iterations : 3);
     best = within_bounds(hypothesis, best);
     result.evaluations += cost.evaluations();
-    if (family.refine(best) < tolerance) break;
-    family.converge(best, tolerance);
+    result.basis_error = family.refine(best);
+    if (result.basis_error < basis_tolerance) break;
+    result.basis_error = family.converge(best, basis_tolerance);
   }
   const ModelFamily::Member member = family.member(best);
   result.best = evaluate(problem, rows, hypothesis, family, member);
@@ -263,13 +265,28 @@ Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesi
 
 }  // namespace
 
-Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
-        const Origin& origin, const Vectors& shared) {
+namespace {
+
+Fit fit_about(const Origin& origin, const Vectors& shared, const DiagnosisProblem& problem,
+              const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {
   ModelFamily family(origin, problem.base, hypothesis, question_of(problem, origin.response()), x,
                      ModelFamily::Use::often);
   family.append(shared);
   family.converge(x, 1e-3);
   return fit_in(family, problem, hypothesis, x, iterations);
+}
+
+}  // namespace
+
+Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
+        const Origin& origin, const Vectors& shared) {
+  Fit result = fit_about(origin, shared, problem, hypothesis, x, iterations);
+  if (result.basis_error < basis_tolerance) return result;
+  const Eigen::VectorXd end = result.best.x;
+  const Origin own(hypothesis.assembly(problem.base, end), problem.features.sensors, problem.modes,
+                   problem.features.driven());
+  const int wanted = question_of(problem, own.response()).wanted;
+  return fit_about(own, material_vectors(own, problem.base, hypothesis, end, wanted), problem, hypothesis, end, 3);
 }
 
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations) {

@@ -94,6 +94,7 @@ struct Fit {
   double misfit = 0.0;        // sum of squares of the fitted rows and of x: χ² of as many degrees as fitted rows
   double log_evidence = 0.0;  // up to a constant that is the same for all fits to the same rows
   int evaluations = 0;
+  double basis_error = 0.0;    // estimated, of eigenvalues, where the fit ended
   std::vector<bool> at_bound;  // by parameter
   /// Root mean square residual of the rows that were fitted, of those held back.
   double gap = 0.0, held_gap = 0.0;
@@ -103,7 +104,8 @@ struct Fit {
 };
 
 /// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds: in a basis about
-/// `origin`, which begins with the vectors `shared` by all such fits. Without the whole model of the end.
+/// `origin`, which begins with the vectors `shared` by all such fits; where that basis does not converge, once more
+/// about the model at its end. Without the whole model of the end.
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
         const Origin& origin, const Vectors& shared);
 /// About the model at x, and the whole model in the end.

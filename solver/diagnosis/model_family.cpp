@@ -71,10 +71,10 @@ ModelFamily::ModelFamily(const Origin& origin, const Assembly& base, const Hypot
       hypothesis_(hypothesis),
       question_(question),
       reduced_(origin, hypothesis.assembly(base, x), classes_of(origin, base, hypothesis, x, use)) {
-  see();
+  project_sensors();
 }
 
-void ModelFamily::see() {
+void ModelFamily::project_sensors() {
   seen_ = at_sensors(origin_->assembly(), reduced_.unknowns(), question_.sensors, reduced_.basis());
 }
 
@@ -165,13 +165,13 @@ Change ModelFamily::change_at(const Eigen::VectorXd& x) const {
 double ModelFamily::converge(const Eigen::VectorXd& x, double tolerance) {
   constexpr int most = 8;
   const double error = reduced_.converge(change_at(x), question_.wanted, tolerance, most);
-  see();
+  project_sensors();
   return error;
 }
 
 double ModelFamily::refine(const Eigen::VectorXd& x) {
   const double error = reduced_.refine(change_at(x), question_.wanted);
-  see();
+  project_sensors();
   return error;
 }
 
@@ -180,7 +180,7 @@ void ModelFamily::append(const Vectors& more) {
   Vectors all = Vectors::Zero(reduced_.unknowns().count, more.cols());
   all.topRows(more.rows()) = more;
   reduced_.append(all);
-  see();
+  project_sensors();
 }
 
 Vectors material_vectors(const Origin& origin, const Assembly& base, const Hypothesis& hypothesis,
@@ -197,7 +197,7 @@ Vectors material_vectors(const Origin& origin, const Assembly& base, const Hypot
     const Derivative d = derivative(hypothesis.assembly(base, low), hypothesis.assembly(base, high), 2.0 * step);
     const Vectors force = times_mass(d, origin.model().unknowns, phi) * known.eigenvalues.head(n).asDiagonal() -
                           times_stiffness(d, origin.model().unknowns, phi);
-    all.middleCols(p * n, n) = origin.give_way(force);
+    all.middleCols(p * n, n) = origin.static_response(force);
   }
   return all;
 }

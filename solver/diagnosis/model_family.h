@@ -42,15 +42,16 @@ class ModelFamily {
   /// Of the lowest modes, by the x with that index: λ′ = φᵀ (K′ − λ M′) φ (Fox and Kapoor 1968, eq. 8), φ′ by all modes
   /// of the basis.
   ModalData derivative(const Member& member, Eigen::Index index) const;
-  /// Adds vectors until the wanted modes of this model are right within `tolerance` of λ; the error before the last.
+  /// Adds vectors until the wanted modes of this model are right within `tolerance` of λ, in at most eight rounds.
+  /// Returns the estimated error before the last of them.
   double converge(const Eigen::VectorXd& x, double tolerance);
-  /// Once, whatever the error was.
+  /// One round; returns the estimated error before it.
   double refine(const Eigen::VectorXd& x);
   /// Vectors over the origin's unknowns that other families have too.
   void append(const Vectors& more);
 
  private:
-  void see();
+  void project_sensors();
   const Assembly& assembly_at(const Eigen::VectorXd& x) const;
   Change change_at(const Eigen::VectorXd& x) const;
   /// All but the modes.
@@ -65,8 +66,8 @@ class ModelFamily {
   Eigen::MatrixXd seen_;  // sensors × basis
 };
 
-/// How the origin gives way to the changes of its wanted modes' forces with each material: what every family that fits
-/// materials needs.
+/// The origin's static response to the change of its wanted modes' residual forces with each material: what every
+/// family that fits materials needs.
 Vectors material_vectors(const Origin& origin, const Assembly& base, const Hypothesis& materials,
                          const Eigen::VectorXd& x, int wanted);
 

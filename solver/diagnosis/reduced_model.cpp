@@ -66,7 +66,7 @@ Origin::Origin(const Assembly& own, const std::vector<Sensor>& sensors, int mode
   for (const Joint& joint : assembly_.joints) pairs_.push_back({joint.a, joint.b, pair_stiffness(assembly_, joint)});
 }
 
-Vectors Origin::give_way(const Vectors& forces) const {
+Vectors Origin::static_response(const Vectors& forces) const {
   const Eigen::MatrixXd own = forces.topRows(model_.unknowns.count);
   return padded(memory_.factor.solve(own), forces.rows());
 }
@@ -152,7 +152,7 @@ double ReducedModel::refine(const Change& change, int wanted) {
   const Eigen::Index n = std::min<Eigen::Index>(wanted, found.q.cols());
   const Vectors y = vectors(found, n);
   const Vectors force = times_mass(change, y) * found.eigenvalues.head(n).asDiagonal() - times_stiffness(change, y);
-  const Vectors move = origin_->give_way(force);
+  const Vectors move = origin_->static_response(force);
   double most = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) most = std::max(most, move.col(i).dot(force.col(i)) / found.eigenvalues[i]);
   // (K₀ − σ M₀) move is the force over the origin's unknowns.

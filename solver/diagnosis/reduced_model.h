@@ -1,5 +1,5 @@
-// Models that differ from one whose modes are known, in a basis of few vectors: its modes, and how it gives way
-// statically to the forces that they leave out of balance in a changed model (docs/theory/diagnosis.md).
+// Models that differ from one whose modes are known, in a basis of few vectors: its modes, and its static response to
+// the residual forces of these in a changed model (docs/theory/diagnosis.md).
 #pragma once
 #include "solver/diagnosis/model_change.h"
 #include "solver/diagnosis/response.h"
@@ -18,8 +18,8 @@ class Origin {
   const Response& response() const { return response_; }
   /// Of each joint, in their order.
   const std::vector<Derivative::Pair>& pairs() const { return pairs_; }
-  /// (K − σ M)⁻¹ F, σ being next to nothing.
-  Vectors give_way(const Vectors& forces) const;
+  /// (K − σ M)⁻¹ F over the origin's unknowns, further rows zero; σ is negligible against all eigenvalues.
+  Vectors static_response(const Vectors& forces) const;
   double shift() const { return response_.shift; }  // σ
 
  private:
@@ -55,11 +55,10 @@ class ReducedModel {
   /// As many modes as the basis has vectors that matter.
   ReducedModes modes(const Matrices& matrices) const;
 
-  /// Adds what the forces move in the origin that the lowest `wanted` modes of a changed model leave out of balance.
-  /// Returns the largest share of an eigenvalue that they would take away along those motions alone: about the error
-  /// before.
+  /// Adds the origin's static response w to the residual forces f = λ M y − K y of the lowest `wanted` modes of a
+  /// changed model. Returns the largest w · f / λ: an estimate of the relative error of the eigenvalues before.
   double refine(const Change& change, int wanted);
-  /// Until that is small; at most `most` times. Returns the last one.
+  /// Until that is below `tolerance`, at most `most` times. Returns the last estimate.
   double converge(const Change& change, int wanted, double tolerance, int most);
   void append(const Vectors& more) { append(more, nullptr); }
 

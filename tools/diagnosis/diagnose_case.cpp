@@ -26,6 +26,7 @@ std::string corrected_text(const DiagnosisInput& input, const std::vector<Effect
 Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, const Fit& found) {
   DiagnosisProblem problem = full;
   problem.base = std::move(corrected);
+  problem.origin = nullptr;  // that of the case
   problem.damping = damping;
   Hypothesis faults;
   std::vector<double> x;
