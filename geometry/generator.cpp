@@ -1,5 +1,6 @@
 #include "geometry/generator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/generate.h"
@@ -123,6 +124,12 @@ const Generator& find_generator(const std::string& name, const char* where) {
   const std::string near = nearest_word(name, names);
   throw InputError("{} \"{}\": there is none of that name{}; the generators are: {}", where, name,
                    near.empty() ? near : fmt::format(", did you mean \"{}\"?", near), joined(names));
+}
+
+bool is_dimension(const Parameter& p) {
+  static const std::vector<std::string> cuts = {"voussoir_", "block_", "fill_length", "fill_width", "fill_height",
+                                                "infill_",   "leaf_",  "sliver_",     "base_",      "restraint_"};
+  return p.unit == "m" && std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return p.name.starts_with(c); });
 }
 
 GeneratorInput default_input(const Generator& generator) {

@@ -53,6 +53,9 @@ struct Generator {
 const std::vector<Generator>& generators();
 /// Throws InputError listing the known names when there is none of that name; `where` is where it was given.
 const Generator& find_generator(const std::string& name, const char* where = "[bridge] generator =");
+/// Keys that are dimensions of the bridge, which a survey can have wrong; not those that only say how it is cut into
+/// blocks.
+bool is_dimension(const Parameter& parameter);
 /// The defaults of a generator as an input to build().
 GeneratorInput default_input(const Generator& generator);
 

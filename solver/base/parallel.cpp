@@ -310,4 +310,18 @@ void run_team(int threads, const std::function<void(int, int)>& work) {
     if (failure) std::rethrow_exception(failure);
 }
 
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> errors(n);
+  run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int) {
+    for (std::size_t i = next++; i < n; i = next++) try {
+        work(i);
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
 }  // namespace voussoir

@@ -87,4 +87,7 @@ void for_each(std::size_t n, int threads, std::size_t least, const Work& work) {
   });
 }
 
+/// Calls work(i) for all i < n in `threads` threads. The first exception (by i) is thrown at the end.
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work);
+
 }  // namespace voussoir

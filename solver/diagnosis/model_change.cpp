@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "solver/base/error.h"
 
@@ -20,24 +19,7 @@ Eigen::Index first_of(const Unknowns& unknowns, std::int64_t block) {
   return unknowns.of[std::size_t(block)][0];
 }
 
-auto key(const Joint& j) {
-  return std::tuple(j.a, j.b, j.cell_a, j.cell_b, j.face_a, j.face_b);
-}
-
 constexpr double irregular = std::numeric_limits<double>::quiet_NaN();
-
-/// Calls use(joint of low, joint of high) in the order of the faces that they join; one of them may be null.
-template <class Use>
-void match_joints(const Assembly& low, const Assembly& high, const Use& use) {
-  auto l = low.joints.begin(), h = high.joints.begin();
-  while (l != low.joints.end() || h != high.joints.end()) {
-    const bool only_low = h == high.joints.end() || (l != low.joints.end() && key(*l) < key(*h));
-    const bool only_high = !only_low && (l == low.joints.end() || key(*h) < key(*l));
-    use(only_high ? nullptr : &*l, only_low ? nullptr : &*h);
-    if (!only_high) ++l;
-    if (!only_low) ++h;
-  }
-}
 
 void check_blocks(const Assembly& low, const Assembly& high) {
   if (low.blocks.size() > high.blocks.size())
@@ -53,7 +35,7 @@ class Differences {
   bool freed(std::int64_t block) const { return is_freed(low_, high_, std::size_t(block)); }
   /// By which the stiffness of a joint has grown; `irregular` where it is not the same for all motions.
   double factor(const Joint* l, const Joint* h) const {
-    if (!l || !h || freed(h->a) || freed(h->b) || l->polygon != h->polygon) return irregular;
+    if (!l || !h || freed(h->a) || freed(h->b) || !same_place(*l, *h)) return irregular;
     if (l->kn == h->kn && l->ks == h->ks) return 1.0;
     const double normal = h->kn / l->kn, shear = h->ks / l->ks;
     return std::abs(normal - shear) < 1e-12 * normal ? normal : irregular;
@@ -75,7 +57,7 @@ class Differences {
   Derivative::Pair pair(const Joint* l, const Joint* h, double share = 1.0) const {
     if (!h) return {l->a, l->b, -share * of_low(*l)};
     if (!l) return {h->a, h->b, pair_stiffness(high_, *h)};
-    if (l->polygon == h->polygon && !freed(h->a) && !freed(h->b)) {  // the stiffness is linear in both
+    if (same_place(*l, *h) && !freed(h->a) && !freed(h->b)) {  // the stiffness is linear in both
       Joint difference = *h;
       difference.kn -= share * l->kn, difference.ks -= share * l->ks;
       return {h->a, h->b, pair_stiffness(high_, difference)};
@@ -89,6 +71,14 @@ class Differences {
   }
 
  private:
+  /// Where it is, and how far from the centroids of its blocks.
+  bool same_place(const Joint& l, const Joint& h) const {
+    const auto stays = [&](std::int64_t block) {
+      return low_.blocks[std::size_t(block)].centroid == high_.blocks[std::size_t(block)].centroid;
+    };
+    return l.polygon == h.polygon && stays(h.a) && stays(h.b);
+  }
+
   const Assembly &low_, &high_;
 };
 

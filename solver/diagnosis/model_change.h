@@ -1,5 +1,7 @@
 // How stiffness and mass differ between two assemblies, joint by joint and block by block.
 #pragma once
+#include <tuple>
+
 #include "solver/diagnosis/linear_model.h"
 
 namespace voussoir {
@@ -17,6 +19,20 @@ struct Derivative {
   std::vector<Pair> pairs;
   std::vector<Own> blocks;
 };
+/// Calls use(joint of low, joint of high) in the order of the faces that they join; one of them may be null.
+template <class Use>
+void match_joints(const Assembly& low, const Assembly& high, const Use& use) {
+  const auto key = [](const Joint& j) { return std::tuple(j.a, j.b, j.cell_a, j.cell_b, j.face_a, j.face_b); };
+  auto l = low.joints.begin(), h = high.joints.begin();
+  while (l != low.joints.end() || h != high.joints.end()) {
+    const bool only_low = h == high.joints.end() || (l != low.joints.end() && key(*l) < key(*h));
+    const bool only_high = !only_low && (l == low.joints.end() || key(*h) < key(*l));
+    use(only_high ? nullptr : &*l, only_low ? nullptr : &*h);
+    if (!only_high) ++l;
+    if (!only_low) ++h;
+  }
+}
+
 /// (K, M of `high` − K, M of `low`)/apart. Both have the same blocks, but for their mass; `high` may have further ones,
 /// and fixed ones of `low` may be free in it: see with_freed(). Joints are matched by the faces that they join.
 Derivative derivative(const Assembly& low, const Assembly& high, double apart);

@@ -1,8 +1,6 @@
 #include "solver/diagnosis/screening.h"
 
-#include <atomic>
 #include <cmath>
-#include <exception>
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
@@ -39,8 +37,7 @@ Linearised linearise(const DiagnosisProblem& problem, const Hypothesis& hypothes
   Linearised l;
   l.problem = &problem;
   l.rows = residual_rows(problem);
-  for (std::size_t i = 0; i < l.rows.size(); ++i)
-    if (!problem.features.modes[std::size_t(l.rows[i].mode)].held_back) l.fitted.push_back(int(i));
+  l.fitted = split_rows(problem, l.rows).fitted;
   ModelFamily family(origin, problem.base, hypothesis, question_of(problem, origin.response()), x,
                      ModelFamily::Use::often);
   family.append(shared);
@@ -89,20 +86,6 @@ Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {
 }
 
 }  // namespace
-
-void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> errors(n);
-  run_team(std::min(threads, int(std::max<std::size_t>(n, 1))), [&](int, int) {
-    for (std::size_t i = next++; i < n; i = next++) try {
-        work(i);
-      } catch (...) {
-        errors[i] = std::current_exception();
-      }
-  });
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
-}
 
 std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
                                   const Eigen::VectorXd& x, const std::vector<Candidate>& candidates, int threads,

@@ -22,7 +22,4 @@ std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothe
 /// |cosine| between two signatures: 1 where these sensors cannot tell them apart.
 double collinearity(const Signature& a, const Signature& b);
 
-/// Calls work(i) for all i < n in `threads` threads. The first exception (by i) is thrown at the end.
-void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& work);
-
 }  // namespace voussoir

@@ -11,13 +11,6 @@ namespace voussoir {
 
 namespace {
 
-/// Dimensions that a survey can have wrong; not those that only say how it is cut into blocks.
-bool is_dimension(const Parameter& p) {
-  static const std::vector<std::string> cuts = {"voussoir_", "block_", "fill_length", "fill_width", "fill_height",
-                                                "infill_",   "leaf_",  "sliver_",     "base_",      "restraint_"};
-  return p.unit == "m" && std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return p.name.starts_with(c); });
-}
-
 /// The case with other dimensions and other blocks. Dimensions that cannot be together are drawn again.
 Assembly surveyed_wrongly(const Case& model, const HideRequest& request, Noise& noise) {
   for (int tries = 0;; ++tries) {
