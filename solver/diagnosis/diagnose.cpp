@@ -8,6 +8,8 @@
 #include <map>
 
 #include "solver/base/error.h"
+#include "solver/base/parallel.h"
+#include "solver/linear/dense_solve.h"
 
 namespace voussoir {
 
@@ -30,30 +32,32 @@ constexpr double std_doubt = 1.1;
 /// each shape is free, and its phase where that is known.
 double tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_doubt) {
   const std::vector<ResidualRow> rows = residual_rows(problem);
+  const Eigen::MatrixXd covariance = problem.covariance.at(fit.scale);
   using Kind = ResidualRow::Kind;
-  // Sum of squares and degrees of freedom; phases by sensor: many right clocks do not excuse one that is late.
-  std::map<std::pair<Kind, int>, std::pair<double, int>> kinds;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (problem.features.modes[std::size_t(rows[i].mode)].held_back) continue;
-    const double r = fit.best.residuals[Eigen::Index(i)];
-    auto& [sum, freedom] = kinds[{rows[i].kind, rows[i].kind == Kind::quadrature ? rows[i].sensor : 0}];
-    sum += r * r;
-    ++freedom;
+  // Phases by sensor: many right clocks do not excuse one that is late.
+  std::map<std::pair<Kind, int>, std::vector<int>> kinds;
+  const std::vector<int> fitted = split_rows(problem, rows).fitted;
+  for (const int i : fitted) {
+    const ResidualRow& row = rows[std::size_t(i)];
+    kinds[{row.kind, row.kind == Kind::quadrature ? row.sensor : 0}].push_back(i);
   }
-  int all = 0;
-  for (std::size_t m = 0; m < problem.whitening.size(); ++m) {
+  int shapes = 0, phases = 0;  // whose scales are free
+  for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
     const MeasuredFeature& mode = problem.features.modes[m];
-    if (mode.held_back || problem.whitening[m].size() == 0) continue;
-    --kinds[{Kind::shape, 0}].second;
-    if (mode.quadrature.size() > 0) --all;
+    if (mode.held_back || problem.shape_metric[m].size() == 0) continue;
+    ++shapes;
+    phases += mode.quadrature.size() > 0;
   }
+  const auto misfit_of = [&](const std::vector<int>& of) {
+    const Eigen::VectorXd d = fit.best.differences(of);
+    return d.dot(solve_symmetric(Eigen::MatrixXd(covariance(of, of)), d));
+  };
   const auto tail_of = [&](double misfit, int freedom) { return chi_square_tail(misfit / (wider * wider), freedom); };
   double worst = 1.0;
-  for (const auto& [kind, of] : kinds) {
-    all += of.second;
-    worst = std::min(worst, double(kinds.size()) * tail_of(of.first, of.second));
-  }
-  return std::min(worst, tail_of(fit.misfit, all));
+  for (const auto& [kind, of] : kinds)
+    worst = std::min(worst, double(kinds.size()) *
+                                tail_of(misfit_of(of), int(of.size()) - (kind.first == Kind::shape ? shapes : 0)));
+  return std::min(worst, tail_of(misfit_of(fitted) + fit.best.x.squaredNorm(), int(fitted.size()) - shapes - phases));
 }
 
 /// Materials that the fit has pulled farther than their priors like.
@@ -70,13 +74,23 @@ std::vector<std::string> alarms_of(const Fit& fit) {
   return alarms;
 }
 
-bool is_noise(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
-  return tail(problem, fit) > settings.consistent;
+/// The model of a hypothesis at x; that of the base is there already.
+std::shared_ptr<const Origin> origin_at(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
+                                        const Eigen::VectorXd& x) {
+  if (problem.origin && hypothesis.effects.empty() && x.isZero(0.0)) return problem.origin;
+  return std::make_shared<Origin>(hypothesis.assembly(problem.base, x), problem.features.sensors, problem.modes,
+                                  problem.features.driven());
 }
 
-/// Without the doubt about standard deviations: nothing is looked for.
-bool plainly_right(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
-  return tail(problem, fit, 1.0) > settings.consistent && alarms_of(fit).empty();
+/// x of a fit with its materials as the case has them.
+Eigen::VectorXd at_usual_materials(const Fit& fit) {
+  Eigen::VectorXd x = fit.best.x;
+  x.head(Eigen::Index(fit.hypothesis.materials.size())).setZero();
+  return x;
+}
+
+bool is_noise(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
+  return tail(problem, fit) > settings.consistent;
 }
 
 /// Of each candidate its best start, best first; at most `count`.
@@ -144,18 +158,36 @@ Eigen::VectorXd without(const Fit& fit, std::size_t effect) {
   return x;
 }
 
-bool accepts(const DiagnosisProblem& problem, const Round& round, const Fit& current,
-             const DiagnosisSettings& settings) {
+double gain_of(const Trial& trial, const Fit& current) {
+  return trial.fit.log_evidence + std::log(trial.candidate.prior) - current.log_evidence;
+}
+
+bool accepts(const Round& round, const Fit& current, const DiagnosisSettings& settings) {
   if (round.trials.empty()) return false;
   const Fit& best = round.trials[0].fit;
-  const bool noise = is_noise(problem, settings, current);
-  const double margin = noise ? settings.doubt : settings.margin;
-  // What is looked for only because a material pays for something must make it stop paying.
-  const std::size_t alarms = alarms_of(current).size();
-  if (noise && alarms > 0 && alarms_of(best).size() >= alarms) return false;
-  const double gain = best.log_evidence + std::log(round.trials[0].candidate.prior) - current.log_evidence;
   const bool predicts = !settings.predict || best.predicted_gap < current.predicted_gap;
-  return gain > margin && predicts && best.gap < current.gap;
+  return gain_of(round.trials[0], current) > settings.margin && predicts && best.gap < current.gap;
+}
+
+/// Whether the others, and the model, do not believe these channels as they are and do once the fault is put right;
+/// none of the others being as far off.
+bool is_certain(const DiagnosisProblem& problem, const Round& round, const Fit& current,
+                const DiagnosisSettings& settings) {
+  if (round.trials.empty() || gain_of(round.trials[0], current) < settings.certain) return false;
+  const std::vector<LeftOutSensor> before = leave_out_sensors(problem, current),
+                                   after = leave_out_sensors(problem, round.trials[0].fit);
+  std::vector<double> others;  // mean squares
+  const std::vector<std::size_t>& own = round.trials[0].candidate.sensors;
+  for (std::size_t s = 0; s < before.size(); ++s)
+    if (before[s].rows > 0 && std::find(own.begin(), own.end(), s) == own.end())
+      others.push_back(before[s].misfit / before[s].rows);
+  std::nth_element(others.begin(), others.begin() + std::ptrdiff_t(others.size() / 2), others.end());
+  const double usual = others.empty() ? 1.0 : others[others.size() / 2];
+  return std::all_of(own.begin(), own.end(), [&](std::size_t s) {
+    const double mean = before[s].misfit / std::max(before[s].rows, 1);
+    return before[s].rows >= 2 && chi_square_tail(before[s].misfit, before[s].rows) < 1e-6 && mean > 3.0 * usual &&
+           after[s].misfit < 0.3 * before[s].misfit;
+  });
 }
 
 /// The same thing, or one that cannot be beside it: a base on springs is no base that could be driven.
@@ -168,26 +200,15 @@ bool excludes(const Candidate& there, const Candidate& c) {
   return on_springs(there, c) || on_springs(c, there);
 }
 
-/// The model of a hypothesis at x; that of the base is there already.
-std::shared_ptr<const Origin> origin_at(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
-                                        const Eigen::VectorXd& x) {
-  if (problem.origin && hypothesis.effects.empty() && x.isZero(0.0)) return problem.origin;
-  return std::make_shared<Origin>(hypothesis.assembly(problem.base, x), problem.features.sensors, problem.modes,
-                                  problem.features.driven());
-}
-
 Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
-                const std::vector<Candidate>& all_candidates, const Say& say) {
+                const std::vector<Candidate>& all_candidates, const Origin& origin, const Say& say) {
   Round round;
   std::vector<Candidate> candidates;  // those that are not there already
   for (const Candidate& c : all_candidates)
     if (std::none_of(current.hypothesis.effects.begin(), current.hypothesis.effects.end(),
                      [&](const Candidate& there) { return excludes(there, c); }))
       candidates.push_back(c);
-  Eigen::VectorXd x = current.best.x;
-  x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
-  const std::shared_ptr<const Origin> own = origin_at(problem, current.hypothesis, x);
-  const Origin& origin = *own;
+  const Eigen::VectorXd x = at_usual_materials(current);
   const Vectors shared =
       material_vectors(origin, problem.base, current.hypothesis, x, question_of(problem, origin.response()).wanted);
   const std::vector<Signature> all =
@@ -221,10 +242,12 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   for (Trial& trial : round.trials)
     if (trial.probability > 0.1 * round.trials[0].probability) make_whole(problem, trial.fit);
   if (!round.trials.empty()) mark_ties(round, all, candidates);
-  round.accepted = accepts(problem, round, current, settings);
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i)
-    say(fmt::format("  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}", round.trials[i].candidate.text(),
-                    round.trials[i].probability, round.trials[i].fit.gap, round.trials[i].fit.predicted_gap));
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i) {
+    const Trial& t = round.trials[i];
+    say(fmt::format("  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}, evidence {:+.1f}, scale {:.2f}",
+                    t.candidate.text(), t.probability, t.fit.gap, t.fit.predicted_gap, gain_of(t, current),
+                    t.fit.scale));
+  }
   return round;
 }
 
@@ -261,27 +284,67 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
   }
 }
 
-/// Adds candidates one by one while each one pays; returns the last fit.
-Fit add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit current, int most,
-                 const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
-  for (int added = 0; added < most && !plainly_right(problem, settings, current); ++added) {
-    rounds.push_back(run_round(problem, settings, current, candidates, say));
-    if (!rounds.back().accepted) break;
-    // Its modes have other neighbours, and the mesh does something else to them.
-    current = rounds.back().trials[0].fit;
-    set_mesh_error(problem, current.best.response, current.hypothesis, current.best.x);
-    set_shape_errors(problem, current.best.response);
-    if (std::optional<Fit> again = fit_if_possible(problem, current.hypothesis, current.best.x, 2))
-      current = std::move(*again);
-    drop_superseded(problem, settings, current, rounds, say);
-    say(fmt::format(
-        "with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; a misfit as large has "
-        "probability {:.2g}",
-        rounds.back().trials[0].candidate.text(), current.gap, 100.0 * problem.error.frequency,
-        100.0 * problem.error.shape, tail(problem, current)));
-    for (const std::string& alarm : alarms_of(current)) say("  compensation: " + alarm);
+/// Of one model: candidates are tried about it.
+struct Standing {
+  Fit fit;
+  std::shared_ptr<const Origin> origin;
+};
+
+/// The fit of a round's best trial, its model, and what the mesh and all that is not exactly known do to that.
+Standing adopt(DiagnosisProblem& problem, const DiagnosisSettings& settings, const Trial& trial,
+               const Standing& before) {
+  Standing s = {trial.fit, before.origin};
+  const Eigen::VectorXd x = at_usual_materials(s.fit);
+  if (!trial.candidate.of_sensors()) {
+    s.origin = origin_at(problem, s.fit.hypothesis, x);
+    set_mesh_error(problem, s.origin->response(), s.fit.hypothesis, x);
   }
-  return current;
+  set_covariance(problem, *s.origin, s.fit.hypothesis, x, settings.threads);
+  if (std::optional<Fit> again = fit_if_possible(problem, s.fit.hypothesis, s.fit.best.x, 2)) s.fit = std::move(*again);
+  return s;
+}
+
+void say_of(const DiagnosisProblem& problem, const Trial& added, const Fit& current, const Say& say) {
+  say(
+      fmt::format("with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; a misfit as large has "
+                  "probability {:.2g}",
+                  added.candidate.text(), current.gap, 100.0 * problem.error.frequency, 100.0 * problem.error.shape,
+                  tail(problem, current)));
+  for (const std::string& alarm : alarms_of(current)) say("  compensation: " + alarm);
+}
+
+/// Faults of channels that are certain, before anything else is judged.
+void set_channels_right(DiagnosisProblem& problem, const DiagnosisSettings& settings, Standing& standing,
+                        const std::vector<Candidate>& all, std::vector<Round>& rounds, const Say& say) {
+  std::vector<Candidate> faults = all;
+  std::erase_if(faults, [](const Candidate& c) { return !c.of_sensors(); });
+  DiagnosisSettings few = settings;
+  few.fits = std::min(settings.fits, 4);
+  while (!faults.empty()) {
+    Round round = run_round(problem, few, standing.fit, faults, *standing.origin, say);
+    round.accepted = is_certain(problem, round, standing.fit, settings);
+    if (!round.accepted) return;
+    standing = adopt(problem, settings, round.trials[0], standing);
+    say_of(problem, round.trials[0], standing.fit, say);
+    rounds.push_back(std::move(round));
+  }
+}
+
+/// Adds candidates one by one while each one pays.
+void add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, Standing& standing, int most,
+                  const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
+  for (int added = 0; added < most; ++added) {
+    rounds.push_back(run_round(problem, settings, standing.fit, candidates, *standing.origin, say));
+    Round& round = rounds.back();
+    round.accepted = accepts(round, standing.fit, settings);
+    if (!round.accepted) break;
+    standing = adopt(problem, settings, round.trials[0], standing);
+    const std::size_t effects = standing.fit.hypothesis.effects.size();
+    drop_superseded(problem, settings, standing.fit, rounds, say);
+    if (standing.fit.hypothesis.effects.size() < effects)
+      standing.origin = origin_at(problem, standing.fit.hypothesis, at_usual_materials(standing.fit));
+    say_of(problem, rounds.back().trials[0], standing.fit, say);
+  }
 }
 
 void check(const DiagnosisProblem& problem) {
@@ -307,6 +370,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   if (!problem.origin) problem.origin = origin_at(problem, none, usual);
   const std::shared_ptr<const Origin> base_model = problem.origin;
   const Origin& origin = *base_model;
+  if (problem.covariance.unstructured.size() == 0) set_covariance(problem, origin, none, usual, settings.threads);
   const Vectors shared =
       material_vectors(origin, problem.base, none, usual, question_of(problem, origin.response()).wanted);
   d.plain = fit(problem, none, usual, 0, origin, shared);
@@ -325,20 +389,28 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     choice.clocks |= mode.quadrature.size() > 0;
   }
   const std::vector<Candidate> all = candidates(problem.base, problem.features.sensors, choice);
-  d.best = add_greedily(problem, settings, d.calibrated, settings.effects, all, d.rounds, say);
+  Standing standing = {d.calibrated, base_model};
+  set_channels_right(problem, settings, standing, all, d.rounds, say);
+  const Standing sound = standing;
+  const DiagnosisProblem with_sound_channels = problem;
+  const std::size_t faults = d.rounds.size();
+  add_greedily(problem, settings, standing, settings.effects, all, d.rounds, say);
+  d.best = standing.fit;
   const bool added = !d.best.hypothesis.effects.empty();
   const bool right = is_noise(problem, settings, d.best) && alarms_of(d.best).empty();
   if (right || (added && tail(problem, d.best) > settings.credible))
     d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
   if (d.verdict == Diagnosis::Verdict::unexplained) {
-    d.best = d.calibrated;  // what only helps is not named
+    d.best = sound.fit;  // what only helps is not named
+    for (std::size_t i = faults; i < d.rounds.size(); ++i) d.rounds[i].accepted = false;
     say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
-    problem = asked;
-    problem.origin = base_model;
+    problem = with_sound_channels;
     // They say where something is missing, not what: no prediction is asked of them.
     DiagnosisSettings lenient = settings;
     lenient.predict = false;
-    d.nameless_best = add_greedily(problem, lenient, d.calibrated, 3, nameless_factors(problem.base), d.nameless, say);
+    Standing nameless = sound;
+    add_greedily(problem, lenient, nameless, 3, nameless_factors(problem.base), d.nameless, say);
+    d.nameless_best = nameless.fit;
   }
   for (const Round& round : d.rounds)
     for (std::size_t i = 1; i < round.trials.size() && d.verdict == Diagnosis::Verdict::found; ++i)

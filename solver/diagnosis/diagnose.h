@@ -11,8 +11,8 @@ struct DiagnosisSettings {
   int effects = 3;           // most that are added
   int fits = 12;             // candidates fitted fully in a round
   int iterations = 8;        // of each fit
-  double margin = 2.3;       // an effect must beat "none" by so much in log probability
-  double doubt = 8.0;        // and by so much where the residuals may be noise already
+  double margin = 3.0;       // an effect must beat "none" by so much in log probability
+  double certain = 12.0;     // a fault of a channel, to be put right before anything else is judged
   double consistent = 0.02;  // probability of a larger misfit, above which a model is consistent
   double credible = 1e-3;    // below which it is not, whatever was added
   bool predict = true;       // what is added must also predict each mode better from the others

@@ -11,25 +11,6 @@ namespace voussoir {
 
 namespace {
 
-ModalData along(const ModalData& modes, const ModalData& d, double step) {
-  ModalData moved = modes;
-  moved.log_frequency += step * d.log_frequency;
-  moved.sensors += step * d.sensors;
-  if (d.participation.size() > 0) moved.participation += step * d.participation;
-  for (std::size_t k = 0; k < d.at_support.size(); ++k) moved.at_support[k] += step * d.at_support[k];
-  return moved;
-}
-
-struct Split {
-  std::vector<int> fitted, held;  // rows
-};
-Split split_rows(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows) {
-  Split split;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    (problem.features.modes[std::size_t(rows[i].mode)].held_back ? split.held : split.fitted).push_back(int(i));
-  return split;
-}
-
 /// What lies beyond its bounds is put on them: nothing changes there.
 Eigen::VectorXd within_bounds(const Hypothesis& hypothesis, Eigen::VectorXd x) {
   const std::vector<FitParameter> parameters = hypothesis.parameters();
@@ -43,7 +24,7 @@ Eigen::VectorXd within_bounds(const Hypothesis& hypothesis, Eigen::VectorXd x) {
 class Cost : public ceres::CostFunction {
  public:
   Cost(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const std::vector<ResidualRow>& rows,
-       const Split& split, const ModelFamily& family)
+       const RowSplit& split, const ModelFamily& family)
       : problem_(&problem), hypothesis_(&hypothesis), rows_(&rows), split_(&split), family_(&family) {
     mutable_parameter_block_sizes()->push_back(int(hypothesis.size()));
     set_num_residuals(int(split.fitted.size() + hypothesis.size()));
@@ -72,7 +53,7 @@ class Cost : public ceres::CostFunction {
   const DiagnosisProblem* problem_;
   const Hypothesis* hypothesis_;
   const std::vector<ResidualRow>* rows_;
-  const Split* split_;
+  const RowSplit* split_;
   const ModelFamily* family_;
   mutable ModelFamily::Member member_;
   mutable Evaluation last_;
@@ -109,37 +90,86 @@ Eigen::MatrixXd curvature_of(const Eigen::MatrixXd& j) {
   return Eigen::MatrixXd::Identity(j.cols(), j.cols()) + j.transpose() * j;
 }
 
-/// Leaving each mode out in turn of a linear fit with priors.
-struct LeftOut {
-  double gap = 0.0;  // root mean square of what the others leave of its rows
-  /// Of x: jackknife over the modes (Efron and Stein 1981), whose rows share errors of the model that the covariance of
-  /// the fit takes as independent.
-  Eigen::VectorXd std;
+/// A fit to first order: fitted rows are those at x = 0 and J x, under a covariance that is C + J Jᵀ before the data.
+struct LinearFit {
+  Eigen::VectorXd rows;  // at x = 0, each in its own unit
+  Eigen::MatrixXd jacobian;
 };
-/// What is left of its rows is (1 − H)⁻¹ r of them, H their part of the hat matrix, with the covariance (1 − H)⁻¹ (Cook
-/// and Weisberg 1982, §2.2); x moves by −(1 + JᵀJ)⁻¹ Jᵀ of that.
-LeftOut leave_out(const std::vector<ResidualRow>& rows, const Split& split, const Eigen::VectorXd& r,
-                  const Eigen::MatrixXd& j) {
-  LeftOut result = {mean_square_root(r), Eigen::VectorXd::Zero(j.cols())};
-  if (j.cols() == 0) return result;
-  const Eigen::MatrixXd turned = j.transpose(), inverse = solve_symmetric(curvature_of(j), turned);
-  double sum = 0.0;
-  Eigen::Index count = 0;
-  int modes = 0;
-  for (std::size_t begin = 0, end = 0; begin < split.fitted.size(); begin = end) {
-    const int mode = rows[std::size_t(split.fitted[begin])].mode;
-    while (end < split.fitted.size() && rows[std::size_t(split.fitted[end])].mode == mode) ++end;
-    const auto at = Eigen::Index(begin), n = Eigen::Index(end - begin);
-    const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - j.middleRows(at, n) * inverse.middleCols(at, n);
-    const Eigen::VectorXd own = r.segment(at, n), predicted = solve_symmetric(left, own);
-    sum += own.dot(predicted);
-    result.std += (inverse.middleCols(at, n) * predicted).cwiseAbs2();
-    count += n;
-    ++modes;
+
+/// Evidence, and what the data leave of x, under one scale of the structured errors.
+struct UnderScale {
+  double scale = 1.0, log_evidence = 0.0;
+  Eigen::MatrixXd covariance;  // of x: 1 − Jᵀ (C + J Jᵀ)⁻¹ J
+};
+UnderScale under_scale(const RowCovariance& c, const std::vector<int>& fitted, const LinearFit& l, double scale) {
+  const Eigen::MatrixXd all = c.at(scale)(fitted, fitted) + l.jacobian * l.jacobian.transpose();
+  const Eigen::MatrixXd white = whitening_of(all), j = white * l.jacobian;
+  UnderScale u;
+  u.scale = scale;
+  u.log_evidence = -0.5 * (white * l.rows).squaredNorm() + white.diagonal().array().log().sum();
+  u.covariance = Eigen::MatrixXd::Identity(j.cols(), j.cols()) - j.transpose() * j;
+  return u;
+}
+
+/// Over all scales: a logarithmic prior of deviation 0.35 about 1, from a half to two.
+void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitted, const LinearFit& l, Fit& fit) {
+  constexpr double spread = 0.35;
+  std::vector<UnderScale> all;
+  std::vector<double> prior, weights;
+  double priors = 0.0, most = -1e300, sum = 0.0;
+  for (int i = -3; i <= 3; ++i) {
+    const double log_scale = i * std::log(2.0) / 3.0;
+    all.push_back(under_scale(problem.covariance, fitted, l, std::exp(log_scale)));
+    prior.push_back(std::exp(-0.5 * std::pow(log_scale / spread, 2)));
+    priors += prior.back();
+    most = std::max(most, all.back().log_evidence);
   }
-  result.gap = count > 0 ? std::sqrt(sum / double(count)) : 0.0;
-  result.std = (result.std * (modes > 0 ? double(modes - 1) / modes : 0.0)).cwiseSqrt();
-  return result;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    weights.push_back(prior[i] / priors * std::exp(all[i].log_evidence - most));
+    sum += weights.back();
+  }
+  // The fit was made under the scale 1; the others count from there.
+  fit.log_evidence += most + std::log(sum) - all[3].log_evidence;
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(l.jacobian.cols());
+  fit.scale = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    fit.scale += weights[i] / sum * all[i].scale;
+    variance += weights[i] / sum * all[i].covariance.diagonal();
+  }
+  fit.std = variance.cwiseSqrt();
+}
+
+LinearFit linear_fit(const DiagnosisProblem& problem, const Fit& fit, const std::vector<int>& fitted) {
+  LinearFit l;
+  l.jacobian = (problem.colouring * fit.jacobian)(fitted, Eigen::all);
+  l.rows = fit.best.differences(fitted) - l.jacobian * fit.best.x;
+  return l;
+}
+
+/// What all other rows leave of groups of rows (indices into the fitted ones), each as a sum of squares in standard
+/// deviations of that prediction: with P = (C + J Jᵀ)⁻¹, it is P_ii⁻¹ (P r)_i, of the covariance P_ii⁻¹ (Rasmussen and
+/// Williams 2006, §5.4.2, of groups).
+std::vector<double> leave_out(const Eigen::MatrixXd& covariance, const LinearFit& l,
+                              const std::vector<std::vector<int>>& groups) {
+  const Eigen::MatrixXd p = inverse_of(covariance + l.jacobian * l.jacobian.transpose());
+  const Eigen::VectorXd r = p * l.rows;
+  std::vector<double> sums;
+  for (const std::vector<int>& group : groups) {
+    const Eigen::VectorXd own = r(group);
+    sums.push_back(group.empty() ? 0.0 : own.dot(solve_symmetric(Eigen::MatrixXd(p(group, group)), own)));
+  }
+  return sums;
+}
+
+/// Root mean square of what the other modes leave of each one's rows.
+double predicted_gap(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                     const std::vector<int>& fitted, const LinearFit& l) {
+  std::vector<std::vector<int>> groups(problem.features.modes.size());
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    groups[std::size_t(rows[std::size_t(fitted[i])].mode)].push_back(int(i));
+  double sum = 0.0;
+  for (const double own : leave_out(problem.covariance.at(1.0)(fitted, fitted), l, groups)) sum += own;
+  return fitted.empty() ? 0.0 : std::sqrt(sum / double(fitted.size()));
 }
 
 }  // namespace
@@ -154,7 +184,8 @@ Evaluation seen(const DiagnosisProblem& problem, const std::vector<ResidualRow>&
   const Observed observed = hypothesis.observe(e.response, problem.damping, x);
   e.readings = observed.readings;
   e.pairing = pair_features(problem.features, e.response, e.readings);
-  e.residuals = residuals(problem, rows, e.pairing, observed);
+  e.differences = differences(problem, rows, e.pairing, observed);
+  e.residuals = problem.whitening * e.differences;
   return e;
 }
 
@@ -198,18 +229,24 @@ Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<Resi
   return j;
 }
 
-Question question_of(const DiagnosisProblem& problem, const Response& response) {
-  Question q = {problem.features.sensors, problem.modes, int(problem.features.modes.size()), problem.features.driven()};
-  for (const int c : pair_features(problem.features, response, response.sensors).computed)
-    q.wanted = std::max(q.wanted, c + 1);
-  q.wanted = std::min(q.wanted + 2, q.modes);
-  return q;
-}
-
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x) {
   if (j.cols() == 0) return -0.5 * r.squaredNorm();
   const Eigen::VectorXd pivots = pivots_of(curvature_of(j));
   return -0.5 * (r.squaredNorm() + x.squaredNorm()) - 0.5 * pivots.array().log().sum();
+}
+
+std::vector<LeftOutSensor> leave_out_sensors(const DiagnosisProblem& problem, const Fit& fit) {
+  const std::vector<ResidualRow> rows = residual_rows(problem);
+  const std::vector<int> fitted = split_rows(problem, rows).fitted;
+  std::vector<std::vector<int>> groups(problem.features.sensors.size());
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    if (const ResidualRow& row = rows[std::size_t(fitted[i])]; row.kind == ResidualRow::Kind::shape)
+      groups[std::size_t(row.sensor)].push_back(int(i));
+  const std::vector<double> sums =
+      leave_out(problem.covariance.at(fit.scale)(fitted, fitted), linear_fit(problem, fit, fitted), groups);
+  std::vector<LeftOutSensor> all;
+  for (std::size_t s = 0; s < sums.size(); ++s) all.push_back({sums[s], int(groups[s].size())});
+  return all;
 }
 
 double chi_square_tail(double sum, int n) {
@@ -227,7 +264,7 @@ Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesi
            int iterations) {
   constexpr int tries = 3;
   const std::vector<ResidualRow> rows = residual_rows(problem);
-  const Split split = split_rows(problem, rows);
+  const RowSplit split = split_rows(problem, rows);
   Fit result;
   result.hypothesis = hypothesis;
   Eigen::VectorXd best = x;
@@ -247,13 +284,13 @@ Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesi
   result.jacobian = jacobian(problem, rows, hypothesis, family, member, result.best);
   const Eigen::VectorXd r = result.best.residuals(split.fitted);
   const Eigen::MatrixXd j = result.jacobian(split.fitted, Eigen::all);
-  const LeftOut left_out = leave_out(rows, split, r, j);
-  if (best.size() > 0) result.std = inverse_of(curvature_of(j)).diagonal().cwiseSqrt().cwiseMax(left_out.std);
   result.misfit = r.squaredNorm() + best.squaredNorm();
   result.log_evidence = log_evidence(r, j, best);
   result.gap = mean_square_root(r);
   result.held_gap = mean_square_root(result.best.residuals(split.held));
-  result.predicted_gap = left_out.gap;
+  const LinearFit l = linear_fit(problem, result, split.fitted);
+  weigh_scales(problem, split.fitted, l, result);
+  result.predicted_gap = predicted_gap(problem, rows, split.fitted, l);
   const std::vector<FitParameter> parameters = hypothesis.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& p = parameters[i];

@@ -1,68 +1,9 @@
 // Fitting a hypothesis to measured features: residuals in standard deviations, priors, Laplace's evidence.
 #pragma once
-#include <memory>
-
-#include "solver/diagnosis/features.h"
-#include "solver/diagnosis/mesh_error.h"
 #include "solver/diagnosis/model_family.h"
+#include "solver/diagnosis/problem.h"
 
 namespace voussoir {
-
-/// What is to be explained, and from which model.
-struct DiagnosisProblem {
-  Assembly base;
-  Features features;
-  ModelError error;
-  /// What the model would be wrong by if its mesh were perfect; `error` has the mesh's beside it where a coarser one is
-  /// there to measure it by.
-  ModelError apart_from_mesh;
-  std::shared_ptr<const CoarserMesh> coarser;
-  MeshError mesh;
-  std::shared_ptr<const Origin> origin;  // of the base; null: it is solved where it is needed
-  double damping = 0.0;                  // ratio of the case; 0: it has none
-  int modes = 20;                        // to compute
-  /// By measured mode: what turns the differences of its shape, in the order of its rows, into independent ones of
-  /// standard deviation 1. Empty: no shape.
-  std::vector<Eigen::MatrixXd> whitening;
-  /// By measured mode: what close neighbours may add to the imaginary parts of its shape, per sensor, and to its
-  /// participation, per axis, as shares of the largest component of the shape.
-  std::vector<Eigen::VectorXd> quadrature_mixing;
-  std::vector<Eigen::Vector3d> participation_mixing;
-};
-/// Measures what the mesh does with a hypothesis in place (of which this is the response) and sets `error` by it.
-/// Leaves both as they are without a coarser mesh, or where the hypothesis cannot act on it.
-void set_mesh_error(DiagnosisProblem& problem, const Response& response, const Hypothesis& hypothesis,
-                    const Eigen::VectorXd& x);
-/// Fills in `whitening`. Errors of the model mix a mode with its neighbours; what the measurement and the mesh do is
-/// independent from sensor to sensor (docs/theory/diagnosis.md).
-void set_shape_errors(DiagnosisProblem& problem);
-/// The same about a model that has other modes than the base.
-void set_shape_errors(DiagnosisProblem& problem, const Response& response);
-
-/// Which computed mode each measured one is; −1: none is like it.
-struct ModePairs {
-  std::vector<int> computed;
-  std::vector<double> assurance;  // MAC at the sensors; not finite without a shape
-};
-
-/// A row of the residuals.
-struct ResidualRow {
-  enum class Kind { frequency, shape, damping, quadrature, participation, lag };
-  Kind kind = Kind::frequency;
-  int mode = 0;      // of the features
-  int sensor = 0;    // shape and quadrature; the axis of participation (its real part) and lag (its imaginary part)
-  double std = 1.0;  // of the logarithm of a frequency or ratio; a share of the largest component of a shape
-};
-/// All rows of the features, held back ones too, and their standard deviations: of measurement and model together.
-std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem);
-
-/// Measured modes with shapes are paired by MAC and frequency, one to one, so that the sum of the costs is least; those
-/// with a direction only by their order within it, those without by their order.
-ModePairs pair_features(const Features& features, const Response& response, const Eigen::MatrixXd& readings);
-
-/// (measured − computed)/std by row. Shapes are scaled to fit best, participation with them.
-Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                          const ModePairs& pairing, const Observed& observed);
 
 /// What a hypothesis makes of the features at x.
 struct Evaluation {
@@ -72,7 +13,8 @@ struct Evaluation {
   Response response;
   Eigen::MatrixXd readings;  // of the sensors, sensor × mode
   ModePairs pairing;
-  Eigen::VectorXd residuals;  // (measured − computed)/std, by row
+  Eigen::VectorXd differences;  // measured − computed, by row, each in its own unit
+  Eigen::VectorXd residuals;    // the same in independent standard deviations
 };
 Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, const Hypothesis& hypothesis,
                     const Eigen::VectorXd& x, EigenMemory& memory);
@@ -83,16 +25,14 @@ Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualR
 Eigen::MatrixXd jacobian(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
                          const Hypothesis& hypothesis, const ModelFamily& family, const ModelFamily::Member& member,
                          const Evaluation& at);
-/// What its models are asked, of which this is a response.
-Question question_of(const DiagnosisProblem& problem, const Response& response);
-
 struct Fit {
   Hypothesis hypothesis;
   Evaluation best;
   Eigen::MatrixXd jacobian;   // there, row × parameter
-  Eigen::VectorXd std;        // of x: of the fit, or of leaving each mode out where that is more
+  Eigen::VectorXd std;        // of x, over what is believed of the scale
   double misfit = 0.0;        // sum of squares of the fitted rows and of x: χ² of as many degrees as fitted rows
-  double log_evidence = 0.0;  // up to a constant that is the same for all fits to the same rows
+  double log_evidence = 0.0;  // over all scales, up to a constant that is the same for all fits under one covariance
+  double scale = 1.0;         // of the structured part of the covariance, as the data have it: its mean
   int evaluations = 0;
   double basis_error = 0.0;    // estimated, of eigenvalues, where the fit ended
   std::vector<bool> at_bound;  // by parameter
@@ -115,6 +55,13 @@ Evaluation evaluate(const DiagnosisProblem& problem, const std::vector<ResidualR
                     const Eigen::VectorXd& x, const Origin& origin);
 /// Solves the whole model of its end.
 void make_whole(const DiagnosisProblem& problem, Fit& fit);
+/// Of each sensor: what all other rows leave of its shape rows, as a sum of squares in standard deviations of that
+/// prediction, and how many rows it has. Linearised about the fit.
+struct LeftOutSensor {
+  double misfit = 0.0;
+  int rows = 0;
+};
+std::vector<LeftOutSensor> leave_out_sensors(const DiagnosisProblem& problem, const Fit& fit);
 /// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
 /// Probability that a sum of squares of n standard normal numbers is larger.

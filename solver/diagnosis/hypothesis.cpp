@@ -58,6 +58,25 @@ void add_support_motions(const Assembly& assembly, std::vector<Candidate>& all) 
   }
 }
 
+/// Mounted along another axis, or between two.
+void add_turned(const Candidate& fault, const Sensor& sensor, std::vector<Candidate>& all) {
+  const bool upright = sensor.direction.head<2>().norm() < 0.1 * sensor.direction.norm();
+  std::vector<std::pair<double, double>> ways;  // turn, tilt
+  for (const double tilt : {-90.0, -45.0, 45.0, 90.0}) ways.emplace_back(0.0, tilt);
+  for (const double turn : {-90.0, -45.0, 45.0, 90.0})
+    if (!upright) ways.emplace_back(turn, 0.0);
+  for (const double tilt : {-90.0, -45.0, 45.0, 90.0})
+    if (upright) ways.emplace_back(90.0, tilt);
+  for (const auto& [turn, tilt] : ways) {
+    Candidate turned = fault;
+    turned.kind = Candidate::Kind::turn;
+    turned.gain = 1.0;
+    turned.turn = turn, turned.tilt = tilt;
+    turned.direction = mounted(sensor.direction, turn, tilt);
+    all.push_back(turned);
+  }
+}
+
 void add_sensor_faults(const std::vector<Sensor>& sensors, bool clocks, std::vector<Candidate>& all) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     Candidate reversed;
@@ -68,6 +87,10 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, bool clocks, std::vec
     reversed.sensors = {i};
     reversed.starts = {{}};
     all.push_back(reversed);
+    Candidate dead = reversed;
+    dead.gain = 0.0;
+    all.push_back(dead);
+    add_turned(reversed, sensors[i], all);
     Candidate gain = reversed;
     gain.gain = 1.0;
     gain.parameters = {{"gain", "-", 1.0, 0.7, true, 0.05, 20.0}};
@@ -176,6 +199,7 @@ EffectSetting Candidate::setting(const double* x) const {
   EffectSetting setting = {name, where, {}};
   for (std::size_t i = 0; i < parameters.size(); ++i) setting.values[parameters[i].name] = parameters[i].value(x[i]);
   if (kind == Kind::gain && parameters.empty()) setting.values["gain"] = gain;
+  if (kind == Kind::turn) setting.values["turn"] = turn, setting.values["tilt"] = tilt;
   if (kind != Kind::factor) complete(setting);
   return setting;
 }
@@ -317,6 +341,9 @@ Observed Hypothesis::observe(const ModalData& modes, double damping, const Eigen
     using Kind = Candidate::Kind;
     if (c.kind == Kind::damping) seen.damping = value(0);
     if (c.kind == Kind::gain) seen.readings.row(Eigen::Index(c.sensors[0])) *= c.parameters.empty() ? c.gain : value(0);
+    if (c.kind == Kind::turn && modes.motions.size() > 0)
+      seen.readings.row(Eigen::Index(c.sensors[0])) =
+          c.direction.transpose() * modes.motions.middleRows<3>(3 * Eigen::Index(c.sensors[0]));
     if (c.kind == Kind::swap)
       seen.readings.row(Eigen::Index(c.sensors[0])).swap(seen.readings.row(Eigen::Index(c.sensors[1])));
     if (c.kind == Kind::clock) seen.delays[Eigen::Index(c.sensors[0])] += value(0);

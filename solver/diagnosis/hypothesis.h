@@ -29,7 +29,7 @@ std::vector<Calibration> calibrations(const Assembly& assembly);
 
 /// An effect at a place, what is wrong with the readings of a sensor, or a factor on a part that has no name.
 struct Candidate {
-  enum class Kind { effect, damping, gain, swap, clock, motion, factor };
+  enum class Kind { effect, damping, gain, swap, turn, clock, motion, factor };
   Kind kind = Kind::effect;
   std::string name, where;
   double prior = 1.0;  // probability before any data, that one of all candidates acts being 1
@@ -37,10 +37,15 @@ struct Candidate {
   std::vector<std::vector<double>> starts;              // x to begin fits at
   std::vector<std::size_t> sensors;                     // gain, clock: one; swap: two
   std::size_t support = 0;                              // motion: of supports()
-  double gain = 1.0;                                    // gain without a parameter: −1, a polarity
+  double gain = 1.0;                                    // gain without a parameter: −1, a polarity; 0, dead
+  double turn = 0.0, tilt = 0.0;                        // turn: deg, as the effect sensor_fault has them
+  Vec3 direction = Vec3::Zero();                        // turn: of the sensor as it is mounted then
   std::function<void(Assembly&, double factor)> apply;  // factor
   std::string text() const;                             // "abutment_restraint at both"
   EffectSetting setting(const double* x) const;
+  bool of_sensors() const {  // what is wrong with a channel
+    return kind == Kind::gain || kind == Kind::swap || kind == Kind::turn || kind == Kind::clock;
+  }
 };
 
 struct CandidateChoice {

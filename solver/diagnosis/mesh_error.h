@@ -16,6 +16,8 @@ struct MeshError {
   double shift = 0.0;    // mean of the logarithms of frequencies: one of stiffness, which is fitted
   double scatter = 0.0;  // their standard deviation about it
   double shape = 0.0;    // root mean square difference of shapes, share of the largest component
+  /// Modes on the coarser mesh less those of the model, where both have them; frequencies less the shift.
+  ModalData difference;
 };
 
 /// Between the coarser mesh with a hypothesis in place at x and the model, whose response this is. Of the lowest modes,

@@ -76,6 +76,7 @@ ModelFamily::ModelFamily(const Origin& origin, const Assembly& base, const Hypot
 
 void ModelFamily::project_sensors() {
   seen_ = at_sensors(origin_->assembly(), reduced_.unknowns(), question_.sensors, reduced_.basis());
+  motions_ = motions_at(origin_->assembly(), reduced_.unknowns(), question_.sensors, reduced_.basis());
 }
 
 const Assembly& ModelFamily::assembly_at(const Eigen::VectorXd& x) const {
@@ -108,6 +109,7 @@ Response ModelFamily::response(const Member& member) const {
   r.eigenvalues = modes.eigenvalues.head(count);
   r.log_frequency = (r.eigenvalues.cwiseSqrt() / (2.0 * EIGEN_PI)).array().log();
   r.sensors = seen_ * modes.q.leftCols(count);
+  r.motions = motions_ * modes.q.leftCols(count);
   // A mode has the words of the origin's mode that it has most of.
   const Eigen::MatrixXd alike = reduced_.along_origin(modes, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -144,6 +146,7 @@ ModalData ModelFamily::derivative(const Member& member, Eigen::Index index) cons
   ModalData d;
   d.log_frequency = 0.5 * dlambda.cwiseQuotient(modes.eigenvalues.head(count));
   d.sensors = seen_ * dq;
+  d.motions = motions_ * dq;
   if (!question_.driven) return d;
   const GroundRows &g = member.ground, &g0 = a.ground, &g1 = b.ground;
   const Eigen::MatrixXd q = modes.q.leftCols(count);

@@ -63,7 +63,7 @@ class ModelFamily {
   Question question_;
   mutable Assembly copy_;  // of the base, with what was asked for last: a new one would take longer
   ReducedModel reduced_;
-  Eigen::MatrixXd seen_;  // sensors × basis
+  Eigen::MatrixXd seen_, motions_;  // sensors × basis; three rows a sensor × basis
 };
 
 /// The origin's static response to the change of its wanted modes' residual forces with each material: what every

@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "solver/diagnosis/assignment.h"
-#include "solver/diagnosis/fit.h"
-#include "solver/linear/dense_solve.h"
+#include "solver/diagnosis/rows.h"
 
 namespace voussoir {
 
@@ -53,10 +52,8 @@ void add_quadrature(const DiagnosisProblem& problem, int m, double scale, std::v
   const MeasuredFeature& mode = problem.features.modes[std::size_t(m)];
   for (Eigen::Index s = 0; s < mode.quadrature.size(); ++s) {
     if (!std::isfinite(mode.shape[s]) || !std::isfinite(mode.quadrature[s])) continue;
-    const double mixing =
-        std::size_t(m) < problem.quadrature_mixing.size() ? problem.quadrature_mixing[std::size_t(m)][s] : 0.0;
-    rows.push_back({ResidualRow::Kind::quadrature, m, int(s),
-                    std::hypot(mode.shape_std[s] / scale, problem.error.quadrature, mixing)});
+    rows.push_back(
+        {ResidualRow::Kind::quadrature, m, int(s), std::hypot(mode.shape_std[s] / scale, problem.error.quadrature)});
   }
 }
 
@@ -67,9 +64,7 @@ void add_participation(const DiagnosisProblem& problem, int m, double scale, std
     if (std::isfinite(p.real())) most = std::max(most, scale * std::abs(p));
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(mode.participation[axis].real())) continue;
-    const double mixing =
-        std::size_t(m) < problem.participation_mixing.size() ? problem.participation_mixing[std::size_t(m)][axis] : 0.0;
-    const double std = std::hypot(scale * mode.participation_std[axis], problem.error.participation * most, mixing);
+    const double std = std::hypot(scale * mode.participation_std[axis], problem.error.participation * most);
     rows.push_back({ResidualRow::Kind::participation, m, axis, std});
     rows.push_back({ResidualRow::Kind::lag, m, axis, std});
   }
@@ -95,6 +90,13 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
     add_participation(problem, at, scale, rows);
   }
   return rows;
+}
+
+RowSplit split_rows(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows) {
+  RowSplit split;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    (problem.features.modes[std::size_t(rows[i].mode)].held_back ? split.held : split.fitted).push_back(int(i));
+  return split;
 }
 
 ModePairs pair_features(const Features& features, const Response& response, const Eigen::MatrixXd& readings) {
@@ -137,98 +139,6 @@ ModePairs pair_features(const Features& features, const Response& response, cons
 
 namespace {
 
-/// Rows of a mode's shape.
-struct ShapeRows {
-  std::size_t begin = 0, end = 0;
-  Eigen::Index count() const { return Eigen::Index(end - begin); }
-};
-ShapeRows shape_rows(const std::vector<ResidualRow>& rows, int mode) {
-  const auto is = [&](const ResidualRow& row) { return row.mode == mode && row.kind == ResidualRow::Kind::shape; };
-  const auto first = std::find_if(rows.begin(), rows.end(), is);
-  const auto last = std::find_if_not(first, rows.end(), is);
-  return {std::size_t(first - rows.begin()), std::size_t(last - rows.begin())};
-}
-
-/// The sensors of these rows.
-Eigen::VectorXd seen(const std::vector<ResidualRow>& rows, const ShapeRows& shape, const Eigen::VectorXd& all) {
-  Eigen::VectorXd v(shape.count());
-  for (std::size_t i = shape.begin; i < shape.end; ++i) v[Eigen::Index(i - shape.begin)] = all[rows[i].sensor];
-  return v;
-}
-
-/// Eigenvalues of the computed modes as the measurement has them; of those that were not measured, moved by as much as
-/// the others on average.
-Eigen::VectorXd measured_eigenvalues(const Features& features, const Response& plain, const ModePairs& pairs) {
-  double shift = 0.0, count = 0.0;
-  const auto log_eigenvalue = [](double frequency) { return 2.0 * std::log(2.0 * EIGEN_PI * frequency); };
-  for (std::size_t m = 0; m < features.modes.size(); ++m)
-    if (const int c = pairs.computed[m]; c >= 0)
-      shift += log_eigenvalue(features.modes[m].frequency) - std::log(plain.eigenvalues[c]), count += 1.0;
-  Eigen::VectorXd values = plain.eigenvalues * std::exp(count > 0.0 ? shift / count : 0.0);
-  for (std::size_t m = 0; m < features.modes.size(); ++m)
-    if (const int c = pairs.computed[m]; c >= 0) values[c] = std::exp(log_eigenvalue(features.modes[m].frequency));
-  return values;
-}
-
-}  // namespace
-
-void set_mesh_error(DiagnosisProblem& problem, const Response& response, const Hypothesis& hypothesis,
-                    const Eigen::VectorXd& x) {
-  if (!problem.coarser) return;
-  try {
-    problem.mesh = mesh_error(*problem.coarser, response, hypothesis, x, int(problem.features.modes.size()) + 2);
-  } catch (const std::runtime_error&) {
-    return;  // what was measured without it is the best that is known
-  }
-  const double farther = problem.coarser->farther;
-  problem.error.frequency = std::hypot(problem.apart_from_mesh.frequency, farther * problem.mesh.scatter);
-  problem.error.shape = std::hypot(problem.apart_from_mesh.shape, farther * problem.mesh.shape);
-}
-
-void set_shape_errors(DiagnosisProblem& problem) {
-  EigenMemory memory;
-  set_shape_errors(problem, response(problem.base, linear_model(problem.base), problem.features.sensors, problem.modes,
-                                     memory, problem.features.driven()));
-}
-
-void set_shape_errors(DiagnosisProblem& problem, const Response& plain) {
-  problem.whitening.assign(problem.features.modes.size(), {});
-  problem.quadrature_mixing.assign(problem.features.modes.size(),
-                                   Eigen::VectorXd::Zero(Eigen::Index(problem.features.sensors.size())));
-  problem.participation_mixing.assign(problem.features.modes.size(), Eigen::Vector3d::Zero());
-  const std::vector<ResidualRow> rows = residual_rows(problem);
-  const ModePairs pairs = pair_features(problem.features, plain, plain.sensors);
-  for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
-    const ShapeRows shape = shape_rows(rows, int(m));
-    if (shape.count() == 0) continue;
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(shape.count(), shape.count());
-    for (std::size_t i = shape.begin; i < shape.end; ++i)
-      covariance.diagonal()[Eigen::Index(i - shape.begin)] = rows[i].std * rows[i].std;
-    const double lambda = std::pow(2.0 * EIGEN_PI * problem.features.modes[m].frequency, 2);
-    const int own = pairs.computed[m];
-    const double unit = own >= 0 ? seen(rows, shape, plain.sensors.col(own)).cwiseAbs().maxCoeff()
-                                 : plain.sensors.cwiseAbs().maxCoeff();
-    const Eigen::VectorXd eigenvalues = measured_eigenvalues(problem.features, plain, pairs);
-    for (Eigen::Index j = 0; j < plain.eigenvalues.size(); ++j) {
-      if (int(j) == own) continue;
-      // First order: φᵢ' = Σ φⱼ (φⱼᵀ K' φᵢ)/(λᵢ − λⱼ), of which φⱼᵀ K' φᵢ is a share of √(λᵢ λⱼ).
-      const double other = eigenvalues[j], apart = std::abs(other - lambda) / std::sqrt(other * lambda);
-      const double share = std::min(1.0, problem.error.mixing / std::max(apart, 1e-6));
-      const Eigen::VectorXd neighbour = share / unit * seen(rows, shape, plain.sensors.col(j));
-      covariance += neighbour * neighbour.transpose();
-      // Neighbours that dampers couple add to the imaginary part; half as much is the most that is usual.
-      problem.quadrature_mixing[m] += (0.5 * share / unit * plain.sensors.col(j)).cwiseAbs2();
-      if (plain.participation.size() > 0)
-        problem.participation_mixing[m] += (share * unit * plain.participation.col(j)).cwiseAbs2();
-    }
-    problem.quadrature_mixing[m] = problem.quadrature_mixing[m].cwiseSqrt();
-    problem.participation_mixing[m] = problem.participation_mixing[m].cwiseSqrt();
-    problem.whitening[m] = whitening_of(covariance);
-  }
-}
-
-namespace {
-
 /// What follows a shape that is `stretch` times a computed mode, both with their largest measured component 1.
 void add_phases(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, int m, int computed,
                 double stretch, const Observed& seen, Eigen::VectorXd& r) {
@@ -252,8 +162,17 @@ void add_phases(const DiagnosisProblem& problem, const std::vector<ResidualRow>&
     } else {
       continue;
     }
-    r[Eigen::Index(i)] = (measured - said) / row.std;
+    r[Eigen::Index(i)] = measured - said;
   }
+}
+
+/// By which a computed shape is nearest to the measured one, under the covariance of its rows where that is known.
+double best_scale(const DiagnosisProblem& problem, std::size_t mode, const Eigen::VectorXd& measured,
+                  const Eigen::VectorXd& computed) {
+  const bool known = mode < problem.shape_metric.size() && problem.shape_metric[mode].size() > 0;
+  const Eigen::VectorXd m = known ? Eigen::VectorXd(problem.shape_metric[mode] * measured) : measured;
+  const Eigen::VectorXd c = known ? Eigen::VectorXd(problem.shape_metric[mode] * computed) : computed;
+  return m.dot(c) / std::max(c.squaredNorm(), 1e-300);
 }
 
 /// The part of a late clock's readings that is in phase with the mode.
@@ -264,35 +183,59 @@ Eigen::VectorXd in_phase(const Observed& seen, int computed, double frequency) {
 
 }  // namespace
 
-Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
-                          const ModePairs& pairing, const Observed& observed) {
-  constexpr double unpaired = 5.0;  // a mode that the model does not have
+Question question_of(const DiagnosisProblem& problem, const Response& response) {
+  Question q = {problem.features.sensors, problem.modes, int(problem.features.modes.size()), problem.features.driven()};
+  for (const int c : pair_features(problem.features, response, response.sensors).computed)
+    q.wanted = std::max(q.wanted, c + 1);
+  q.wanted = std::min(q.wanted + 2, q.modes);
+  return q;
+}
+
+ModalData along(const ModalData& modes, const ModalData& d, double step) {
+  ModalData moved = modes;
+  moved.log_frequency += step * d.log_frequency;
+  moved.sensors += step * d.sensors;
+  if (d.motions.size() > 0) moved.motions += step * d.motions;
+  if (d.participation.size() > 0) moved.participation += step * d.participation;
+  for (std::size_t k = 0; k < d.at_support.size(); ++k) moved.at_support[k] += step * d.at_support[k];
+  return moved;
+}
+
+Eigen::VectorXd differences(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                            const ModePairs& pairing, const Observed& observed) {
+  constexpr double unpaired = 5.0;  // standard deviations of the frequency of a mode that the model does not have
   Eigen::VectorXd r = Eigen::VectorXd::Zero(Eigen::Index(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = Eigen::Index(i);
     const MeasuredFeature& mode = problem.features.modes[std::size_t(rows[i].mode)];
     const int c = pairing.computed[std::size_t(rows[i].mode)];
+    const double std = at < problem.covariance.std.size() ? problem.covariance.std[at] : rows[i].std;
     if (rows[i].kind == ResidualRow::Kind::damping)
-      r[Eigen::Index(i)] = (std::log(*mode.damping) - std::log(observed.damping)) / rows[i].std;
+      r[at] = std::log(*mode.damping) - std::log(observed.damping);
     else if (rows[i].kind == ResidualRow::Kind::frequency)
-      r[Eigen::Index(i)] = c < 0 ? unpaired : (std::log(mode.frequency) - observed.log_frequency[c]) / rows[i].std;
+      r[at] = c < 0 ? unpaired * std : std::log(mode.frequency) - observed.log_frequency[c];
   }
-  for (std::size_t m = 0; m < problem.whitening.size(); ++m) {
-    const ShapeRows shape = shape_rows(rows, int(m));
-    if (shape.count() == 0) continue;
-    const Eigen::MatrixXd& white = problem.whitening[m];
+  for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
+    const RowRange range = rows_of(rows, int(m), ResidualRow::Kind::shape);
+    if (range.count() == 0) continue;
     const MeasuredFeature& mode = problem.features.modes[m];
-    const Eigen::VectorXd measured = white * seen(rows, shape, mode.shape) / largest(mode.shape);
-    r.segment(Eigen::Index(shape.begin), shape.count()) = measured;
+    const Eigen::VectorXd measured = seen(rows, range, mode.shape) / largest(mode.shape);
+    r.segment(range.at(), range.count()) = measured;
     const int c = pairing.computed[m];
     double stretch = 0.0;
     if (c >= 0) {
-      const Eigen::VectorXd computed = white * seen(rows, shape, in_phase(observed, c, mode.frequency));
-      stretch = measured.dot(computed) / std::max(computed.squaredNorm(), 1e-300);  // what fits best
-      r.segment(Eigen::Index(shape.begin), shape.count()) -= stretch * computed;
+      const Eigen::VectorXd computed = seen(rows, range, in_phase(observed, c, mode.frequency));
+      stretch = best_scale(problem, m, measured, computed);
+      r.segment(range.at(), range.count()) -= stretch * computed;
     }
     add_phases(problem, rows, int(m), c, stretch, observed, r);
   }
   return r;
+}
+
+Eigen::VectorXd residuals(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
+                          const ModePairs& pairing, const Observed& observed) {
+  return problem.whitening * differences(problem, rows, pairing, observed);
 }
 
 }  // namespace voussoir

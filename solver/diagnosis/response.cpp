@@ -91,6 +91,35 @@ Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, c
   return seen;
 }
 
+std::vector<Sensor> along_axes(const std::vector<Sensor>& sensors) {
+  std::vector<Sensor> all;
+  for (const Sensor& sensor : sensors)
+    for (int axis = 0; axis < 3; ++axis) {
+      all.push_back(sensor);
+      all.back().direction = Vec3::Unit(axis);
+    }
+  return all;
+}
+
+Eigen::MatrixXd motions_at(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
+                           const Eigen::MatrixXd& vectors) {
+  return at_sensors(assembly, unknowns, along_axes(sensors), vectors);
+}
+
+Eigen::MatrixXd sensor_loads(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors) {
+  Eigen::MatrixXd loads(unknowns.count, Eigen::Index(sensors.size()));
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const auto block = std::size_t(sensors[s].block);
+    const Vec3 arm = sensors[s].position - assembly.blocks[block].centroid;
+    Vector6 load;
+    load << sensors[s].direction, arm.cross(sensors[s].direction);
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(unknowns.count);
+    set_part(column, unknowns, block, load);
+    loads.col(Eigen::Index(s)) = column;
+  }
+  return loads;
+}
+
 Response response(const Assembly& assembly, const LinearModel& model, const std::vector<Sensor>& sensors, int count,
                   EigenMemory& memory, bool driven) {
   count = std::min(count, int(model.unknowns.count));
@@ -101,6 +130,7 @@ Response response(const Assembly& assembly, const LinearModel& model, const std:
   r.vectors = pairs.vectors;
   r.shift = pairs.shift;
   r.sensors = at_sensors(assembly, model.unknowns, sensors, r.vectors);
+  r.motions = motions_at(assembly, model.unknowns, sensors, r.vectors);
   for (int i = 0; i < count; ++i)
     r.words.push_back(words_of(assembly, model.unknowns, pairs.values[i], r.vectors.col(i)));
   if (driven) {

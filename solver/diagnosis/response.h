@@ -9,6 +9,7 @@ namespace voussoir {
 struct ModalData {
   Eigen::VectorXd log_frequency;  // of Hz
   Eigen::MatrixXd sensors;        // sensor × mode, of M-normalised modes
+  Eigen::MatrixXd motions;        // of their places along x, y, z: three rows a sensor; empty: not asked for
   /// φᵀ M r of each axis (rows) and mode: how a common motion of all supports drives it. Empty: not asked for.
   Eigen::MatrixXd participation;
   std::vector<Eigen::MatrixXd> at_support;  // the part of it that comes through each of supports()
@@ -50,5 +51,14 @@ Eigen::MatrixXd follow_support(const Assembly& assembly, const Response& respons
 /// Displacement along the sensors' directions: rows of sensors, columns of vectors.
 Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
                            const Eigen::MatrixXd& vectors);
+
+/// Along x, y and z at the sensors' places: three rows a sensor.
+Eigen::MatrixXd motions_at(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
+                           const Eigen::MatrixXd& vectors);
+/// The three sensors along x, y and z in the place of each.
+std::vector<Sensor> along_axes(const std::vector<Sensor>& sensors);
+
+/// Unit forces at the sensors along their directions, a column each: the transpose of at_sensors().
+Eigen::MatrixXd sensor_loads(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors);
 
 }  // namespace voussoir

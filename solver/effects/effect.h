@@ -39,6 +39,10 @@ struct Effect {
 
 inline constexpr double sensor_housing = 0.5;  // m: channels closer than this can have been swapped
 
+/// Where a sensor's axis points that is mounted otherwise: `tilt` (deg) raises it, `turn` (deg) then turns it about the
+/// vertical. A vertical one has the heading x: lowered by 90° it is x, or, turned by 90° as well, y.
+Vec3 mounted(const Vec3& axis, double turn, double tilt);
+
 /// All of them, in the order of the documentation.
 const std::vector<Effect>& effects();
 /// Throws InputError naming the effect that was probably meant.

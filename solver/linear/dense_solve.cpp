@@ -23,6 +23,10 @@ MatrixXd whitening_of(const MatrixXd& a) {
   return a.llt().matrixL().solve(MatrixXd::Identity(a.rows(), a.cols()));
 }
 
+MatrixXd lower_factor(const MatrixXd& a) {
+  return a.llt().matrixL();
+}
+
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b) {
   return a.colPivHouseholderQr().solve(b);
 }

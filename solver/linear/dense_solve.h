@@ -18,6 +18,9 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
 /// L⁻¹ of A = L Lᵀ, symmetric positive definite A: L⁻¹ x has the covariance 1 where x has A.
 Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& a);
 
+/// L of A = L Lᵀ.
+Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& a);
+
 /// x of least |A x − b|, by QR with pivoting of columns; one of them where the columns depend on each other.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 

@@ -56,7 +56,7 @@ inline DiagnosisProblem measured(const Assembly& base, const Assembly& truth, in
     }
     problem.features.modes.push_back(f);
   }
-  set_shape_errors(problem);
+  set_covariance(problem);
   return problem;
 }
 

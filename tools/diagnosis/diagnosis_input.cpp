@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "io/case/remarks.h"
 #include "solver/base/error.h"
@@ -36,17 +37,43 @@ std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
   return mesh;
 }
 
-/// What the mesh does to the case as it is, and errors of shapes.
-void measure_mesh(DiagnosisInput& input) {
+/// The case with one dimension changed, and all others that are the same number: on the bridge they are one.
+Assembly with_dimension(const Case& c, double value, double amount) {
+  Case other = c;
+  for (const Parameter& p : find_generator(c.generator).parameters) {
+    double& own = other.generator_input.values.at(p.name);
+    if (is_dimension(p) && own == value) own = std::clamp(own + amount, p.low, p.high);
+  }
+  return make_assembly(other);
+}
+
+/// Of the dimensions that a generator is given.
+std::vector<Nuisance> dimension_nuisances(const Case& c) {
+  constexpr double usual = 0.02, step = 1e-3;  // m; not more than a twentieth of the dimension
+  std::vector<Nuisance> all;
+  if (c.generator.empty()) return all;
+  std::map<double, std::string> names;  // of each number
+  for (const Parameter& p : find_generator(c.generator).parameters) {
+    const double value = c.generator_input.values.at(p.name);
+    if (!is_dimension(p) || value <= 0.0) continue;
+    std::string& name = names[value];
+    name += (name.empty() ? "" : " = ") + p.name;
+  }
+  for (const auto& [value, name] : names)
+    all.push_back({name, "m", std::min(usual, 0.05 * value), step,
+                   [c, value = value](const Assembly&, double amount) { return with_dimension(c, value, amount); }});
+  return all;
+}
+
+/// Solves the case as it is; what the mesh does to it, and all that is not exactly known.
+void measure_errors(const DiagnosisRequest& request, DiagnosisInput& input) {
   DiagnosisProblem& p = input.problem;
   p.coarser = coarser_mesh(input);
   p.origin = std::make_shared<Origin>(p.base, p.features.sensors, p.modes, p.features.driven());
-  // What neighbours add to participation counts from the first effect on: with it from the beginning, a support that
-  // moves by 0.4 of the others' motion is lost (trial 59 of voussoir-blind).
-  Response plain = p.origin->response();
-  plain.participation.resize(0, 0);
-  set_mesh_error(p, plain, {}, {});
-  set_shape_errors(p, plain);
+  set_mesh_error(p, p.origin->response(), {}, {});
+  p.nuisances = part_nuisances(p.base);
+  for (Nuisance& dimension : dimension_nuisances(input.c)) p.nuisances.push_back(std::move(dimension));
+  set_covariance(p, *p.origin, {}, {}, request.settings.threads);
 }
 
 /// The assembly with larger blocks until it has few enough unknowns for runs of many steps.
@@ -100,7 +127,7 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   input.identification = identify(input.measured, input.c, own, request.most_modes);
   input.runs = problem_of(request, input, for_runs(input.c, own));
   input.problem = problem_of(request, input, std::move(own));
-  measure_mesh(input);
+  measure_errors(request, input);
   return input;
 }
 

@@ -78,9 +78,11 @@ json where_json(const Location& location) {
   return all;
 }
 
-/// Rounds whose effects are named: none where they do not explain enough.
+/// Rounds whose effects are named: where effects do not explain enough, those of channels that were set right.
 std::vector<Round> named_rounds(const Diagnosis& d) {
-  return d.verdict == Diagnosis::Verdict::unexplained ? std::vector<Round>{} : d.rounds;
+  std::vector<Round> rounds = d.rounds;
+  if (d.verdict == Diagnosis::Verdict::unexplained) std::erase_if(rounds, [](const Round& r) { return !r.accepted; });
+  return rounds;
 }
 
 /// The best explanation that was not chosen, in the round of the last effect.
@@ -153,8 +155,8 @@ std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const
     c.words_before = words(before.best, b), c.words_after = words(after.best, a);
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i].mode == int(m) && rows[i].kind == ResidualRow::Kind::frequency) {
-        c.deviations_before = before.best.residuals[Eigen::Index(i)];
-        c.deviations_after = after.best.residuals[Eigen::Index(i)];
+        c.deviations_before = before.best.differences[Eigen::Index(i)] / problem.covariance.std[Eigen::Index(i)];
+        c.deviations_after = after.best.differences[Eigen::Index(i)] / problem.covariance.std[Eigen::Index(i)];
       }
     all.push_back(c);
   }

@@ -41,7 +41,7 @@ double trace_of(const Assembly& bare, const Response& truth, const std::vector<S
   problem.damping = bare_ratio;
   problem.modes = int(problem.features.modes.size()) + 8;
   problem.error.shape = 0.01;  // as diagnose takes it without what its mesh does
-  set_shape_errors(problem);
+  set_covariance(problem);
   const Hypothesis materials = {calibrations(bare), {}};
   return fit(problem, materials, Eigen::VectorXd::Zero(Eigen::Index(materials.size())), 8).misfit;
 }
