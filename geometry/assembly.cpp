@@ -114,4 +114,11 @@ Box block_box(const Block& block) {
   return box;
 }
 
+std::array<Vec3, 2> tie_anchors(const Joint& tie) {
+  if (tie.polygon.size() != 4)
+    throw InputError("the tie between blocks {} and {} has a polygon of {} corners; it must have 4, two at each anchor",
+                     tie.a, tie.b, tie.polygon.size());
+  return {0.5 * (tie.polygon[0] + tie.polygon[1]), 0.5 * (tie.polygon[2] + tie.polygon[3])};
+}
+
 }  // namespace voussoir

@@ -84,6 +84,9 @@ struct Joint {
   std::int32_t law = 0;                 // index into Assembly::laws
 };
 
+/// Where the bar of a tie is anchored in a and in b, m. Throws InputError where its polygon is no strip.
+std::array<Vec3, 2> tie_anchors(const Joint& tie);
+
 /// The deformable fill: one continuum of linear tetrahedra that share whole faces.
 struct FillMesh {
   std::vector<Vec3> nodes;                             // m

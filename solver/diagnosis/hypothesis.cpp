@@ -151,6 +151,7 @@ void scale_around(Assembly& assembly, const BlockSet& part, double factor) {
     };
     if (inside(joint.a) || inside(joint.b)) joint.kn *= factor, joint.ks *= factor;
   }
+  scale_patches(assembly, part, factor);
 }
 
 }  // namespace
@@ -263,6 +264,13 @@ std::vector<Candidate> nameless_factors(const Assembly& assembly) {
   }
   if (!all_if_any(assembly, Component::backfill).empty())
     add_both("backfill", [](const Assembly& a) { return component(a, Component::backfill); });
+  if (!assembly.fill.empty()) {
+    add("stiffness", "backfill", 0.6, [](Assembly& a, double factor) {
+      scale_fill(a, factor, 1.0);
+      scale_patches(a, BlockSet(a.blocks.size(), true), factor);
+    });
+    add("mass", "backfill", 0.2, [](Assembly& a, double factor) { scale_fill(a, 1.0, factor); });
+  }
   for (const std::string& support : supports(assembly)) {
     add("stiffness", "base of " + support, 1.0, [support](Assembly& a, double factor) {
       const std::int64_t base = base_of(a, support);

@@ -2,63 +2,108 @@
 
 #include "solver/base/error.h"
 #include "solver/linear/loose.h"
-#include "solver/linear/stiffness.h"
-#include "solver/model/quadrature.h"
 
 namespace voussoir {
 
 namespace {
 
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
-
-Unknowns number_blocks(const Assembly& assembly) {
+Unknowns number_sites(const Assembly& assembly) {
   Unknowns unknowns;
+  unknowns.bodies = assembly.blocks.size();
   for (const Block& block : assembly.blocks) {
     auto& of = unknowns.of.emplace_back();
     for (int c = 0; c < 6; ++c) of[c] = block.fixed ? -1 : unknowns.count++;
   }
+  for (std::size_t node = 0; node < assembly.fill.nodes.size(); ++node) {
+    auto& of = unknowns.of.emplace_back();
+    for (int c = 0; c < 6; ++c) of[c] = c > 2 ? -1 : unknowns.count++;
+  }
   return unknowns;
 }
 
-}  // namespace
-
-Matrix12 pair_stiffness(const Assembly& assembly, const Joint& joint) {
-  const PatchShape shape = patch_shape(joint.polygon, joint.normal, 3);
-  const Mat3 to_local = shape.frame.transpose();
-  Matrix6x12 rows = Matrix6x12::Zero();
-  rows.block<3, 3>(0, 0) = rows.block<3, 3>(3, 3) = -to_local;
-  rows.block<3, 3>(0, 6) = rows.block<3, 3>(3, 9) = to_local;
-  rows.block<3, 3>(0, 3) = to_local * skew(shape.centroid - assembly.blocks[std::size_t(joint.a)].centroid);
-  rows.block<3, 3>(0, 9) = -to_local * skew(shape.centroid - assembly.blocks[std::size_t(joint.b)].centroid);
-  Vector6 local;
-  local << joint.kn * shape.area, joint.ks * shape.area, joint.ks * shape.area, joint.ks * (shape.ss + shape.tt),
-      joint.kn * shape.tt, joint.kn * shape.ss;
-  return rows.transpose() * local.asDiagonal() * rows;
-}
-
-Matrix6 block_mass(const Block& block) {
+Matrix6 block_of_nodes(const Mat3& block) {
   Matrix6 m = Matrix6::Zero();
-  m.topLeftCorner<3, 3>() = block.mass * Mat3::Identity();
-  m.bottomRightCorner<3, 3>() = block.inertia;
+  m.topLeftCorner<3, 3>() = block;
   return m;
 }
 
-LinearModel linear_model(const Assembly& assembly) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> coupled;
-  for (const Joint& joint : assembly.joints) coupled.emplace_back(joint.a, joint.b);
-  BlockMatrix k(assembly.blocks.size(), coupled), m(assembly.blocks.size(), {});
-  for (const Joint& joint : assembly.joints) {
-    const Matrix12 pair = pair_stiffness(assembly, joint);
-    const auto a = std::int32_t(joint.a), b = std::int32_t(joint.b);
-    k.add(a, a, pair.topLeftCorner<6, 6>());
-    k.add(b, b, pair.bottomRightCorner<6, 6>());
-    k.add(b, a, pair.bottomLeftCorner<6, 6>());
+class Assembler {
+ public:
+  explicit Assembler(const Assembly& assembly, const Contributions& parts)
+      : blocks_(std::int32_t(assembly.blocks.size())), parts_(parts) {}
+
+  BlockMatrix stiffness(std::size_t sites, std::size_t nodes) const {
+    BlockMatrix k(sites, coupled(nodes));
+    for (const auto& pair : parts_.pairs) {
+      const auto a = std::int32_t(pair.a), b = std::int32_t(pair.b);
+      k.add(a, a, pair.k.topLeftCorner<6, 6>());
+      k.add(b, b, pair.k.bottomRightCorner<6, 6>());
+      k.add(b, a, pair.k.bottomLeftCorner<6, 6>());
+    }
+    for (const auto& patch : parts_.patches) add(patch, k);
+    for (const auto& e : parts_.elements)
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          k.add(site(e.nodes[i]), site(e.nodes[j]),
+                block_of_nodes(e.scale * shear_block(e.gradient[i], e.gradient[j])));
+    for (const auto& ring : parts_.rings)
+      for (std::size_t i = 0; i < ring.nodes.size(); ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          k.add(site(ring.nodes[i]), site(ring.nodes[j]),
+                block_of_nodes(ring.scale * ring.pull[i] * ring.pull[j].transpose()));
+    return k;
   }
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
-    if (!assembly.blocks[i].fixed) m.diagonal(std::int32_t(i)) = block_mass(assembly.blocks[i]);
+
+  BlockMatrix mass(const Unknowns& unknowns) const {
+    BlockMatrix m(unknowns.of.size(), {});
+    for (const auto& own : parts_.blocks)
+      if (unknowns.any(std::size_t(own.block))) m.diagonal(std::int32_t(own.block)) = own.m;
+    for (const auto& lump : parts_.lumps)
+      for (const std::int32_t node : lump.nodes)
+        m.diagonal(site(node)).topLeftCorner<3, 3>() += lump.mass * Mat3::Identity();
+    return m;
+  }
+
+ private:
+  std::int32_t site(std::int32_t node) const { return blocks_ + node; }
+
+  SitePairs coupled(std::size_t nodes) const {
+    SitePairs all;
+    for (const auto& pair : parts_.pairs) all.emplace_back(std::int32_t(pair.a), std::int32_t(pair.b));
+    std::vector<std::array<std::int32_t, 4>> elements;
+    for (const auto& e : parts_.elements) elements.push_back(e.nodes);
+    couple_nodes(elements, nodes, blocks_, all);
+    for (const auto& patch : parts_.patches)
+      for (const std::int32_t node : patch.nodes) all.emplace_back(std::int32_t(patch.block), site(node));
+    return all;
+  }
+
+  void add(const Contributions::Patch& patch, BlockMatrix& k) const {
+    const auto block = std::int32_t(patch.block);
+    k.add(block, block, patch.k.topLeftCorner<6, 6>());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto row = Eigen::Index(6 + 3 * i);
+      Matrix6 across = Matrix6::Zero();
+      across.topRows<3>() = patch.k.block<3, 6>(row, 0);
+      k.add(site(patch.nodes[i]), block, across);
+      for (std::size_t j = 0; j <= i; ++j)
+        k.add(site(patch.nodes[i]), site(patch.nodes[j]),
+              block_of_nodes(patch.k.block<3, 3>(row, Eigen::Index(6 + 3 * j))));
+    }
+  }
+
+  std::int32_t blocks_;
+  const Contributions& parts_;
+};
+
+}  // namespace
+
+LinearModel linear_model(const Assembly& assembly, const Contributions& parts) {
+  const Unknowns all = number_sites(assembly);
+  const Assembler assembler(assembly, parts);
+  BlockMatrix k = assembler.stiffness(all.of.size(), assembly.fill.nodes.size());
+  const BlockMatrix m = assembler.mass(all);
   LinearModel model;
-  const Unknowns all = number_blocks(assembly);
   const Loose loose = find_loose(k, m, all);
   model.unknowns = without(all, loose.adrift);
   if (model.unknowns.count == 0) throw InputError("nothing in this assembly is held together: it has no modes");
@@ -66,6 +111,10 @@ LinearModel linear_model(const Assembly& assembly) {
   model.k = k.over(model.unknowns);
   model.m = m.over(model.unknowns);
   return model;
+}
+
+LinearModel linear_model(const Assembly& assembly) {
+  return linear_model(assembly, contributions(assembly));
 }
 
 }  // namespace voussoir

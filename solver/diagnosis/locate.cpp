@@ -49,19 +49,61 @@ Eigen::VectorXd expansion(const DiagnosisProblem& problem, const Evaluation& at,
       right);
 }
 
-/// Twice the energy of u in each joint, half to each of its blocks; all of it to the free one where one is fixed.
-void add_energy(const Assembly& assembly, const Unknowns& unknowns, const Eigen::VectorXd& u, double factor,
-                std::vector<double>& blocks) {
-  for (const Joint& joint : assembly.joints) {
-    const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
-    Vector12 motion;
-    motion.head<6>() = part_of(u, unknowns, a);
-    motion.tail<6>() = part_of(u, unknowns, b);
-    const double energy = factor * motion.dot(pair_stiffness(assembly, joint) * motion);
-    const bool both = unknowns.any(a) && unknowns.any(b);
-    if (unknowns.any(a)) blocks[a] += both ? 0.5 * energy : energy;
-    if (unknowns.any(b)) blocks[b] += both ? 0.5 * energy : energy;
+/// Twice the energy of u in each joint, half to each of its blocks; all of it to the free one where one is fixed. Of a
+/// patch with the fill likewise, to its block and its nodes; that of the fill to its nodes.
+class Energy {
+ public:
+  Energy(const Assembly& assembly, const Unknowns& unknowns)
+      : unknowns_(unknowns), parts_(contributions(assembly)), sites_(unknowns.of.size(), 0.0) {
+    const std::size_t first = parts_.pairs.size() + parts_.patches.size();
+    for (std::size_t i = 0; i < parts_.elements.size() + parts_.rings.size(); ++i)
+      fill_.push_back(std::int32_t(first + i));
   }
+  void add(const Eigen::VectorXd& u, double factor) {
+    for (const auto& pair : parts_.pairs) {
+      const auto a = std::size_t(pair.a), b = std::size_t(pair.b);
+      Vector12 motion;
+      motion.head<6>() = part_of(u, unknowns_, a);
+      motion.tail<6>() = part_of(u, unknowns_, b);
+      share(factor * motion.dot(pair.k * motion), {a}, {b});
+    }
+    for (const auto& patch : parts_.patches) {
+      std::vector<std::size_t> nodes;
+      for (const std::int32_t node : patch.nodes) nodes.push_back(unknowns_.bodies + std::size_t(node));
+      Eigen::Matrix<double, 15, 1> motion;
+      motion.head<6>() = part_of(u, unknowns_, std::size_t(patch.block));
+      for (std::size_t i = 0; i < 3; ++i)
+        motion.segment<3>(Eigen::Index(6 + 3 * i)) = part_of(u, unknowns_, nodes[i]).head<3>();
+      share(factor * motion.dot(patch.k * motion), {std::size_t(patch.block)}, nodes);
+    }
+    if (fill_.empty()) return;
+    Vectors force = Vectors::Zero(u.size(), 1);
+    add_stiffness(parts_, fill_, factor, unknowns_, u, force);
+    const Eigen::VectorXd f = force.col(0);
+    for (std::size_t site = unknowns_.bodies; site < sites_.size(); ++site)
+      sites_[site] += part_of(u, unknowns_, site).dot(part_of(f, unknowns_, site));
+  }
+  const std::vector<double>& sites() const { return sites_; }
+
+ private:
+  void share(double energy, const std::vector<std::size_t>& one, const std::vector<std::size_t>& other) {
+    const bool both = unknowns_.any(one[0]) && unknowns_.any(other[0]);
+    for (const auto* side : {&one, &other})
+      for (const std::size_t site : *side)
+        if (unknowns_.any(site)) sites_[site] += (both ? 0.5 : 1.0) * energy / double(side->size());
+  }
+
+  const Unknowns& unknowns_;
+  const Contributions parts_;
+  std::vector<std::int32_t> fill_;  // units of its elements and rings
+  std::vector<double> sites_;
+};
+
+/// The part of the bridge that each site belongs to.
+std::vector<std::string> parts_of_sites(const Assembly& assembly, const Unknowns& unknowns) {
+  std::vector<std::string> parts = parts_of_blocks(assembly);
+  parts.resize(unknowns.of.size(), component_names()[std::size_t(Component::backfill)]);
+  return parts;
 }
 
 }  // namespace
@@ -82,8 +124,8 @@ std::vector<std::string> parts_of_blocks(const Assembly& assembly) {
 
 Location locate(const DiagnosisProblem& problem, const Evaluation& at) {
   Location location;
-  location.blocks.assign(at.assembly.blocks.size(), 0.0);
-  std::vector<Vec3> work(at.assembly.blocks.size(), Vec3::Zero());
+  Energy energy(at.assembly, at.model.unknowns);
+  std::vector<Vec3> work(at.model.unknowns.of.size(), Vec3::Zero());
   int modes = 0;
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
     const Eigen::VectorXd shares = expansion(problem, at, m);
@@ -94,7 +136,7 @@ Location locate(const DiagnosisProblem& problem, const Evaluation& at) {
     const Eigen::VectorXd f =
         at.model.m.selfadjointView<Eigen::Lower>() * (at.response.vectors * (shares.array() * apart).matrix());
     const double scale = 1.0 / (lambda * shares.squaredNorm());
-    add_energy(at.assembly, at.model.unknowns, u, scale, location.blocks);
+    energy.add(u, scale);
     for (std::size_t i = 0; i < work.size(); ++i)
       work[i] += scale * part_of(f, at.model.unknowns, i)
                              .head<3>()
@@ -102,16 +144,16 @@ Location locate(const DiagnosisProblem& problem, const Evaluation& at) {
                              .cwiseAbs();
     ++modes;
   }
-  const std::vector<std::string> parts = parts_of_blocks(at.assembly);
+  const std::vector<std::string> parts = parts_of_sites(at.assembly, at.model.unknowns);
   std::map<std::string, std::pair<double, Vec3>> sums;
-  double all = 0.0, largest = 0.0;
+  double all = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    auto& [energy, along] = sums.try_emplace(parts[i], 0.0, Vec3::Zero()).first->second;
-    energy += location.blocks[i];
+    auto& [sum, along] = sums.try_emplace(parts[i], 0.0, Vec3::Zero()).first->second;
+    sum += energy.sites()[i];
     along += work[i];
-    all += location.blocks[i];
-    largest = std::max(largest, location.blocks[i]);
+    all += energy.sites()[i];
   }
+  location.blocks.assign(energy.sites().begin(), energy.sites().begin() + std::ptrdiff_t(at.assembly.blocks.size()));
   if (all <= 0.0) return location;
   for (const auto& [part, sum] : sums) {
     int axis = 0;
@@ -121,21 +163,22 @@ Location locate(const DiagnosisProblem& problem, const Evaluation& at) {
   std::stable_sort(location.parts.begin(), location.parts.end(),
                    [](const auto& a, const auto& b) { return a.share > b.share; });
   location.size = all / modes;
-  for (double& block : location.blocks) block /= largest;
+  const double largest = *std::max_element(location.blocks.begin(), location.blocks.end());
+  for (double& block : location.blocks) block /= std::max(largest, 1e-300);
   return location;
 }
 
 std::vector<PartSensitivity> sensitivities(const Evaluation& at, int mode) {
   const Eigen::VectorXd phi = at.response.vectors.col(mode);
-  std::vector<double> energy(at.assembly.blocks.size(), 0.0);
-  add_energy(at.assembly, at.model.unknowns, phi, 0.5 / at.response.eigenvalues[mode], energy);
+  Energy energy(at.assembly, at.model.unknowns);
+  energy.add(phi, 0.5 / at.response.eigenvalues[mode]);
   const Eigen::VectorXd momentum = at.model.m.selfadjointView<Eigen::Lower>() * phi;
-  const std::vector<std::string> parts = parts_of_blocks(at.assembly);
+  const std::vector<std::string> parts = parts_of_sites(at.assembly, at.model.unknowns);
   std::map<std::string, PartSensitivity> sums;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     PartSensitivity& s = sums[parts[i]];
     s.part = parts[i];
-    s.stiffness += energy[i];
+    s.stiffness += energy.sites()[i];
     s.mass -= 0.5 * part_of(phi, at.model.unknowns, i).dot(part_of(momentum, at.model.unknowns, i));
   }
   std::vector<PartSensitivity> all;

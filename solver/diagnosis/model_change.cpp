@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "solver/base/error.h"
 
@@ -14,28 +15,29 @@ bool is_freed(const Assembly& low, const Assembly& high, std::size_t block) {
   return !high.blocks[block].fixed && (block >= low.blocks.size() || low.blocks[block].fixed);
 }
 
-/// First of a block's unknowns, which follow each other; −1: it has none.
-Eigen::Index first_of(const Unknowns& unknowns, std::int64_t block) {
-  return unknowns.of[std::size_t(block)][0];
-}
-
 constexpr double irregular = std::numeric_limits<double>::quiet_NaN();
-
-void check_blocks(const Assembly& low, const Assembly& high) {
-  if (low.blocks.size() > high.blocks.size())
-    throw InputError("the two assemblies have {} and {} blocks: K and M cannot be compared", low.blocks.size(),
-                     high.blocks.size());
-}
 
 /// What joints and blocks of two assemblies add to K and M.
 class Differences {
  public:
-  Differences(const Assembly& low, const Assembly& high) : low_(low), high_(high) { check_blocks(low, high); }
+  Differences(const Assembly& low, const Assembly& high) : low_(low), high_(high) {
+    if (low.blocks.size() > high.blocks.size())
+      throw InputError("the two assemblies have {} and {} blocks: K and M cannot be compared", low.blocks.size(),
+                       high.blocks.size());
+    if (low.fill.nodes.size() != high.fill.nodes.size() || low.fill.tets != high.fill.tets)
+      throw InputError(
+          "the fills of the two assemblies, of {} and {} tetrahedra, are not meshed alike: K and M cannot be compared",
+          low.fill.tets.size(), high.fill.tets.size());
+  }
 
   bool freed(std::int64_t block) const { return is_freed(low_, high_, std::size_t(block)); }
-  /// By which the stiffness of a joint has grown; `irregular` where it is not the same for all motions.
-  double factor(const Joint* l, const Joint* h) const {
-    if (!l || !h || freed(h->a) || freed(h->b) || !same_place(*l, *h)) return irregular;
+  bool freed(const Joint& joint) const { return freed(joint.a) || freed(joint.b); }
+  bool freed(const FillJoint& patch) const { return freed(patch.block); }
+
+  /// By which the stiffness of a joint, or a patch, has grown; `irregular` where it is not the same for all motions.
+  template <class Of>
+  double factor(const Of* l, const Of* h) const {
+    if (!l || !h || freed(*h) || !same_place(*l, *h)) return irregular;
     if (l->kn == h->kn && l->ks == h->ks) return 1.0;
     const double normal = h->kn / l->kn, shear = h->ks / l->ks;
     return std::abs(normal - shear) < 1e-12 * normal ? normal : irregular;
@@ -47,57 +49,144 @@ class Differences {
     const double factor = b.mass / a.mass;
     return (b.inertia - factor * a.inertia).norm() < 1e-12 * b.inertia.norm() ? factor : irregular;
   }
-  Matrix12 of_low(const Joint& joint) const {
-    Matrix12 k = pair_stiffness(low_, joint);
-    if (freed(joint.a)) k.topRows<6>().setZero(), k.leftCols<6>().setZero();  // what does not move yet
-    if (freed(joint.b)) k.bottomRows<6>().setZero(), k.rightCols<6>().setZero();
-    return k;
-  }
   /// K of h less `share` of that of l.
-  Derivative::Pair pair(const Joint* l, const Joint* h, double share = 1.0) const {
-    if (!h) return {l->a, l->b, -share * of_low(*l)};
-    if (!l) return {h->a, h->b, pair_stiffness(high_, *h)};
-    if (same_place(*l, *h) && !freed(h->a) && !freed(h->b)) {  // the stiffness is linear in both
-      Joint difference = *h;
-      difference.kn -= share * l->kn, difference.ks -= share * l->ks;
-      return {h->a, h->b, pair_stiffness(high_, difference)};
-    }
-    return {h->a, h->b, pair_stiffness(high_, *h) - share * of_low(*l)};
+  Contributions::Pair difference(const Joint* l, const Joint* h, double share) const {
+    const Joint& joint = h ? *h : *l;
+    return {joint.a, joint.b, stiffness_of<Matrix12>(l, h, share)};
   }
-  Derivative::Own own(std::size_t block, double share = 1.0) const {
+  Contributions::Patch difference(const FillJoint* l, const FillJoint* h, double share) const {
+    const FillJoint& patch = h ? *h : *l;
+    return {patch.block, high_.fill.triangles[std::size_t(patch.triangle)], stiffness_of<Matrix15>(l, h, share)};
+  }
+  Contributions::Own own(std::size_t block, double share) const {
     const Matrix6 m = block_mass(high_.blocks[block]);
     if (freed(std::int64_t(block))) return {std::int64_t(block), m};
     return {std::int64_t(block), m - share * block_mass(low_.blocks[block])};
   }
 
  private:
+  bool stays(std::int64_t block) const {
+    return low_.blocks[std::size_t(block)].centroid == high_.blocks[std::size_t(block)].centroid;
+  }
   /// Where it is, and how far from the centroids of its blocks.
-  bool same_place(const Joint& l, const Joint& h) const {
-    const auto stays = [&](std::int64_t block) {
-      return low_.blocks[std::size_t(block)].centroid == high_.blocks[std::size_t(block)].centroid;
-    };
-    return l.polygon == h.polygon && stays(h.a) && stays(h.b);
+  bool same_place(const Joint& l, const Joint& h) const { return l.polygon == h.polygon && stays(h.a) && stays(h.b); }
+  bool same_place(const FillJoint& l, const FillJoint& h) const { return l.polygon == h.polygon && stays(h.block); }
+
+  static Matrix12 stiffness(const Assembly& assembly, const Joint& joint) { return pair_stiffness(assembly, joint); }
+  static Matrix15 stiffness(const Assembly& assembly, const FillJoint& patch) {
+    return patch_stiffness(assembly, patch);
+  }
+  /// Without what does not move yet.
+  Matrix12 of_low(const Joint& joint) const {
+    Matrix12 k = pair_stiffness(low_, joint);
+    if (freed(joint.a)) k.topRows<6>().setZero(), k.leftCols<6>().setZero();
+    if (freed(joint.b)) k.bottomRows<6>().setZero(), k.rightCols<6>().setZero();
+    return k;
+  }
+  Matrix15 of_low(const FillJoint& patch) const {
+    Matrix15 k = patch_stiffness(low_, patch);
+    if (freed(patch.block)) k.topRows<6>().setZero(), k.leftCols<6>().setZero();
+    return k;
+  }
+  template <class Matrix, class Of>
+  Matrix stiffness_of(const Of* l, const Of* h, double share) const {
+    if (!h) return -share * of_low(*l);
+    if (!l) return stiffness(high_, *h);
+    if (same_place(*l, *h) && !freed(*h)) {  // the stiffness is linear in both
+      Of difference = *h;
+      difference.kn -= share * l->kn, difference.ks -= share * l->ks;
+      return stiffness(high_, difference);
+    }
+    return stiffness(high_, *h) - share * of_low(*l);
   }
 
   const Assembly &low_, &high_;
 };
 
-}  // namespace
-
-Derivative derivative(const Assembly& low, const Assembly& high, double apart) {
-  const Differences differences(low, high);
-  Derivative d;
-  match_joints(low, high, [&](const Joint* l, const Joint* h) {
-    if (differences.factor(l, h) != 1.0) d.pairs.push_back(differences.pair(l, h)), d.pairs.back().k /= apart;
-  });
-  for (std::size_t i = 0; i < high.blocks.size(); ++i) {
-    if (high.blocks[i].fixed || (i < low.blocks.size() && differences.factor(i) == 1.0)) continue;
-    d.blocks.push_back(differences.own(i)), d.blocks.back().m /= apart;
+/// What the elements of two fills of one mesh add.
+class FillDifferences {
+ public:
+  FillDifferences(const Assembly& low, const Assembly& high) : low_(low), high_(high) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;  // growths, by materials of low and high
+    std::pair<std::int32_t, std::int32_t> last;
+    std::int32_t found = 0;
+    for (std::size_t i = 0; i < low.fill.tets.size(); ++i) {
+      const std::pair both(low.fill.material[i], high.fill.material[i]);
+      if (i == 0 || both != last) {
+        const auto [at, fresh] = known.try_emplace(both, std::int32_t(growths_.size()));
+        if (fresh)
+          growths_.push_back(
+              growth(low.materials.at(std::size_t(both.first)), high.materials.at(std::size_t(both.second))));
+        last = both, found = at->second;
+      }
+      of_element_.push_back(found);
+    }
   }
-  return d;
-}
+  std::size_t elements() const { return of_element_.size(); }
+  double shear(std::size_t element) const { return growths_[std::size_t(of_element_[element])].shear; }
+  double density(std::size_t element) const { return growths_[std::size_t(of_element_[element])].density; }
+  /// By which the stiffness of each node's ring has grown; `irregular` where its elements differ.
+  std::vector<double> rings() const {
+    std::vector<double> factors(low_.fill.nodes.size(), 0.0);
+    for (std::size_t i = 0; i < elements(); ++i) {
+      const double bulk = growths_[std::size_t(of_element_[i])].bulk;
+      for (const std::int32_t node : low_.fill.tets[i]) {
+        double& known = factors[std::size_t(node)];
+        if (known == 0.0)
+          known = bulk;
+        else if (!(known == bulk))
+          known = irregular;
+      }
+    }
+    return factors;
+  }
 
-namespace {
+  Contributions::Element element(std::size_t i, double share) const {
+    Contributions::Element term = shear_term(low_elements()[i]);
+    term.scale *= shear(i) - share;
+    return term;
+  }
+  Contributions::Lump lump(std::size_t i, double share) const {
+    const double density = low_.materials[std::size_t(low_.fill.material[i])].density;
+    return {low_.fill.tets[i], 0.25 * density * low_elements()[i].volume * (this->density(i) - share)};
+  }
+  void add_ring(std::size_t node, double factor, double share, std::vector<Contributions::Ring>& rings) const {
+    Contributions::Ring low = ring_term(low_rings()[node]);
+    if (std::isnan(factor)) rings.push_back(ring_term(high_rings()[node])), factor = 0.0;
+    low.scale *= factor - share;
+    rings.push_back(std::move(low));
+  }
+
+ private:
+  struct Growth {
+    double shear = 1.0, bulk = 1.0, density = 1.0;
+  };
+  static Growth growth(const Material& low, const Material& high) {
+    const FillLaw a = fill_law(low), b = fill_law(high);
+    return {b.shear / a.shear, b.bulk / a.bulk, b.density / a.density};
+  }
+  // What few changes need.
+  const std::vector<FillElement>& low_elements() const {
+    return kept(elements_, [&] { return fill_elements(low_); });
+  }
+  const std::vector<FillRing>& low_rings() const {
+    return kept(low_rings_, [&] { return fill_rings(low_elements(), low_.fill.nodes.size()); });
+  }
+  const std::vector<FillRing>& high_rings() const {
+    return kept(high_rings_, [&] { return fill_rings(fill_elements(high_), low_.fill.nodes.size()); });
+  }
+  template <class Of, class Make>
+  static const Of& kept(Of& of, const Make& make) {
+    if (of.empty()) of = make();
+    return of;
+  }
+
+  const Assembly &low_, &high_;
+  std::vector<Growth> growths_;
+  std::vector<std::int32_t> of_element_;
+  mutable std::vector<FillElement> elements_;
+  mutable std::vector<FillRing> low_rings_, high_rings_;
+};
 
 /// Numbers the distinct factors as they come; those that differ by rounding are the same, what is irregular has none.
 void sort_out(const std::vector<double>& factors, std::vector<std::int32_t>& of,
@@ -113,14 +202,21 @@ void sort_out(const std::vector<double>& factors, std::vector<std::int32_t>& of,
   }
 }
 
-/// Of each joint and block of the origin.
+/// Of each unit of the origin.
 struct Factors {
-  std::vector<double> joints, blocks;
-  Factors(const Assembly& origin, const Assembly& changed, const Differences& differences) {
-    match_joints(origin, changed, [&](const Joint* l, const Joint* h) {
-      if (l) joints.push_back(differences.factor(l, h));
-    });
-    for (std::size_t i = 0; i < origin.blocks.size(); ++i) blocks.push_back(differences.factor(i));
+  std::vector<double> stiffness, mass;
+  Factors(const Assembly& origin, const Assembly& changed, const Differences& differences,
+          const FillDifferences& fill) {
+    const auto add = [&](const auto* l, const auto* h) {
+      if (l) stiffness.push_back(differences.factor(l, h));
+    };
+    match(origin.joints, changed.joints, add);
+    match(origin.fill_joints, changed.fill_joints, add);
+    for (std::size_t i = 0; i < fill.elements(); ++i) stiffness.push_back(fill.shear(i));
+    const std::vector<double> rings = fill.rings();
+    stiffness.insert(stiffness.end(), rings.begin(), rings.end());
+    for (std::size_t i = 0; i < origin.blocks.size(); ++i) mass.push_back(differences.factor(i));
+    for (std::size_t i = 0; i < fill.elements(); ++i) mass.push_back(fill.density(i));
   }
 };
 
@@ -147,123 +243,74 @@ bool differs(double factor, double usual) {
 
 }  // namespace
 
+Contributions derivative(const Assembly& low, const Assembly& high, double apart) {
+  Contributions d = find_change(low, {}, high).others;
+  for (auto& pair : d.pairs) pair.k /= apart;
+  for (auto& patch : d.patches) patch.k /= apart;
+  for (auto& element : d.elements) element.scale /= apart;
+  for (auto& ring : d.rings) ring.scale /= apart;
+  for (auto& own : d.blocks) own.m /= apart;
+  for (auto& lump : d.lumps) lump.mass /= apart;
+  return d;
+}
+
 Classes find_classes(const Assembly& origin, const Assembly& changed) {
-  const Factors factors(origin, changed, Differences(origin, changed));
+  const Factors factors(origin, changed, Differences(origin, changed), FillDifferences(origin, changed));
   Classes classes;
-  sort_out(factors.joints, classes.of_joint, classes.joints);
-  sort_out(factors.blocks, classes.of_block, classes.blocks);
+  sort_out(factors.stiffness, classes.of_stiffness, classes.stiffness);
+  sort_out(factors.mass, classes.of_mass, classes.mass);
   return classes;
 }
 
 Change find_change(const Assembly& origin, const Classes& classes, const Assembly& changed) {
   const Differences differences(origin, changed);
-  const Factors factors(origin, changed, differences);
+  const FillDifferences fill(origin, changed);
+  const Factors factors(origin, changed, differences, fill);
   Change change;
-  change.stiffness = factors_of(classes.joints, factors.joints);
-  change.mass = factors_of(classes.blocks, factors.blocks);
-  std::size_t at = 0;
-  match_joints(origin, changed, [&](const Joint* l, const Joint* h) {
-    const double share = l ? usual(classes.of_joint, change.stiffness, at) : 1.0;
-    if (!l || differs(factors.joints[at], share)) change.others.pairs.push_back(differences.pair(l, h, share));
-    at += l != nullptr;
-  });
+  change.stiffness = factors_of(classes.stiffness, factors.stiffness);
+  change.mass = factors_of(classes.mass, factors.mass);
+  Contributions& others = change.others;
+  const auto own_of = [&](std::size_t unit) { return usual(classes.of_mass, change.mass, unit); };
+  const auto share_of = [&](std::size_t unit) { return usual(classes.of_stiffness, change.stiffness, unit); };
+  const auto differing = [&](std::size_t unit) { return differs(factors.stiffness[unit], share_of(unit)); };
+
+  std::size_t unit = 0;
+  const auto add_to = [&](auto& terms) {
+    return [&](const auto* l, const auto* h) {
+      if (!l || differing(unit)) terms.push_back(differences.difference(l, h, l ? share_of(unit) : 1.0));
+      unit += l != nullptr;
+    };
+  };
+  match(origin.joints, changed.joints, add_to(others.pairs));
+  match(origin.fill_joints, changed.fill_joints, add_to(others.patches));
+  for (std::size_t i = 0; i < fill.elements(); ++i, ++unit)
+    if (differing(unit)) others.elements.push_back(fill.element(i, share_of(unit)));
+  for (std::size_t node = 0; node < origin.fill.nodes.size(); ++node, ++unit)
+    if (differing(unit)) fill.add_ring(node, factors.stiffness[unit], share_of(unit), others.rings);
+
   for (std::size_t i = 0; i < changed.blocks.size(); ++i) {
     const bool known = i < origin.blocks.size();
-    const double share = known ? usual(classes.of_block, change.mass, i) : 1.0;
-    if (!changed.blocks[i].fixed && (!known || differs(factors.blocks[i], share)))
-      change.others.blocks.push_back(differences.own(i, share));
+    const double share = known ? own_of(i) : 1.0;
+    if (!changed.blocks[i].fixed && (!known || differs(factors.mass[i], share)))
+      others.blocks.push_back(differences.own(i, share));
   }
+  unit = origin.blocks.size();
+  for (std::size_t i = 0; i < fill.elements(); ++i, ++unit)
+    if (differs(factors.mass[unit], own_of(unit))) others.lumps.push_back(fill.lump(i, own_of(unit)));
   return change;
 }
 
 Unknowns with_freed(const Unknowns& unknowns, const Assembly& from, const Assembly& to) {
   Unknowns all = unknowns;
+  const auto nodes = unknowns.of.begin() + std::ptrdiff_t(unknowns.bodies);
+  all.of.assign(unknowns.of.begin(), nodes);
   all.of.resize(to.blocks.size(), {-1, -1, -1, -1, -1, -1});
+  all.bodies = to.blocks.size();
   for (std::size_t i = 0; i < to.blocks.size(); ++i)
     if (is_freed(from, to, i))
       for (std::int32_t& unknown : all.of[i]) unknown = all.count++;
+  all.of.insert(all.of.end(), nodes, unknowns.of.end());
   return all;
-}
-
-namespace {
-
-void add_product(const Derivative::Pair& pair, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
-  const Eigen::Index a = first_of(unknowns, pair.a), b = first_of(unknowns, pair.b);
-  const Matrix12 k = factor * pair.k;
-  if (a >= 0) y.middleRows<6>(a) += k.topLeftCorner<6, 6>().lazyProduct(x.middleRows<6>(a));
-  if (b >= 0) y.middleRows<6>(b) += k.bottomRightCorner<6, 6>().lazyProduct(x.middleRows<6>(b));
-  if (a < 0 || b < 0) return;
-  y.middleRows<6>(a) += k.topRightCorner<6, 6>().lazyProduct(x.middleRows<6>(b));
-  y.middleRows<6>(b) += k.bottomLeftCorner<6, 6>().lazyProduct(x.middleRows<6>(a));
-}
-
-}  // namespace
-
-Vectors times_stiffness(const Derivative& d, const Unknowns& unknowns, const Vectors& x) {
-  Vectors y = Vectors::Zero(x.rows(), x.cols());
-  for (const Derivative::Pair& pair : d.pairs) add_product(pair, 1.0, unknowns, x, y);
-  return y;
-}
-
-void add_products(const std::vector<Derivative::Pair>& pairs, const std::vector<std::int32_t>& listed, double factor,
-                  const Unknowns& unknowns, const Vectors& x, Vectors& y) {
-  for (const std::int32_t i : listed) add_product(pairs[std::size_t(i)], factor, unknowns, x, y);
-}
-
-Vectors times_mass(const Derivative& d, const Unknowns& unknowns, const Vectors& x) {
-  Vectors y = Vectors::Zero(x.rows(), x.cols());
-  for (const Derivative::Own& own : d.blocks)
-    if (const Eigen::Index at = first_of(unknowns, own.block); at >= 0)
-      y.middleRows<6>(at) += own.m.lazyProduct(x.middleRows<6>(at));
-  return y;
-}
-
-Eigen::VectorXd times_stiffness(const Derivative& d, const Unknowns& unknowns, const Eigen::VectorXd& x) {
-  return times_stiffness(d, unknowns, Vectors(x)).col(0);
-}
-
-Eigen::VectorXd times_mass(const Derivative& d, const Unknowns& unknowns, const Eigen::VectorXd& x) {
-  return times_mass(d, unknowns, Vectors(x)).col(0);
-}
-
-namespace {
-
-/// Renumbers the sites that a derivative touches, so that only their rows are read.
-class Touched {
- public:
-  Touched(const Derivative& d, const Unknowns& all) : all_(all) {
-    unknowns_.of.assign(all.of.size(), {-1, -1, -1, -1, -1, -1});
-    for (const Derivative::Pair& pair : d.pairs) touch(pair.a), touch(pair.b);
-    for (const Derivative::Own& own : d.blocks) touch(own.block);
-  }
-  const Unknowns& unknowns() const { return unknowns_; }
-  Vectors rows(const Vectors& v) const {
-    Vectors rows(unknowns_.count, v.cols());
-    for (std::size_t i = 0; i < all_.of.size(); ++i)
-      if (unknowns_.any(i)) rows.middleRows<6>(unknowns_.of[i][0]) = v.middleRows<6>(all_.of[i][0]);
-    return rows;
-  }
-
- private:
-  void touch(std::int64_t block) {
-    auto& own = unknowns_.of[std::size_t(block)];
-    if (!all_.any(std::size_t(block)) || own[0] >= 0) return;
-    for (std::int32_t& unknown : own) unknown = unknowns_.count++;
-  }
-  const Unknowns& all_;
-  Unknowns unknowns_;
-};
-
-}  // namespace
-
-Eigen::MatrixXd project_stiffness(const Derivative& d, const Unknowns& unknowns, const Vectors& v, const Vectors& w) {
-  const Touched touched(d, unknowns);
-  return touched.rows(v).transpose() * times_stiffness(d, touched.unknowns(), touched.rows(w));
-}
-
-Eigen::MatrixXd project_mass(const Derivative& d, const Unknowns& unknowns, const Vectors& v, const Vectors& w) {
-  const Touched touched(d, unknowns);
-  return touched.rows(v).transpose() * times_mass(d, touched.unknowns(), touched.rows(w));
 }
 
 }  // namespace voussoir

@@ -30,7 +30,7 @@ Classes classes_of(const Origin& origin, const Assembly& base, const Hypothesis&
 }
 
 ModelFamily::GroundRows ground_rows(const ReducedModel& reduced, const Assembly& assembly, const Change& change) {
-  const Eigen::MatrixXd inertia = reduced.times_mass(change, translations(assembly, reduced.unknowns()));
+  const Eigen::MatrixXd inertia = reduced.times_mass(change, translations(reduced.unknowns()));
   const GroundForces ground = ground_forces(assembly, reduced.unknowns(), inertia);
   ModelFamily::GroundRows rows = {ground.inertia.transpose() * reduced.basis(), {}};
   for (const Eigen::MatrixXd& pull : ground.pull) rows.pull.push_back(pull.transpose() * reduced.basis());
@@ -197,7 +197,7 @@ Vectors material_vectors(const Origin& origin, const Assembly& base, const Hypot
     constexpr double step = 1e-3;
     Eigen::VectorXd low = x, high = x;
     low[p] -= step, high[p] += step;
-    const Derivative d = derivative(hypothesis.assembly(base, low), hypothesis.assembly(base, high), 2.0 * step);
+    const Contributions d = derivative(hypothesis.assembly(base, low), hypothesis.assembly(base, high), 2.0 * step);
     const Vectors force = times_mass(d, origin.model().unknowns, phi) * known.eigenvalues.head(n).asDiagonal() -
                           times_stiffness(d, origin.model().unknowns, phi);
     all.middleCols(p * n, n) = origin.static_response(force);

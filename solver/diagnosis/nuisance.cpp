@@ -14,7 +14,7 @@ namespace {
 
 // Standard deviations: of one part against the mean of its material, which is fitted (docs/theory/diagnosis.md).
 constexpr double part_stiffness = 0.08, part_density = 0.02;
-constexpr double interface_stiffness = 0.2, base_stiffness = 0.15;
+constexpr double contact_stiffness = 0.2, base_stiffness = 0.15;
 
 /// Joints that are `chosen` by the numbers of their blocks' parts.
 void scale_joints(Assembly& assembly, const std::function<bool(const Joint&)>& chosen, double factor) {
@@ -69,13 +69,13 @@ std::vector<Nuisance> part_nuisances(const Assembly& base) {
         [name](Assembly& a, double f) { scale_density(a, masonry_part(a, name), f); });
   }
   if (!all_if_any(base, Component::parapet).empty())
-    add("stiffness of parapets", interface_stiffness, [](Assembly& a, double f) {
+    add("stiffness of parapets", contact_stiffness, [](Assembly& a, double f) {
       const BlockSet parapets = component(a, Component::parapet);
       scale_joints(
           a, [&](const Joint& j) { return parapets[std::size_t(j.a)] || parapets[std::size_t(j.b)]; }, f);
     });
   const std::vector<int> part = part_of_blocks(base, names);
-  add("joints between parts", interface_stiffness, [part](Assembly& a, double f) {
+  add("joints between parts", contact_stiffness, [part](Assembly& a, double f) {
     scale_joints(
         a,
         [&](const Joint& j) {
@@ -86,7 +86,7 @@ std::vector<Nuisance> part_nuisances(const Assembly& base) {
         f);
   });
   if (!all_if_filled(base).empty())
-    add("contact of the fill", interface_stiffness, [](Assembly& a, double f) {
+    add("contact of the fill", contact_stiffness, [](Assembly& a, double f) {
       scale_joints(
           a, [&](const Joint& j) { return is_fill(a, j.a) != is_fill(a, j.b); }, f);
       scale_patches(a, BlockSet(a.blocks.size(), true), f);
@@ -123,7 +123,7 @@ Sensitivities::Sensitivities(const Origin& origin, const std::vector<Sensor>& se
 ModalData Sensitivities::derivative_to(const Assembly& changed, double amount) const {
   const Response& known = origin_->response();
   const Unknowns& unknowns = origin_->model().unknowns;
-  const Derivative d = derivative(origin_->assembly(), changed, amount);
+  const Contributions d = derivative(origin_->assembly(), changed, amount);
   const Vectors phi = modes_.leftCols(wanted_);
   const auto forces = [&](const Vectors& from) -> Eigen::MatrixXd {  // fromᵀ (λ M′ − K′) φ
     return project_mass(d, unknowns, from, phi) * known.eigenvalues.head(wanted_).asDiagonal() -
@@ -152,8 +152,7 @@ ModalData Sensitivities::derivative_to(const Assembly& changed, double amount) c
     motions.col(i) += motions_ * shares + at_loads.col(i).head(count);
     if (axes > 0) m.participation.col(i) = known.participation * shares + at_loads.col(i).tail(axes);
   }
-  if (axes > 0)
-    m.participation.leftCols(wanted_) += project_mass(d, unknowns, translations(origin_->assembly(), unknowns), phi);
+  if (axes > 0) m.participation.leftCols(wanted_) += project_mass(d, unknowns, translations(unknowns), phi);
   m.sensors = Eigen::MatrixXd::Zero(Eigen::Index(sensors_.size()), all);
   m.motions = Eigen::MatrixXd::Zero(3 * Eigen::Index(sensors_.size()), all);
   for (std::size_t s = 0; s < sensors_.size(); ++s) {
@@ -172,7 +171,7 @@ bool same_cut(const Assembly& a, const Assembly& b) {
   for (std::size_t i = 0; i < a.blocks.size(); ++i)
     if (a.blocks[i].fixed != b.blocks[i].fixed || a.blocks[i].component != b.blocks[i].component) return false;
   double all = 0.0, unmatched = 0.0;
-  match_joints(a, b, [&](const Joint* l, const Joint* h) {
+  match(a.joints, b.joints, [&](const Joint* l, const Joint* h) {
     const double area = (l ? l : h)->area;
     all += area;
     if (!l || !h) unmatched += area;

@@ -43,28 +43,13 @@ Eigen::MatrixXd independent(const Eigen::MatrixXd& k) {
   return scale.asDiagonal() * all.vectors.rightCols(n) * all.values.tail(n).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Those of them that are listed.
-Derivative only(const std::vector<Derivative::Pair>& pairs, const std::vector<std::int32_t>& members) {
-  Derivative d;
-  d.pairs.reserve(members.size());
-  for (const std::int32_t i : members) d.pairs.push_back(pairs[std::size_t(i)]);
-  return d;
-}
-Derivative only(const std::vector<Block>& blocks, const std::vector<std::int32_t>& members) {
-  Derivative d;
-  for (const std::int32_t i : members)
-    if (!blocks[std::size_t(i)].fixed) d.blocks.push_back({std::int64_t(i), block_mass(blocks[std::size_t(i)])});
-  return d;
-}
-
 }  // namespace
 
 Origin::Origin(const Assembly& own, const std::vector<Sensor>& sensors, int modes, bool driven)
     : assembly_(own),
-      model_(linear_model(own)),
-      response_(voussoir::response(assembly_, model_, sensors, modes, memory_, driven)) {
-  for (const Joint& joint : assembly_.joints) pairs_.push_back({joint.a, joint.b, pair_stiffness(assembly_, joint)});
-}
+      parts_(contributions(assembly_)),
+      model_(linear_model(assembly_, parts_)),
+      response_(voussoir::response(assembly_, model_, sensors, modes, memory_, driven)) {}
 
 Vectors Origin::static_response(const Vectors& forces) const {
   const Eigen::MatrixXd own = forces.topRows(model_.unknowns.count);
@@ -77,8 +62,8 @@ ReducedModel::ReducedModel(const Origin& origin, const Assembly& changed, Classe
       unknowns_(with_freed(origin.model().unknowns, origin.assembly(), changed)) {
   const Eigen::Index known = origin.model().unknowns.count, all = unknowns_.count;
   v_.resize(all, 0);
-  k_.classes.resize(classes_.joints.size());
-  m_.classes.resize(classes_.blocks.size());
+  k_.classes.resize(classes_.stiffness.size());
+  m_.classes.resize(classes_.mass.size());
   const Response& modes = origin.response();
   Vectors first = Vectors::Zero(all, modes.vectors.cols() + all - known), stiffness = first;
   first.topLeftCorner(known, modes.vectors.cols()) = modes.vectors;
@@ -101,10 +86,10 @@ void ReducedModel::append(const Vectors& more, const Vectors* stiffness) {
   };
   grow(k_.whole, v_.transpose() * (stiffness ? *stiffness : times(origin_->model().k, more)));
   grow(m_.whole, v_.transpose() * times(origin_->model().m, more));
-  for (std::size_t c = 0; c < classes_.joints.size(); ++c)
-    grow(k_.classes[c], project_stiffness(only(origin_->pairs(), classes_.joints[c]), unknowns_, v_, more));
-  for (std::size_t c = 0; c < classes_.blocks.size(); ++c)
-    grow(m_.classes[c], project_mass(only(origin_->assembly().blocks, classes_.blocks[c]), unknowns_, v_, more));
+  for (std::size_t c = 0; c < classes_.stiffness.size(); ++c)
+    grow(k_.classes[c], project_stiffness(origin_->parts(), classes_.stiffness[c], unknowns_, v_, more));
+  for (std::size_t c = 0; c < classes_.mass.size(); ++c)
+    grow(m_.classes[c], project_mass(origin_->parts(), classes_.mass[c], unknowns_, v_, more));
 }
 
 Eigen::MatrixXd ReducedModel::sum(const Projected& p, const std::vector<double>& factors) const {
@@ -134,16 +119,14 @@ Vectors ReducedModel::times_stiffness(const Change& change, const Vectors& x) co
   Vectors y = times(origin_->model().k, x) + voussoir::times_stiffness(change.others, unknowns_, x);
   for (std::size_t c = 0; c < change.stiffness.size(); ++c)
     if (change.stiffness[c] != 1.0)
-      add_products(origin_->pairs(), classes_.joints[c], change.stiffness[c] - 1.0, unknowns_, x, y);
+      add_stiffness(origin_->parts(), classes_.stiffness[c], change.stiffness[c] - 1.0, unknowns_, x, y);
   return y;
 }
 
 Vectors ReducedModel::times_mass(const Change& change, const Vectors& x) const {
   Vectors y = times(origin_->model().m, x) + voussoir::times_mass(change.others, unknowns_, x);
   for (std::size_t c = 0; c < change.mass.size(); ++c)
-    if (change.mass[c] != 1.0)
-      y += (change.mass[c] - 1.0) *
-           voussoir::times_mass(only(origin_->assembly().blocks, classes_.blocks[c]), unknowns_, x);
+    if (change.mass[c] != 1.0) add_mass(origin_->parts(), classes_.mass[c], change.mass[c] - 1.0, unknowns_, x, y);
   return y;
 }
 

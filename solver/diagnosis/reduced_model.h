@@ -6,7 +6,8 @@
 
 namespace voussoir {
 
-/// A model whose modes and factor are known, and what each of its joints adds to K. Several threads may use it at once.
+/// A model whose modes and factor are known, and what each of its parts adds to K and M. Several threads may use it at
+/// once.
 class Origin {
  public:
   /// Its lowest modes as response() has them. Throws InputError when nothing is held together.
@@ -16,18 +17,17 @@ class Origin {
   const Assembly& assembly() const { return assembly_; }
   const LinearModel& model() const { return model_; }
   const Response& response() const { return response_; }
-  /// Of each joint, in their order.
-  const std::vector<Derivative::Pair>& pairs() const { return pairs_; }
+  const Contributions& parts() const { return parts_; }
   /// (K − σ M)⁻¹ F over the origin's unknowns, further rows zero; σ is negligible against all eigenvalues.
   Vectors static_response(const Vectors& forces) const;
   double shift() const { return response_.shift; }  // σ
 
  private:
   Assembly assembly_;
+  Contributions parts_;
   LinearModel model_;
   EigenMemory memory_;
   Response response_;
-  std::vector<Derivative::Pair> pairs_;
 };
 
 /// Modes in a basis: λ ascending; q a column a mode, qᵀ (Vᵀ M V) q = 1.

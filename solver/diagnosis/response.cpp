@@ -8,31 +8,40 @@ namespace voussoir {
 
 namespace {
 
-/// Forces on the unknowns, a column an axis, when a block moves without turning and these stiffnesses join it to
-/// others: −K e.
-Eigen::MatrixXd pull_of(std::int64_t base, const std::vector<Derivative::Pair>& pairs, const Unknowns& unknowns) {
+/// pull −= push, rows of a site.
+void take(Eigen::MatrixXd& pull, const Unknowns& unknowns, std::size_t site, const Eigen::MatrixXd& push) {
+  for (Eigen::Index c = 0; c < push.rows(); ++c)
+    if (const std::int32_t at = unknowns.of[site][std::size_t(c)]; at >= 0) pull.row(at) -= push.row(c);
+}
+
+/// Forces on the unknowns, a column an axis, when a block moves without turning: −K e of what joins it to others.
+Eigen::MatrixXd pull_of(const Assembly& assembly, std::int64_t base, const Unknowns& unknowns) {
   Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(unknowns.count, 3);
-  for (const Derivative::Pair& pair : pairs) {
-    if (pair.a != base && pair.b != base) continue;
-    const bool first = pair.a == base;
-    const auto other = std::size_t(first ? pair.b : pair.a);
-    for (int axis = 0; axis < 3; ++axis) {
-      Eigen::VectorXd column = pull.col(axis);
-      const Vector6 force = first ? pair.k.block<6, 1>(6, axis) : pair.k.block<6, 1>(0, 6 + axis);
-      set_part(column, unknowns, other, part_of(column, unknowns, other) - force);
-      pull.col(axis) = column;
-    }
+  for (const Joint& joint : assembly.joints) {
+    if (joint.a != base && joint.b != base) continue;
+    const Matrix12 k = pair_stiffness(assembly, joint);
+    if (joint.a == base)
+      take(pull, unknowns, std::size_t(joint.b), k.block<6, 3>(6, 0));
+    else
+      take(pull, unknowns, std::size_t(joint.a), k.block<6, 3>(0, 6));
+  }
+  for (const FillJoint& patch : assembly.fill_joints) {
+    if (patch.block != base) continue;
+    const Matrix15 k = patch_stiffness(assembly, patch);
+    const auto& nodes = assembly.fill.triangles[std::size_t(patch.triangle)];
+    for (std::size_t i = 0; i < 3; ++i)
+      take(pull, unknowns, unknowns.bodies + std::size_t(nodes[i]), k.block<3, 3>(Eigen::Index(6 + 3 * i), 0));
   }
   return pull;
 }
 
 }  // namespace
 
-Eigen::MatrixXd translations(const Assembly& assembly, const Unknowns& unknowns) {
+Eigen::MatrixXd translations(const Unknowns& unknowns) {
   Eigen::MatrixXd r = Eigen::MatrixXd::Zero(unknowns.count, 3);
   for (int axis = 0; axis < 3; ++axis) {
     Eigen::VectorXd column = r.col(axis);
-    for (std::size_t i = 0; i < assembly.blocks.size(); ++i) set_part(column, unknowns, i, Vector6::Unit(axis));
+    for (std::size_t i = 0; i < unknowns.of.size(); ++i) set_part(column, unknowns, i, Vector6::Unit(axis));
     r.col(axis) = column;
   }
   return r;
@@ -43,11 +52,8 @@ GroundForces ground_forces(const Assembly& assembly, const Unknowns& unknowns, c
   ground.inertia = inertia;
   for (const std::string& support : supports(assembly)) {
     const std::int64_t base = base_of(assembly, support);
-    std::vector<Derivative::Pair> pairs;
-    for (const Joint& joint : assembly.joints)
-      if (joint.a == base || joint.b == base) pairs.push_back({joint.a, joint.b, pair_stiffness(assembly, joint)});
     ground.bases.push_back(base);
-    ground.pull.push_back(pull_of(base, pairs, unknowns));
+    ground.pull.push_back(pull_of(assembly, base, unknowns));
   }
   return ground;
 }
@@ -72,6 +78,9 @@ ModeWords words_of(const Assembly& assembly, const Unknowns& unknowns, double ei
   mode.shape = BlockMotions::Zero(Eigen::Index(assembly.blocks.size()), 6);
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
     mode.shape.row(Eigen::Index(i)) = part_of(vector, unknowns, i);
+  mode.nodes = NodeMotions::Zero(Eigen::Index(assembly.fill.nodes.size()), 3);
+  for (std::size_t i = 0; i < assembly.fill.nodes.size(); ++i)
+    mode.nodes.row(Eigen::Index(i)) = part_of(vector, unknowns, unknowns.bodies + i).head<3>();
   mode.modal_mass = 1.0;
   return mode_words(assembly, mode);
 }
@@ -134,7 +143,7 @@ Response response(const Assembly& assembly, const LinearModel& model, const std:
   for (int i = 0; i < count; ++i)
     r.words.push_back(words_of(assembly, model.unknowns, pairs.values[i], r.vectors.col(i)));
   if (driven) {
-    const Eigen::MatrixXd inertia = model.m.selfadjointView<Eigen::Lower>() * translations(assembly, model.unknowns);
+    const Eigen::MatrixXd inertia = model.m.selfadjointView<Eigen::Lower>() * translations(model.unknowns);
     r.ground = ground_forces(assembly, model.unknowns, inertia);
     add_participation(r);
   }

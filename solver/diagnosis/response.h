@@ -1,5 +1,6 @@
 // What a model says of the measured features: modes as the sensors see them, and their derivatives.
 #pragma once
+#include "solver/diagnosis/linear_model.h"
 #include "solver/diagnosis/model_change.h"
 #include "solver/modal/modes.h"
 
@@ -23,7 +24,7 @@ struct GroundForces {
 };
 
 /// Unit translations of all that moves, a column an axis.
-Eigen::MatrixXd translations(const Assembly& assembly, const Unknowns& unknowns);
+Eigen::MatrixXd translations(const Unknowns& unknowns);
 /// `inertia`: M of those.
 GroundForces ground_forces(const Assembly& assembly, const Unknowns& unknowns, const Eigen::MatrixXd& inertia);
 

@@ -18,20 +18,13 @@ Matrix6 of_node(const Mat3& block) {
   return m;
 }
 
-/// A tetrahedron where it is: gradients of the shape functions in the present placement, reference volume.
-struct Element {
-  std::array<std::int32_t, 4> nodes = {};
-  std::array<Vec3, 4> gradient;  // 1/m
-  double volume = 0.0;           // m3
-  const FillLaw* law = nullptr;
-};
-
-Element element(const FillModel& fill, const Array<double>& pose, std::size_t batch, int lane) {
+FillElement element(const FillModel& fill, const Array<double>& pose, std::size_t batch, int lane) {
   const TetShape shape = tet_shape(fill, batch, lane);
-  Element e;
+  const FillLaw& law = fill.law_of(batch);
+  FillElement e;
   e.nodes = shape.nodes;
   e.volume = shape.volume;
-  e.law = &fill.law_of(batch);
+  e.bulk = law.bulk, e.shear = law.shear;
   Mat3 f = Mat3::Identity();
   for (std::size_t k = 0; k < 4; ++k)
     f += Vec3(&pose[node_width * std::size_t(e.nodes[k])]) * shape.gradient[k].transpose();
@@ -40,28 +33,31 @@ Element element(const FillModel& fill, const Array<double>& pose, std::size_t ba
   return e;
 }
 
-template <class Use>
-void each_element(const Model& model, const State& state, const Use& use) {
+std::vector<FillElement> elements_of(const Model& model, const State& state) {
   const FillModel& fill = model.fill;
+  std::vector<FillElement> elements;
   for (std::size_t b = 0; b < fill.batches.size(); ++b)
-    for (int lane = 0; lane < fill.batches[b].count; ++lane) use(element(fill, state.fill.pose, b, lane));
+    for (int lane = 0; lane < fill.batches[b].count; ++lane)
+      elements.push_back(element(fill, state.fill.pose, b, lane));
+  return elements;
 }
 
-/// Elements about each node, and what they add to κ V ∇N of the nodes of its ring.
-struct Ring {
-  std::vector<std::int32_t> nodes;  // ascending
-  std::vector<Vec3> pull;           // N: Σ κ V ∇N
-};
+}  // namespace
 
-std::vector<Ring> rings_of(const Model& model, const State& state) {
-  std::vector<std::vector<std::pair<std::int32_t, Vec3>>> parts(model.fill.nodes.size());
-  each_element(model, state, [&](const Element& e) {
-    for (const std::int32_t about : e.nodes)
+Mat3 shear_block(const Vec3& gi, const Vec3& gj) {
+  return gi.dot(gj) * Mat3::Identity() + gj * gi.transpose() - (2.0 / 3.0) * gi * gj.transpose();
+}
+
+std::vector<FillRing> fill_rings(const std::vector<FillElement>& elements, std::size_t nodes) {
+  std::vector<std::vector<std::pair<std::int32_t, Vec3>>> parts(nodes);
+  std::vector<FillRing> rings(nodes);
+  for (const FillElement& e : elements)
+    for (const std::int32_t about : e.nodes) {
+      rings[std::size_t(about)].weight += e.bulk * e.volume;
       for (std::size_t k = 0; k < 4; ++k)
-        parts[std::size_t(about)].emplace_back(e.nodes[k], e.law->bulk * e.volume * e.gradient[k]);
-  });
-  std::vector<Ring> rings(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[std::size_t(about)].emplace_back(e.nodes[k], e.bulk * e.volume * e.gradient[k]);
+    }
+  for (std::size_t i = 0; i < nodes; ++i) {
     std::stable_sort(parts[i].begin(), parts[i].end(), [](const auto& p, const auto& q) { return p.first < q.first; });
     for (const auto& [node, pull] : parts[i]) {
       if (rings[i].nodes.empty() || rings[i].nodes.back() != node)
@@ -72,27 +68,49 @@ std::vector<Ring> rings_of(const Model& model, const State& state) {
   return rings;
 }
 
-}  // namespace
+InterfaceStiffness interface_stiffness(const std::array<std::array<Mat3, 3>, 3>& corners,
+                                       const std::array<Vec3, 3>& reach) {
+  InterfaceStiffness k;
+  k.corners = corners;
+  std::array<Eigen::Matrix<double, 3, 6>, 3> g;
+  for (std::size_t i = 0; i < 3; ++i) g[i] << Mat3::Identity(), -skew(reach[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    k.across[i].setZero();
+    for (std::size_t j = 0; j < 3; ++j) {
+      k.own += g[i].transpose() * corners[i][j] * g[j];
+      k.across[i] -= corners[i][j] * g[j];
+    }
+  }
+  return k;
+}
 
-void couple_fill(const Model& model, const State& state, std::vector<std::pair<std::int32_t, std::int32_t>>& coupled) {
-  if (model.fill.empty()) return;
-  std::vector<std::vector<std::int32_t>> rings(model.fill.nodes.size());
-  for (const TetBatch& b : model.fill.batches)
-    for (int lane = 0; lane < b.count; ++lane)
-      for (const auto& about : b.node)
-        for (const auto& corner : b.node) rings[std::size_t(about[lane])].push_back(corner[lane]);
-  std::vector<std::vector<std::int32_t>> partners(rings.size());  // higher ones, of each node
+void couple_nodes(const std::vector<std::array<std::int32_t, 4>>& elements, std::size_t nodes, std::int32_t first,
+                  SitePairs& coupled) {
+  std::vector<std::vector<std::int32_t>> rings(nodes);
+  for (const auto& corners : elements)
+    for (const std::int32_t about : corners)
+      for (const std::int32_t corner : corners) rings[std::size_t(about)].push_back(corner);
+  std::vector<std::vector<std::int32_t>> partners(nodes);  // higher ones, of each node
   for (std::vector<std::int32_t>& ring : rings) {
     std::sort(ring.begin(), ring.end());
     ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     for (std::size_t i = 0; i < ring.size(); ++i)
       for (std::size_t j = i + 1; j < ring.size(); ++j) partners[std::size_t(ring[i])].push_back(ring[j]);
   }
-  for (std::size_t i = 0; i < partners.size(); ++i) {
+  for (std::size_t i = 0; i < nodes; ++i) {
     std::sort(partners[i].begin(), partners[i].end());
     partners[i].erase(std::unique(partners[i].begin(), partners[i].end()), partners[i].end());
-    for (const std::int32_t j : partners[i]) coupled.emplace_back(site_of(model, std::int32_t(i)), site_of(model, j));
+    for (const std::int32_t j : partners[i]) coupled.emplace_back(first + std::int32_t(i), first + j);
   }
+}
+
+void couple_fill(const Model& model, const State& state, SitePairs& coupled) {
+  if (model.fill.empty()) return;
+  std::vector<std::array<std::int32_t, 4>> elements;
+  for (const TetBatch& b : model.fill.batches)
+    for (int lane = 0; lane < b.count; ++lane)
+      elements.push_back({b.node[0][lane], b.node[1][lane], b.node[2][lane], b.node[3][lane]});
+  couple_nodes(elements, model.fill.nodes.size(), site_of(model, 0), coupled);
   for (std::size_t i = 0; i < state.interface.patches.size(); ++i)
     if (state.interface.used(i))
       for (const std::int32_t node : state.interface.patches[i].node)
@@ -101,23 +119,18 @@ void couple_fill(const Model& model, const State& state, std::vector<std::pair<s
 
 void add_fill(const Model& model, const State& state, BlockMatrix& k) {
   if (model.fill.empty()) return;
-  // 2 μ e:e: V μ (g_i · g_j 1 + g_j g_iᵀ − ⅔ g_i g_jᵀ)
-  each_element(model, state, [&](const Element& e) {
+  const std::vector<FillElement> elements = elements_of(model, state);
+  for (const FillElement& e : elements)
     for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j <= i; ++j) {
-        const Vec3 &gi = e.gradient[i], &gj = e.gradient[j];
-        const Mat3 block = e.volume * e.law->shear *
-                           (gi.dot(gj) * Mat3::Identity() + gj * gi.transpose() - (2.0 / 3.0) * gi * gj.transpose());
-        k.add(site_of(model, e.nodes[i]), site_of(model, e.nodes[j]), of_node(block));
-      }
-  });
-  // ½ Σ_a K_a θ_a², K_a = ¼ Σ κ V, K_a θ_a = ¼ Σ κ V θ
-  const std::vector<Ring> rings = rings_of(model, state);
-  for (std::size_t a = 0; a < rings.size(); ++a)
-    for (std::size_t i = 0; i < rings[a].nodes.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j)
-        k.add(site_of(model, rings[a].nodes[i]), site_of(model, rings[a].nodes[j]),
-              of_node(rings[a].pull[i] * rings[a].pull[j].transpose() / (4.0 * model.fill.weight[a])));
+        k.add(site_of(model, e.nodes[i]), site_of(model, e.nodes[j]),
+              of_node(e.volume * e.shear * shear_block(e.gradient[i], e.gradient[j])));
+  // ½ Σ_a K_a θ_a², K_a = ¼ Σ κ V, K_a θ_a = ¼ Σ κ V θ
+  for (const FillRing& ring : fill_rings(elements, model.fill.nodes.size()))
+    for (std::size_t i = 0; i < ring.nodes.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        k.add(site_of(model, ring.nodes[i]), site_of(model, ring.nodes[j]),
+              of_node(ring.pull[i] * ring.pull[j].transpose() / (4.0 * ring.weight)));
 }
 
 void add_interface(const Model& model, const State& state, PatchTangent kind, BlockMatrix& k) {
@@ -126,10 +139,10 @@ void add_interface(const Model& model, const State& state, PatchTangent kind, Bl
     if (!interface.used(slot)) continue;
     const InterfacePatch& patch = interface.patches[slot];
     const InterfaceJump jump = interface_jump(model, state, patch);
-    std::array<Vec3, 3> reach;  // m, of the corners from the stone's centroid
+    std::array<Vec3, 3> reach;
     for (std::size_t c = 0; c < 3; ++c) reach[c] = jump.at[c] - jump.centroid;
     const Mat3 shape = shape_functions(patch);
-    Mat3 sums[3][3];  // Σ w N_i N_j D, world axes
+    std::array<std::array<Mat3, 3>, 3> sums;
     for (auto& row : sums)
       for (Mat3& sum : row) sum.setZero();
     for (std::size_t p = 0; p < patch.points.size(); ++p) {
@@ -145,25 +158,19 @@ void add_interface(const Model& model, const State& state, PatchTangent kind, Bl
                           memory.broken[interface.point_index(slot, p, 1, 0)]);
       }
       const Mat3 world = jump.axes * d * jump.axes.transpose();
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) sums[i][j] += point.weight * n[i] * n[j] * world;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          sums[i][j] += point.weight * n[Eigen::Index(i)] * n[Eigen::Index(j)] * world;
     }
-    // δ of corner i: δu_i − δu_a − δθ × r_i = δu_i − G_i δ_a with G_i = (1, −[r_i]×)
-    Matrix6 own = Matrix6::Zero();
-    for (int i = 0; i < 3; ++i) {
-      Eigen::Matrix<double, 3, 6> gi;
-      gi << Mat3::Identity(), -skew(reach[std::size_t(i)]);
+    const InterfaceStiffness of = interface_stiffness(sums, reach);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j <= i; ++j)
+        k.add(site_of(model, patch.node[i]), site_of(model, patch.node[j]), of_node(of.corners[i][j]));
       Matrix6 across = Matrix6::Zero();
-      for (int j = 0; j < 3; ++j) {
-        Eigen::Matrix<double, 3, 6> gj;
-        gj << Mat3::Identity(), -skew(reach[std::size_t(j)]);
-        own += gi.transpose() * sums[i][j] * gj;
-        across.topRows<3>() -= sums[i][j] * gj;
-        if (j <= i) k.add(site_of(model, patch.node[i]), site_of(model, patch.node[j]), of_node(sums[i][j]));
-      }
+      across.topRows<3>() = of.across[i];
       k.add(site_of(model, patch.node[i]), patch.body, across);
     }
-    k.add(patch.body, patch.body, own);
+    k.add(patch.body, patch.body, of.own);
   }
 }
 

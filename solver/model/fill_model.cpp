@@ -172,12 +172,12 @@ void lump(FillModel& fill) {
 
 }  // namespace
 
-TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane) {
+TetShape tet_shape(const std::array<std::int32_t, 4>& corners, const std::vector<Vec3>& nodes) {
   TetShape shape;
-  for (std::size_t k = 0; k < 4; ++k) shape.nodes[k] = fill.batches[batch].node[k][lane];
-  const Vec3& first = fill.nodes[std::size_t(shape.nodes[0])];
+  shape.nodes = corners;
+  const Vec3& first = nodes[std::size_t(corners[0])];
   Mat3 edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = fill.nodes[std::size_t(shape.nodes[std::size_t(k) + 1])] - first;
+  for (int k = 0; k < 3; ++k) edges.col(k) = nodes[std::size_t(corners[std::size_t(k) + 1])] - first;
   shape.volume = edges.determinant() / 6.0;
   const Mat3 inverse = edges.inverse();  // its rows are the gradients of corners 1 to 3
   shape.gradient[0] = Vec3::Zero();
@@ -186,6 +186,12 @@ TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane) {
     shape.gradient[0] -= shape.gradient[std::size_t(k) + 1];
   }
   return shape;
+}
+
+TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane) {
+  std::array<std::int32_t, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) corners[k] = fill.batches[batch].node[k][lane];
+  return tet_shape(corners, fill.nodes);
 }
 
 FillModel build_fill(const Assembly& assembly) {

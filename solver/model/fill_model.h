@@ -60,6 +60,7 @@ struct TetShape {
   std::array<Vec3, 4> gradient;  // 1/m: of the shape functions
   double volume = 0.0;           // m3
 };
+TetShape tet_shape(const std::array<std::int32_t, 4>& corners, const std::vector<Vec3>& nodes);
 TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane);
 
 /// Throws InputError for a material that cannot be one of a fill, or a tetrahedron without positive volume.

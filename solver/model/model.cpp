@@ -117,7 +117,7 @@ void store_axes(double* to, const Mat3& axes) {
 
 /// The bar between its anchors instead of the strip that stands for it: n from b to a, s across the strip.
 void make_tie(const Assembly& assembly, const Joint& joint, Patch& patch) {
-  const Vec3 from = 0.5 * (joint.polygon[0] + joint.polygon[1]), to = 0.5 * (joint.polygon[2] + joint.polygon[3]);
+  const auto [from, to] = tie_anchors(joint);
   Mat3 axes;
   axes.col(0) = (from - to).normalized();
   axes.col(2) = axes.col(0).cross(joint.polygon[1] - joint.polygon[0]).normalized();

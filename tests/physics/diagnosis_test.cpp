@@ -8,20 +8,46 @@
 #include "solver/diagnosis/diagnose.h"
 #include "solver/diagnosis/locate.h"
 #include "solver/linear/dense_solve.h"
+#include "tests/folder.h"
 #include "tests/physics/measured_bridge.h"
 
 namespace voussoir::test {
 namespace VOUSSOIR_FILE {
 
-TEST(LinearModel, HasTheModesOfTheModelForRuns) {
-  const Assembly assembly = bridge();
+void expect_modes_of_the_model_for_runs(const Assembly& assembly) {
   EigenMemory memory;
   const Response r = response(assembly, linear_model(assembly), {}, 6, memory);
   const std::vector<Mode> modes = modes_of(Bench(assembly), 6);
   for (int i = 0; i < 6; ++i) {
-    EXPECT_NEAR(std::exp(r.log_frequency[i]), modes[std::size_t(i)].frequency, 1e-8 * modes[std::size_t(i)].frequency);
+    const double f = modes[std::size_t(i)].frequency;
+    EXPECT_NEAR(std::exp(r.log_frequency[i]), f, 1e-9 * f) << i;
     EXPECT_EQ(r.words[std::size_t(i)].text(), modes[std::size_t(i)].words.text());
   }
+}
+
+TEST(LinearModel, HasTheModesOfTheModelForRuns) {
+  expect_modes_of_the_model_for_runs(bridge());
+}
+
+TEST(LinearModel, HasTiesAlongTheirAxesAlone) {
+  expect_modes_of_the_model_for_runs(with(bridge(), "retrofit_ties", "all", {{"axial_stiffness", 2e9}}));
+}
+
+class LinearModelWithFill : public testing::TestWithParam<std::string> {};
+
+TEST_P(LinearModelWithFill, HasTheModesOfTheModelForRuns) {
+  const Assembly assembly = small_bridge(GetParam(), 4.0, 2.0);
+  ASSERT_FALSE(assembly.fill.empty());
+  expect_modes_of_the_model_for_runs(assembly);
+}
+INSTANTIATE_TEST_SUITE_P(All, LinearModelWithFill, testing::Values("cs1", "cs2"),
+                         [](const auto& i) { return i.param; });
+
+TEST(LinearModel, RefusesNodesOfTheFillWithoutElements) {
+  Assembly assembly = small_bridge("cs2", 4.0, 2.0);
+  assembly.fill.nodes.push_back(Vec3::Zero());
+  EXPECT_NE(message_of<InputError>([&] { linear_model(assembly); }).find("belongs to no tetrahedron"),
+            std::string::npos);
 }
 
 class EachCandidate : public testing::TestWithParam<std::string> {};
@@ -50,7 +76,7 @@ TEST_P(EachCandidate, DerivativesAreThoseOfFiniteDifferences) {
     return hypothesis.assembly(problem.base, moved);
   };
   for (Eigen::Index p = materials; p < x.size() && candidate.kind == Candidate::Kind::effect; ++p) {
-    const Derivative d = derivative(assembly(p, -1e-3), assembly(p, 1e-3), 2e-3);
+    const Contributions d = derivative(assembly(p, -1e-3), assembly(p, 1e-3), 2e-3);
     EXPECT_FALSE(d.pairs.empty() && d.blocks.empty()) << p;
     const LinearModel low = linear_model(assembly(p, -5e-3)), high = linear_model(assembly(p, 5e-3));
     Eigen::VectorXd v(low.unknowns.count);

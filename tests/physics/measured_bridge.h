@@ -18,6 +18,16 @@ inline Assembly bridge(double block_scale = 4.0) {
   return assembly;
 }
 
+/// CS1 or CS2 in large blocks; `edge` (m): its fill one continuum of tetrahedra no longer than that.
+inline Assembly small_bridge(const std::string& name, double block_scale, double edge = 0.0) {
+  GeneratorInput input = default_input(find_generator(name));
+  input.values.at("block_scale") = block_scale;
+  if (edge > 0.0) input.choices.at("backfill") = "deformable", input.values.at("fill_edge") = edge;
+  Assembly assembly = find_generator(name).build(input);
+  assembly.generator = name;
+  return assembly;
+}
+
 /// Along x, y and z on a few blocks of the deck and a pier.
 inline std::vector<Sensor> sensors_on(const Assembly& assembly) {
   std::vector<Sensor> sensors;

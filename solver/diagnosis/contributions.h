@@ -1,0 +1,92 @@
+// What the joints, blocks, fill elements and patches of an intact assembly add to K and M, one by one, straight from
+// the assembly; and products with such sums, which never become a matrix.
+#pragma once
+#include "geometry/assembly.h"
+#include "solver/linear/fill_stiffness.h"
+
+namespace voussoir {
+
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Matrix15 = Eigen::Matrix<double, 15, 15>;
+
+/// Stiffness of a joint for the motions (du_a, dθ_a, du_b, dθ_b) of its blocks: N/m, N, N m. The patch as in
+/// solver/linear/stiffness.h, all of it bonded; a tie along its axis alone.
+Matrix12 pair_stiffness(const Assembly& assembly, const Joint& joint);
+/// Stiffness of a patch with the fill for the motions (du, dθ) of its block and those of its triangle's corners, all of
+/// it bonded.
+Matrix15 patch_stiffness(const Assembly& assembly, const FillJoint& patch);
+/// Elements of the fill where they were meshed; nodes as in FillMesh. Throws InputError for a material that cannot be
+/// one of a fill.
+std::vector<FillElement> fill_elements(const Assembly& assembly);
+/// diag(m 1, I) of a block: kg, kg m2.
+Matrix6 block_mass(const Block& block);
+
+/// Terms of K and of M; of a difference, or a derivative, of two models likewise. A node n of the fill is the site
+/// Unknowns::bodies + n. Units of K are the terms in the order pairs, patches, elements, rings; those of M blocks,
+/// lumps.
+struct Contributions {
+  struct Pair {
+    std::int64_t a = 0, b = 0;  // blocks
+    Matrix12 k;
+  };
+  struct Patch {
+    std::int64_t block = 0;
+    std::array<std::int32_t, 3> nodes = {};
+    Matrix15 k;
+  };
+  struct Element {  // change of shape alone
+    std::array<std::int32_t, 4> nodes = {};
+    std::array<Vec3, 4> gradient;  // 1/m
+    double scale = 0.0;            // N m: V μ
+  };
+  struct Ring {  // mean volumetric strain about a node: scale pull pullᵀ
+    std::vector<std::int32_t> nodes;
+    std::vector<Vec3> pull;  // N
+    double scale = 0.0;      // 1/(N m)
+  };
+  struct Own {
+    std::int64_t block = 0;
+    Matrix6 m;
+  };
+  struct Lump {
+    std::array<std::int32_t, 4> nodes = {};
+    double mass = 0.0;  // kg, on each of them
+  };
+  std::vector<Pair> pairs;
+  std::vector<Patch> patches;
+  std::vector<Element> elements;
+  std::vector<Ring> rings;
+  std::vector<Own> blocks;
+  std::vector<Lump> lumps;
+};
+/// Of all joints, blocks, patches and elements in their order, and of the rings about all nodes; fixed blocks have
+/// their masses.
+Contributions contributions(const Assembly& assembly);
+/// Terms of one element, and of a ring as fill_rings() has it.
+Contributions::Element shear_term(const FillElement& element);
+Contributions::Ring ring_term(FillRing ring);
+
+/// Vectors over the unknowns, one a column; rows lie together, because joints ask for rows.
+using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// K X and M X.
+Vectors times_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& x);
+Vectors times_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& x);
+/// The same of one vector.
+Eigen::VectorXd times_stiffness(const Contributions& c, const Unknowns& unknowns, const Eigen::VectorXd& x);
+Eigen::VectorXd times_mass(const Contributions& c, const Unknowns& unknowns, const Eigen::VectorXd& x);
+/// y += factor K x, or factor M x, of those units alone that are listed.
+void add_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed, double factor,
+                   const Unknowns& unknowns, const Vectors& x, Vectors& y);
+void add_mass(const Contributions& c, const std::vector<std::int32_t>& listed, double factor, const Unknowns& unknowns,
+              const Vectors& x, Vectors& y);
+/// Vᵀ K W and Vᵀ M W, without a pass over rows that K and M do not have.
+Eigen::MatrixXd project_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& v, const Vectors& w);
+Eigen::MatrixXd project_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& v, const Vectors& w);
+/// The same of the units that are listed.
+Eigen::MatrixXd project_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed,
+                                  const Unknowns& unknowns, const Vectors& v, const Vectors& w);
+Eigen::MatrixXd project_mass(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns,
+                             const Vectors& v, const Vectors& w);
+
+}  // namespace voussoir
