@@ -127,8 +127,9 @@ const Generator& find_generator(const std::string& name, const char* where) {
 }
 
 bool is_dimension(const Parameter& p) {
-  static const std::vector<std::string> cuts = {"voussoir_", "block_", "fill_length", "fill_width", "fill_height",
-                                                "infill_",   "leaf_",  "sliver_",     "base_",      "restraint_"};
+  static const std::vector<std::string> cuts = {"voussoir_",   "block_",    "fill_length", "fill_width",
+                                                "fill_height", "fill_edge", "infill_",     "leaf_",
+                                                "sliver_",     "base_",     "restraint_"};
   return p.unit == "m" && std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return p.name.starts_with(c); });
 }
 
