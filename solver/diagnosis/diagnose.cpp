@@ -396,6 +396,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   const std::size_t faults = d.rounds.size();
   add_greedily(problem, settings, standing, settings.effects, all, d.rounds, say);
   d.best = standing.fit;
+  const DiagnosisProblem final_problem = problem;
   const bool added = !d.best.hypothesis.effects.empty();
   const bool right = is_noise(problem, settings, d.best) && alarms_of(d.best).empty();
   if (right || (added && tail(problem, d.best) > settings.credible))
@@ -415,6 +416,13 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   for (const Round& round : d.rounds)
     for (std::size_t i = 1; i < round.trials.size() && d.verdict == Diagnosis::Verdict::found; ++i)
       if (round.accepted && round.trials[i].tie) d.advice.push_back(advise(problem, round.trials[0], round.trials[i]));
+  const Standing& judged = d.verdict == Diagnosis::Verdict::unexplained ? sound : standing;
+  const DiagnosisProblem& by = d.verdict == Diagnosis::Verdict::unexplained ? with_sound_channels : final_problem;
+  if (settings.detectable) {
+    d.detectable = least_amounts(by, judged.fit, *judged.origin, all, {settings.margin, settings.threads});
+    say(fmt::format("least amounts of {} effects that these data would show", d.detectable.size()));
+  }
+  d.covariance = by.covariance;
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return d;
 }

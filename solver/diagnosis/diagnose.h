@@ -3,7 +3,7 @@
 #pragma once
 #include <optional>
 
-#include "solver/diagnosis/screening.h"
+#include "solver/diagnosis/detectable.h"
 
 namespace voussoir {
 
@@ -15,6 +15,7 @@ struct DiagnosisSettings {
   double certain = 12.0;     // a fault of a channel, to be put right before anything else is judged
   double consistent = 0.02;  // probability of a larger misfit, above which a model is consistent
   double credible = 1e-3;    // below which it is not, whatever was added
+  bool detectable = true;    // say what least amounts would be found
   bool predict = true;       // what is added must also predict each mode better from the others
   int threads = 1;
   std::vector<std::string> without;  // names of effects that are not tried
@@ -53,6 +54,8 @@ struct Diagnosis {
   std::vector<Round> nameless;  // unexplained: factors on parts
   Fit nameless_best;
   std::vector<Advice> advice;
+  std::vector<Detectable> detectable;  // beside what was found
+  RowCovariance covariance;            // that it was judged by, in the end
   double seconds = 0.0;
 };
 const char* verdict_name(Diagnosis::Verdict verdict);

@@ -198,6 +198,7 @@ Sensitivity Sensitivities::of(const Nuisance& n, const Assembly& base, const Hyp
       if (same_cut(origin_->assembly(), changed)) {
         s.modes = derivative_to(changed, amount);
         scale_modes(s.modes, n.spread);
+        s.why.clear();
         return s;
       }
       s.why = fmt::format("{:+g} {} more cuts the bridge into other blocks", amount, n.unit);

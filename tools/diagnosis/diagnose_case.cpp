@@ -32,8 +32,7 @@ Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, cons
   std::vector<double> x;
   auto at = Eigen::Index(found.hypothesis.materials.size());
   for (const Candidate& c : found.hypothesis.effects) {
-    using Kind = Candidate::Kind;
-    const bool fault = c.kind == Kind::gain || c.kind == Kind::swap || c.kind == Kind::clock || c.kind == Kind::motion;
+    const bool fault = c.of_sensors() || c.kind == Candidate::Kind::motion;
     if (fault) faults.effects.push_back(c);
     for (std::size_t i = 0; i < c.parameters.size(); ++i, ++at)
       if (fault) x.push_back(found.best.x[at]);

@@ -136,6 +136,19 @@ json recorded_json(const RecordedMatch& m) {
   return j;
 }
 
+json detectable_json(const std::vector<Detectable>& all) {
+  json list = json::array();
+  for (const Detectable& d : all)
+    list.push_back({{"effect", d.name},
+                    {"where", d.where},
+                    {"parameter", d.parameter},
+                    {"unit", d.unit},
+                    {"neutral", d.neutral},
+                    {"below", number(d.below)},
+                    {"above", number(d.above)}});
+  return list;
+}
+
 }  // namespace
 
 std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before, const Fit& after) {
@@ -161,6 +174,14 @@ std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const
     all.push_back(c);
   }
   return all;
+}
+
+std::string detectable_text(const Detectable& d) {
+  std::vector<std::string> sides;
+  if (std::isfinite(d.below)) sides.push_back(fmt::format("below {:.2g}", d.below));
+  if (std::isfinite(d.above)) sides.push_back(fmt::format("above {:.2g}", d.above));
+  if (sides.empty()) return fmt::format("{}: not within its bounds", d.parameter);
+  return fmt::format("{} {}{}", d.parameter, fmt::join(sides, " or "), d.unit == "-" ? "" : " " + d.unit);
 }
 
 nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult& result) {
@@ -223,6 +244,11 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
                       {"shape", input.problem.error.shape},
                       {"mesh_shift", input.problem.mesh.shift},
                       {"mesh_scatter", input.problem.mesh.scatter}};
+  j["model_error"]["scale"] = d.best.scale;
+  for (const Sensitivity& n : d.covariance.nuisances)
+    j["model_error"]["not_exactly_known"].push_back(
+        {{"name", n.name}, {"unit", n.unit}, {"std", n.spread}, {"left_out", n.why}});
+  j["detectable"] = detectable_json(d.detectable);
   if (result.recorded) j["recorded"] = recorded_json(*result.recorded);
   j["without"] = input.without;
   j["seconds"] = d.seconds;
@@ -268,6 +294,11 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
     for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
       text += fmt::format("  {}, for a reason that has no name here\n", nameless_text(d.nameless_best, i));
   for (const Advice& a : d.advice) text += fmt::format("to tell it from {}: {}\n", a.against, a.text);
+  if (!d.detectable.empty()) {
+    text += "what these data would show, each with a probability of 0.9:\n";
+    for (const Detectable& least : d.detectable)
+      text += fmt::format("  {} at {}: {}\n", least.name, least.where, detectable_text(least));
+  }
   for (const SetAside& s : input.measured.set_aside) text += fmt::format("set aside: {}: {}\n", s.place, s.what);
   for (const std::string& remark : input.measured.remarks) text += fmt::format("remark: {}\n", remark);
   if (const auto& m = result.recorded)

@@ -66,6 +66,8 @@ std::vector<FittedValue> fitted_values(const Fit& fit, std::size_t index) {
     values.push_back({p.name, p.unit, p.value(x), 0.5 * (p.value(x + std) - p.value(x - std)), bound});
   }
   if (c.kind == Candidate::Kind::gain && c.parameters.empty()) values.push_back({"gain", "-", c.gain, 0.0, false});
+  if (c.turn != 0.0) values.push_back({"turn", "deg", c.turn, 0.0, false});
+  if (c.tilt != 0.0) values.push_back({"tilt", "deg", c.tilt, 0.0, false});
   return values;
 }
 
@@ -96,8 +98,14 @@ std::string gap_text(double gap) {
 
 std::string candidate_name(const Candidate& c) {
   if (c.kind == Candidate::Kind::swap) return c.text() + ", swapped";
+  if (c.kind == Candidate::Kind::turn)
+    return fmt::format("{}, {} by {:+.0f}°", c.text(),
+                       c.turn == 0.0   ? "tilted"
+                       : c.tilt == 0.0 ? "turned"
+                                       : "turned and tilted",
+                       c.tilt == 0.0 ? c.turn : c.tilt);
   if (c.kind != Candidate::Kind::gain) return c.text();
-  return c.text() + (c.parameters.empty() ? ", reversed" : ", gain");
+  return c.text() + (!c.parameters.empty() ? ", gain" : c.gain == 0.0 ? ", dead" : ", reversed");
 }
 
 std::string mode_title(const ModeComparison& mode) {
