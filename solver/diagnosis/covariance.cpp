@@ -8,6 +8,33 @@
 
 namespace voussoir {
 
+namespace {
+
+void set_whitening(DiagnosisProblem& problem, const std::vector<ResidualRow>& rows) {
+  const RowSplit split = split_rows(problem, rows);
+  std::vector<int> order = split.fitted;
+  order.insert(order.end(), split.held.begin(), split.held.end());
+  const Eigen::MatrixXd c = problem.covariance.at(problem.scale)(order, order), white = whitening_of(c),
+                        colour = lower_factor(c);
+  problem.whitening.resize(c.rows(), c.cols());
+  problem.colouring.resize(c.rows(), c.cols());
+  problem.whitening(order, order) = white;
+  problem.colouring(order, order) = colour;
+}
+
+}  // namespace
+
+Eigen::MatrixXd RowCovariance::at(const ErrorScale& scale) const {
+  const Eigen::VectorXd wider = Eigen::VectorXd::Ones(own.rows()) + (scale.shapes - 1.0) * of_shape;
+  Eigen::MatrixXd all = scale.structure * scale.structure * structure * structure.transpose();
+  return all + free + wider.asDiagonal() * own * wider.asDiagonal();
+}
+
+void set_scale(DiagnosisProblem& problem, const ErrorScale& scale) {
+  problem.scale = scale;
+  set_whitening(problem, residual_rows(problem));
+}
+
 void set_mesh_error(DiagnosisProblem& problem, const Response& response, const Hypothesis& hypothesis,
                     const Eigen::VectorXd& x) {
   if (!problem.coarser) return;
@@ -118,17 +145,6 @@ Eigen::MatrixXd rows_of_nuisances(const DiagnosisProblem& problem, const std::ve
   return structure;
 }
 
-void set_whitening(DiagnosisProblem& problem, const std::vector<ResidualRow>& rows) {
-  const RowSplit split = split_rows(problem, rows);
-  std::vector<int> order = split.fitted;
-  order.insert(order.end(), split.held.begin(), split.held.end());
-  const Eigen::MatrixXd c = problem.covariance.at(1.0)(order, order), white = whitening_of(c), colour = lower_factor(c);
-  problem.whitening.resize(c.rows(), c.cols());
-  problem.colouring.resize(c.rows(), c.cols());
-  problem.whitening(order, order) = white;
-  problem.colouring(order, order) = colour;
-}
-
 }  // namespace
 
 void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Hypothesis& hypothesis,
@@ -151,13 +167,18 @@ void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Hypot
   }
   problem.shape_metric.assign(problem.features.modes.size(), {});
   c.structure = rows_of_nuisances(problem, rows, plain, hypothesis, x, as_is, c.nuisances);
-  c.unstructured = own.covariance();
-  const Eigen::MatrixXd known = c.at(1.0);
+  c.own = own.covariance();
+  c.free = Eigen::MatrixXd::Zero(c.own.rows(), c.own.cols());
+  c.of_shape = Eigen::VectorXd::Zero(c.own.rows());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    c.of_shape[Eigen::Index(i)] =
+        rows[i].kind != ResidualRow::Kind::frequency && rows[i].kind != ResidualRow::Kind::damping;
+  const Eigen::MatrixXd known = c.at({});
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m)
     if (const RowRange r = rows_of(rows, int(m), ResidualRow::Kind::shape); r.count() > 0)
       problem.shape_metric[m] = whitening_of(known.block(r.at(), r.at(), r.count(), r.count()));
   c.std = known.diagonal().cwiseSqrt();
-  c.unstructured += own.free_scales();
+  c.free = own.free_scales();
   set_whitening(problem, rows);
 }
 

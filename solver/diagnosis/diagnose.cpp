@@ -244,9 +244,10 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   if (!round.trials.empty()) mark_ties(round, all, candidates);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i) {
     const Trial& t = round.trials[i];
-    say(fmt::format("  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}, evidence {:+.1f}, scale {:.2f}",
-                    t.candidate.text(), t.probability, t.fit.gap, t.fit.predicted_gap, gain_of(t, current),
-                    t.fit.scale));
+    say(fmt::format(
+        "  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}, evidence {:+.1f}, errors × {:.2f}, of shapes × {:.2f}",
+        t.candidate.text(), t.probability, t.fit.gap, t.fit.predicted_gap, gain_of(t, current), t.fit.scale.structure,
+        t.fit.scale.shapes));
   }
   return round;
 }
@@ -300,6 +301,7 @@ Standing adopt(DiagnosisProblem& problem, const DiagnosisSettings& settings, con
     set_mesh_error(problem, s.origin->response(), s.fit.hypothesis, x);
   }
   set_covariance(problem, *s.origin, s.fit.hypothesis, x, settings.threads);
+  set_scale(problem, {1.0, s.fit.scale.shapes});
   if (std::optional<Fit> again = fit_if_possible(problem, s.fit.hypothesis, s.fit.best.x, 2)) s.fit = std::move(*again);
   return s;
 }
@@ -370,13 +372,17 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   if (!problem.origin) problem.origin = origin_at(problem, none, usual);
   const std::shared_ptr<const Origin> base_model = problem.origin;
   const Origin& origin = *base_model;
-  if (problem.covariance.unstructured.size() == 0) set_covariance(problem, origin, none, usual, settings.threads);
+  if (problem.covariance.own.size() == 0) set_covariance(problem, origin, none, usual, settings.threads);
   const Vectors shared =
       material_vectors(origin, problem.base, none, usual, question_of(problem, origin.response()).wanted);
+  d.calibrated = fit(problem, none, usual, 2 * settings.iterations, origin, shared);
+  set_scale(problem, {1.0, d.calibrated.scale.shapes});
+  d.scale = problem.scale;
   d.plain = fit(problem, none, usual, 0, origin, shared);
   d.plain.best = evaluate(problem, residual_rows(problem), none, usual, origin);
-  say(fmt::format("the case as it is: gap {:.2f}", d.plain.gap));
-  d.calibrated = fit(problem, none, usual, 2 * settings.iterations, origin, shared);
+  say(fmt::format("the case as it is: gap {:.2f}; shapes are as if known {:.2f} times as badly as said", d.plain.gap,
+                  problem.scale.shapes));
+  d.calibrated = fit(problem, none, d.calibrated.best.x, settings.iterations, origin, shared);
   make_whole(problem, d.calibrated);
   d.alarms = alarms_of(d.calibrated);
   say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}", d.calibrated.gap, d.alarms.size(),

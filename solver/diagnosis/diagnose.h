@@ -55,6 +55,7 @@ struct Diagnosis {
   Fit nameless_best;
   std::vector<Advice> advice;
   std::vector<Detectable> detectable;  // beside what was found
+  ErrorScale scale;                    // under which the case as it is was judged
   RowCovariance covariance;            // that it was judged by, in the end
   double seconds = 0.0;
 };

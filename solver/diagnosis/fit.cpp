@@ -98,10 +98,12 @@ struct LinearFit {
 
 /// Evidence, and what the data leave of x, under one scale of the structured errors.
 struct UnderScale {
-  double scale = 1.0, log_evidence = 0.0;
+  ErrorScale scale;
+  double log_evidence = 0.0;
   Eigen::MatrixXd covariance;  // of x: 1 − Jᵀ (C + J Jᵀ)⁻¹ J
 };
-UnderScale under_scale(const RowCovariance& c, const std::vector<int>& fitted, const LinearFit& l, double scale) {
+UnderScale under_scale(const RowCovariance& c, const std::vector<int>& fitted, const LinearFit& l,
+                       const ErrorScale& scale) {
   const Eigen::MatrixXd all = c.at(scale)(fitted, fitted) + l.jacobian * l.jacobian.transpose();
   const Eigen::MatrixXd white = whitening_of(all), j = white * l.jacobian;
   UnderScale u;
@@ -111,29 +113,32 @@ UnderScale under_scale(const RowCovariance& c, const std::vector<int>& fitted, c
   return u;
 }
 
-/// Over all scales: a logarithmic prior of deviation 0.35 about 1, from a half to two.
+/// Over all scales: logarithmic priors of deviation 0.35 about 1; of the structure from a half to two, of shapes from
+/// 0.7 to 2.4.
 void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitted, const LinearFit& l, Fit& fit) {
   constexpr double spread = 0.35;
   std::vector<UnderScale> all;
   std::vector<double> prior, weights;
   double priors = 0.0, most = -1e300, sum = 0.0;
-  for (int i = -3; i <= 3; ++i) {
-    const double log_scale = i * std::log(2.0) / 3.0;
-    all.push_back(under_scale(problem.covariance, fitted, l, std::exp(log_scale)));
-    prior.push_back(std::exp(-0.5 * std::pow(log_scale / spread, 2)));
-    priors += prior.back();
-    most = std::max(most, all.back().log_evidence);
-  }
+  for (const double structure : {0.5, 0.7, 1.0, 1.4, 2.0})
+    for (const double shapes : {0.7, 1.0, 1.35, 1.8, 2.4}) {
+      all.push_back(under_scale(problem.covariance, fitted, l, {structure, shapes}));
+      prior.push_back(
+          std::exp(-0.5 * (std::pow(std::log(structure) / spread, 2) + std::pow(std::log(shapes) / spread, 2))));
+      priors += prior.back();
+      most = std::max(most, all.back().log_evidence);
+    }
   for (std::size_t i = 0; i < all.size(); ++i) {
     weights.push_back(prior[i] / priors * std::exp(all[i].log_evidence - most));
     sum += weights.back();
   }
-  // The fit was made under the scale 1; the others count from there.
-  fit.log_evidence += most + std::log(sum) - all[3].log_evidence;
+  // The fit was made under one scale; the others count from there.
+  fit.log_evidence += most + std::log(sum) - under_scale(problem.covariance, fitted, l, problem.scale).log_evidence;
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(l.jacobian.cols());
-  fit.scale = 0.0;
+  fit.scale = {0.0, 0.0};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    fit.scale += weights[i] / sum * all[i].scale;
+    fit.scale.structure += weights[i] / sum * all[i].scale.structure;
+    fit.scale.shapes += weights[i] / sum * all[i].scale.shapes;
     variance += weights[i] / sum * all[i].covariance.diagonal();
   }
   fit.std = variance.cwiseSqrt();
@@ -168,7 +173,7 @@ double predicted_gap(const DiagnosisProblem& problem, const std::vector<Residual
   for (std::size_t i = 0; i < fitted.size(); ++i)
     groups[std::size_t(rows[std::size_t(fitted[i])].mode)].push_back(int(i));
   double sum = 0.0;
-  for (const double own : leave_out(problem.covariance.at(1.0)(fitted, fitted), l, groups)) sum += own;
+  for (const double own : leave_out(problem.covariance.at(problem.scale)(fitted, fitted), l, groups)) sum += own;
   return fitted.empty() ? 0.0 : std::sqrt(sum / double(fitted.size()));
 }
 

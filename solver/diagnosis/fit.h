@@ -32,7 +32,7 @@ struct Fit {
   Eigen::VectorXd std;        // of x, over what is believed of the scale
   double misfit = 0.0;        // sum of squares of the fitted rows and of x: χ² of as many degrees as fitted rows
   double log_evidence = 0.0;  // over all scales, up to a constant that is the same for all fits under one covariance
-  double scale = 1.0;         // of the structured part of the covariance, as the data have it: its mean
+  ErrorScale scale;           // as the data have it: its mean
   int evaluations = 0;
   double basis_error = 0.0;    // estimated, of eigenvalues, where the fit ended
   std::vector<bool> at_bound;  // by parameter

@@ -19,15 +19,21 @@ struct ResidualRow {
                      // measurement and of errors of the model that have no structure
 };
 
-/// Covariance of all rows to first order: C = unstructured + scale² structure structureᵀ.
+/// How much larger than said errors are: by how much a standard deviation is multiplied.
+struct ErrorScale {
+  double structure = 1.0;  // of the bridge against the model
+  double shapes = 1.0;     // of measured shapes, their phases and participation
+};
+
+/// Covariance of all rows to first order: C = own + free + structure structureᵀ, each scaled.
 struct RowCovariance {
-  /// Measurement, mesh, the mixing of near modes; and the scale of each shape (and its phase, where that is known),
-  /// which nothing is known of.
-  Eigen::MatrixXd unstructured;
+  Eigen::MatrixXd own;        // measurement, mesh, the mixing of near modes
+  Eigen::MatrixXd free;       // the scale of each shape (and its phase, where that is known), which nothing is known of
   Eigen::MatrixXd structure;  // row × nuisance: what one standard deviation of each does
+  Eigen::VectorXd of_shape;   // 1 for rows that ErrorScale::shapes is of, else 0
   std::vector<Sensitivity> nuisances;
   Eigen::VectorXd std;  // of each row, but for what nothing is known of
-  Eigen::MatrixXd at(double scale) const { return unstructured + scale * scale * structure * structure.transpose(); }
+  Eigen::MatrixXd at(const ErrorScale& scale) const;
 };
 
 struct DiagnosisProblem {
@@ -46,7 +52,8 @@ struct DiagnosisProblem {
 
   // Set by set_covariance().
   RowCovariance covariance;
-  /// L⁻¹ and L of C = L Lᵀ for the scale 1, the rows that are fitted before those that are held back: what turns
+  ErrorScale scale;  // under which models are fitted
+  /// L⁻¹ and L of C = L Lᵀ for that scale, the rows that are fitted before those that are held back: what turns
   /// differences into residuals, and back.
   Eigen::MatrixXd whitening, colouring;
   std::vector<Eigen::MatrixXd>
@@ -62,6 +69,8 @@ void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Hypot
                     const Eigen::VectorXd& x, int threads);
 /// About the base, which is solved for it.
 void set_covariance(DiagnosisProblem& problem);
+/// Fits are made under another scale from here on.
+void set_scale(DiagnosisProblem& problem, const ErrorScale& scale);
 
 /// All rows of the features, held back ones too.
 std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem);

@@ -23,8 +23,9 @@ std::string corrected_text(const DiagnosisInput& input, const std::vector<Effect
 }
 
 /// The hypothesis' faults of sensors and motions of supports alone: what the corrected assembly does not hold.
-Fit rerun(const DiagnosisProblem& full, Assembly corrected, double damping, const Fit& found) {
+Fit rerun(const DiagnosisProblem& full, const ErrorScale& scale, Assembly corrected, double damping, const Fit& found) {
   DiagnosisProblem problem = full;
+  set_scale(problem, scale);
   problem.base = std::move(corrected);
   problem.origin = nullptr;  // that of the case
   problem.damping = damping;
@@ -50,7 +51,8 @@ DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisReques
   result.before = d.plain;
   result.corrected_text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
   result.corrected = parse_case(result.corrected_text, input.c.path, CaseUse::geometry);
-  result.after = rerun(input.problem, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
+  result.after =
+      rerun(input.problem, d.scale, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
   result.modes = compare_modes(input.problem, result.before, result.after);
   result.where = locate(input.problem, result.before.best);
   result.where_after = locate(input.problem, result.after.best);

@@ -244,7 +244,8 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
                       {"shape", input.problem.error.shape},
                       {"mesh_shift", input.problem.mesh.shift},
                       {"mesh_scatter", input.problem.mesh.scatter}};
-  j["model_error"]["scale"] = d.best.scale;
+  j["model_error"]["scale"] = d.best.scale.structure;
+  j["model_error"]["scale_of_shapes"] = d.best.scale.shapes;
   for (const Sensitivity& n : d.covariance.nuisances)
     j["model_error"]["not_exactly_known"].push_back(
         {{"name", n.name}, {"unit", n.unit}, {"std", n.spread}, {"left_out", n.why}});
