@@ -53,10 +53,12 @@ double tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_
     return d.dot(solve_symmetric(Eigen::MatrixXd(covariance(of, of)), d));
   };
   const auto tail_of = [&](double misfit, int freedom) { return chi_square_tail(misfit / (wider * wider), freedom); };
-  double worst = 1.0;
+  // Materials that are pulled far are as unlikely as rows that are.
+  const Eigen::VectorXd materials = fit.best.x.head(Eigen::Index(fit.hypothesis.materials.size()));
+  const auto groups = double(kinds.size() + 1);
+  double worst = groups * tail_of(materials.squaredNorm(), int(materials.size()));
   for (const auto& [kind, of] : kinds)
-    worst = std::min(worst, double(kinds.size()) *
-                                tail_of(misfit_of(of), int(of.size()) - (kind.first == Kind::shape ? shapes : 0)));
+    worst = std::min(worst, groups * tail_of(misfit_of(of), int(of.size()) - (kind.first == Kind::shape ? shapes : 0)));
   return std::min(worst, tail_of(misfit_of(fitted) + fit.best.x.squaredNorm(), int(fitted.size()) - shapes - phases));
 }
 
@@ -404,8 +406,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   d.best = standing.fit;
   const DiagnosisProblem final_problem = problem;
   const bool added = !d.best.hypothesis.effects.empty();
-  const bool right = is_noise(problem, settings, d.best) && alarms_of(d.best).empty();
-  if (right || (added && tail(problem, d.best) > settings.credible))
+  if (is_noise(problem, settings, d.best) || (added && tail(problem, d.best) > settings.credible))
     d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     d.best = sound.fit;  // what only helps is not named
