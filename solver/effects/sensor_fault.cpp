@@ -1,9 +1,10 @@
-// A channel that does not read what it should: a reversed or wrong gain, a late clock, or two channels of one place
-// that were swapped.
+// A channel that does not read what it should: a reversed, wrong or dead gain, a wrong axis, a late clock, or two
+// channels of one place that were swapped.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/effects/effect.h"
 
@@ -28,6 +29,15 @@ Sensor& channel(std::vector<Sensor>& sensors, const std::string& id) {
   return *at;
 }
 
+/// What a sensor reads that is mounted otherwise: `tilt` (rad) raises its axis, `turn` (rad) then turns it about the
+/// vertical. An axis that is vertical has the heading x: lowered by π/2 it is x, or, turned by π/2 as well, y.
+Vec3 mounted(const Vec3& axis, double turn, double tilt) {
+  const Vec3 flat(axis.x(), axis.y(), 0.0);
+  const Vec3 heading = flat.norm() > 1e-9 * axis.norm() ? Vec3(flat.normalized()) : Vec3::UnitX();
+  const Eigen::AngleAxisd raise(tilt, heading.cross(Vec3::UnitZ())), about_vertical(turn, Vec3::UnitZ());
+  return about_vertical * (raise * axis);
+}
+
 void apply_sensor_fault(std::vector<Sensor>& sensors, const std::string& where, const std::vector<double>& values) {
   const std::size_t gap = where.find(' '), next = where.find(' ', gap + 1);
   if (gap == std::string::npos)
@@ -36,20 +46,25 @@ void apply_sensor_fault(std::vector<Sensor>& sensors, const std::string& where, 
   if (where.starts_with("channels ") && next != std::string::npos)
     std::swap(first.direction, channel(sensors, where.substr(next + 1)).direction);
   else
-    first.direction *= values[0];
+    first.direction = values[0] * (values[2] == 0.0 && values[3] == 0.0
+                                       ? first.direction
+                                       : mounted(first.direction, radians(values[2]), radians(values[3])));
 }
 
 }  // namespace
 
 Effect sensor_fault() {
-  return {"sensor_fault",
-          "a channel has the wrong gain or sign or a late clock, or two of one place are swapped",
-          {{"gain", "-", "what it reads of the truth; −1 is a reversed channel", -20.0, 20.0, 1.0, 1.0, 0.5},
-           {"delay", "s", "of its clock: in recordings; a run's histories are not shifted", -0.2, 0.2, 0.0, 0.0, 0.02}},
-          places_of_sensor_fault,
-          nullptr,
-          nullptr,
-          apply_sensor_fault};
+  return {
+      "sensor_fault",
+      "a channel has the wrong gain, sign or axis or a late clock, or two of one place are swapped",
+      {{"gain", "-", "what it reads of the truth; −1 is a reversed channel, 0 a dead one", -20.0, 20.0, 1.0, 1.0, 0.5},
+       {"delay", "s", "of its clock: in recordings; a run's histories are not shifted", -0.2, 0.2, 0.0, 0.0, 0.02},
+       {"turn", "deg", "of its axis about the vertical, from x to y; after tilt", -180.0, 180.0, 0.0, 0.0, 45.0},
+       {"tilt", "deg", "of its axis upwards; −90 makes a vertical one lie along x", -180.0, 180.0, 0.0, 0.0, 45.0}},
+      places_of_sensor_fault,
+      nullptr,
+      nullptr,
+      apply_sensor_fault};
 }
 
 }  // namespace voussoir
