@@ -34,6 +34,15 @@ void read_heights(Bridge& bridge, const GeneratorInput& in) {
   bridge.abutment_height = in("abutment_height");
 }
 
+void read_spans(Bridge& bridge, const GeneratorInput& in) {
+  bridge.spans = int(in("spans"));
+  bridge.clear_span = in("clear_span");
+  for (int i = 0; i < bridge.spans; ++i) {
+    const double own = in(fmt::format("span_{}_clear", i));
+    bridge.own_spans.push_back(own > 0.0 ? own : bridge.clear_span);
+  }
+}
+
 void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
   const auto size = [&](const char* length, const char* width, const char* height) {
     return Vec3(in("block_scale") * Vec3(in(length), in(width), in(height)));
@@ -50,8 +59,7 @@ void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
 
 Bridge read_bridge(const GeneratorInput& in) {
   Bridge bridge;
-  bridge.spans = int(in("spans"));
-  bridge.clear_span = in("clear_span");
+  read_spans(bridge, in);
   bridge.width = in("width");
   read_heights(bridge, in);
   bridge.pier_thickness = in("pier_thickness");
@@ -92,6 +100,10 @@ void check_bridge(const GeneratorInput& in) {
   };
   const double deck = 0.5 * in("clear_span") + in("ring_thickness") + in("fill_over_crown");
   at_most(in("backing_height"), "backing_height", deck, "clear_span / 2 + ring_thickness + fill_over_crown");
+  for (int i = 0; i < int(in("spans")); ++i) {
+    const std::string key = fmt::format("span_{}_clear", i);
+    at_most(in(key), key, in("clear_span") + 2.0 * in("fill_over_crown"), "clear_span + 2 fill_over_crown");
+  }
   if (in("spans") > 1) at_most(2.0 * in("ring_thickness"), "2 ring_thickness", in("pier_thickness"), "pier_thickness");
   at_most(in("ring_thickness"), "ring_thickness", in("abutment_length"), "abutment_length");
   at_most(in("backing_over_abutment"), "backing_over_abutment", in("abutment_length"), "abutment_length");

@@ -21,7 +21,9 @@ double Bridge::length() const {
 }
 
 double Bridge::span_start(int i) const {
-  return abutment_length + i * (clear_span + pier_thickness);
+  double start = abutment_length + i * (clear_span + pier_thickness);
+  for (int j = 0; j < i; ++j) start += own_spans[std::size_t(j)] - clear_span;
+  return start;
 }
 
 double Bridge::support_height(int support) const {

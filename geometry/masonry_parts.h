@@ -13,6 +13,7 @@ namespace voussoir {
 struct Bridge {
   int spans = 1;
   double clear_span = 0.0, width = 0.0;
+  std::vector<double> own_spans;     // clear spans of the vaults, `spans` of them
   double pier_thickness = 0.0;       // at the springing
   std::vector<double> pier_heights;  // base to springing, spans - 1 of them
   double abutment_height = 0.0, abutment_length = 0.0;
@@ -45,7 +46,7 @@ struct Bridge {
   double deck() const;       // z
   double length() const;
   double span_start(int i) const;  // x of the left springing of vault i
-  double span_end(int i) const { return span_start(i) + clear_span; }
+  double span_end(int i) const { return span_start(i) + own_spans[std::size_t(i)]; }
   double half_width() const { return 0.5 * width; }
   int supports() const { return spans + 1; }  // left abutment, piers, right abutment
   bool is_abutment(int support) const { return support == 0 || support == spans; }

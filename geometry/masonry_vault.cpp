@@ -6,9 +6,9 @@
 namespace voussoir {
 
 std::vector<Ring> vault_rings(const Bridge& bridge) {
-  const double radius = 0.5 * bridge.clear_span;
   std::vector<Ring> rings;
   for (int i = 0; i < bridge.spans; ++i) {
+    const double radius = 0.5 * bridge.own_spans[std::size_t(i)];
     const Vec3 centre(0.5 * (bridge.span_start(i) + bridge.span_end(i)), 0.0, bridge.springing());
     rings.push_back(make_semicircle(centre, radius, radius + bridge.ring_thickness, bridge.voussoirs));
   }

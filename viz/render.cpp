@@ -21,6 +21,7 @@
 #include "io/vtk/grid.h"
 #include "solver/base/error.h"
 #include "viz/annotation.h"
+#include "viz/arrows.h"
 #include "viz/colouring.h"
 #include "viz/display.h"
 #include "viz/offscreen.h"
@@ -181,18 +182,24 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
   return words;
 }
 
+/// What is kept free above the content, pixels.
+double above(const Sheet& sheet, const RenderOptions& options) {
+  return top_strip(sheet) + (options.arrows.empty() ? 0.0 : arrow_strip(sheet));
+}
+
 Sheet make_sheet(const RenderOptions& options, const View& view, vtkPoints* points) {
   Sheet sheet{options.width, options.height, letter_size(options.width), 0.0};
   if (sheet.height == 0) {
     const double content = 0.94 * sheet.width / content_aspect(view, points);
-    const double needed = content + top_strip(sheet) + bottom_strip(sheet) + sheet.letter;
+    const double needed = content + above(sheet, options) + bottom_strip(sheet) + sheet.letter;
     sheet.height = int(std::clamp(std::round(needed), 0.2 * sheet.width, 1.6 * sheet.width));
   }
   return sheet;
 }
 
-void place_camera(vtkRenderer* renderer, const View& view, vtkPoints* points, Sheet& sheet) {
-  const Frame frame{0.03, 0.97, bottom_strip(sheet) / sheet.height, 1.0 - top_strip(sheet) / sheet.height};
+void place_camera(vtkRenderer* renderer, const View& view, vtkPoints* points, const RenderOptions& options,
+                  Sheet& sheet) {
+  const Frame frame{0.03, 0.97, bottom_strip(sheet) / sheet.height, 1.0 - above(sheet, options) / sheet.height};
   fit_camera(renderer->GetActiveCamera(), view, points, frame, double(sheet.width) / sheet.height);
   if (!view.perspective) sheet.metres_per_pixel = 2.0 * renderer->GetActiveCamera()->GetParallelScale() / sheet.height;
 }
@@ -288,7 +295,7 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   const Shapes rest = shapes(grids, hidden, 0.0, cut);
   const Content content = content_of(now, rest, options.outline || options.undeformed);
   Sheet sheet = make_sheet(options, view, content.points);
-  place_camera(renderer, view, content.points, sheet);
+  place_camera(renderer, view, content.points, options, sheet);
   add_lights(renderer, view);
   const double lift = 1e-3 * diagonal(content.points);
   for (vtkPolyData* faces : {now.stones.Get(), now.fill.Get()}) {
@@ -303,6 +310,7 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
 
   Overlay overlay(renderer);
   draw_annotation(overlay, sheet, view, colouring, words_of(grids, options, cut, cracks, content.gone.size()));
+  if (!options.arrows.empty()) draw_arrows(overlay, renderer, sheet, view, options.arrows);
   const auto window = offscreen_window(sheet.width, sheet.height);
   window->AddRenderer(renderer);
   write_png(window, png);

@@ -12,6 +12,13 @@ class vtkUnstructuredGrid;
 
 namespace voussoir {
 
+/// A named arrow over the picture: see viz/arrows.h.
+struct Arrow {
+  Vec3 from = Vec3::Zero();        // m
+  Vec3 direction = Vec3::UnitX();  // unit
+  std::string name;
+};
+
 struct RenderOptions {
   double amplification = 2.0;      // of the displacements relative to the base; 1: true, 0: undeformed
   std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone;
@@ -28,6 +35,7 @@ struct RenderOptions {
   bool outline = false;                          // or of the undeformed whole only (needs the joints)
   std::string title;
   std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
+  std::vector<Arrow> arrows;         // drawn over everything
 };
 
 /// Throws InputError for a size, range or amplification that cannot be.

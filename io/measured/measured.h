@@ -90,9 +90,14 @@ Measured read_measured(const std::string& directory);
 /// when the folder holds measurements that would be mixed with these; RunError when writing fails.
 void write_measured(const Measured& measured, const std::string& directory);
 
+/// A table of sensors alone, as sensors.csv of a folder. Throws InputError "FILE:ROW: …".
+std::vector<MeasuredSensor> read_sensors(const std::string& file);
+
 /// The block that holds each sensor, in the order of the sensors; of blocks that share a place, the one with the lowest
-/// number, as attach_sensors() does. Throws InputError naming row and distance of a sensor more than 0.5 m off every
-/// block, and the nearest block.
+/// number, as attach_sensors() does. Throws InputError naming `file`, row and distance of a sensor more than 0.5 m off
+/// every block, and the nearest block.
+std::vector<std::int64_t> place_sensors(const std::vector<MeasuredSensor>& sensors, const std::string& file,
+                                        const Assembly& assembly);
 std::vector<std::int64_t> place_sensors(const Measured& measured, const Assembly& assembly);
 
 }  // namespace voussoir

@@ -13,10 +13,10 @@ std::string vector_text(const Vec3& v) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x(), v.y(), v.z());
 }
 
-[[noreturn]] void too_far(const Measured& measured, const MeasuredSensor& sensor, const Assembly& assembly,
+[[noreturn]] void too_far(const MeasuredSensor& sensor, const std::string& file, const Assembly& assembly,
                           const NearestBlock& nearest) {
-  const std::string place = fmt::format("{}:{}: sensor '{}' at {} m", path_in(measured.directory, "sensors.csv"),
-                                        sensor.row, shown(sensor.id), vector_text(sensor.position));
+  const std::string place =
+      fmt::format("{}:{}: sensor '{}' at {} m", file, sensor.row, shown(sensor.id), vector_text(sensor.position));
   if (nearest.block < 0) throw InputError("{}: there is no block to put it on; expected a bridge", place);
   const Box box = block_box(assembly.blocks[std::size_t(nearest.block)]);
   throw InputError(
@@ -28,14 +28,19 @@ std::string vector_text(const Vec3& v) {
 
 }  // namespace
 
-std::vector<std::int64_t> place_sensors(const Measured& measured, const Assembly& assembly) {
+std::vector<std::int64_t> place_sensors(const std::vector<MeasuredSensor>& sensors, const std::string& file,
+                                        const Assembly& assembly) {
   std::vector<std::int64_t> blocks;
-  for (const MeasuredSensor& sensor : measured.sensors) {
+  for (const MeasuredSensor& sensor : sensors) {
     const NearestBlock nearest = nearest_block(assembly, sensor.position);
-    if (nearest.distance > reach) too_far(measured, sensor, assembly, nearest);
+    if (nearest.distance > reach) too_far(sensor, file, assembly, nearest);
     blocks.push_back(nearest.block);
   }
   return blocks;
+}
+
+std::vector<std::int64_t> place_sensors(const Measured& measured, const Assembly& assembly) {
+  return place_sensors(measured.sensors, path_in(measured.directory, "sensors.csv"), assembly);
 }
 
 }  // namespace voussoir

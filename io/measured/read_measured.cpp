@@ -27,14 +27,17 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-TextFile open_text(const std::string& directory, const std::string& name) {
-  TextFile file{path_in(directory, name), name, {}};
+TextFile open_text(const std::string& path, const std::string& name) {
+  TextFile file{path, name, {}};
   std::error_code ignored;
   // A pipe would keep the reader waiting.
   if (!std::filesystem::is_regular_file(file.path, ignored))
     throw InputError("{}: is not an ordinary file, expected a text: remove or rename it", file.path);
   file.text = read_text(file.path);
   return file;
+}
+TextFile open_part(const std::string& directory, const std::string& name) {
+  return open_text(path_in(directory, name), name);
 }
 
 bool is_record(const std::string& name) {
@@ -56,7 +59,7 @@ void read_records(const std::string& directory, Measured& measured) {
   for (const std::string& name : names_in(folder)) {
     const std::string inside = "records/" + name;
     if (is_record(name))
-      parse_record(open_text(directory, inside), measured);
+      parse_record(open_part(directory, inside), measured);
     else
       measured.set_aside.push_back({inside, "nothing that is read: recordings end in .csv"});
   }
@@ -104,15 +107,24 @@ std::vector<std::string> names_in(const std::string& directory) {
   return names;
 }
 
+std::vector<MeasuredSensor> read_sensors(const std::string& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw InputError("{}: no such file, expected a table id,x,y,z,direction: correct its name", file);
+  Measured measured;
+  parse_sensors(open_text(file, file), measured);
+  return measured.sensors;
+}
+
 Measured read_measured(const std::string& directory) {
   Measured measured;
   measured.directory = directory;
   const std::vector<std::string> names = is_folder(directory) ? names_in(directory) : std::vector<std::string>{};
   check_folder(directory, names);
-  if (contains(names, "about.toml")) parse_about(open_text(directory, "about.toml"), measured);
-  if (contains(names, "sensors.csv")) parse_sensors(open_text(directory, "sensors.csv"), measured);
-  if (contains(names, "modes.csv")) parse_modes(open_text(directory, "modes.csv"), measured);
-  if (contains(names, "shapes.csv")) parse_shapes(open_text(directory, "shapes.csv"), measured);
+  if (contains(names, "about.toml")) parse_about(open_part(directory, "about.toml"), measured);
+  if (contains(names, "sensors.csv")) parse_sensors(open_part(directory, "sensors.csv"), measured);
+  if (contains(names, "modes.csv")) parse_modes(open_part(directory, "modes.csv"), measured);
+  if (contains(names, "shapes.csv")) parse_shapes(open_part(directory, "shapes.csv"), measured);
   if (contains(names, "records")) read_records(directory, measured);
   set_aside_strangers(names, measured);
   check_left(measured);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "solver/base/constants.h"
 
@@ -40,5 +41,8 @@ class RandomStream {
   double spare_ = 0.0;
   bool has_spare_ = false;
 };
+
+/// A stream of its own for each seed, purpose and number: what one draws, or that there is one more, changes no other.
+RandomStream stream_of(std::uint64_t seed, const std::string& purpose, int number = 0);
 
 }  // namespace voussoir

@@ -12,6 +12,7 @@
 #include "solver/step/critical_step.h"
 #include "solver/step/drive.h"
 #include "solver/step/loads.h"
+#include "solver/step/point_acceleration.h"
 #include "solver/step/step_count.h"
 
 namespace voussoir {
@@ -284,12 +285,17 @@ Sample Simulation::take_sample(const BodyPass& pass) const {
   s.contacts = state_.contact_count();
   s.broken_shares = lost_bonds_.shares();
   for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
+  s.accelerations.assign(assembly_->sensors.size(), 0.0);
   return s;
 }
 
 void Simulation::sample(const BodyPass& pass) {
   const Timed timed(costs_.history);
   Sample s = take_sample(pass);
+  for (std::size_t i = 0; i < s.accelerations.size(); ++i) {
+    const Sensor& sensor = assembly_->sensors[i];
+    s.accelerations[i] = sensor.direction.dot(point_acceleration(pass, sensor.block, sensor.position));
+  }
   const Energies& e = s.energies;
   for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.plastic,
                       e.joint_damping, e.body_damping, std::abs(e.external_work)})

@@ -39,6 +39,7 @@ struct Sample {
   std::int64_t stage = 0;             // index in the settings
   std::vector<double> broken_shares;  // of the bonds of bonded_components()
   std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
+  std::vector<double> accelerations;  // m/s2, of the assembly's sensors along their directions; 0 where no time passes
 };
 
 struct Observers {

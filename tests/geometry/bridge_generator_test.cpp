@@ -140,6 +140,28 @@ INSTANTIATE_TEST_SUITE_P(All, Bridges,
                            return fmt::format("{}_{}_{}", k.name, int(10 * k.scale), k.restrained ? "R" : "F");
                          });
 
+/// A span of its own shifts what is to the right of it and takes its vault out of the same height.
+TEST(Bridge, ASpanMayHaveALengthOfItsOwn) {
+  GeneratorInput input = input_of("cs2", 2.0);
+  const Analytic even{input, 22};
+  input.values["span_1_clear"] = input("clear_span") + 0.6;
+  const Assembly bridge = build("cs2", input);
+  const double radius = 0.5 * input("span_1_clear"), longer = 0.6;
+  const double opening = 0.5 * 22 * radius * radius * std::sin(M_PI / 22);
+  EXPECT_NEAR(moving_volume(bridge), even.volume() + input("width") * (longer * even.above + even.opening - opening),
+              1e-6);
+  const auto x_of = [](const Assembly& a, const char* group) {
+    const Box box = block_box(a.blocks[std::size_t(a.groups.at(group)[0])]);
+    return 0.5 * (box.low.x() + box.high.x());
+  };
+  const Assembly drawn = build("cs2", input_of("cs2", 2.0));
+  EXPECT_NEAR(x_of(bridge, "base pier 0"), x_of(drawn, "base pier 0"), 1e-9);
+  EXPECT_NEAR(x_of(bridge, "base pier 1"), x_of(drawn, "base pier 1") + longer, 1e-9);
+  EXPECT_TRUE(find_overlaps(bridge, 1e-7).empty());
+  input.values["span_1_clear"] = input("clear_span") + 2.0 * input("fill_over_crown") + 0.01;
+  EXPECT_THROW(build("cs2", input), InputError);
+}
+
 TEST(Bridge, MassesAndSizesOfTheTwoBridges) {
   const Assembly cs1 = build("cs1", input_of("cs1")), cs2 = build("cs2", input_of("cs2"));
   EXPECT_NEAR(moving_mass(cs1), 4090e3, 0.02 * 4090e3);

@@ -1,6 +1,8 @@
 // Effects of a case: read, resolved, applied once.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
@@ -66,6 +68,31 @@ TEST(EffectCase, FaultsOfSensorsActOnTheSensors) {
   EXPECT_EQ(fault("channels a b").sensors[0].direction, Vec3::UnitY());
   EXPECT_EQ(fault("channels a b").sensors[1].direction, Vec3::UnitX());
   EXPECT_THROW(fault("channel c"), InputError);
+}
+
+/// Whatever a channel's axis, two angles give any other.
+TEST(EffectCase, SensorsOnAWrongAxis) {
+  const auto turned = [](const Vec3& axis, double gain, double turn, double tilt) {
+    std::vector<Sensor> sensors = {{"a", Vec3::Zero(), axis, 0}};
+    EffectSetting setting = {"sensor_fault", "channel a", {{"gain", gain}, {"turn", turn}, {"tilt", tilt}}};
+    complete(setting);
+    apply_effect(sensors, setting);
+    return sensors[0].direction;
+  };
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ(), slanting = Vec3(0.36, -0.48, 0.8);
+  for (const Vec3& axis : {x, y, z, slanting}) EXPECT_EQ(turned(axis, 0.7, 0.0, 0.0), 0.7 * axis);
+  EXPECT_LT((turned(x, 1.0, 90.0, 0.0) - y).norm(), 1e-15);
+  EXPECT_LT((turned(y, 1.0, 90.0, 0.0) + x).norm(), 1e-15);
+  EXPECT_LT((turned(x, 1.0, 45.0, 0.0) - std::sqrt(0.5) * (x + y)).norm(), 1e-15);
+  EXPECT_LT((turned(z, 1.0, 45.0, 0.0) - z).norm(), 1e-15);
+  for (const Vec3& axis : {x, y, Vec3(-x), Vec3(-y)}) {
+    EXPECT_LT((turned(axis, 1.0, 0.0, 90.0) - z).norm(), 1e-15);
+    EXPECT_LT((turned(axis, 1.0, 0.0, 45.0) - std::sqrt(0.5) * (axis + z)).norm(), 1e-15);
+  }
+  EXPECT_LT((turned(z, 1.0, 0.0, -90.0) - x).norm(), 1e-15);
+  EXPECT_LT((turned(z, -2.0, 90.0, -90.0) + 2.0 * y).norm(), 1e-15);
+  EXPECT_LT((turned(Vec3(-z), 1.0, 0.0, 90.0) - x).norm(), 1e-15);
+  EXPECT_NEAR(turned(slanting, 1.0, 30.0, 10.0).norm(), 1.0, 1e-15);
 }
 
 /// Ties live in an assembly file, prestress included; without them a file is what it was.

@@ -16,6 +16,7 @@
 #include "solver/base/error.h"
 #include "tests/folder.h"
 #include "tests/viz/scenes.h"
+#include "viz/arrows.h"
 #include "viz/chart_picture.h"
 #include "viz/colouring.h"
 #include "viz/display.h"
@@ -23,6 +24,7 @@
 #include "viz/page/palette.h"
 #include "viz/render.h"
 #include "viz/scene.h"
+#include "viz/sensor_picture.h"
 #include "viz/view.h"
 
 namespace voussoir {
@@ -214,6 +216,33 @@ TEST_F(NoDisplay, PictureFromStoredFrameEqualsPictureFromState) {
       PictureFiles{series.blocks().file_at(12.5), series.joints().file_at(12.5), series.fill().file_at(12.5)}, small(),
       folder / "frame.png");
   EXPECT_EQ(test::bytes_of(folder / "state.png"), test::bytes_of(folder / "frame.png"));
+}
+
+/// Each axis has its colour; an arrow at the reader is a ring, and names do not lie on one another.
+TEST_F(NoDisplay, SensorsAreArrowsWithNames) {
+  const Assembly cubes = test::two_cubes();
+  const auto drawn = [&](const std::vector<Sensor>& sensors) {
+    const std::string png = folder / "sensors.png";
+    RenderOptions options = small();
+    options.width = 900, options.height = 700;
+    draw_sensors(cubes, sensors, options, png);
+    return read_png(png);
+  };
+  const Vec3 corner(0.5, 0.0, 1.5);
+  const Picture bare = drawn({}), along = drawn({{"A01x", corner, Vec3::UnitX(), 1}}),
+                upright = drawn({{"A01z", corner, Vec3::UnitZ(), 1}}),
+                across = drawn({{"A01y", corner, Vec3::UnitY(), 1}});
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    const Colour colour = arrow_colour(axis);
+    EXPECT_LT(bare.share(colour, 0.03), 2e-5);
+    EXPECT_GT((axis.x() > 0.0 ? along : axis.y() > 0.0 ? across : upright).share(colour, 0.03), 2e-4);
+    EXPECT_EQ(arrow_colour(-axis), colour);
+  }
+  EXPECT_EQ(arrow_colour(Vec3(0.6, 0.0, 0.8)), kInk);
+  const Picture once = drawn({{"A01x", corner, Vec3::UnitX(), 1}}),
+                twice = drawn({{"A01x", corner, Vec3::UnitX(), 1}, {"B07x", corner, Vec3::UnitX(), 1}});
+  EXPECT_EQ(once.differing(along), 0u);
+  EXPECT_GT(once.differing(twice), 100u) << "the second name stands beside the first";
 }
 
 TEST_F(NoDisplay, WrongOptionsAreNamed) {

@@ -46,7 +46,8 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   double all = 0.0;  // f goes with the root of all stiffness
   for (const auto& part : json["modes"][0]["sensitivity"]) all += part["stiffness"].get<double>();
   EXPECT_NEAR(all, 0.5, 1e-6);
-  for (const char* file : {"corrected.toml", "diagnosis.html", "images/residual_before.png", "images/mode_1_after.png"})
+  for (const char* file : {"corrected.toml", "diagnosis.html", "images/sensors.png", "images/residual_before.png",
+                           "images/mode_1_after.png"})
     EXPECT_TRUE(exists(folder / ("out/" + std::string(file)))) << file;
   // The corrected case is a case.
   const Outcome modal =
@@ -156,7 +157,32 @@ TEST(Hide, SaysWhatIsWrongWithItsInput) {
   expect_error(run({"--effect", "sensor_fault channel A01y delay=0.01"}), 2, {"late clock", "--minutes"});
   expect_error(run({"--trace", "--minutes", "2"}), 2, {"--trace"});
   expect_error(run({"--sensors", "some"}), 2, {"some", "sparse"});
+  expect_error(run({"--sensors", "41"}), 2, {"41", "5 to 40"});
+  expect_error(run({"--sensors", "none.csv"}), 2, {"none.csv", "no such file"});
+  expect_error(run({"--truth", "backfil=none"}), 2, {"backfil", "'backfill'"});
+  expect_error(run({"--truth", "backfill"}), 2, {"KEY=VALUE"});
+  expect_error(run({"--loosen", "x=1..2"}), 2, {"changes nothing"});
+  expect_error(run({"--parapet-gaps", "2"}), 2, {"no parapet"});
+  expect_error(run({"--noise-said", "0.5", "--minutes", "2"}), 2, {"--noise-said"});
   EXPECT_FALSE(exists(folder / "out/measured"));
+}
+
+TEST(Hide, KeepsTheBlocksOfAnAssemblyFile) {
+  const Folder folder;
+  folder.write("bridge.toml", bridge);
+  ASSERT_EQ(voussoir({"generate", "bridge.toml", "-o", "bridge.h5"}, {.folder = folder.path()}).status, 0);
+  folder.write("import.toml", "[bridge]\nassembly = \"bridge.h5\"\n");
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"hide", "import.toml", "-o", "hidden"};
+    words.insert(words.end(), more.begin(), more.end());
+    return voussoir(words, {.folder = folder.path()});
+  };
+  expect_error(run({"--mesh", "0.8"}), 2, {"--mesh", "assembly file"});
+  expect_error(run({"--truth", "width=8"}), 2, {"--truth", "generator"});
+  ASSERT_EQ(run({"--effect", "joint_softening pier 0 factor=0.3"}).status, 0);
+  const std::string answer = bytes_of(folder / "hidden/answer.toml");
+  EXPECT_NE(answer.find("mesh = 1\n"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("defects = 0\n"), std::string::npos) << answer;
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -1,102 +1,58 @@
 #include "tools/blind/trials.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "solver/base/error.h"
+
 namespace voussoir {
 
-const std::vector<BlindTrial>& blind_trials() {
-  static const std::vector<BlindTrial> list = {
-      {"cs1", "sparse", 0.010, {}, "", ""},
-      {"cs1", "rich", 0.005, {}, "", ""},
-      {"cs1", "none", 0.020, {}, "", ""},
-      {"cs1", "sparse", 0.030, {}, "", ""},
-      {"cs1", "rich", 0.020, {}, "", ""},
-      {"cs2", "sparse", 0.020, {}, "", ""},
-      {"cs2", "rich", 0.010, {}, "", ""},
-      {"cs2", "rich", 0.030, {}, "", ""},
-      {"cs2", "none", 0.010, {}, "", ""},
-      {"cs2", "rich", 0.005, {}, "", ""},
-      {"cs1", "sparse", 0.010, {"abutment_restraint both stiffness_share=0.5"}, "", ""},
-      {"cs1", "none", 0.010, {"abutment_restraint both stiffness_share=0.4"}, "", ""},
-      {"cs1", "rich", 0.020, {"abutment_restraint left stiffness_share=0.5"}, "", ""},
-      {"cs2", "sparse", 0.010, {"abutment_restraint right stiffness_share=0.6"}, "", ""},
-      {"cs2", "rich", 0.030, {"abutment_restraint both stiffness_share=0.3"}, "", ""},
-      {"cs1", "sparse", 0.010, {"foundation_flexibility pier 1 soil_shear_modulus=3e7"}, "", ""},
-      {"cs1", "sparse", 0.010, {"foundation_flexibility all soil_shear_modulus=5e7"}, "", ""},
-      {"cs2", "rich", 0.020, {"foundation_flexibility all soil_shear_modulus=5e7"}, "", ""},
-      {"cs2", "rich", 0.005, {"foundation_flexibility abutment left soil_shear_modulus=2e7"}, "", ""},
-      {"cs1", "rich", 0.005, {"scour pier 0 x- lost_share=0.7"}, "", ""},
-      {"cs2", "rich", 0.010, {"scour pier 1 y+ lost_share=0.5"}, "", ""},
-      {"cs1", "rich", 0.005, {"added_mass deck mass_per_length=20000"}, "", ""},
-      {"cs2", "sparse", 0.005, {"added_mass deck mass_per_length=40000"}, "", ""},
-      {"cs1", "rich", 0.010, {"joint_softening pier 2 factor=0.3"}, "", ""},
-      {"cs1", "rich", 0.005, {"joint_softening spandrel y+ factor=0.1"}, "", ""},
-      {"cs2", "rich", 0.005, {"joint_softening arch 1 factor=0.2"}, "", ""},
-      {"cs2", "sparse", 0.010, {"joint_softening pier 0 factor=0.2"}, "", ""},
-      {"cs1", "rich", 0.010, {"stiffer_masonry piers factor=3"}, "", ""},
-      {"cs2", "rich", 0.005, {"stiffer_masonry piers factor=4"}, "", ""},
-      {"cs1", "rich", 0.005, {"fill_stiffness all factor=0.08"}, "", ""},
-      {"cs2", "rich", 0.005, {"fill_stiffness all factor=0.05"}, "", ""},
-      {"cs1", "rich", 0.005, {"fill_interface all factor=0.03"}, "", ""},
-      {"cs2", "rich", 0.010, {"fill_interface all factor=0.02"}, "", ""},
-      {"cs1", "rich", 0.005, {"spandrel_separation both factor=0.001"}, "", ""},
-      {"cs1", "rich", 0.005, {"spandrel_separation spandrel y- factor=0.001"}, "", ""},
-      {"cs2", "rich", 0.005, {"tie_rods all axial_stiffness=8e9"}, "", ""},
-      {"cs1", "rich", 0.005, {"parapet_not_structural all factor=0.002"}, "", ""},
-      {"cs1", "rich", 0.010, {"neighbouring_structure right stiffness=2e9 mass=3e5"}, "", ""},
-      {"cs2", "sparse", 0.010, {"neighbouring_structure left stiffness=3e9 mass=5e5"}, "", ""},
-      {"cs1", "rich", 0.005, {"amplitude_stiffness all share_open=0.9"}, "", ""},
-      {"cs2", "rich", 0.005, {"amplitude_stiffness all share_open=0.9"}, "", ""},
-      {"cs1", "sparse", 0.010, {"damping all ratio=0.05"}, "", ""},
-      {"cs2", "rich", 0.020, {"damping all ratio=0.06"}, "", ""},
-      {"cs1",
-       "rich",
-       0.010,
-       {"abutment_restraint both stiffness_share=0.5", "joint_softening pier 1 factor=0.3"},
-       "",
-       ""},
-      {"cs2", "rich", 0.005, {"abutment_restraint both stiffness_share=0.5", "fill_interface all factor=0.03"}, "", ""},
-      {"cs2",
-       "rich",
-       0.010,
-       {"foundation_flexibility pier 0 soil_shear_modulus=3e7", "abutment_restraint right stiffness_share=0.5"},
-       "",
-       ""},
-      {"cs1",
-       "rich",
-       0.010,
-       {"abutment_restraint both stiffness_share=0.5"},
-       "abutment_restraint,neighbouring_structure",
-       "abutment"},
-      {"cs2",
-       "rich",
-       0.010,
-       {"abutment_restraint left stiffness_share=0.6"},
-       "abutment_restraint,neighbouring_structure",
-       "abutment left"},
-      {"cs2",
-       "rich",
-       0.005,
-       {"foundation_flexibility pier 1 soil_shear_modulus=2e7"},
-       "foundation_flexibility,joint_softening,scour",
-       "pier 1"},
-      {"cs1", "rich", 0.010, {"sensor_fault channel A05y gain=-1"}, "", ""},
-      {"cs2", "rich", 0.010, {"sensor_fault channel A03y gain=0.4"}, "", ""},
-      {"cs1", "rich", 0.010, {"sensor_fault channels A01x A01y"}, "", ""},
-      {"cs1",
-       "rich",
-       0.010,
-       {"abutment_restraint both stiffness_share=0.5", "sensor_fault channel A06y gain=-1"},
-       "",
-       ""},
-      {"cs1", "rich", 0.010, {}, "", "", 10.0, 0.0},
-      {"cs2", "rich", 0.010, {"abutment_restraint both stiffness_share=0.5"}, "", "", 10.0, 0.0},
-      {"cs2", "rich", 0.010, {"sensor_fault channel A05y delay=0.02"}, "", "", 10.0, 0.0},
-      {"cs2", "rich", 0.010, {}, "", "", 0.0, 60.0},
-      {"cs1", "rich", 0.010, {}, "", "", 0.0, 60.0},
-      {"cs2", "rich", 0.010, {"support_motion pier 0 factor=0.4"}, "", "", 0.0, 60.0},
-      {"cs1", "rich", 0.010, {"support_motion abutment left factor=0.5 delay=0.03"}, "", "", 0.0, 60.0},
-      {"cs1", "rich", 0.010, {"abutment_restraint both stiffness_share=0.5"}, "", "", 0.0, 60.0},
-  };
-  return list;
+namespace {
+
+bool is_fault(const std::string& effect) {
+  return effect.starts_with("sensor_fault ");
+}
+
+}  // namespace
+
+TrialKind kind_of(const BlindTrial& t) {
+  if (t.effects.empty() && t.loosened.empty()) return TrialKind::nothing;
+  if (!t.without.empty() || !t.loosened.empty()) return TrialKind::outside;
+  if (std::all_of(t.effects.begin(), t.effects.end(), is_fault)) return TrialKind::fault;
+  return t.effects.size() > 1 ? TrialKind::two : TrialKind::one;
+}
+
+std::string hidden_text(const BlindTrial& t, const std::vector<std::string>& effects) {
+  std::vector<std::string> parts = effects;
+  for (const std::string& l : t.loosened) parts.push_back("loosened " + l);
+  std::string text = parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, " + "));
+  if (t.minutes > 0.0) text += fmt::format(", {:g} min recorded", t.minutes);
+  if (t.shaken > 0.0) text += fmt::format(", {:g} s of an earthquake", t.shaken);
+  return t.without.empty() ? text : fmt::format("{}, out of the library", text);
+}
+
+std::string truth_text(const BlindTrial& t) {
+  std::string text = fmt::format("mesh {:.2f}, defects {:.3f} m, scatter {:.3f}", t.mesh, t.defects, t.scatter);
+  if (t.noise_said != 1.0) text += fmt::format(", noise said {:g}", t.noise_said);
+  if (t.fill != "rigid") text += fmt::format(", case with backfill={}", t.fill);
+  for (const std::string& key : t.truth) text += ", " + key;
+  if (t.parapet_gaps > 0) text += fmt::format(", {} parapet gaps", t.parapet_gaps);
+  return text;
+}
+
+Suite find_suite(const std::string& name) {
+  if (name == "first") return {name, first_suite()};
+  if (name == "second" || name == "third")
+    return {name, drawn_suite(name == "second" ? 2 : 3), 0.8, 80.0, 5.0, 3.0, 90.0, 97.0, 95.0};
+  throw InputError("--suite is '{}'; give first, second or third", name);
+}
+
+std::string case_of(const BlindTrial& t) {
+  return fmt::format(
+      "[bridge]\ngenerator = \"{}\"\nabutments = \"free\"\nbackfill = \"{}\"\nfill_edge = 1.2\nblock_scale = {}\n",
+      t.bridge, t.fill, t.bridge == "cs1" ? 3.0 : 1.8);
 }
 
 }  // namespace voussoir

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "solver/base/arrays.h"
 #include "solver/base/error.h"
 #include "solver/base/random.h"
 
@@ -11,12 +10,6 @@ namespace voussoir::campaign {
 namespace {
 
 constexpr int most_tries = 10000;
-
-/// A stream of its own for each seed, variable and sample.
-RandomStream stream(std::uint64_t seed, const std::string& name, int number) {
-  const std::uint64_t state = hash_bytes(name.data(), name.size(), RandomStream(seed).bits());
-  return RandomStream(RandomStream(state).bits() ^ std::uint64_t(number));
-}
 
 double draw_once(const Sampled& s, double mean, double deviation, RandomStream& random) {
   switch (s.distribution) {
@@ -36,7 +29,7 @@ double draw_once(const Sampled& s, double mean, double deviation, RandomStream& 
 }  // namespace
 
 double draw(const Sampled& s, const std::string& key, double mean, std::uint64_t seed, int number) {
-  RandomStream random = stream(seed, s.keys.front(), number);
+  RandomStream random = stream_of(seed, s.keys.front(), number);
   const bool range = s.distribution == Sampled::Distribution::uniform && s.cov == 0.0 && s.deviation == 0.0;
   if (range) return s.low + (s.high - s.low) * random.uniform();
   if (s.own_mean) mean = s.mean;

@@ -9,6 +9,7 @@
 #include "solver/base/error.h"
 #include "viz/mode_picture.h"
 #include "viz/render.h"
+#include "viz/sensor_picture.h"
 
 namespace voussoir {
 
@@ -74,9 +75,16 @@ PagePicture shape_picture(const Fit& fit, const ModeComparison& mode, std::size_
   return {options.title, fmt::format("measured {:.3f} s", mode.measured), png};
 }
 
+PagePicture sensor_picture(const Assembly& assembly, const std::vector<Sensor>& sensors, const std::string& png) {
+  RenderOptions options = plain_options();
+  options.title = "Where the sensors are";
+  draw_sensors(assembly, sensors, options, png);
+  return {options.title, fmt::format("{} channels; arrows point to where readings are positive", sensors.size()), png};
+}
+
 }  // namespace
 
-std::vector<PagePicture> draw_diagnosis(const DiagnosisInput&, const DiagnosisResult& result,
+std::vector<PagePicture> draw_diagnosis(const DiagnosisInput& input, const DiagnosisResult& result,
                                         const std::string& directory,
                                         const std::function<void(const std::string&)>& say) {
   constexpr std::size_t most = 4;  // modes
@@ -84,7 +92,9 @@ std::vector<PagePicture> draw_diagnosis(const DiagnosisInput&, const DiagnosisRe
   fs::create_directories(directory + "/images");
   const auto file = [&](const std::string& name) { return fmt::format("{}/images/{}.png", directory, name); };
   const double top = std::max(result.where.size, result.where_after.size);
+  const std::vector<Sensor>& sensors = input.problem.features.sensors;
   try {
+    if (!sensors.empty()) pictures.push_back(sensor_picture(result.before.best.assembly, sensors, file("sensors")));
     pictures.push_back(residual_map(result.before.best.assembly, result.where, "before", top, file("residual_before")));
     pictures.push_back(
         residual_map(result.after.best.assembly, result.where_after, "after", top, file("residual_after")));

@@ -1,4 +1,5 @@
-// Pictures of a diagnosis: where model and measurement disagree, and the measured modes before and after.
+// Pictures of a diagnosis: the sensors on the bridge, where model and measurement disagree, and the measured modes
+// before and after.
 #pragma once
 #include "tools/diagnosis/diagnosis_page.h"
 #include "tools/diagnosis/diagnosis_report.h"

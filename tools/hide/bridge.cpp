@@ -1,20 +1,52 @@
 #include "tools/hide/bridge.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "geometry/generator.h"
+#include "solver/base/csv.h"
 #include "solver/base/error.h"
+#include "solver/base/suggestion.h"
 #include "solver/effects/parts.h"
 
 namespace voussoir {
 
 namespace {
 
-/// The case with other dimensions and other blocks. Dimensions that cannot be together are drawn again.
-Assembly surveyed_wrongly(const Case& model, const HideRequest& request, Noise& noise) {
+void set_key(Case& c, const std::string& key, const std::string& word) {
+  const Generator& generator = find_generator(c.generator);
+  if (key == "block_scale")
+    throw InputError("--truth block_scale={}: the size of the true bridge's blocks is --mesh, over the case's", word);
+  std::vector<std::string> known;
+  for (const Parameter& p : generator.parameters) known.push_back(p.name);
+  for (const Choice& choice : generator.choices) known.push_back(choice.name);
+  if (std::find(known.begin(), known.end(), key) == known.end())
+    throw InputError("--truth {}={}: generator \"{}\" has no key '{}'{}", key, word, c.generator, key,
+                     suggestion(key, known));
+  if (c.generator_input.choices.contains(key)) {
+    c.generator_input.choices[key] = word;
+  } else if (parse_number(word, c.generator_input.values[key]) != NumberTrouble::none) {
+    throw InputError("--truth {}={}: expected a number; `voussoir generate --keys {}` lists the keys", key, word,
+                     c.generator);
+  }
+}
+
+/// The case as far as it is known what the true bridge has otherwise.
+Case as_it_is(const Case& model, const HideRequest& request) {
+  Case c = model;
+  for (const auto& [key, word] : request.truth) set_key(c, key, word);
+  check_input(find_generator(c.generator), c.generator_input);
+  return c;
+}
+
+/// The bridge with other dimensions and other blocks. Dimensions that cannot be together are drawn again.
+Assembly surveyed_wrongly(const Case& model, const HideRequest& request) {
+  const Case truth = as_it_is(model, request);
   for (int tries = 0;; ++tries) {
-    Case c = model;
+    Case c = truth;
     // Two dimensions that are the same number are one on the bridge: backing that reaches the end still does, instead
     // of ending a centimetre short of it behind a slot of fill.
     std::map<double, double> errors;
@@ -23,7 +55,7 @@ Assembly surveyed_wrongly(const Case& model, const HideRequest& request, Noise& 
       if (p.name == "block_scale") value = std::clamp(value * request.mesh, p.low, p.high);
       if (!is_dimension(p) || value <= 0.0) continue;
       const auto [error, first] = errors.try_emplace(value, 0.0);
-      if (first) error->second = request.defects * noise.normal();
+      if (first) error->second = request.defects * stream_of(request, "dimension " + p.name, tries).normal();
       value = std::clamp(value + error->second, p.low, p.high);
     }
     try {
@@ -34,20 +66,26 @@ Assembly surveyed_wrongly(const Case& model, const HideRequest& request, Noise& 
   }
 }
 
-}  // namespace
-
-Assembly hidden_bridge(const Case& model, const HideRequest& request, Noise& noise) {
-  if (model.generator.empty()) throw InputError("{} is made from an assembly file; hide needs a generator", model.path);
-  Assembly assembly = surveyed_wrongly(model, request, noise);
+void set_stiffness(Assembly& assembly, const HideRequest& request) {
   const Effect calibration = find_effect("calibration");
-  for (const std::string& where : calibration.places(assembly))
-    apply_effect(assembly, {"calibration",
-                            where,
-                            {{"stiffness", std::exp(request.materials * noise.normal())},
-                             {"density", std::exp(0.02 * noise.normal())}}});
+  for (const std::string& where : calibration.places(assembly)) {
+    RandomStream random = stream_of(request, "material " + where);
+    const double stiffness = std::exp(request.materials * random.normal()), density = std::exp(0.02 * random.normal());
+    apply_effect(assembly, {"calibration", where, {{"stiffness", stiffness}, {"density", density}}});
+  }
   for (const std::string& part : masonry_parts(assembly))
     if (part != "all" && !part.ends_with("s"))
-      scale_inside(assembly, masonry_part(assembly, part), std::exp(request.scatter * noise.normal()));
+      scale_inside(assembly, masonry_part(assembly, part),
+                   std::exp(request.scatter * stream_of(request, "part " + part).normal()));
+}
+
+}  // namespace
+
+Assembly hidden_bridge(const Case& model, const HideRequest& request) {
+  if (model.generator.empty() && !request.truth.empty())
+    throw InputError("{} is made from an assembly file, which has no keys: --truth needs a generator", model.path);
+  Assembly assembly = model.generator.empty() ? make_assembly(model) : surveyed_wrongly(model, request);
+  set_stiffness(assembly, request);
   return assembly;
 }
 

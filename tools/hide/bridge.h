@@ -5,8 +5,9 @@
 
 namespace voussoir {
 
-/// The bridge as it is, without the request's effects: other blocks, other dimensions, other stiffness in each part.
-/// Throws InputError for a case without a generator.
-Assembly hidden_bridge(const Case& model, const HideRequest& request, Noise& noise);
+/// The bridge as it is, without what is hidden (the request's effects and loosenings): the generator's keys that are
+/// otherwise, other blocks, other dimensions, other stiffness in each material and part. Of a case without a generator
+/// the blocks and dimensions stay. Throws InputError for a key or value the generator does not take.
+Assembly hidden_bridge(const Case& model, const HideRequest& request);
 
 }  // namespace voussoir

@@ -1,16 +1,17 @@
 #include "tools/hide/hide.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "geometry/nearest_block.h"
 #include "solver/base/error.h"
-#include "solver/effects/parts.h"
 #include "tools/hide/bridge.h"
 #include "tools/hide/instruments.h"
 #include "tools/hide/modes.h"
+#include "tools/hide/parapet_gaps.h"
 #include "tools/hide/recordings.h"
 
 namespace voussoir {
@@ -22,6 +23,8 @@ void check_shows(const HideRequest& request) {
   const bool recorded = request.minutes > 0.0 || request.shaken > 0.0;
   if (recorded && request.sensors == "none")
     throw InputError("--minutes and --shaken need sensors; give --sensors sparse or rich");
+  if (recorded && request.noise_said != 1.0)
+    throw InputError("--noise-said is of deviations, which recordings do not have; leave it out");
   if (recorded && request.trace)
     throw InputError("--trace is of modes, which --minutes and --shaken do not give; leave it out");
   if (request.minutes > 0.0 && request.shaken > 0.0) throw InputError("give --minutes or --shaken, not both");
@@ -33,16 +36,36 @@ void check_shows(const HideRequest& request) {
   }
 }
 
-std::string answer(const HideRequest& request, const Response& truth) {
+/// A list of texts as TOML has it.
+std::string quoted(const std::vector<std::string>& texts) {
+  std::vector<std::string> all;
+  for (const std::string& text : texts) all.push_back(fmt::format("{:?}", text));
+  return fmt::format("[{}]", fmt::join(all, ", "));
+}
+
+std::string answer(const HideRequest& request, const Response& truth, const std::vector<std::string>& gaps) {
   std::string text =
       fmt::format("# What voussoir hide put into the measurements beside this file.\nseed = {}\n", request.seed);
   text +=
-      fmt::format("noise = {}\nscatter = {}\nmaterials = {}\ndefects = {}\nmesh = {}\nsensors = \"{}\"\n",
-                  request.noise, request.scatter, request.materials, request.defects, request.mesh, request.sensors);
+      fmt::format("noise = {}\nnoise_said = {}\nscatter = {}\nmaterials = {}\ndefects = {}\nmesh = {}\n", request.noise,
+                  request.noise_said, request.scatter, request.materials, request.defects, request.mesh);
+  text += fmt::format("sensors = {:?}\n", request.sensors);
+  std::vector<std::string> keys, loosenings;
+  for (const auto& [key, word] : request.truth) keys.push_back(key + "=" + word);
+  for (const Loosening& l : request.loosenings) loosenings.push_back(l.text);
+  text += fmt::format("truth = {}\nparapet_gaps = {}\nloosened = {}\n", quoted(keys), quoted(gaps), quoted(loosenings));
   text += "periods = [";
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(truth.log_frequency.size(), request.modes); ++i)
     text += fmt::format("{}{:.6f}", i ? ", " : "", std::exp(-truth.log_frequency[i]));
   return text + "]\n" + effects_text(request.effects);
+}
+
+/// Where the channels of a plan are on the drawing, which is how a site notes them; the plan is the same on both.
+std::vector<MeasuredSensor> as_drawn(const Case& c, const HideRequest& request,
+                                     const std::vector<MeasuredSensor>& built) {
+  const std::vector<MeasuredSensor> drawn = instruments(make_assembly(c), request);
+  const auto same = [](const MeasuredSensor& a, const MeasuredSensor& b) { return a.id == b.id; };
+  return std::equal(drawn.begin(), drawn.end(), built.begin(), built.end(), same) ? drawn : built;
 }
 
 /// Names of the channels, and clocks that are late.
@@ -58,16 +81,19 @@ void finish(Recording& record, const std::vector<MeasuredSensor>& sensors, const
 HiddenBridge hide(const HideRequest& request) {
   check_shows(request);
   const Case c = read_case(request.case_file, CaseUse::geometry);
-  Noise noise(request.seed);
-  Assembly assembly = hidden_bridge(c, request, noise);
+  Assembly assembly = hidden_bridge(c, request);
+  const std::vector<std::string> gaps = open_parapets(assembly, request);
   const Assembly bare = assembly;
   HiddenBridge hidden;
   Measured& measured = hidden.measured;
   // Before there is ground at the ends, which a sensor near the edge would be put on.
-  measured.sensors = instruments(bare, request.sensors);
+  const std::vector<MeasuredSensor> built = instruments(bare, request);
+  const std::vector<std::int64_t> blocks = place_sensors(built, request.sensors, bare);
   std::vector<Sensor> sensors;
-  for (const MeasuredSensor& s : measured.sensors)
-    sensors.push_back({s.id, s.position, s.direction, nearest_block(bare, s.position).block});
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    sensors.push_back({built[i].id, built[i].position, built[i].direction, blocks[i]});
+  measured.sensors = as_drawn(c, request, built);
+  for (const Loosening& l : request.loosenings) loosen(assembly, l);
   SolverSettings settings = c.settings;
   for (const EffectSetting& effect : request.effects) {
     if (!find_effect(effect.name).apply_to_sensors) apply_effect(assembly, effect);
@@ -82,18 +108,18 @@ HiddenBridge hide(const HideRequest& request) {
   const Response truth = response(assembly, model, sensors, count, memory, request.shaken > 0.0);
   const double ratio = settings.damping.ratio;
   if (request.minutes > 0.0)
-    measured.records = {ambient(truth, request, ratio, noise)};
+    measured.records = {ambient(truth, sensors, request, ratio)};
   else if (request.shaken > 0.0)
-    measured.records = {earthquake(assembly, model, truth, memory, sensors, request, ratio, noise)};
+    measured.records = {earthquake(assembly, model, truth, memory, sensors, request, ratio)};
   else
-    measured.modes = measured_modes(truth, request, ratio, noise);
+    measured.modes = measured_modes(truth, sensors, request, ratio);
   for (Recording& record : measured.records) finish(record, measured.sensors, request);
   measured.what =
       fmt::format("made by voussoir hide from {}", std::filesystem::path(request.case_file).filename().string());
   if (request.trace)
     hidden.answer =
         fmt::format("trace = {:.1f}\n", trace_of(bare, truth, sound, request, ratio, c.settings.damping.ratio));
-  hidden.answer += answer(request, truth);
+  hidden.answer += answer(request, truth, gaps);
   return hidden;
 }
 

@@ -10,8 +10,8 @@ struct HiddenBridge {
   std::string answer;  // text of answer.toml: what was put into the measurements
 };
 
-/// Throws InputError for a case without a generator, for what a measurement of the kind asked for cannot show, and for
-/// effects whose place the bridge does not have.
+/// Throws InputError for what a measurement of the kind asked for cannot show, for what a case without a generator
+/// cannot have otherwise, and for effects, loosenings and sensors whose place the bridge does not have.
 HiddenBridge hide(const HideRequest& request);
 
 }  // namespace voussoir

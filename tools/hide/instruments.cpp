@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/nearest_block.h"
+#include "solver/base/csv.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -51,15 +53,13 @@ Vec3 middle_of(const Assembly& assembly, const std::string& group) {
   return 0.5 * (box.low + box.high);
 }
 
-}  // namespace
+enum class Plan { sparse, rich, dense };
 
-std::vector<MeasuredSensor> instruments(const Assembly& assembly, const std::string& which) {
-  if (which != "sparse" && which != "rich" && which != "none")
-    throw InputError("--sensors is {}; give sparse, rich or none", which);
+/// Channels of a plan; those of a richer one come after those of a poorer one where they are not among them.
+std::vector<MeasuredSensor> planned(const Assembly& assembly, Plan plan) {
   Instruments all(assembly);
-  if (which == "none") return {};
   const Box box = extent(assembly);
-  const bool rich = which == "rich";
+  const bool rich = plan != Plan::sparse;
   const double top = box.high.z();
   for (const auto& [name, blocks] : assembly.groups) {
     if (name.starts_with("keystone ")) {
@@ -75,7 +75,73 @@ std::vector<MeasuredSensor> instruments(const Assembly& assembly, const std::str
   }
   if (rich)
     for (double x : {box.low.x(), box.high.x()}) all.add({x, box.low.y(), top}, "xyz");
+  if (plan == Plan::dense) {
+    for (const auto& [name, blocks] : assembly.groups)
+      if (name.starts_with("base pier ")) all.add({middle_of(assembly, name).x(), box.high.y(), top}, "xyz");
+    for (double x : {box.low.x(), box.high.x()}) all.add({x, box.high.y(), top}, "xyz");
+  }
   return all.sensors;
+}
+
+/// So many of the plan's channels, in its order: one of each axis, then any.
+std::vector<MeasuredSensor> drawn(const Assembly& assembly, int channels, const HideRequest& request) {
+  std::vector<MeasuredSensor> pool = planned(assembly, Plan::rich);
+  if (int(pool.size()) < channels) pool = planned(assembly, Plan::dense);
+  if (int(pool.size()) < channels)
+    throw InputError("--sensors {}: the richest plan has {} channels on this bridge; ask for fewer or give a file",
+                     channels, pool.size());
+  std::vector<std::size_t> order;
+  RandomStream random = stream_of(request, "sensors");
+  for (std::size_t i = 0; i < pool.size(); ++i) {  // Fisher and Yates (1938), as Durstenfeld (1964) has it
+    order.push_back(i);
+    std::swap(order[i], order[random.below(i + 1)]);
+  }
+  std::vector<std::size_t> chosen;
+  for (const int axis : {1, 2, 0}) {
+    const auto at =
+        std::find_if(order.begin(), order.end(), [&](std::size_t i) { return pool[i].direction[axis] != 0.0; });
+    if (at == order.end()) continue;
+    chosen.push_back(*at);
+    order.erase(at);
+  }
+  chosen.insert(chosen.end(), order.begin(), order.begin() + (channels - std::ptrdiff_t(chosen.size())));
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<MeasuredSensor> sensors;
+  for (const std::size_t i : chosen) sensors.push_back(pool[i]);
+  return sensors;
+}
+
+/// Recordings are written as accelerations.
+std::vector<MeasuredSensor> of_file(const std::string& file) {
+  const std::vector<MeasuredSensor> sensors = read_sensors(file);
+  for (const MeasuredSensor& s : sensors)
+    if (s.unit != "m/s2")
+      throw InputError("{}:{}: sensor '{}' has the unit {}; voussoir hide writes m/s2: leave the unit out", file, s.row,
+                       s.id, s.unit);
+  return sensors;
+}
+
+}  // namespace
+
+std::vector<MeasuredSensor> instruments(const Assembly& assembly, const HideRequest& request) {
+  const std::string& which = request.sensors;
+  if (which == "none") return {};
+  if (which.ends_with(".csv")) return of_file(which);
+  double number = 0.0;
+  const bool count = parse_number(which, number) == NumberTrouble::none;
+  if (count && (number < 5.0 || number > 40.0 || number != std::floor(number)))
+    throw InputError("--sensors {}: a plan has 5 to 40 channels, a whole number", which);
+  if (!count && which != "sparse" && which != "rich")
+    throw InputError("--sensors is '{}'; give sparse, rich, none, a number from 5 to 40, or a file that ends in .csv",
+                     which);
+  const std::vector<MeasuredSensor> sensors =
+      count ? drawn(assembly, int(number), request) : planned(assembly, which == "rich" ? Plan::rich : Plan::sparse);
+  if (sensors.empty())
+    throw InputError(
+        "--sensors {}: this assembly has none of the groups keystone … and base pier …, where the plan has its "
+        "channels; give a file like measured/sensors.csv",
+        which);
+  return sensors;
 }
 
 }  // namespace voussoir

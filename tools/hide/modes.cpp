@@ -9,34 +9,49 @@
 
 namespace voussoir {
 
-std::vector<MeasuredMode> measured_modes(const Response& r, const HideRequest& request, double ratio, Noise& noise) {
+std::vector<MeasuredMode> true_modes(const Response& r, const HideRequest& request, double ratio) {
   std::vector<MeasuredMode> modes;
   for (std::size_t i = 0; i < r.words.size() && int(modes.size()) < request.modes; ++i) {
     if (r.words[i].direction == "local" || r.words[i].order == 0) continue;
     MeasuredMode mode;
     mode.name = fmt::format("{}", modes.size() + 1);
-    mode.period = std::exp(-r.log_frequency[Eigen::Index(i)]) * (1.0 + request.noise * noise.normal());
+    mode.period = std::exp(-r.log_frequency[Eigen::Index(i)]);
     mode.period_std = request.noise * mode.period;
     mode.direction = r.words[i].direction;
-    mode.damping = std::min(0.5, ratio * std::exp(0.1 * noise.normal()));
-    mode.damping_std = 0.1 * *mode.damping;
+    mode.damping = ratio;
+    mode.damping_std = 0.1 * ratio;
     const Eigen::VectorXd seen = r.sensors.col(Eigen::Index(i));
-    const double largest = seen.size() > 0 ? seen.cwiseAbs().maxCoeff() : 0.0;
+    const double largest = seen.isZero(0.0) ? 1.0 : seen.cwiseAbs().maxCoeff();
     const double spread = 2.0 * request.noise;  // shapes are known half as well as periods
-    for (Eigen::Index s = 0; s < seen.size(); ++s)
-      mode.shape.push_back({std::size_t(s), seen[s] / largest + spread * noise.normal(), spread});
+    for (Eigen::Index s = 0; s < seen.size(); ++s) mode.shape.push_back({std::size_t(s), seen[s] / largest, spread});
     modes.push_back(mode);
+  }
+  return modes;
+}
+
+std::vector<MeasuredMode> measured_modes(const Response& truth, const std::vector<Sensor>& sensors,
+                                         const HideRequest& request, double ratio) {
+  std::vector<MeasuredMode> modes = true_modes(truth, request, ratio);
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    MeasuredMode& mode = modes[i];
+    mode.period *= 1.0 + request.noise * stream_of(request, "period", int(i)).normal();
+    mode.period_std = request.noise_said * request.noise * mode.period;
+    mode.damping = std::min(0.5, ratio * std::exp(0.1 * stream_of(request, "damping", int(i)).normal()));
+    mode.damping_std = request.noise_said * 0.1 * *mode.damping;
+    for (MeasuredValue& v : mode.shape) {
+      v.value += v.std * stream_of(request, "shape at " + sensors[v.sensor].id, int(i)).normal();
+      v.std *= request.noise_said;
+    }
   }
   return modes;
 }
 
 double trace_of(const Assembly& bare, const Response& truth, const std::vector<Sensor>& sensors,
                 const HideRequest& request, double ratio, double bare_ratio) {
-  Noise none(0, 0.0);
   DiagnosisProblem problem;
   problem.base = bare;
   problem.features.sensors = sensors;
-  for (const MeasuredMode& mode : measured_modes(truth, request, ratio, none))
+  for (const MeasuredMode& mode : true_modes(truth, request, ratio))
     problem.features.modes.push_back(feature_of(mode, sensors.size()));
   problem.damping = bare_ratio;
   problem.modes = int(problem.features.modes.size()) + 8;

@@ -48,9 +48,26 @@ Eigen::VectorXd relative_acceleration(const Eigen::VectorXd& a, double dt, doubl
   return result;
 }
 
+/// Noise of each sensor's channel, five times the request's share of what it records. A dead one, which records
+/// nothing, has that of the quietest that does.
+void add_channel_noise(Recording& record, const std::vector<Sensor>& sensors, const HideRequest& request) {
+  std::vector<double> sizes;
+  double quietest = 1e300;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    sizes.push_back(std::sqrt(record.values.col(Eigen::Index(s)).squaredNorm() / double(record.values.rows())));
+    if (sizes.back() > 0.0) quietest = std::min(quietest, sizes.back());
+  }
+  if (quietest == 1e300) quietest = 1.0;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const double size = 5.0 * request.noise * (sizes[s] > 0.0 ? sizes[s] : quietest);
+    RandomStream random = stream_of(request, "noise of channel " + sensors[s].id);
+    for (Eigen::Index i = 0; i < record.values.rows(); ++i) record.values(i, Eigen::Index(s)) += size * random.normal();
+  }
+}
+
 }  // namespace
 
-Recording ambient(const Response& r, const HideRequest& request, double ratio, Noise& noise) {
+Recording ambient(const Response& r, const std::vector<Sensor>& sensors, const HideRequest& request, double ratio) {
   constexpr double dt = 0.01;  // s
   Recording record;
   record.name = "ambient";
@@ -60,9 +77,10 @@ Recording ambient(const Response& r, const HideRequest& request, double ratio, N
   for (Eigen::Index mode = 0; mode < r.eigenvalues.size(); ++mode) {
     const double w = std::sqrt(r.eigenvalues[mode]), wd = w * std::sqrt(1.0 - ratio * ratio);
     const double e = std::exp(-ratio * w * dt), c = std::cos(wd * dt), s = std::sin(wd * dt);
+    RandomStream random = stream_of(request, "excitation", int(mode));
     double q = 0.0, v = 0.0;
     for (Eigen::Index i = 0; i < samples; ++i) {
-      const double force = noise.normal(), rest = force / (w * w);
+      const double force = random.normal(), rest = force / (w * w);
       record.values.row(i) += (force - 2.0 * ratio * w * v - w * w * q) * r.sensors.col(mode).transpose();
       // Free vibration about the static displacement: x = e^(−ζωt) (x₀ cos ω_d t + b sin ω_d t).
       const double x = q - rest, b = (v + ratio * w * x) / wd;
@@ -70,16 +88,13 @@ Recording ambient(const Response& r, const HideRequest& request, double ratio, N
       v = -ratio * w * (q - rest) + e * wd * (b * c - x * s);
     }
   }
-  for (Eigen::Index channel = 0; channel < record.values.cols(); ++channel) {
-    const double size = std::sqrt(record.values.col(channel).squaredNorm() / double(samples));
-    for (Eigen::Index i = 0; i < samples; ++i) record.values(i, channel) += 5.0 * request.noise * size * noise.normal();
-  }
+  add_channel_noise(record, sensors, request);
   record.values *= 1e-3 / std::max(record.values.cwiseAbs().maxCoeff(), 1e-300);  // m/s2
   return record;
 }
 
 Recording earthquake(const Assembly& assembly, const LinearModel& model, const Response& r, const EigenMemory& memory,
-                     const std::vector<Sensor>& sensors, const HideRequest& request, double ratio, Noise& noise) {
+                     const std::vector<Sensor>& sensors, const HideRequest& request, double ratio) {
   SyntheticSettings synthetic;
   synthetic.seed = request.seed;
   synthetic.peak = 0.5;
@@ -112,10 +127,7 @@ Recording earthquake(const Assembly& assembly, const LinearModel& model, const R
     record.values.leftCols(r.sensors.rows()) +=
         relative_acceleration(drive.col(m), ground.dt, std::sqrt(r.eigenvalues[m]), ratio) *
         r.sensors.col(m).transpose();
-  for (Eigen::Index s = 0; s < r.sensors.rows(); ++s) {
-    const double size = std::sqrt(record.values.col(s).squaredNorm() / double(samples));
-    for (Eigen::Index i = 0; i < samples; ++i) record.values(i, s) += 5.0 * request.noise * size * noise.normal();
-  }
+  add_channel_noise(record, sensors, request);
   return record;
 }
 

@@ -48,6 +48,7 @@ std::vector<Channel> history_channels(const Assembly& assembly, const std::vecto
     channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
     channels.push_back({"sensors/" + sensor.id + "/since_built", "m"});
     channels.push_back({"sensors/" + sensor.id + "/velocity", "m/s"});
+    channels.push_back({"sensors/" + sensor.id + "/acceleration", "m/s2"});
     for (char axis : {'x', 'y', 'z'})
       channels.push_back({fmt::format("sensors/{}/rotation_{}", sensor.id, axis), "rad"});
   }
@@ -65,12 +66,14 @@ std::vector<double> history_row(const Simulation& run, const Sample& s) {
   row.push_back(double(s.contacts));
   for (const DemandPoint& point : demand_points(run.assembly())) row.push_back(group_displacement(run, point));
   row.insert(row.end(), s.broken_shares.begin(), s.broken_shares.end());
-  for (const Sensor& sensor : run.assembly().sensors) {
+  for (std::size_t i = 0; i < run.assembly().sensors.size(); ++i) {
+    const Sensor& sensor = run.assembly().sensors[i];
     const Vec3 u = relative_displacement(run.model(), run.state(), sensor.block, sensor.position);
     row.push_back(sensor.direction.dot(u));
     row.push_back(
         sensor.direction.dot(displacement_since_built(run.model(), run.state(), sensor.block, sensor.position)));
     row.push_back(sensor.direction.dot(point_velocity(run.model(), run.state(), sensor.block, sensor.position)));
+    row.push_back(s.accelerations[i]);
     const Vec3 turn = relative_rotation(run.model(), run.state(), sensor.block);
     for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
   }
