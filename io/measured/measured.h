@@ -25,6 +25,7 @@ struct MeasuredSensor {
   Vec3 direction = Vec3::Zero();  // unit
   int row = 0;                    // in sensors.csv
   std::string unit = "m/s2";      // of its channels in files; recordings in memory are m/s2
+  bool named = false;             // by a channel of a recording or by a shape
 };
 
 /// What one sensor showed in a mode.
@@ -51,6 +52,12 @@ struct MeasuredMode {
   Eigen::Vector3d participation_std = Eigen::Vector3d::Zero();
 };
 
+/// What people noted in about.toml beside what is read there.
+struct Note {
+  std::string key;   // with those of the tables that it is in: "weather.wind"
+  std::string text;  // texts without quotes, all else as TOML writes it
+};
+
 /// Something that was found and is not used.
 struct SetAside {
   std::string place;  // "shapes.csv:5", "records/wind.csv:1", "photo.jpg"
@@ -60,6 +67,7 @@ struct SetAside {
 struct Measured {
   std::string directory;
   std::string what, when, notes;  // of about.toml, as written there
+  std::vector<Note> more;         // its other keys, in the order of their names
   std::vector<MeasuredSensor> sensors;
   std::vector<MeasuredMode> modes;
   std::vector<Recording> records;    // in the order of their names, "records/wind.csv"; the first sample is at t = 0
@@ -74,20 +82,21 @@ struct Measured {
 /// found by their names, cells may be "quoted" within one line, lines that begin with # and empty ones are skipped.
 /// A standard deviation of 0 is one that is not given.
 ///
-/// Set aside and reported: files nobody knows, shapes of fewer than two sensors or all zeros, channels that are
-/// constant throughout (and recordings of which no channel is left). Everything else that is wrong or contradicts
-/// itself is an InputError "FILE:ROW: …" that says what was found, what is expected and what to do: among them two
-/// sensors at the same place along the same axis (also with opposite signs), recordings of fewer than 100 samples or
-/// with gaps, time steps that differ by more than 1e-6 s and fit no even grid within half of the last digit written,
-/// and a folder of which nothing is left to use.
+/// Set aside and reported: files nobody knows, shapes of fewer than two sensors or all zeros, modes that repeat
+/// another, sensors that nothing names, recordings that repeat another, and channels that are constant throughout,
+/// stand still, are cut off at a limit or are the same as another (and recordings of which no channel is left).
+/// Everything else that is wrong or contradicts itself is an InputError "FILE:ROW: …" that says what was found, what is
+/// expected and what to do: among them two sensors at the same place along the same axis (also with opposite signs),
+/// recordings of fewer than 100 samples or with gaps, time steps that differ by more than 1e-6 s and fit no even grid
+/// within half of the last digit written, and a folder of which nothing is left to use.
 ///
 /// Velocities and displacements become accelerations: their recordings lose 24 and 48 samples at either end.
 Measured read_measured(const std::string& directory);
 
-/// Writes a folder that read_measured() gives back bit for bit, but for `directory`, rows, what was set aside and
-/// remarks. Each file is written atomically; folders are made. Recordings are written to records/NAME.csv, NAME being
-/// the last part of theirs. Throws InputError, before anything is written, for what read_measured() would refuse and
-/// when the folder holds measurements that would be mixed with these; RunError when writing fails.
+/// Writes a folder that read_measured() gives back bit for bit, but for `directory`, rows, units, `more`, what was set
+/// aside and remarks. Each file is written atomically; folders are made. Recordings are written to records/NAME.csv,
+/// NAME being the last part of theirs. Throws InputError, before anything is written, for what read_measured() would
+/// refuse and when the folder holds measurements that would be mixed with these; RunError when writing fails.
 void write_measured(const Measured& measured, const std::string& directory);
 
 /// A table of sensors alone, as sensors.csv of a folder. Throws InputError "FILE:ROW: …".

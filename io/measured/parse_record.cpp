@@ -153,25 +153,6 @@ void check_channels(const CsvReader& csv, const std::vector<std::string>& channe
                            short_suggestion(channel, known)));
 }
 
-/// Takes out channels that do not move: of a sensor that was off or not plugged in.
-void drop_constant(Recording& record, const std::string& place, std::vector<SetAside>& set_aside) {
-  std::vector<Eigen::Index> kept;
-  std::vector<std::string> channels;
-  for (Eigen::Index c = 0; c < record.values.cols(); ++c) {
-    const std::string& channel = record.channels[std::size_t(c)];
-    const double first = record.values(0, c);
-    if ((record.values.col(c).array() == first).all()) {
-      set_aside.push_back({place, fmt::format("channel '{}' is {} throughout", channel, first)});
-    } else {
-      kept.push_back(c);
-      channels.push_back(channel);
-    }
-  }
-  if (channels.size() == record.channels.size()) return;
-  record.values = record.values(Eigen::all, kept).eval();
-  record.channels = channels;
-}
-
 /// Makes all channels accelerations in m/s2; what cannot be differentiated at the ends is cut off all of them.
 void convert_units(Recording& record, const std::vector<MeasuredSensor>& sensors) {
   std::vector<const ChannelUnit*> units;
@@ -205,6 +186,10 @@ void remark_units(const Recording& record, std::vector<std::string>& remarks) {
         record.name, peak));
 }
 
+bool same_samples(const Recording& a, const Recording& b) {
+  return a.channels == b.channels && a.values.rows() == b.values.rows() && a.values == b.values;
+}
+
 }  // namespace
 
 void parse_record(const TextFile& file, Measured& measured) {
@@ -224,7 +209,8 @@ void parse_record(const TextFile& file, Measured& measured) {
   record.dt = time_step(csv, samples);
   record.values = std::move(samples.values);
   const std::string place = fmt::format("{}:{}", file.name, csv.heading_row());
-  drop_constant(record, place, measured.set_aside);
+  for (MeasuredSensor& sensor : measured.sensors) sensor.named |= column_of(record, sensor.id) >= 0;
+  drop_faulty(record, samples.rows, place, measured);
   if (record.channels.empty()) return measured.set_aside.push_back({place, "no channel of the recording is left"});
   convert_units(record, measured.sensors);
   if (std::size_t(record.values.rows()) < fewest_samples)
@@ -232,6 +218,9 @@ void parse_record(const TextFile& file, Measured& measured) {
              fmt::format("{} samples are left once velocities and displacements are made accelerations, expected at "
                          "least {}: give a longer recording",
                          record.values.rows(), fewest_samples));
+  for (const Recording& other : measured.records)
+    if (same_samples(other, record))
+      return measured.set_aside.push_back({place, fmt::format("the same samples as {}", other.name)});
   remark_units(record, measured.remarks);
   measured.records.push_back(std::move(record));
 }

@@ -199,25 +199,29 @@ std::string when_of(const toml::table& root, TableReader& table) {
   return table.text("when", "");
 }
 
-/// People keep there what they like; only a misspelt key is worth a line of its own.
-void set_aside_strangers(const toml::table& root, const std::string& file, std::vector<SetAside>& set_aside) {
+/// Text of a value: a table's keys one by one, an array as a whole.
+void take_notes(const toml::node& node, const std::string& key, std::vector<Note>& notes) {
+  if (const toml::table* table = node.as_table(); table && !table->empty()) {
+    for (const auto& [name, inner] : *table) take_notes(inner, key + "." + std::string(name.str()), notes);
+    return;
+  }
+  if (const auto text = node.value<std::string>(); node.is_string()) return notes.push_back({key, *text});
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  notes.push_back({key, text.str()});
+}
+
+/// People keep there what they like; only a misspelt key is worth a line.
+void keep_notes(const toml::table& root, const std::string& file, Measured& measured) {
   static const std::vector<std::string> known = {"what", "when", "units", "notes"};
-  std::vector<std::string> strange;
   for (const auto& [key, node] : root) {
     const std::string name(key.str());
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    take_notes(node, name, measured.more);
     if (const std::string near = nearest_word(shown(name), known); !near.empty())
-      set_aside.push_back({fmt::format("{}:{}", file, key.source().begin.line),
-                           fmt::format("key '{}' is not read: did you mean '{}'?", shown(name), near)});
-    else
-      strange.push_back(shown(name));
+      measured.set_aside.push_back({fmt::format("{}:{}", file, key.source().begin.line),
+                                    fmt::format("key '{}' is kept as a note: did you mean '{}'?", shown(name), near)});
   }
-  constexpr std::size_t most = 20;
-  if (strange.empty()) return;
-  const std::size_t count = strange.size();
-  strange.resize(std::min(count, most));
-  set_aside.push_back({file, fmt::format("kept there and not read: {}{}", fmt::join(strange, ", "),
-                                         count > most ? fmt::format(" and {} more", count - most) : "")});
 }
 
 }  // namespace
@@ -272,6 +276,7 @@ void parse_shapes(const TextFile& file, Measured& measured) {
       table.fail(i, fmt::format("sensor '{}' of mode '{}' is already in row {}: expected each once; remove one",
                                 shown(measured.sensors[sensor].id), shown(measured.modes[mode].name), before));
     if (first_row[mode] == 0) first_row[mode] = table.row(i);
+    measured.sensors[sensor].named = true;
     measured.modes[mode].shape.push_back({sensor, table.required_number(i, "value"), table.deviation(i, "std")});
   }
   for (std::size_t i = 0; i < measured.modes.size(); ++i)
@@ -289,7 +294,7 @@ void parse_about(const TextFile& file, Measured& measured) {
                fmt::format("is \"{}\": expected \"SI\" (m, s, m/s2); convert the tables, and give recordings a column "
                            "'unit' in sensors.csv",
                            shown(units)));
-  set_aside_strangers(root, file.name, measured.set_aside);
+  keep_notes(root, file.name, measured);
 }
 
 }  // namespace voussoir

@@ -17,6 +17,10 @@ void parse_about(const TextFile& file, Measured& measured);
 /// Once sensors are known.
 void parse_record(const TextFile& file, Measured& measured);
 
+/// Takes out channels that are no signal: see channel_faults.cpp. `rows` are those of the samples in the file, `place`
+/// that of its heading.
+void drop_faulty(Recording& record, const std::vector<int>& rows, const std::string& place, Measured& measured);
+
 /// Where a file of a folder is.
 std::string path_in(const std::string& directory, const std::string& name);
 /// Names of what a folder holds, sorted; empty when there is no such folder.

@@ -1,5 +1,6 @@
 // The folder as a whole.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "io/measured/parts.h"
@@ -77,6 +78,52 @@ void check_folder(const std::string& directory, const std::vector<std::string>& 
                    listed < names.size() ? ", …" : "", expected_parts);
 }
 
+bool same_shape(const MeasuredMode& a, const MeasuredMode& b) {
+  if (a.shape.size() != b.shape.size()) return false;
+  if (a.shape.empty()) return true;
+  const auto largest = [](const MeasuredMode& m) {
+    return *std::max_element(m.shape.begin(), m.shape.end(),
+                             [](const auto& p, const auto& q) { return std::abs(p.value) < std::abs(q.value); });
+  };
+  const double factor = largest(b).value / largest(a).value;
+  for (std::size_t i = 0; i < a.shape.size(); ++i)
+    if (a.shape[i].sensor != b.shape[i].sensor ||
+        std::abs(factor * a.shape[i].value - b.shape[i].value) > 1e-9 * std::abs(largest(b).value))
+      return false;
+  return true;
+}
+
+/// A row that was copied and named anew would count twice.
+void set_aside_repeats(Measured& measured) {
+  std::vector<MeasuredMode> kept;
+  for (const MeasuredMode& mode : measured.modes) {
+    const auto first = std::find_if(kept.begin(), kept.end(), [&](const MeasuredMode& m) {
+      return m.period == mode.period && m.direction == mode.direction && m.damping == mode.damping &&
+             same_shape(m, mode);
+    });
+    if (first == kept.end())
+      kept.push_back(mode);
+    else
+      measured.set_aside.push_back(
+          {fmt::format("modes.csv:{}", mode.row),
+           fmt::format("mode '{}' repeats mode '{}' of row {}: period, direction, damping and shape are the same",
+                       shown(mode.name), shown(first->name), first->row)});
+  }
+  measured.modes = std::move(kept);
+}
+
+/// Sensors that show nothing.
+void set_aside_unnamed(Measured& measured) {
+  const auto& sensors = measured.sensors;
+  if (!sensors.empty() && std::none_of(sensors.begin(), sensors.end(), [](const auto& s) { return s.named; }))
+    return measured.set_aside.push_back(
+        {"sensors.csv", fmt::format("no recording and no shape names any of the {} sensors", sensors.size())});
+  for (const MeasuredSensor& s : sensors)
+    if (!s.named)
+      measured.set_aside.push_back({fmt::format("sensors.csv:{}", s.row),
+                                    fmt::format("no recording and no shape names sensor '{}'", shown(s.id))});
+}
+
 /// Something must be left to use.
 void check_left(const Measured& measured) {
   if (!measured.modes.empty() || !measured.records.empty()) return;
@@ -125,9 +172,11 @@ Measured read_measured(const std::string& directory) {
   if (contains(names, "sensors.csv")) parse_sensors(open_part(directory, "sensors.csv"), measured);
   if (contains(names, "modes.csv")) parse_modes(open_part(directory, "modes.csv"), measured);
   if (contains(names, "shapes.csv")) parse_shapes(open_part(directory, "shapes.csv"), measured);
+  set_aside_repeats(measured);
   if (contains(names, "records")) read_records(directory, measured);
   set_aside_strangers(names, measured);
   check_left(measured);
+  set_aside_unnamed(measured);
   if (measured.sensors.empty() && !measured.records.empty())
     measured.remarks.emplace_back("no sensors.csv: the channels of the recordings have no place on the bridge");
   return measured;

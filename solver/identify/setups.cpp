@@ -25,9 +25,17 @@ double variance_of(double deviation) {
   return std::isfinite(deviation) ? deviation * deviation : 0.0;
 }
 
+/// A setup's part in a shape.
+struct Member {
+  Eigen::VectorXcd shape;    // over all channels, NaN: not known
+  Eigen::MatrixXcd changes;  // of the shape, as IdentifiedMode::shape_changes
+  double weight = 0.0;       // of its components against those known before, from 0 to 1
+};
+
 /// A mode over all channels while setups are added.
 struct Track {
-  IdentifiedMode mode;  // shape over all channels, NaN: not known yet
+  IdentifiedMode mode;          // shape over all channels, NaN: not known yet
+  std::vector<Member> members;  // of the shape; frequency and damping may know of more setups
   std::vector<double> frequencies, frequency_weights, dampings, damping_weights;
   int setups = 0;
 };
@@ -48,10 +56,12 @@ IdentifiedMode spread_out(const IdentifiedMode& mode, const std::vector<std::str
   IdentifiedMode out = mode;
   out.shape = Eigen::VectorXcd::Constant(Eigen::Index(all.size()), {none, none});
   out.shape_std = Eigen::VectorXd::Constant(Eigen::Index(all.size()), none);
+  out.shape_changes = Eigen::MatrixXcd::Zero(Eigen::Index(all.size()), mode.shape_changes.cols());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const auto at = Eigen::Index(std::find(all.begin(), all.end(), channels[c]) - all.begin());
     out.shape[at] = mode.shape[Eigen::Index(c)];
     out.shape_std[at] = mode.shape_std[Eigen::Index(c)];
+    if (out.shape_changes.cols() > 0) out.shape_changes.row(at) = mode.shape_changes.row(Eigen::Index(c));
   }
   return out;
 }
@@ -93,17 +103,55 @@ Scale scale_to(const IdentifiedMode& track, const IdentifiedMode& mode) {
   return scale;
 }
 
-/// Adds a component to one that may be known: the mean by their variances.
-void add_component(IdentifiedMode& track, Eigen::Index i, const std::complex<double>& value, double variance) {
-  if (!known(track.shape[i])) {
-    track.shape[i] = value;
-    track.shape_std[i] = std::sqrt(variance);
-    return;
+/// Mean variance of the components at some channels.
+double mean_variance(const Eigen::VectorXd& deviations, const std::vector<Eigen::Index>& at) {
+  double sum = 0.0;
+  for (const Eigen::Index i : at) sum += variance_of(deviations[i]);
+  return sum / double(at.size());
+}
+
+/// Adds a member's shape, scaled, to one that may know some of its channels: the mean by weights there.
+void add_shape(Eigen::VectorXcd& shape, const Eigen::VectorXcd& own, double weight) {
+  const std::vector<Eigen::Index> both = shared(shape, own);
+  const std::complex<double> factor = own(both).dot(shape(both)) / own(both).squaredNorm();
+  for (Eigen::Index i = 0; i < own.size(); ++i) {
+    if (!known(own[i])) continue;
+    if (known(shape[i]))
+      shape[i] += weight * (factor * own[i] - shape[i]);
+    else
+      shape[i] = factor * own[i];
   }
-  const double before = variance_of(track.shape_std[i]), sum = before + variance;
-  const double weight = sum > 0.0 ? before / sum : 0.5;
-  track.shape[i] += weight * (value - track.shape[i]);
-  track.shape_std[i] = std::sqrt(sum > 0.0 ? before * variance / sum : 0.0);
+}
+
+/// The members' shapes put together, 1 at `unit`; −1: as it comes.
+Eigen::VectorXcd put_together(const std::vector<Member>& members, Eigen::Index unit, std::size_t changed = 0,
+                              const Eigen::VectorXcd& change = {}) {
+  Eigen::VectorXcd shape;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    Eigen::VectorXcd own = members[m].shape;
+    if (change.size() > 0 && m == changed) own += change;
+    if (m == 0)
+      shape = own;
+    else
+      add_shape(shape, own, members[m].weight);
+  }
+  if (unit >= 0) shape /= std::complex<double>(shape[unit]);
+  return shape;
+}
+
+/// What the replicates of the members make of the shape: setups are independent, so their squares add up to its
+/// variance.
+Eigen::MatrixXcd changes_of(const std::vector<Member>& members, const Eigen::VectorXcd& shape, Eigen::Index unit) {
+  Eigen::Index columns = 0, at = 0;
+  for (const Member& member : members) columns += member.changes.cols();
+  Eigen::MatrixXcd changes = Eigen::MatrixXcd::Zero(shape.size(), columns);
+  for (std::size_t m = 0; m < members.size(); ++m)
+    for (Eigen::Index b = 0; b < members[m].changes.cols(); ++b, ++at) {
+      const Eigen::VectorXcd changed = put_together(members, unit, m, members[m].changes.col(b));
+      for (Eigen::Index i = 0; i < shape.size(); ++i)
+        if (known(shape[i])) changes(i, at) = changed[i] - shape[i];
+    }
+  return changes;
 }
 
 void add_numbers(Track& track, const IdentifiedMode& mode) {
@@ -123,6 +171,7 @@ void add_numbers(Track& track, const IdentifiedMode& mode) {
 Track begun(const IdentifiedMode& mode) {
   Track track;
   track.mode = mode;
+  track.members.push_back({mode.shape, mode.shape_changes, 1.0});
   add_numbers(track, mode);
   return track;
 }
@@ -131,11 +180,27 @@ void add(Track& track, const IdentifiedMode& mode) {
   const Scale scale = scale_to(track.mode, mode);
   add_numbers(track, mode);
   if (!(scale.std <= unsure_scale * std::abs(scale.factor))) return;  // its size against the others is not known
+  const std::vector<Eigen::Index> both = shared(track.mode.shape, mode.shape);
+  const double before = mean_variance(track.mode.shape_std, both),
+               own = std::norm(scale.factor) * mean_variance(mode.shape_std, both), sum = before + own;
+  track.members.push_back({mode.shape, mode.shape_changes, sum > 0.0 ? before / sum : 0.5});
+  track.mode.shape = put_together(track.members, -1);
+  // Near enough to weigh the next member and to tell whether its scale is known.
+  for (const Eigen::Index i : both) track.mode.shape_std[i] = std::sqrt(sum > 0.0 ? before * own / sum : 0.0);
   for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
-    if (known(mode.shape[i]))
-      add_component(
-          track.mode, i, scale.factor * mode.shape[i],
-          std::norm(scale.factor) * variance_of(mode.shape_std[i]) + std::norm(mode.shape[i]) * scale.std * scale.std);
+    if (known(mode.shape[i]) && !std::isfinite(track.mode.shape_std[i]))
+      track.mode.shape_std[i] = std::sqrt(std::norm(scale.factor) * variance_of(mode.shape_std[i]) +
+                                          std::norm(mode.shape[i]) * scale.std * scale.std);
+}
+
+/// Squares of the differences between setups over their variances, and how many there are.
+std::pair<double, int> differences(const Track& track) {
+  double sum = 0.0, weight = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < track.frequencies.size(); ++i)
+    sum += track.frequency_weights[i] * track.frequencies[i], weight += track.frequency_weights[i];
+  for (std::size_t i = 0; i < track.frequencies.size(); ++i)
+    squares += track.frequency_weights[i] * std::pow(track.frequencies[i] - sum / weight, 2);
+  return {squares, int(track.frequencies.size()) - 1};
 }
 
 /// The weighted mean, and a standard deviation that also holds how far the values differ.
@@ -155,9 +220,10 @@ void finish(Track& track) {
   Eigen::Index largest = -1;
   for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
     if (known(mode.shape[i]) && (largest < 0 || std::abs(mode.shape[i]) > std::abs(mode.shape[largest]))) largest = i;
-  const std::complex<double> unit = mode.shape[largest];
-  mode.shape /= unit;
-  mode.shape_std /= std::abs(unit);
+  mode.shape = put_together(track.members, largest);
+  mode.shape_changes = changes_of(track.members, mode.shape, largest);
+  for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
+    mode.shape_std[i] = known(mode.shape[i]) ? mode.shape_changes.row(i).norm() : mode.shape_std[i];
   mode.mean_phase = phase_collinearity(mode.shape);
 }
 
@@ -268,26 +334,33 @@ std::vector<Setup> setups_of(const std::vector<Recording>& recordings) {
   return setups;
 }
 
-SsiResult merged(const std::vector<Setup>& setups, const std::vector<SsiResult>& results) {
-  const std::vector<std::size_t> order = order_of(setups, results);
-  SsiResult all = results[order.front()];
+SsiResult united(const std::vector<SsiResult>& results) {
+  SsiResult all;
+  all.settings = results.front().settings;
+  all.dt = results.front().dt;
   all.channels = all_channels(results);
   all.poor = poor_channels(results, all.channels);
-  all.modes.clear();
-  all.set_aside.clear();
-  all.references.clear();
-  all.poles.clear();
-  all.duration = 0.0;
-  all.setups = int(setups.size());
+  all.setups = int(results.size());
+  all.duration = results.front().duration;
+  for (const SsiResult& r : results) {
+    all.duration = std::min(all.duration, r.duration);
+    all.too_short.insert(all.too_short.end(), r.too_short.begin(), r.too_short.end());
+  }
   for (std::size_t c = 0; c < all.channels.size(); ++c)
     if (std::all_of(results.begin(), results.end(), [&](const SsiResult& r) {
           return std::find(r.channels.begin(), r.channels.end(), all.channels[c]) != r.channels.end();
         }))
       all.references.push_back(int(c));
+  return all;
+}
+
+SsiResult merged(const std::vector<Setup>& setups, const std::vector<SsiResult>& results) {
+  const std::vector<std::size_t> order = order_of(setups, results);
+  SsiResult all = united(results);
+  all.settings = results[order.front()].settings;
   std::vector<Track> tracks;
   for (const std::size_t s : order) {
     const SsiResult& r = results[s];
-    all.duration += r.duration;
     all.poles.insert(all.poles.end(), r.poles.begin(), r.poles.end());
     std::vector<IdentifiedMode> modes;
     for (const IdentifiedMode& mode : r.modes) modes.push_back(spread_out(mode, r.channels, all.channels));
@@ -296,7 +369,11 @@ SsiResult merged(const std::vector<Setup>& setups, const std::vector<SsiResult>&
       all.set_aside.push_back(
           {spread_out(aside.mode, r.channels, all.channels), fmt::format("{} (in {})", aside.reason, setups[s].name)});
   }
+  double squares = 0.0;
+  int count = 0;
   for (Track& track : tracks) {
+    const auto [square, more] = differences(track);
+    squares += square, count += more;
     finish(track);
     const std::string reason = doubt(track, setups, results, all.channels.size() - all.poor.size());
     if (reason.empty())
@@ -304,6 +381,7 @@ SsiResult merged(const std::vector<Setup>& setups, const std::vector<SsiResult>&
     else
       all.set_aside.push_back({track.mode, reason});
   }
+  if (count > 0) all.apart = std::sqrt(squares / count);
   const auto lower = [](double a, double b) { return a < b; };
   std::stable_sort(all.modes.begin(), all.modes.end(),
                    [&](const auto& a, const auto& b) { return lower(a.frequency, b.frequency); });

@@ -20,6 +20,13 @@ std::vector<Setup> setups_of(const std::vector<Recording>& recordings);
 ///
 /// Set aside: what fewer than half of the channels know of, and what any setup takes for a machine. Throws InputError
 /// for a setup that shares no channel with the others.
+///
+/// Standard deviations of shapes are those of what is put together: each setup's replicates move its own shape, and
+/// with it the scales, the means and the result (Shao & Wu 1989, of independent samples; Döhler, Lam & Mevel 2013 do so
+/// with covariances). The component that is 1 has none.
 SsiResult merged(const std::vector<Setup>& setups, const std::vector<SsiResult>& results);
+
+/// Channels, references, duration of all setups, without modes.
+SsiResult united(const std::vector<SsiResult>& results);
 
 }  // namespace voussoir

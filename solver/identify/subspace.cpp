@@ -24,15 +24,6 @@ Eigen::MatrixXd products_of(const Eigen::MatrixXd& signal, const Eigen::MatrixXd
   return sums;
 }
 
-/// Block (i, j) is the covariance of lag i + j + 1.
-Eigen::MatrixXd hankel(const Eigen::MatrixXd& covariance, int channels, int block_rows) {
-  const Eigen::Index rows = Eigen::Index(block_rows) * channels, references = covariance.cols();
-  Eigen::MatrixXd h(rows, block_rows * references);
-  for (int j = 0; j < block_rows; ++j)
-    h.middleCols(j * references, references) = covariance.middleRows(Eigen::Index(j) * channels, rows);
-  return h;
-}
-
 /// Cov(y(t + k), y(t)) for k from 0 to lags − 1.
 std::vector<Eigen::MatrixXd> autocovariances(const std::vector<Eigen::MatrixXd>& signals, int lags) {
   const Eigen::Index channels = signals.front().cols();
@@ -130,6 +121,14 @@ CanonicalWeights canonical_weights(const std::vector<Eigen::MatrixXd>& signals, 
   return weights;
 }
 
+Eigen::MatrixXd hankel(const Eigen::MatrixXd& covariances, int channels, int block_rows) {
+  const Eigen::Index rows = Eigen::Index(block_rows) * channels, references = covariances.cols();
+  Eigen::MatrixXd h(rows, block_rows * references);
+  for (int j = 0; j < block_rows; ++j)
+    h.middleCols(j * references, references) = covariances.middleRows(Eigen::Index(j) * channels, rows);
+  return h;
+}
+
 double Pole::frequency() const {
   return std::abs(lambda) / (2.0 * pi);
 }
@@ -156,19 +155,24 @@ std::vector<Pole> Subspace::poles(int order, double dt, double highest, const Ei
   // Least squares of the first `order` columns alone: their triangle is the leading part of the whole one.
   const Eigen::MatrixXd transition =
       triangle_.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(shifted_.topLeftCorner(order, order));
+  return poles_of(transition, first_.leftCols(order), dt, highest, scale);
+}
+
+std::vector<Pole> poles_of(const Eigen::MatrixXd& transition, const Eigen::MatrixXd& first, double dt, double highest,
+                           const Eigen::VectorXd& scale) {
   std::vector<Pole> poles;
   if (!transition.allFinite()) return poles;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(transition);
   if (solver.info() != Eigen::Success) return poles;
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
-  for (Eigen::Index i = 0; i < order; ++i) {
+  for (Eigen::Index i = 0; i < transition.cols(); ++i) {
     const std::complex<double> mu = solver.eigenvalues()[i];
     if (!(mu.imag() > 0.0)) continue;
     Pole pole;
-    pole.order = order;
+    pole.order = int(transition.cols());
     pole.lambda = std::log(mu) / dt;
     if (pole.frequency() > highest) continue;
-    pole.shape = scale.asDiagonal() * (first_.leftCols(order) * vectors.col(i));
+    pole.shape = scale.asDiagonal() * (first * vectors.col(i));
     normalise(pole.shape);
     if (pole.shape.allFinite()) poles.push_back(std::move(pole));
   }

@@ -44,6 +44,15 @@ struct Pole {
   bool stable() const { return stable_frequency && stable_damping && stable_shape; }
 };
 
+/// Poles of the system whose observability matrix has the block rows C Aⁱ of `channels` channels: A from `transition`
+/// (order × order), C its first block row. Those with an imaginary part above 0 and up to `highest` (Hz), ascending in
+/// frequency; shapes are multiplied by `scale` (per channel).
+std::vector<Pole> poles_of(const Eigen::MatrixXd& transition, const Eigen::MatrixXd& first, double dt, double highest,
+                           const Eigen::VectorXd& scale);
+
+/// Block (i, j) is the covariance of lag i + j + 1 of `channels` channels.
+Eigen::MatrixXd hankel(const Eigen::MatrixXd& covariances, int channels, int block_rows);
+
 /// The column space of the weighted block Hankel matrix of covariances; poles at any even order up to the largest.
 class Subspace {
  public:

@@ -20,7 +20,8 @@ TEST_F(MeasuredFolder, RecordsInAnyOrderOfColumns) {
 }
 
 TEST_F(MeasuredFolder, RecordsAreInTheOrderOfTheirNames) {
-  for (const char* name : {"c.csv", "a.csv", "b.csv"}) write_record(record({"a1"}), name);
+  int samples = 120;
+  for (const char* name : {"c.csv", "a.csv", "b.csv"}) write_record(record({"a1"}, ++samples), name);
   const Measured m = read();
   ASSERT_EQ(m.records.size(), 3u);
   EXPECT_EQ(m.records[0].name, "records/a.csv");
@@ -82,7 +83,7 @@ TEST_F(MeasuredFolder, ConstantChannelsAreSetAside) {
   for (int i = 0; i < 100; ++i) text += fmt::format("{},0,{},2.5\n", 0.01 * i, i % 5);
   write_record(text);
   const Measured m = read();
-  ASSERT_EQ(m.set_aside.size(), 2u);
+  ASSERT_EQ(m.set_aside.size(), 2u);  // a1 and a3 are named, so they are not set aside as sensors
   EXPECT_EQ(m.set_aside[0].place, "records/wind.csv:2");
   EXPECT_EQ(m.set_aside[0].what, "channel 'a1' is 0 throughout");
   EXPECT_EQ(m.set_aside[1].what, "channel 'a3' is 2.5 throughout");

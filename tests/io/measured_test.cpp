@@ -268,16 +268,18 @@ TEST_F(MeasuredFolder, About) {
 TEST_F(MeasuredFolder, AboutHoldsWhatPeopleLike) {
   write("modes.csv", modes);
   write("about.toml",
-        "what = \"a bridge\"\nnote = \"windy\"\nwhen = 2021-05-03\nteam = [\"A\", \"B\"]\n[weather]\nwind = 3.0\n");
+        "what = \"a bridge\"\nnote = \"windy\"\nwhen = 2021-05-03\nteam = [\"A\", \"B\"]\n[weather]\nwind = 3.0\n"
+        "[weather.sun]\nshines = true\n");
   const Measured m = read();
   EXPECT_EQ(m.what, "a bridge");
   EXPECT_EQ(m.when, "2021-05-03");
   EXPECT_EQ(m.notes, "");
-  ASSERT_EQ(m.set_aside.size(), 2u);
+  ASSERT_EQ(m.set_aside.size(), 1u);
   EXPECT_EQ(m.set_aside[0].place, "about.toml:2");
-  EXPECT_EQ(m.set_aside[0].what, "key 'note' is not read: did you mean 'notes'?");
-  EXPECT_EQ(m.set_aside[1].place, "about.toml");
-  EXPECT_EQ(m.set_aside[1].what, "kept there and not read: team, weather");
+  EXPECT_EQ(m.set_aside[0].what, "key 'note' is kept as a note: did you mean 'notes'?");
+  std::string notes;
+  for (const Note& note : m.more) notes += fmt::format("{}={}\n", note.key, note.text);
+  EXPECT_EQ(notes, "note=windy\nteam=[ 'A', 'B' ]\nweather.sun.shines=true\nweather.wind=3.0\n");
 }
 
 /// Blocks of 1 m side by side along x.

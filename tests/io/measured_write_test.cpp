@@ -22,7 +22,7 @@ Measured difficult() {
     r.channels = {"a,1", "base_z", " q\"; "};
     r.values = Eigen::MatrixXd(333, 3);
     for (Eigen::Index i = 0; i < r.values.size(); ++i)
-      r.values(i) = std::sin(double(i)) * std::pow(10.0, double(i % 30) - 29.0);
+      r.values(i) = std::sin(double(i) + double(m.records.size())) * std::pow(10.0, double(i % 30) - 29.0);
     m.records.push_back(r);
   }
   return m;

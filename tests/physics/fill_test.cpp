@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "solver/base/constants.h"
 #include "solver/step/damping.h"
 #include "tools/ladder/fill_rig.h"
 

@@ -118,7 +118,10 @@ TEST(Diagnose, OfRecordingsIdentifiesTheModesFirst) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json json = diagnosis(folder / "out");
   EXPECT_GE(json["modes"].size(), 4u);
-  EXPECT_NE(outcome.out.find("frequency-domain decomposition"), std::string::npos) << outcome.out;
+  for (const char* part : {"frequency-domain decomposition", "periods of the lowest mode"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
+  for (const nlohmann::json& mode : json["modes"])
+    EXPECT_NEAR(mode["frequency"]["measured"].get<double>() * mode["measured"].get<double>(), 1.0, 1e-12);
 }
 
 TEST(Diagnose, SaysWhatIsWrongWithItsInput) {

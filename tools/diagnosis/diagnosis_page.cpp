@@ -120,6 +120,7 @@ std::string facts(const DiagnosisInput& input, const DiagnosisResult& result) {
   fact("measured", m.what);
   fact("when", m.when);
   fact("notes", m.notes);
+  for (const Note& note : m.more) fact(escaped(note.key).c_str(), note.text);
   fact("folder", m.directory);
   const auto held = std::size_t(
       std::count_if(result.modes.begin(), result.modes.end(), [](const auto& mode) { return mode.held_back; }));
@@ -151,7 +152,7 @@ std::string unpaired_note(const std::vector<ModeComparison>& modes) {
 }
 
 std::string modes_section(const std::vector<ModeComparison>& modes) {
-  std::string text = heading("Periods") + figure(periods_chart(modes)) + unpaired_note(modes);
+  std::string text = heading("Periods and frequencies") + figure(periods_chart(modes)) + unpaired_note(modes);
   text += heading("Residuals of the frequencies");
   text += note("Measured less computed, over the standard deviation of measurement and model together; grey: ± 2.");
   return text + figure(deviations_chart(modes));

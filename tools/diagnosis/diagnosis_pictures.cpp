@@ -68,11 +68,12 @@ PagePicture shape_picture(const Fit& fit, const ModeComparison& mode, std::size_
   const int computed = fit.best.pairing.computed[index];
   RenderOptions options = plain_options();
   const double period = std::exp(-fit.best.response.log_frequency[computed]);
-  options.title = fmt::format("Mode {} {}: {:.3f} s, {}", mode.name, when, period,
+  options.title = fmt::format("Mode {} {}: {:.3f} s ({:.3f} Hz), {}", mode.name, when, period, 1.0 / period,
                               fit.best.response.words[std::size_t(computed)].text());
   draw_mode(fit.best.assembly, as_mode(fit.best, computed), options,
-            {fmt::format("measured {:.3f} s ± {:.3f} s", mode.measured, mode.std), ""}, png);
-  return {options.title, fmt::format("measured {:.3f} s", mode.measured), png};
+            {fmt::format("measured {:.3f} s ± {:.3f} s ({:.3f} Hz)", mode.measured, mode.std, 1.0 / mode.measured), ""},
+            png);
+  return {options.title, fmt::format("measured {:.3f} s ({:.3f} Hz)", mode.measured, 1.0 / mode.measured), png};
 }
 
 PagePicture sensor_picture(const Assembly& assembly, const std::vector<Sensor>& sensors, const std::string& png) {

@@ -122,6 +122,21 @@ std::string words(const Evaluation& e, int computed) {
   return computed < 0 ? "none" : e.response.words[std::size_t(computed)].text();
 }
 
+/// Of periods in s, in Hz; null where there is none.
+json frequencies_json(const ModeComparison& m) {
+  const auto hertz = [](double t) { return t > 0.0 ? json(1.0 / t) : json(nullptr); };
+  return {{"measured", hertz(m.measured)},
+          {"std", m.std / (m.measured * m.measured)},
+          {"before", hertz(m.before)},
+          {"after", hertz(m.after)}};
+}
+
+json about_json(const Measured& m) {
+  json more = json::object();
+  for (const Note& note : m.more) more[note.key] = note.text;
+  return {{"what", m.what}, {"when", m.when}, {"notes", m.notes}, {"more", more}};
+}
+
 json recorded_json(const RecordedMatch& m) {
   json j = {{"record", m.record},
             {"from", m.from},
@@ -220,6 +235,7 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
                           {"std", m.std},
                           {"before", m.before},
                           {"after", m.after},
+                          {"frequency", frequencies_json(m)},
                           {"deviations_before", m.deviations_before},
                           {"deviations_after", m.deviations_after},
                           {"mac_before", number(m.mac_before)},
@@ -238,6 +254,7 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
       }
     j["gap"]["nameless"] = d.nameless_best.gap;
   }
+  j["about"] = about_json(input.measured);
   for (const SetAside& s : input.measured.set_aside) j["set_aside"].push_back({{"place", s.place}, {"what", s.what}});
   j["remarks"] = input.measured.remarks;
   j["model_error"] = {{"frequency", input.problem.error.frequency},
@@ -258,17 +275,21 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
 
 std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& result) {
   const Diagnosis& d = result.diagnosis;
-  std::string text = fmt::format("{:>6} {:>12} {:>9} {:>7} {:>9} {:>6} {:>9} {:>6} {:>5}  computed\n", "mode",
-                                 "direction", "measured", "± s", "before", "%", "after", "%", "MAC");
+  std::string text =
+      fmt::format("{:>6} {:>12} {:>9} {:>7} {:>8} {:>7} {:>9} {:>8} {:>6} {:>9} {:>8} {:>6} {:>5}  computed\n", "mode",
+                  "direction", "measured", "±", "", "±", "before", "", "", "after", "", "", "MAC");
+  text += fmt::format("{:>6} {:>12} {:>9} {:>7} {:>8} {:>7} {:>9} {:>8} {:>6} {:>9} {:>8} {:>6}\n", "", "", "s", "s",
+                      "Hz", "Hz", "s", "Hz", "%", "s", "Hz", "%");
   for (const ModeComparison& m : result.modes) {
-    const auto percent = [&](double t) {
-      return t > 0.0 ? fmt::format("{:+.1f}", 100.0 * (t / m.measured - 1.0)) : std::string("-");
+    const auto columns = [&](double t) {
+      if (!(t > 0.0)) return fmt::format("{:>9} {:>8} {:>6}", "-", "-", "-");
+      return fmt::format("{:>9.4f} {:>8.3f} {:>+6.1f}", t, 1.0 / t, 100.0 * (t / m.measured - 1.0));
     };
-    text +=
-        fmt::format("{:>6} {:>12} {:>9.4f} {:>7.4f} {:>9.4f} {:>6} {:>9.4f} {:>6} {:>5}  {}{}\n", m.name,
-                    m.direction.empty() ? "-" : m.direction, m.measured, m.std, m.before, percent(m.before), m.after,
-                    percent(m.after), std::isfinite(m.mac_after) ? fmt::format("{:.2f}", m.mac_after) : "-",
-                    m.words_after, m.held_back ? " (held back)" : "");
+    text += fmt::format("{:>6} {:>12} {:>9.4f} {:>7.4f} {:>8.3f} {:>7.3f} {} {} {:>5}  {}{}\n", m.name,
+                        m.direction.empty() ? "-" : m.direction, m.measured, m.std, 1.0 / m.measured,
+                        m.std / (m.measured * m.measured), columns(m.before), columns(m.after),
+                        std::isfinite(m.mac_after) ? fmt::format("{:.2f}", m.mac_after) : "-", m.words_after,
+                        m.held_back ? " (held back)" : "");
   }
   text += "where the case disagrees:";
   for (std::size_t i = 0; i < std::min<std::size_t>(4, result.where.parts.size()); ++i)

@@ -15,6 +15,15 @@ namespace voussoir {
 
 namespace {
 
+/// Periods of the lowest mode that an ambient recording shall hold (Cantieni 2005: 1000 to 2000; Brincker & Ventura
+/// 2015: 20/(2 ζ), the same with a damping of 0.5 to 1 %).
+constexpr double enough_periods = 1000.0;
+
+/// "1.925 Hz (0.5195 s)".
+std::string hertz(double frequency) {
+  return fmt::format("{:.3f} Hz ({:.4f} s)", frequency, 1.0 / frequency);
+}
+
 /// A complex shape turned so that the sum of squares of its imaginary parts is least.
 Eigen::VectorXcd turned(const Eigen::VectorXcd& shape) {
   std::complex<double> sum = 0.0;
@@ -46,10 +55,41 @@ MeasuredMode named_mode(const Measured& measured, double frequency, double frequ
   return mode;
 }
 
+bool names_ground(const std::vector<Recording>& recordings) {
+  return std::any_of(recordings.begin(), recordings.end(), [](const Recording& r) {
+    return std::any_of(r.channels.begin(), r.channels.end(), is_base_channel);
+  });
+}
+
 /// Channels that are in some recordings only, where these are taken together.
 void set_aside_dropped(Measured& measured) {
   for (const DroppedChannel& dropped : dropped_channels(measured.records))
     measured.set_aside.push_back({fmt::format("channel {}", dropped.name), dropped.reason});
+}
+
+/// How long recordings are, or the shortest setup's, in periods of the lowest mode.
+std::string length_remark(const SsiResult& found) {
+  const double lowest = found.modes.front().frequency, periods = found.duration * lowest;
+  const std::string what = fmt::format("{} {:.4g} s, {:.0f} periods of the lowest mode, {}",
+                                       found.setups > 1 ? "the shortest setup lasts" : "the recordings last",
+                                       found.duration, periods, hertz(lowest));
+  if (periods >= enough_periods) return what;
+  return fmt::format(
+      "{}: too short, {:.0f} to {:.0f} are asked for, {:.0f} s or more: its frequency, and its damping above all, are "
+      "less sure than they look; record for longer",
+      what, enough_periods, 2.0 * enough_periods, std::ceil(enough_periods / lowest));
+}
+
+/// Recordings of a folder that gives its modes itself; the first with the ground's motion is what the case is run
+/// under.
+void set_aside_recordings(Measured& measured) {
+  bool ground = false;
+  for (const Recording& r : measured.records) {
+    if (!ground && !measured.sensors.empty() && names_ground({r}) && has_base_motion({r}))
+      ground = true;
+    else
+      measured.set_aside.push_back({r.name, "modes.csv gives the modes: none are taken from recordings"});
+  }
 }
 
 /// A shape over `from` as one over `to`, NaN where it is not known.
@@ -94,21 +134,24 @@ Identification identify_ambient(Measured& measured, const Case& c) {
   for (const PoorChannel& poor : found.poor)
     measured.set_aside.push_back({fmt::format("channel {}", found.channels[std::size_t(poor.channel)]), poor.reason});
   for (const RejectedMode& aside : found.set_aside)
-    measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+    measured.set_aside.push_back({hertz(aside.mode.frequency), aside.reason});
+  for (const ShortRecording& r : found.too_short) measured.set_aside.push_back({r.name, r.reason});
   if (found.setups > 1)
-    measured.remarks.push_back(
-        fmt::format("{} setups, whose shapes are put together by {}", found.setups, reference_words(found)));
+    measured.remarks.push_back(fmt::format("{} setups, put together {} by {}", found.setups,
+                                           found.joint ? "in one model (PreGER)" : "mode by mode (PoSER)",
+                                           reference_words(found)));
   else
     set_aside_dropped(measured);
+  if (!found.modes.empty()) measured.remarks.push_back(length_remark(found));
   for (const IdentifiedMode& m : found.modes) {
     MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
     add_shape(found.channels, turned(m.shape), m.shape_std, measured.sensors, mode);
     const FddPeak peak = peak_near(spectra, m.frequency, at_channels(m.shape, found.channels, spectra.channels));
     measured.remarks.push_back(fmt::format(
-        "mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, m.frequency,
+        "mode {}: {} ± {:.3f} Hz, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, hertz(m.frequency),
         m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, m.hits,
         peak.found
-            ? fmt::format("frequency-domain decomposition: {:.3f} Hz, MAC {:.2f}", peak.frequency, peak.assurance)
+            ? fmt::format("frequency-domain decomposition: {}, MAC {:.2f}", hertz(peak.frequency), peak.assurance)
             : std::string("no peak of the frequency-domain decomposition")));
     measured.modes.push_back(std::move(mode));
   }
@@ -133,7 +176,7 @@ TransferSettings transfer_settings(const Measured& measured, const Assembly& ass
 void identify_driven(Measured& measured, const TransferSettings& settings) {
   const DrivenModes found = driven_modes(transfer_functions(measured.records, settings));
   for (const UndrivenMode& aside : found.set_aside)
-    measured.set_aside.push_back({fmt::format("{:.3f} Hz", aside.mode.frequency), aside.reason});
+    measured.set_aside.push_back({hertz(aside.mode.frequency), aside.reason});
   for (const DrivenMode& m : found.modes) {
     MeasuredMode mode = named_mode(measured, m.frequency, m.frequency_std, m.damping, m.damping_std);
     add_shape(found.outputs, m.shape, m.shape_std, measured.sensors, mode);
@@ -146,25 +189,19 @@ void identify_driven(Measured& measured, const TransferSettings& settings) {
                            m.participation_std[input]);
     }
     measured.remarks.push_back(
-        fmt::format("mode {}: {:.3f} Hz ± {:.3f}, damping {:.2f} % ± {:.2f}, driven by the ground "
-                    "along{}",
-                    mode.name, m.frequency, m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, parts));
+        fmt::format("mode {}: {} ± {:.3f} Hz, damping {:.2f} % ± {:.2f}, driven by the ground along{}", mode.name,
+                    hertz(m.frequency), m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, parts));
     measured.modes.push_back(std::move(mode));
   }
   measured.remarks.push_back(fmt::format(
       "these modes explain {:.0f} % of the transfer functions from the ground's motion", 100.0 * found.explained));
 }
 
-bool names_ground(const std::vector<Recording>& recordings) {
-  return std::any_of(recordings.begin(), recordings.end(), [](const Recording& r) {
-    return std::any_of(r.channels.begin(), r.channels.end(), is_base_channel);
-  });
-}
-
 }  // namespace
 
 Identification identify(Measured& measured, const Case& c, const Assembly& assembly, int most) {
   Identification identification;
+  if (!measured.modes.empty()) set_aside_recordings(measured);
   if (!measured.modes.empty() || measured.records.empty()) return identification;
   if (names_ground(measured.records) && has_base_motion(measured.records)) {
     check_in_common(measured.records);

@@ -38,10 +38,12 @@ void draw_period(SvgDrawing& drawing, const ChartAxis& axis, double y, const Mod
   if (m.after > 0.0) drawing.marker(Marker::triangle, axis.at(m.after), y + 12.0, after_colour(), m.words_after);
 }
 
-void draw_period_number(SvgDrawing& drawing, double x, double y, double period, double measured) {
+/// A period, its frequency and a remark below each other.
+void draw_period_number(SvgDrawing& drawing, double x, double y, double period, const std::string& remark) {
   if (period <= 0.0) return draw_column_number(drawing, x, y, "none", "");
-  draw_column_number(drawing, x, y, fmt::format("{:#.4g}", period),
-                     signed_number(100.0 * (period / measured - 1.0)) + " %");
+  drawing.text(x, y - 8.0, fmt::format("{:#.4g} s", period), {.anchor = "end"});
+  drawing.text(x, y + 6.0, fmt::format("{:#.4g} Hz", 1.0 / period), {.anchor = "end", .size = 12.0});
+  drawing.text(x, y + 20.0, remark, {.anchor = "end", .size = 12.0});
 }
 
 /// Two values a mode, joined by a line. Those that are not finite are "none".
@@ -96,8 +98,8 @@ std::string dumbbell_chart(const DumbbellChart& chart, const std::vector<Dumbbel
 }  // namespace
 
 std::string periods_chart(const std::vector<ModeComparison>& modes) {
-  const ChartRows rows = {kLegendHeight, 42.0, modes.size()};
-  SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Measured and computed periods");
+  const ChartRows rows = {kLegendHeight, 50.0, modes.size()};
+  SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Measured and computed periods and frequencies");
   draw_mode_rows(drawing, rows, pointers(modes));
   const ChartAxis axis = periods_axis(modes, kLabelWidth, 700.0);
   draw_axis_below(
@@ -105,15 +107,16 @@ std::string periods_chart(const std::vector<ModeComparison>& modes) {
       axis.kind == ChartAxis::Kind::logarithmic ? "period, s (logarithmic)" : "period, s (linear, not from 0)");
   draw_legend(drawing, 0.0, 16.0, {measured_entry(), before_entry(), after_entry()});
   const double columns[] = {800.0, 908.0, kChartWidth - 4.0};
-  const char* const headings[] = {"measured, s", "before, s", "after, s"};
+  const char* const headings[] = {"measured", "before", "after"};
   for (std::size_t k = 0; k < 3; ++k) draw_column_heading(drawing, columns[k], 16.0, headings[k]);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ModeComparison& m = modes[i];
     draw_period(drawing, axis, rows.middle(i), m);
-    draw_column_number(drawing, columns[0], rows.middle(i), fmt::format("{:#.4g}", m.measured),
-                       fmt::format("± {:#.2g}", m.std));
-    draw_period_number(drawing, columns[1], rows.middle(i), m.before, m.measured);
-    draw_period_number(drawing, columns[2], rows.middle(i), m.after, m.measured);
+    const auto change = [&](double t) { return signed_number(100.0 * (t / m.measured - 1.0)) + " %"; };
+    draw_period_number(drawing, columns[0], rows.middle(i), m.measured,
+                       fmt::format("± {:.2g} %", 100.0 * m.std / m.measured));
+    draw_period_number(drawing, columns[1], rows.middle(i), m.before, change(m.before));
+    draw_period_number(drawing, columns[2], rows.middle(i), m.after, change(m.after));
   }
   return drawing.finished();
 }

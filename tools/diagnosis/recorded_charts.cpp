@@ -201,7 +201,8 @@ std::string stabilisation_chart(const SsiResult& ssi, const Fdd& spectra) {
   for (const Pole& pole : ssi.poles) {
     const double x = panel.x.at(pole.frequency()), y = panel.y.at(pole.order);
     if (pole.stable())
-      drawing.marker(Marker::circle, x, y, after_colour(), fmt::format("{:.3f} Hz", pole.frequency()), 3.0);
+      drawing.marker(Marker::circle, x, y, after_colour(),
+                     fmt::format("{:.3f} Hz, {:.4f} s", pole.frequency(), 1.0 / pole.frequency()), 3.0);
     else
       drawing.marker(Marker::square, x, y, before_colour(), {}, 2.2);
   }

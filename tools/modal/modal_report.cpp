@@ -26,16 +26,22 @@ const char* plural(std::size_t count) {
   return count == 1 ? "" : "s";
 }
 
+/// Hz and s.
+std::string frequency_columns(const Mode& mode) {
+  return fmt::format("{:>12.4f} {:>9}", mode.frequency,
+                     mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.period()) : "-");
+}
+
 }  // namespace
 
 std::string modes_table(const ModesFile& file) {
   const bool damped = !file.damped.empty();
   std::string text = fmt::format("{:>4} {:>10} {:>9}  {:^20} {:^20} {:^20}", "mode", "frequency", "period",
                                  "effective mass %", "sum %", "participation");
-  text += damped ? fmt::format(" {:>8} {:>6}  motion\n", "damped", "ratio") : "  motion\n";
+  text += damped ? fmt::format(" {:>9} {:>8} {:>6}  motion\n", "damped", "", "ratio") : "  motion\n";
   text += fmt::format("{:>4} {:>10} {:>9}  {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}", "", "Hz", "s", "x",
                       "y", "z", "x", "y", "z", "x", "y", "z");
-  text += damped ? fmt::format(" {:>8} {:>6}\n", "s", "%") : "\n";
+  text += damped ? fmt::format(" {:>9} {:>8} {:>6}\n", "Hz", "s", "%") : "\n";
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < file.modes.size(); ++i) {
     const Mode& mode = file.modes[i];
@@ -48,7 +54,7 @@ std::string modes_table(const ModesFile& file) {
     for (int c = 0; c < 3; ++c)  // never −0.00
       text += fmt::format(" {:>6.2f}", 0.01 * std::round(100.0 * mode.participation[c]) + 0.0);
     if (damped)
-      text += fmt::format(" {:>8} {:>6.2f}",
+      text += fmt::format(" {:>9.4f} {:>8} {:>6.2f}", file.damped[i].frequency,
                           file.damped[i].frequency > 0.0 ? fmt::format("{:.4f}", file.damped[i].period()) : "-",
                           100.0 * file.damped[i].ratio);
     text += fmt::format("  {}\n", mode.words.text());
@@ -98,21 +104,21 @@ Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs) {
 
 std::string pairing_table(const ModesFile& ours, const ModesFile& theirs, const Pairing& pairing,
                           const std::string& ours_name, const std::string& theirs_name) {
-  std::string text =
-      fmt::format("{:>4} {:>12} {:>5} {:>12} {:>8} {:>6}  motion\n", "", theirs_name, "", ours_name, "change", "MAC");
-  text += fmt::format("{:>4} {:>12} {:>5} {:>12} {:>8}\n", "mode", "Hz", "mode", "Hz", "%");
+  std::string text = fmt::format("{:>4} {:>12} {:>9} {:>5} {:>12} {:>9} {:>8} {:>6}  motion\n", "", theirs_name, "", "",
+                                 ours_name, "", "change", "MAC");
+  text += fmt::format("{:>4} {:>12} {:>9} {:>5} {:>12} {:>9} {:>8}\n", "mode", "Hz", "s", "mode", "Hz", "s", "%");
   for (std::size_t j = 0; j < theirs.modes.size(); ++j) {
     const Mode& theirs_mode = theirs.modes[j];
     const std::int64_t i = pairing.ours[j];
-    text += fmt::format("{:>4} {:>12.4f}", j + 1, theirs_mode.frequency);
+    text += fmt::format("{:>4} {}", j + 1, frequency_columns(theirs_mode));
     if (i < 0) {
-      text +=
-          fmt::format(" {:>5} {:>12} {:>8} {:>6.3f}", "-", "-", "-", pairing.assurance.col(Eigen::Index(j)).maxCoeff());
+      text += fmt::format(" {:>5} {:>12} {:>9} {:>8} {:>6.3f}", "-", "-", "-", "-",
+                          pairing.assurance.col(Eigen::Index(j)).maxCoeff());
     } else {
       const double f = ours.modes[std::size_t(i)].frequency;
       const std::string change =
           theirs_mode.frequency > 0.0 ? fmt::format("{:+.2f}", 100.0 * (f / theirs_mode.frequency - 1.0)) : "-";
-      text += fmt::format(" {:>5} {:>12.4f} {:>8} {:>6.3f}", i + 1, f, change,
+      text += fmt::format(" {:>5} {} {:>8} {:>6.3f}", i + 1, frequency_columns(ours.modes[std::size_t(i)]), change,
                           pairing.assurance(Eigen::Index(i), Eigen::Index(j)));
     }
     text += fmt::format("  {}\n", theirs_mode.words.text());
@@ -134,13 +140,14 @@ std::vector<PeriodCheck> check_periods(const std::vector<ExpectedPeriod>& expect
 std::string periods_table(const std::vector<PeriodCheck>& checks) {
   std::size_t width = 6;
   for (const PeriodCheck& check : checks) width = std::max(width, check.expected.source.size());
-  std::string text = fmt::format("{:<24} {:>10} {:>10} {:>8}  {:<{}}\n", "expected periods", "expected s", "found s",
-                                 "error", "source", width);
+  std::string text = fmt::format("{:<24} {:>10} {:>9} {:>10} {:>9} {:>8}  {:<{}}\n", "expected periods", "expected s",
+                                 "Hz", "found s", "Hz", "error", "source", width);
   for (const PeriodCheck& check : checks) {
     const ModeWords words = {check.expected.direction, check.expected.order, ""};
     text +=
-        fmt::format("{:<24} {:>10.4g} {:>10} {:>8}  {}\n", words.text(), check.expected.period,
-                    check.found > 0.0 ? fmt::format("{:.4f}", check.found) : "none",
+        fmt::format("{:<24} {:>10.4g} {:>9.4g} {:>10} {:>9} {:>8}  {}\n", words.text(), check.expected.period,
+                    1.0 / check.expected.period, check.found > 0.0 ? fmt::format("{:.4f}", check.found) : "none",
+                    check.found > 0.0 ? fmt::format("{:.4f}", 1.0 / check.found) : "",
                     check.found > 0.0 ? fmt::format("{:+.1f} %", 100.0 * check.error()) : "", check.expected.source);
   }
   return text;
@@ -194,11 +201,15 @@ nlohmann::json pairing_json(const ModesFile& ours, const ModesFile& theirs, cons
   json["paired_mass"] = pairing.share;
   json["pairs"] = nlohmann::json::array();
   for (std::size_t j = 0; j < theirs.modes.size(); ++j) {
-    nlohmann::json pair = {{"mode", j + 1}, {"frequency", theirs.modes[j].frequency}, {"found", nullptr}};
+    const Mode& mode = theirs.modes[j];
+    nlohmann::json pair = {
+        {"mode", j + 1}, {"frequency", mode.frequency}, {"period", mode.period()}, {"found", nullptr}};
     if (const std::int64_t i = pairing.ours[j]; i >= 0) {
-      const double f = ours.modes[std::size_t(i)].frequency;
-      pair["found"] = {{"mode", i + 1}, {"frequency", f}, {"mac", pairing.assurance(i, Eigen::Index(j))}};
-      if (theirs.modes[j].frequency > 0.0) pair["change"] = f / theirs.modes[j].frequency - 1.0;
+      const Mode& own = ours.modes[std::size_t(i)];
+      const double f = own.frequency;
+      pair["found"] = {
+          {"mode", i + 1}, {"frequency", f}, {"period", own.period()}, {"mac", pairing.assurance(i, Eigen::Index(j))}};
+      if (mode.frequency > 0.0) pair["change"] = f / theirs.modes[j].frequency - 1.0;
     }
     json["pairs"].push_back(pair);
   }
@@ -217,6 +228,8 @@ nlohmann::json periods_json(const std::vector<PeriodCheck>& checks) {
                     {"order", check.expected.order},
                     {"expected", check.expected.period},
                     {"found", check.found},
+                    {"expected_frequency", 1.0 / check.expected.period},
+                    {"found_frequency", check.found > 0.0 ? 1.0 / check.found : 0.0},
                     {"source", check.expected.source}});
   return json;
 }
