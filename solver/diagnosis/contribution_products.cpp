@@ -20,8 +20,8 @@ using Strip = Eigen::Matrix<double, Rows, columns, Eigen::RowMajor>;
 /// Calls use(strip of x, strip to be added to y) for the rows of some sites, strip by strip. Rows of sites without
 /// unknowns are zero and lead nowhere.
 template <int Rows, std::size_t Sites, class Use>
-void strip_by_strip(const std::array<Eigen::Index, Sites>& first, const std::array<int, Sites>& sizes, const Vectors& x,
-                    Vectors& y, const Use& use) {
+void strip_by_strip(const std::array<Eigen::Index, Sites>& first, const std::array<int, Sites>& sizes, const Basis& x,
+                    Eigen::Ref<Vectors>& y, const Use& use) {
   for (Eigen::Index column = 0; column < x.cols(); column += columns) {
     const Eigen::Index n = std::min<Eigen::Index>(columns, x.cols() - column);
     Strip<Rows> in = Strip<Rows>::Zero(), out;
@@ -33,7 +33,8 @@ void strip_by_strip(const std::array<Eigen::Index, Sites>& first, const std::arr
   }
 }
 
-void add_term(const Contributions::Pair& pair, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+void add_term(const Contributions::Pair& pair, double factor, const Unknowns& unknowns, const Basis& x,
+              Eigen::Ref<Vectors>& y) {
   const Eigen::Index a = first_of(unknowns, pair.a), b = first_of(unknowns, pair.b);
   const Matrix12 k = factor * pair.k;
   if (a >= 0) y.middleRows<6>(a) += k.topLeftCorner<6, 6>().lazyProduct(x.middleRows<6>(a));
@@ -43,8 +44,8 @@ void add_term(const Contributions::Pair& pair, double factor, const Unknowns& un
   y.middleRows<6>(b) += k.bottomLeftCorner<6, 6>().lazyProduct(x.middleRows<6>(a));
 }
 
-void add_term(const Contributions::Patch& patch, double factor, const Unknowns& unknowns, const Vectors& x,
-              Vectors& y) {
+void add_term(const Contributions::Patch& patch, double factor, const Unknowns& unknowns, const Basis& x,
+              Eigen::Ref<Vectors>& y) {
   const std::array<Eigen::Index, 4> first = {first_of(unknowns, patch.block), first_of_node(unknowns, patch.nodes[0]),
                                              first_of_node(unknowns, patch.nodes[1]),
                                              first_of_node(unknowns, patch.nodes[2])};
@@ -53,7 +54,8 @@ void add_term(const Contributions::Patch& patch, double factor, const Unknowns& 
 }
 
 /// V μ (H + Hᵀ − ⅔ tr H 1) ∇N of the displacement gradient H: shear_block() of all corners at once.
-void add_term(const Contributions::Element& e, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+void add_term(const Contributions::Element& e, double factor, const Unknowns& unknowns, const Basis& x,
+              Eigen::Ref<Vectors>& y) {
   std::array<Eigen::Index, 4> first;
   for (std::size_t k = 0; k < 4; ++k) first[k] = first_of_node(unknowns, e.nodes[k]);
   const double scale = factor * e.scale;
@@ -78,7 +80,8 @@ void add_term(const Contributions::Element& e, double factor, const Unknowns& un
   });
 }
 
-void add_term(const Contributions::Ring& ring, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+void add_term(const Contributions::Ring& ring, double factor, const Unknowns& unknowns, const Basis& x,
+              Eigen::Ref<Vectors>& y) {
   Eigen::RowVectorXd strain = Eigen::RowVectorXd::Zero(x.cols());
   for (std::size_t i = 0; i < ring.nodes.size(); ++i)
     if (const Eigen::Index at = first_of_node(unknowns, ring.nodes[i]); at >= 0)
@@ -89,12 +92,14 @@ void add_term(const Contributions::Ring& ring, double factor, const Unknowns& un
       for (int c = 0; c < 3; ++c) y.row(at + c) += ring.pull[i][c] * strain;
 }
 
-void add_term(const Contributions::Own& own, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+void add_term(const Contributions::Own& own, double factor, const Unknowns& unknowns, const Basis& x,
+              Eigen::Ref<Vectors>& y) {
   if (const Eigen::Index at = first_of(unknowns, own.block); at >= 0)
     y.middleRows<6>(at) += (factor * own.m).lazyProduct(x.middleRows<6>(at));
 }
 
-void add_term(const Contributions::Lump& lump, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+void add_term(const Contributions::Lump& lump, double factor, const Unknowns& unknowns, const Basis& x,
+              Eigen::Ref<Vectors>& y) {
   for (const std::int32_t node : lump.nodes)
     if (const Eigen::Index at = first_of_node(unknowns, node); at >= 0)
       y.middleRows<3>(at) += factor * lump.mass * x.middleRows<3>(at);
@@ -172,7 +177,7 @@ struct ListedTerms {
 };
 
 template <class Terms>
-void add_terms(const Terms& terms, double factor, const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+void add_terms(const Terms& terms, double factor, const Unknowns& unknowns, const Basis& x, Eigen::Ref<Vectors>& y) {
   terms.each([&](const auto& term) { add_term(term, factor, unknowns, x, y); });
 }
 
@@ -190,7 +195,7 @@ class Touched {
     });
   }
   const Unknowns& unknowns() const { return unknowns_; }
-  Vectors rows(const Vectors& v) const {
+  Vectors rows(const Basis& v) const {
     Vectors rows(unknowns_.count, v.cols());
     for (std::size_t i = 0; i < all_.of.size(); ++i)
       if (unknowns_.any(i)) {
@@ -211,16 +216,18 @@ class Touched {
 };
 
 template <class Terms>
-Eigen::MatrixXd project(const Terms& terms, const Unknowns& unknowns, const Vectors& v, const Vectors& w) {
+Eigen::MatrixXd project(const Terms& terms, const Unknowns& unknowns, const Basis& v, const Basis& w) {
   const Touched touched(terms, unknowns);
   if (touched.unknowns().count > unknowns.count / 2) {  // to pick rows would cost more than it saves
     Vectors y = Vectors::Zero(w.rows(), w.cols());
-    add_terms(terms, 1.0, unknowns, w, y);
+    Eigen::Ref<Vectors> sum = y;
+    add_terms(terms, 1.0, unknowns, w, sum);
     return v.transpose() * y;
   }
   const Vectors rows = touched.rows(w);
   Vectors y = Vectors::Zero(rows.rows(), rows.cols());
-  add_terms(terms, 1.0, touched.unknowns(), rows, y);
+  Eigen::Ref<Vectors> sum = y;
+  add_terms(terms, 1.0, touched.unknowns(), rows, sum);
   return touched.rows(v).transpose() * y;
 }
 
@@ -228,13 +235,15 @@ Eigen::MatrixXd project(const Terms& terms, const Unknowns& unknowns, const Vect
 
 Vectors times_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& x) {
   Vectors y = Vectors::Zero(x.rows(), x.cols());
-  add_terms(AllTerms<OfStiffness>{c}, 1.0, unknowns, x, y);
+  Eigen::Ref<Vectors> sum = y;
+  add_terms(AllTerms<OfStiffness>{c}, 1.0, unknowns, x, sum);
   return y;
 }
 
 Vectors times_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& x) {
   Vectors y = Vectors::Zero(x.rows(), x.cols());
-  add_terms(AllTerms<OfMass>{c}, 1.0, unknowns, x, y);
+  Eigen::Ref<Vectors> sum = y;
+  add_terms(AllTerms<OfMass>{c}, 1.0, unknowns, x, sum);
   return y;
 }
 
@@ -247,31 +256,38 @@ Eigen::VectorXd times_mass(const Contributions& c, const Unknowns& unknowns, con
 }
 
 void add_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed, double factor,
-                   const Unknowns& unknowns, const Vectors& x, Vectors& y) {
+                   const Unknowns& unknowns, const Basis& x, Eigen::Ref<Vectors> y) {
   add_terms(ListedTerms<OfStiffness>{c, listed}, factor, unknowns, x, y);
 }
 
 void add_mass(const Contributions& c, const std::vector<std::int32_t>& listed, double factor, const Unknowns& unknowns,
-              const Vectors& x, Vectors& y) {
+              const Basis& x, Eigen::Ref<Vectors> y) {
   add_terms(ListedTerms<OfMass>{c, listed}, factor, unknowns, x, y);
 }
 
-Eigen::MatrixXd project_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& v,
-                                  const Vectors& w) {
+Eigen::Index stiffness_rows(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns) {
+  return Touched(ListedTerms<OfStiffness>{c, listed}, unknowns).unknowns().count;
+}
+
+Eigen::Index mass_rows(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns) {
+  return Touched(ListedTerms<OfMass>{c, listed}, unknowns).unknowns().count;
+}
+
+Eigen::MatrixXd project_stiffness(const Contributions& c, const Unknowns& unknowns, const Basis& v, const Basis& w) {
   return project(AllTerms<OfStiffness>{c}, unknowns, v, w);
 }
 
-Eigen::MatrixXd project_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& v, const Vectors& w) {
+Eigen::MatrixXd project_mass(const Contributions& c, const Unknowns& unknowns, const Basis& v, const Basis& w) {
   return project(AllTerms<OfMass>{c}, unknowns, v, w);
 }
 
 Eigen::MatrixXd project_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed,
-                                  const Unknowns& unknowns, const Vectors& v, const Vectors& w) {
+                                  const Unknowns& unknowns, const Basis& v, const Basis& w) {
   return project(ListedTerms<OfStiffness>{c, listed}, unknowns, v, w);
 }
 
 Eigen::MatrixXd project_mass(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns,
-                             const Vectors& v, const Vectors& w) {
+                             const Basis& v, const Basis& w) {
   return project(ListedTerms<OfMass>{c, listed}, unknowns, v, w);
 }
 

@@ -69,6 +69,9 @@ Contributions::Ring ring_term(FillRing ring);
 /// Vectors over the unknowns, one a column; rows lie together, because joints ask for rows.
 using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// The same of somebody else, perhaps some columns of more.
+using Basis = Eigen::Ref<const Vectors>;
+
 /// K X and M X.
 Vectors times_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& x);
 Vectors times_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& x);
@@ -77,16 +80,18 @@ Eigen::VectorXd times_stiffness(const Contributions& c, const Unknowns& unknowns
 Eigen::VectorXd times_mass(const Contributions& c, const Unknowns& unknowns, const Eigen::VectorXd& x);
 /// y += factor K x, or factor M x, of those units alone that are listed.
 void add_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed, double factor,
-                   const Unknowns& unknowns, const Vectors& x, Vectors& y);
+                   const Unknowns& unknowns, const Basis& x, Eigen::Ref<Vectors> y);
 void add_mass(const Contributions& c, const std::vector<std::int32_t>& listed, double factor, const Unknowns& unknowns,
-              const Vectors& x, Vectors& y);
-/// Vᵀ K W and Vᵀ M W, without a pass over rows that K and M do not have.
-Eigen::MatrixXd project_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& v, const Vectors& w);
-Eigen::MatrixXd project_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& v, const Vectors& w);
-/// The same of the units that are listed.
+              const Basis& x, Eigen::Ref<Vectors> y);
+/// How many rows K, or M, of those has that are not zero.
+Eigen::Index stiffness_rows(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns);
+Eigen::Index mass_rows(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns);
+/// Vᵀ K W and Vᵀ M W, without a pass over rows that K and M do not have; of all units, or of those that are listed.
+Eigen::MatrixXd project_stiffness(const Contributions& c, const Unknowns& unknowns, const Basis& v, const Basis& w);
+Eigen::MatrixXd project_mass(const Contributions& c, const Unknowns& unknowns, const Basis& v, const Basis& w);
 Eigen::MatrixXd project_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed,
-                                  const Unknowns& unknowns, const Vectors& v, const Vectors& w);
+                                  const Unknowns& unknowns, const Basis& v, const Basis& w);
 Eigen::MatrixXd project_mass(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns,
-                             const Vectors& v, const Vectors& w);
+                             const Basis& v, const Basis& w);
 
 }  // namespace voussoir

@@ -23,12 +23,6 @@ Eigen::VectorXd generic(const Hypothesis& hypothesis, Eigen::VectorXd x) {
   return x;
 }
 
-Classes classes_of(const Origin& origin, const Assembly& base, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
-                   ModelFamily::Use use) {
-  if (use == ModelFamily::Use::once) return {};
-  return find_classes(origin.assembly(), hypothesis.assembly(base, generic(hypothesis, x)));
-}
-
 ModelFamily::GroundRows ground_rows(const ReducedModel& reduced, const Assembly& assembly, const Change& change) {
   const Eigen::MatrixXd inertia = reduced.times_mass(change, translations(reduced.unknowns()));
   const GroundForces ground = ground_forces(assembly, reduced.unknowns(), inertia);
@@ -70,19 +64,27 @@ ModelFamily::ModelFamily(const Origin& origin, const Assembly& base, const Hypot
       base_(&base),
       hypothesis_(hypothesis),
       question_(question),
-      reduced_(origin, hypothesis.assembly(base, x), classes_of(origin, base, hypothesis, x, use)) {
+      copy_(origin.copy_of(base)),
+      reduced_(reduced_model(x, use)) {
   project_sensors();
 }
 
+ReducedModel ModelFamily::reduced_model(const Eigen::VectorXd& x, Use use) const {
+  Classes classes;
+  if (use == Use::often) classes = find_classes(origin_->assembly(), assembly_at(generic(hypothesis_, x)));
+  return {*origin_, assembly_at(x), std::move(classes)};
+}
+
 void ModelFamily::project_sensors() {
-  seen_ = at_sensors(origin_->assembly(), reduced_.unknowns(), question_.sensors, reduced_.basis());
-  motions_ = motions_at(origin_->assembly(), reduced_.unknowns(), question_.sensors, reduced_.basis());
+  const Basis basis(reduced_.basis());
+  seen_ = at_sensors(origin_->assembly(), reduced_.unknowns(), question_.sensors, basis);
+  motions_ = at_sensors(origin_->assembly(), reduced_.unknowns(), along_axes(question_.sensors), basis);
 }
 
 const Assembly& ModelFamily::assembly_at(const Eigen::VectorXd& x) const {
-  copy_ = *base_;
-  hypothesis_.change(copy_, x);
-  return copy_;
+  take_back_effects(*copy_, *base_);
+  hypothesis_.change(*copy_, x);
+  return *copy_;
 }
 
 ModelFamily::Member ModelFamily::without_modes(const Eigen::VectorXd& x) const {
@@ -197,7 +199,9 @@ Vectors material_vectors(const Origin& origin, const Assembly& base, const Hypot
     constexpr double step = 1e-3;
     Eigen::VectorXd low = x, high = x;
     low[p] -= step, high[p] += step;
-    const Contributions d = derivative(hypothesis.assembly(base, low), hypothesis.assembly(base, high), 2.0 * step);
+    const std::shared_ptr<Assembly> below = origin.copy_of(base), above = origin.copy_of(base);
+    hypothesis.change(*below, low), hypothesis.change(*above, high);
+    const Contributions d = derivative(*below, *above, 2.0 * step);
     const Vectors force = times_mass(d, origin.model().unknowns, phi) * known.eigenvalues.head(n).asDiagonal() -
                           times_stiffness(d, origin.model().unknowns, phi);
     all.middleCols(p * n, n) = origin.static_response(force);

@@ -51,6 +51,7 @@ class ModelFamily {
   void append(const Vectors& more);
 
  private:
+  ReducedModel reduced_model(const Eigen::VectorXd& x, Use use) const;
   void project_sensors();
   const Assembly& assembly_at(const Eigen::VectorXd& x) const;
   Change change_at(const Eigen::VectorXd& x) const;
@@ -61,7 +62,7 @@ class ModelFamily {
   const Assembly* base_;
   const Hypothesis hypothesis_;
   Question question_;
-  mutable Assembly copy_;  // of the base, with what was asked for last: a new one would take longer
+  std::shared_ptr<Assembly> copy_;  // of the base, with what was asked for last
   ReducedModel reduced_;
   Eigen::MatrixXd seen_, motions_;  // sensors × basis; three rows a sensor × basis
 };

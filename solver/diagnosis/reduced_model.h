@@ -1,6 +1,9 @@
 // Models that differ from one whose modes are known, in a basis of few vectors: its modes, and its static response to
 // the residual forces of these in a changed model (docs/theory/diagnosis.md).
 #pragma once
+#include <memory>
+#include <mutex>
+
 #include "solver/diagnosis/model_change.h"
 #include "solver/diagnosis/response.h"
 
@@ -18,9 +21,14 @@ class Origin {
   const LinearModel& model() const { return model_; }
   const Response& response() const { return response_; }
   const Contributions& parts() const { return parts_; }
+  /// M of each mode's vector.
+  const Vectors& momenta() const { return momenta_; }
   /// (K − σ M)⁻¹ F over the origin's unknowns, further rows zero; σ is negligible against all eigenvalues.
   Vectors static_response(const Vectors& forces) const;
   double shift() const { return response_.shift; }  // σ
+  /// A copy of the base, to be changed by effects, for as long as it is held; once there it is used again, for the same
+  /// base, because to copy all cells of all blocks takes longer than to change them.
+  std::shared_ptr<Assembly> copy_of(const Assembly& base) const;
 
  private:
   Assembly assembly_;
@@ -28,6 +36,13 @@ class Origin {
   LinearModel model_;
   EigenMemory memory_;
   Response response_;
+  Vectors momenta_;
+  struct Copies {
+    std::mutex one_at_a_time;
+    const Assembly* base = nullptr;
+    std::vector<std::unique_ptr<Assembly>> free;
+  };
+  std::shared_ptr<Copies> copies_ = std::make_shared<Copies>();  // outlives the origin while one is held
 };
 
 /// Modes in a basis: λ ascending; q a column a mode, qᵀ (Vᵀ M V) q = 1.
@@ -43,7 +58,7 @@ class ReducedModel {
   /// changes is among the others: right for a model that is looked at once.
   ReducedModel(const Origin& origin, const Assembly& changed, Classes classes);
 
-  const Vectors& basis() const { return v_; }
+  auto basis() const { return v_.leftCols(count_); }
   const Unknowns& unknowns() const { return unknowns_; }
   const Classes& classes() const { return classes_; }
 
@@ -58,9 +73,10 @@ class ReducedModel {
   /// Adds the origin's static response w to the residual forces f = λ M y − K y of the lowest `wanted` modes of a
   /// changed model. Returns the largest w · f / λ: an estimate of the relative error of the eigenvalues before.
   double refine(const Change& change, int wanted);
-  /// Until that is below `tolerance`, at most `most` times. Returns the last estimate.
+  /// Until that is below `tolerance`, at most `most` times; modes that are far below it are left alone. Returns the
+  /// last estimate.
   double converge(const Change& change, int wanted, double tolerance, int most);
-  void append(const Vectors& more) { append(more, nullptr); }
+  void append(const Vectors& more) { append(more, nullptr, nullptr); }
 
   /// φⱼᵀ M₀ y of the origin's modes (rows) and the lowest `count` of these.
   Eigen::MatrixXd along_origin(const ReducedModes& modes, Eigen::Index count) const;
@@ -74,15 +90,24 @@ class ReducedModel {
   struct Projected {
     Eigen::MatrixXd whole;                 // of the origin
     std::vector<Eigen::MatrixXd> classes;  // of the origin's part of each
+    std::vector<bool> wide;                // classes with so many rows that to pick them would not pay
+  };
+  /// Modes that are worked on, with what is estimated of them: w · f / λ.
+  struct Worked {
+    std::vector<Eigen::Index> modes;
+    Eigen::VectorXd errors;
+    double most() const { return errors.size() > 0 ? errors.maxCoeff() : 0.0; }
   };
   Eigen::MatrixXd sum(const Projected& p, const std::vector<double>& factors) const;
-  /// `stiffness`: K₀ of them where it is known.
-  void append(const Vectors& more, const Vectors* stiffness);
+  Worked refine(const Change& change, const ReducedModes& found, std::vector<Eigen::Index> which);
+  /// `stiffness`, `momenta`: K₀ and M₀ of them where they are known.
+  void append(const Vectors& more, const Vectors* stiffness, const Vectors* momenta);
 
   const Origin* origin_;
   Classes classes_;
   Unknowns unknowns_;
-  Vectors v_;
+  Vectors v_;  // the basis, with room for more
+  Eigen::Index count_ = 0;
   Projected k_, m_;
 };
 

@@ -85,19 +85,35 @@ ModeWords words_of(const Assembly& assembly, const Unknowns& unknowns, double ei
   return mode_words(assembly, mode);
 }
 
-Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
-                           const Eigen::MatrixXd& vectors) {
-  Eigen::MatrixXd seen(Eigen::Index(sensors.size()), vectors.cols());
-  for (Eigen::Index mode = 0; mode < vectors.cols(); ++mode) {
-    const Eigen::VectorXd vector = vectors.col(mode);
-    for (std::size_t s = 0; s < sensors.size(); ++s) {
-      const auto block = std::size_t(sensors[s].block);
-      const Vector6 motion = part_of(vector, unknowns, block);
-      const Vec3 arm = sensors[s].position - assembly.blocks[block].centroid;
-      seen(Eigen::Index(s), mode) = sensors[s].direction.dot(motion.head<3>() + Vec3(motion.tail<3>()).cross(arm));
-    }
+namespace {
+
+/// What a sensor reads is a sum over the six unknowns of its block: direction · (u + θ × arm).
+template <class Matrix>
+Eigen::MatrixXd read(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
+                     const Matrix& vectors) {
+  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(Eigen::Index(sensors.size()), vectors.cols());
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const auto block = std::size_t(sensors[s].block);
+    const Vec3 arm = sensors[s].position - assembly.blocks[block].centroid;
+    Vector6 way;
+    way << sensors[s].direction, arm.cross(sensors[s].direction);
+    for (int c = 0; c < 6; ++c)
+      if (const std::int32_t at = unknowns.of[block][std::size_t(c)]; at >= 0)
+        seen.row(Eigen::Index(s)) += way[c] * vectors.row(at);
   }
   return seen;
+}
+
+}  // namespace
+
+Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
+                           const Eigen::MatrixXd& vectors) {
+  return read(assembly, unknowns, sensors, vectors);
+}
+
+Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
+                           const Basis& vectors) {
+  return read(assembly, unknowns, sensors, vectors);
 }
 
 std::vector<Sensor> along_axes(const std::vector<Sensor>& sensors) {

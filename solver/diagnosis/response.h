@@ -52,6 +52,8 @@ Eigen::MatrixXd follow_support(const Assembly& assembly, const Response& respons
 /// Displacement along the sensors' directions: rows of sensors, columns of vectors.
 Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
                            const Eigen::MatrixXd& vectors);
+Eigen::MatrixXd at_sensors(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,
+                           const Basis& vectors);
 
 /// Along x, y and z at the sensors' places: three rows a sensor.
 Eigen::MatrixXd motions_at(const Assembly& assembly, const Unknowns& unknowns, const std::vector<Sensor>& sensors,

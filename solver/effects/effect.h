@@ -63,6 +63,9 @@ void complete(EffectSetting& setting);
 /// InputError for a place where the effect cannot act, with the places where it can.
 void apply_effect(Assembly& assembly, const EffectSetting& setting);
 void apply_effect(SolverSettings& settings, const EffectSetting& setting);
+/// Takes all effects back from a copy of an assembly that has some: it is then what the assembly is. Effects change
+/// neither the cells of blocks that are there nor the mesh of a fill, and add blocks at the end; these are not copied.
+void take_back_effects(Assembly& copy, const Assembly& assembly);
 /// Throws InputError for a channel that is not there.
 void apply_effect(std::vector<Sensor>& sensors, const EffectSetting& setting);
 

@@ -93,6 +93,23 @@ void apply_effect(Assembly& assembly, const EffectSetting& setting) {
   assembly.effects.push_back(setting.text());
 }
 
+void take_back_effects(Assembly& copy, const Assembly& assembly) {
+  copy.materials = assembly.materials;
+  copy.laws = assembly.laws;
+  copy.groups = assembly.groups;
+  copy.effects = assembly.effects;
+  copy.blocks.resize(assembly.blocks.size());
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
+    const Block& from = assembly.blocks[i];
+    Block& to = copy.blocks[i];
+    to.component = from.component, to.part = from.part, to.material = from.material, to.fixed = from.fixed;
+    to.mass = from.mass, to.centroid = from.centroid, to.inertia = from.inertia;
+  }
+  copy.joints = assembly.joints;
+  copy.fill_joints = assembly.fill_joints;
+  copy.fill.material = assembly.fill.material;
+}
+
 void apply_effect(std::vector<Sensor>& sensors, const EffectSetting& setting) {
   const Effect& effect = find_effect(setting.name);
   if (effect.apply_to_sensors) effect.apply_to_sensors(sensors, setting.where, values_of(effect, setting));

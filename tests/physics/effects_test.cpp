@@ -96,6 +96,46 @@ TEST_P(EachEffect, ActsOnABridgeWithAFill) {
   }
 }
 
+/// All that a model is built from.
+void expect_same(const Assembly& a, const Assembly& b) {
+  ASSERT_EQ(a.blocks.size(), b.blocks.size());
+  for (std::size_t i = 0; i < a.blocks.size(); ++i) {
+    const Block &p = a.blocks[i], &q = b.blocks[i];
+    ASSERT_TRUE(p.component == q.component && p.part == q.part && p.material == q.material && p.fixed == q.fixed) << i;
+    ASSERT_TRUE(p.mass == q.mass && p.centroid == q.centroid && p.inertia == q.inertia) << i;
+    ASSERT_EQ(p.cells.size(), q.cells.size()) << i;
+    for (std::size_t c = 0; c < p.cells.size(); ++c)
+      ASSERT_TRUE(p.cells[c].vertices == q.cells[c].vertices && p.cells[c].faces == q.cells[c].faces) << i;
+  }
+  ASSERT_EQ(a.joints.size(), b.joints.size());
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    const Joint &p = a.joints[i], &q = b.joints[i];
+    ASSERT_TRUE(p.a == q.a && p.b == q.b && p.polygon == q.polygon && p.kn == q.kn && p.ks == q.ks && p.law == q.law)
+        << i;
+  }
+  ASSERT_EQ(a.fill_joints.size(), b.fill_joints.size());
+  for (std::size_t i = 0; i < a.fill_joints.size(); ++i)
+    ASSERT_TRUE(a.fill_joints[i].kn == b.fill_joints[i].kn && a.fill_joints[i].ks == b.fill_joints[i].ks) << i;
+  EXPECT_TRUE(a.laws == b.laws && a.groups == b.groups && a.effects == b.effects);
+  EXPECT_TRUE(a.fill.material == b.fill.material && a.fill.nodes == b.fill.nodes && a.fill.tets == b.fill.tets);
+  ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t i = 0; i < a.materials.size(); ++i)
+    EXPECT_TRUE(a.materials[i].name == b.materials[i].name && a.materials[i].density == b.materials[i].density);
+}
+
+TEST_P(EachEffect, IsTakenBackWithoutATrace) {
+  const Effect& effect = find_effect(GetParam());
+  if (!effect.apply) GTEST_SKIP() << "nothing of it is in the assembly";
+  static const Assembly plain = bridge(), filled = filled_bridge();
+  for (const Assembly* of : {&plain, &filled})
+    for (const std::string& where : effect.places(*of)) {
+      SCOPED_TRACE(where);
+      Assembly copy = with(*of, effect.name, where);
+      take_back_effects(copy, *of);
+      expect_same(copy, *of);
+    }
+}
+
 TEST(Effects, OnAFillActOnItsModuliDensityAndPatches) {
   const Assembly plain = filled_bridge();
   const auto of_fill = [](const Assembly& a) { return a.materials[std::size_t(a.fill.material[0])]; };

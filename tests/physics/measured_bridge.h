@@ -19,9 +19,11 @@ inline Assembly bridge(double block_scale = 4.0) {
 }
 
 /// CS1 or CS2 in large blocks; `edge` (m): its fill one continuum of tetrahedra no longer than that.
-inline Assembly small_bridge(const std::string& name, double block_scale, double edge = 0.0) {
+/// `spans`: 0: as many as it has.
+inline Assembly small_bridge(const std::string& name, double block_scale, double edge = 0.0, int spans = 0) {
   GeneratorInput input = default_input(find_generator(name));
   input.values.at("block_scale") = block_scale;
+  if (spans > 0) input.values.at("spans") = spans;
   if (edge > 0.0) input.choices.at("backfill") = "deformable", input.values.at("fill_edge") = edge;
   Assembly assembly = find_generator(name).build(input);
   assembly.generator = name;

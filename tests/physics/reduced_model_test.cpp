@@ -32,13 +32,14 @@ double assurance(const Response& whole, const LinearModel& model, int i, const R
 struct Small {
   std::string name;
   double block_scale = 1.0, edge = 0.0;  // m: of the fill's tetrahedra; 0: rigid blocks
+  int spans = 0;
 };
 class InABasis : public testing::TestWithParam<std::tuple<std::string, Small>> {};
 
 /// At 0.5, 1 and 2 deviations of the first parameter's prior to either side of its middle.
 TEST_P(InABasis, EveryPlaceHasTheModesOfTheWholeModel) {
   const auto& [effect, small] = GetParam();
-  const Assembly base = small_bridge(small.name, small.block_scale, small.edge);
+  const Assembly base = small_bridge(small.name, small.block_scale, small.edge, small.spans);
   const Origin origin(base, {}, 20);
   for (const Candidate& candidate : candidates(base, {}, {false, false, false, {}})) {
     if (candidate.name != effect || candidate.kind != Candidate::Kind::effect) continue;
@@ -76,8 +77,8 @@ std::string words_of_case(const testing::TestParamInfo<InABasis::ParamType>& inf
 }
 INSTANTIATE_TEST_SUITE_P(All, InABasis,
                          testing::Combine(testing::ValuesIn(of_the_model()),
-                                          testing::Values(Small{"cs1", 5.0}, Small{"cs2", 3.0}, Small{"cs1", 5.0, 2.5},
-                                                          Small{"cs2", 3.0, 2.5})),
+                                          testing::Values(Small{"cs1", 5.0}, Small{"cs2", 3.0},
+                                                          Small{"cs1", 5.0, 2.5, 2}, Small{"cs2", 3.0, 2.5, 2})),
                          words_of_case);
 
 /// Every effect acts somewhere on one of them.

@@ -56,6 +56,30 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   EXPECT_NE(modal.out.find("abutment_restraint both"), std::string::npos);
 }
 
+/// A deformable fill is in what is measured and in what is compared with it.
+TEST(Diagnose, FindsWhatABridgeWithADeformableFillLacks) {
+  const Folder folder;
+  folder.write("filled.toml",
+               "[bridge]\ngenerator = \"cs2\"\nabutments = \"free\"\nbackfill = \"deformable\"\nblock_scale = 3.0\n"
+               "fill_edge = 2.0\n");
+  const Outcome hidden = voussoir({"hide", "filled.toml", "-o", "hidden", "--effect",
+                                   "abutment_restraint both stiffness_share=0.5", "--sensors", "rich", "--seed", "11"},
+                                  {.folder = folder.path()});
+  ASSERT_EQ(hidden.status, 0) << hidden.err;
+  const Outcome outcome = voussoir({"diagnose", "filled.toml", "--measured", "hidden/measured", "-o", "out", "--fits",
+                                    "5", "--threads", "2", "--no-page"},
+                                   {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json json = diagnosis(folder / "out");
+  EXPECT_EQ(json["verdict"], "found") << outcome.out;
+  ASSERT_GE(json["effects"].size(), 1u);
+  EXPECT_EQ(json["effects"][0]["name"], "abutment_restraint");
+  EXPECT_EQ(json["effects"][0]["where"], "both");
+  double all = 0.0;  // the fill's part is among them
+  for (const auto& part : json["modes"][0]["sensitivity"]) all += part["stiffness"].get<double>();
+  EXPECT_NEAR(all, 0.5, 1e-6);
+}
+
 /// A support that moves otherwise shows only where the ground's motion is known; the explicit solver then follows the
 /// recording better with it.
 TEST(Diagnose, UnderARecordedMotionFindsTheSupportThatMovesOtherwise) {

@@ -2,6 +2,8 @@
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 #endif
 
@@ -86,6 +88,18 @@ void reserve_memory(double bytes) {
 #endif
   for (std::size_t at = 0; at < size; at += page) static_cast<volatile char*>(memory)[at] = 1;
   std::free(memory);
+}
+
+double processor_time() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
 }
 
 }  // namespace voussoir

@@ -1,12 +1,13 @@
-// voussoir-bench: how long a step takes, phase by phase, beside what the machine could do at best.
+// voussoir-bench: how long a step takes, phase by phase, beside what the machine could do at best; and how long a
+// diagnosis.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
@@ -14,6 +15,7 @@
 #include "solver/contact/search.h"
 #include "tools/bench/machine.h"
 #include "tools/bench/phases.h"
+#include "tools/bench/search.h"
 
 namespace voussoir {
 namespace {
@@ -93,12 +95,6 @@ nlohmann::json phase_rows(const std::vector<Phase>& phases, double bandwidth, do
   return rows;
 }
 
-double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * double(usage.ru_maxrss);
-}
-
 nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
   const auto running = begin_scene(scene, o.threads, o.keep);
   Running& r = *running;
@@ -171,6 +167,29 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
           {"peak_memory", peak_memory()}};
 }
 
+nlohmann::json run_search(const SearchScene& scene, const Options& o) {
+  const SearchCost c = time_search(scene, o.threads);
+  if (!o.quiet)
+    fmt::print(
+        "\n{}: {} unknowns, {} sensors, {} modes, {} thread(s); {} candidates screened, {} fitted in {} round(s): {}\n"
+        "  input {:.1f} s ({:.1f} s of processor time), search {:.1f} s ({:.1f}); most memory {:.2f} GB\n",
+        scene.name, c.unknowns, c.sensors, c.modes, o.threads, c.screened, c.fitted, c.rounds, c.verdict, c.input.wall,
+        c.input.processor, c.search.wall, c.search.processor, 1e-9 * peak_memory());
+  return {{"unknowns", c.unknowns},
+          {"sensors", c.sensors},
+          {"modes", c.modes},
+          {"threads", o.threads},
+          {"screened", c.screened},
+          {"fitted", c.fitted},
+          {"rounds", c.rounds},
+          {"verdict", c.verdict},
+          {"input_seconds", c.input.wall},
+          {"input_processor_seconds", c.input.processor},
+          {"search_seconds", c.search.wall},
+          {"search_processor_seconds", c.search.processor},
+          {"peak_memory", peak_memory()}};
+}
+
 Options parse(int argc, char** argv, bool& done, std::string& folder) {
   namespace po = boost::program_options;
   po::options_description described("voussoir-bench [SCENE…] [--threads N]: what a step costs, phase by phase");
@@ -200,6 +219,7 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
   if (values.count("help")) return std::cout << described << "\n", o;
   if (values.count("list")) {
     for (const Scene& scene : scenes()) fmt::print("{:<18} {}\n", scene.name, scene.help);
+    for (const SearchScene& scene : search_scenes()) fmt::print("{:<18} {}\n", scene.name, scene.help);
     return o;
   }
   done = false;
@@ -226,15 +246,18 @@ int run(int argc, char** argv) {
   std::string folder;
   const Options o = parse(argc, argv, done, folder);
   if (done) return 0;
-  for (const std::string& name : o.scenes) find_scene(name);  // before anything is timed
+  bool stepped = false;
+  for (const std::string& name : o.scenes)  // before anything is timed
+    if (!find_search(name)) find_scene(name), stepped = true;
   reserve_memory(1e9 * o.reserve);
-  const double peak = multiply_add_peak(1);
-  if (!o.quiet)
+  const double peak = stepped ? multiply_add_peak(1) : 0.0;
+  if (stepped && !o.quiet)
     fmt::print("multiply–add peak {:.1f} Gop/s on one thread, copy bandwidth in memory {:.1f} GB/s on {} thread(s)\n",
                1e-9 * peak, 1e-9 * copy_bandwidth(512e6, o.threads), o.threads);
   nlohmann::json all = nlohmann::json::object();
   for (const std::string& name : o.scenes) {
-    all[name] = run_scene(find_scene(name), o, peak);
+    const std::optional<SearchScene> scene = find_search(name);
+    all[name] = scene ? run_search(*scene, o) : run_scene(find_scene(name), o, peak);
     write_json(folder + "/bench.json", all);
   }
   return 0;

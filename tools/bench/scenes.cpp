@@ -1,7 +1,6 @@
 #include "tools/bench/scenes.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <chrono>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "solver/contact/search.h"
 #include "solver/statics/equilibrium.h"
 #include "solver/step/critical_step.h"
+#include "tools/bench/machine.h"
 
 namespace voussoir {
 
@@ -23,13 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
-}
-
-/// Of all threads; does not count while other programs have the cores.
-double processor_time() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 Assembly wall(int length, int courses, double strength, double friction) {
