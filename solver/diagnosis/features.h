@@ -44,7 +44,7 @@ struct Features {
 struct ModelError {
   double frequency = 0.01;   // of its logarithm
   double shape = 0.02;       // share of a shape's largest component, from sensor to sensor
-  double mixing = 0.03;      // how much of a neighbour a shape holds, over the relative distance of their eigenvalues
+  double mixing = 0.015;     // how much of a neighbour a shape holds, over the relative distance of their eigenvalues
   double damping = 0.2;      // of its logarithm
   double quadrature = 0.03;  // imaginary parts of a shape, share of its largest component
   double participation = 0.05;  // share of a mode's largest

@@ -121,7 +121,7 @@ void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitte
   std::vector<double> prior, weights;
   double priors = 0.0, most = -1e300, sum = 0.0;
   for (const double structure : {0.5, 0.7, 1.0, 1.4, 2.0})
-    for (const double shapes : {0.7, 1.0, 1.35, 1.8, 2.4}) {
+    for (const double shapes : {0.5, 0.75, 1.0, 1.5, 2.2}) {
       all.push_back(under_scale(problem.covariance, fitted, l, {structure, shapes}));
       prior.push_back(
           std::exp(-0.5 * (std::pow(std::log(structure) / spread, 2) + std::pow(std::log(shapes) / spread, 2))));

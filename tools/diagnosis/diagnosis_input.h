@@ -7,8 +7,8 @@ namespace voussoir {
 
 struct DiagnosisRequest {
   std::string case_file, measured, directory;
-  double model_error = 0.01;           // of frequencies, beside what the mesh does
-  double shape_error = 0.01;           // of shapes, share of the largest component, beside what the mesh does
+  double model_error = 0.005;          // of frequencies, beside what the mesh does
+  double shape_error = 0.005;          // of shapes, share of the largest component, beside what the mesh does
   std::vector<std::string> hold_back;  // names of modes
   DiagnosisSettings settings;
   int most_modes = 10;        // of those that are identified from recordings: the lowest
