@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <mutex>
+
 #include "solver/base/error.h"
 #include "solver/base/shipped.h"
 
@@ -48,6 +50,8 @@ void check_size(const FillSpace& space, double edge) {
 
 FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing) {
   check_size(space, meshing.edge);
+  static std::mutex one_at_a_time;  // Gmsh has one model a process
+  const std::lock_guard lock(one_at_a_time);
   FillMesh out;
   look_up<void(const FillSpace&, const FillMeshing&, FillMesh&)>("voussoir_mesh_fill")(space, meshing, out);
   return out;

@@ -68,7 +68,9 @@ Fault limits(const Eigen::VectorXd& x, const std::vector<int>& rows) {
   const bool above = is_limit(x, high), below = is_limit(x, low);
   const Runs runs = runs_of(x, limit_run, [&](double v) { return (above && v == high) || (below && v == low); });
   if (runs.count < fewest_limits) return {};
-  const double share = double(runs.samples) / double(x.size());
+  const auto at_limit =
+      std::count_if(x.begin(), x.end(), [&](double v) { return (above && v == high) || (below && v == low); });
+  const double share = double(at_limit) / double(x.size());
   return {fmt::format("is cut off at {} from row {} on, {} times, {:.2g} % of its samples: the instrument's limit",
                       x[runs.first], rows[std::size_t(runs.first)], runs.count, 100.0 * share),
           share > most_at_limit};

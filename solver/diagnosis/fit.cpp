@@ -114,7 +114,7 @@ UnderScale under_scale(const RowCovariance& c, const std::vector<int>& fitted, c
 }
 
 /// Over all scales: logarithmic priors of deviation 0.35 about 1; of the structure from a half to two, of shapes from
-/// 0.7 to 2.4.
+/// a half to 2.2.
 void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitted, const LinearFit& l, Fit& fit) {
   constexpr double spread = 0.35;
   std::vector<UnderScale> all;

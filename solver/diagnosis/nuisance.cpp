@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "solver/base/error.h"
 #include "solver/effects/parts.h"
@@ -165,18 +166,38 @@ ModalData Sensitivities::derivative_to(const Assembly& changed, double amount) c
 
 namespace {
 
-/// Whether they are cut into the same blocks: joints that only one of them has are slivers.
-bool same_cut(const Assembly& a, const Assembly& b) {
-  if (a.blocks.size() != b.blocks.size()) return false;
+double outline_of(const Polygon& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  return sum;
+}
+
+/// What cuts the second into other blocks than the first, which differs by `amount` (m); empty: nothing. Where faces
+/// only move past each other, what two blocks share changes by a strip. Few joints may come or go, `share` of all area.
+std::string other_cut(const Assembly& a, const Assembly& b, double amount, double share) {
+  if (a.blocks.size() != b.blocks.size())
+    return fmt::format("{} blocks instead of {}", b.blocks.size(), a.blocks.size());
   for (std::size_t i = 0; i < a.blocks.size(); ++i)
-    if (a.blocks[i].fixed != b.blocks[i].fixed || a.blocks[i].component != b.blocks[i].component) return false;
-  double all = 0.0, unmatched = 0.0;
-  match(a.joints, b.joints, [&](const Joint* l, const Joint* h) {
-    const double area = (l ? l : h)->area;
-    all += area;
-    if (!l || !h) unmatched += area;
-  });
-  return unmatched <= 2e-3 * all;
+    if (a.blocks[i].fixed != b.blocks[i].fixed || a.blocks[i].component != b.blocks[i].component)
+      return "blocks of other parts";
+  struct Shared {
+    double more = 0.0, outline = 0.0;  // area of b over that of a; of both
+  };
+  std::map<std::pair<std::int64_t, std::int64_t>, Shared> pairs;
+  const auto count = [&](const Assembly& assembly, double sign) {
+    for (const Joint& joint : assembly.joints) {
+      Shared& shared = pairs[{joint.a, joint.b}];
+      shared.more += sign * joint.area;
+      shared.outline += outline_of(joint.polygon);
+    }
+  };
+  count(a, -1.0), count(b, 1.0);
+  double jumps = 0.0, all = 0.0;
+  for (const Joint& joint : a.joints) all += joint.area;
+  for (const auto& [blocks, shared] : pairs)
+    if (std::abs(shared.more) > 2.0 * std::abs(amount) * shared.outline) jumps += std::abs(shared.more);
+  if (jumps <= share * all) return {};
+  return fmt::format("joints of {:.2g} m2 come or go", jumps);
 }
 
 void scale_modes(ModalData& m, double factor) {
@@ -191,17 +212,20 @@ void scale_modes(ModalData& m, double factor) {
 Sensitivity Sensitivities::of(const Nuisance& n, const Assembly& base, const Hypothesis& hypothesis,
                               const Eigen::VectorXd& x) const {
   Sensitivity s = {n.name, n.unit, n.spread, {}, {}};
-  for (const double amount : {n.step, -n.step}) {
+  constexpr double jumps = 0.005;  // of the area of all joints, for one standard deviation
+  for (const double part : {1.0, -1.0, 0.25, -0.25, 0.05, -0.05}) {
+    const double amount = part * n.step;
     try {
       Assembly changed = n.with(base, amount);
       hypothesis.change(changed, x);
-      if (same_cut(origin_->assembly(), changed)) {
+      const std::string cut = other_cut(origin_->assembly(), changed, amount, jumps * std::abs(amount) / n.spread);
+      if (cut.empty()) {
         s.modes = derivative_to(changed, amount);
         scale_modes(s.modes, n.spread);
         s.why.clear();
         return s;
       }
-      s.why = fmt::format("{:+g} {} more cuts the bridge into other blocks", amount, n.unit);
+      s.why = fmt::format("{:+g} {} cuts the bridge otherwise: {}", amount, n.unit, cut);
     } catch (const std::runtime_error& error) {
       s.why = error.what();
     }

@@ -14,7 +14,7 @@ namespace voussoir {
 struct Nuisance {
   std::string name, unit;  // "stiffness of pier 1", "-"
   double spread = 0.0;     // standard deviation, in the unit
-  double step = 0.0;       // of the finite difference, in the unit
+  double step = 0.0;       // of the finite difference, in the unit; less and to the other side where that fails
   /// The base with this amount more of it, in the unit. Throws InputError where that is no bridge.
   std::function<Assembly(const Assembly& base, double amount)> with;
 };

@@ -25,6 +25,8 @@ void apply_abutment_restraint(Assembly& assembly, const std::string& where, cons
 Effect abutment_restraint() {
   return {"abutment_restraint",
           "the ground behind an abutment holds its end face",
+          "Look at the joint between the abutment and what stands behind it: whether it is open or filled, and how "
+          "firm the ground behind the end wall is.",
           {{"stiffness_share", "-", "of the adjacent material's joint stiffness", 0.0, 2.0, 0.0, 0.5, 0.3}},
           free_ends,
           apply_abutment_restraint,

@@ -34,6 +34,7 @@ std::vector<std::string> places_of_amplitude_stiffness(const Assembly& assembly)
 Effect amplitude_stiffness() {
   return {"amplitude_stiffness",
           "dry joints are partly open at the amplitude of the measurement",
+          "Measure again at another level of vibration: frequencies that fall as it rises show joints that open.",
           {{"share_open", "-", "of the area of joints without bond", 0.0, 0.95, 0.0, 0.3, 0.2}},
           places_of_amplitude_stiffness,
           apply_amplitude_stiffness,

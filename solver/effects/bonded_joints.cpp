@@ -20,6 +20,7 @@ void apply_bonded_joints(Assembly& assembly, const std::string& where, const std
 Effect bonded_joints() {
   return {"bonded_joints",
           "joints of a part are repointed, injected or glued",
+          "",
           {{"tensile_strength", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 2e5, 1e5},
            {"cohesion", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 3e5, 1e5},
            {"stiffness_factor", "-", "on the stiffness of its joints", 1.0, 5.0, 1.0, 1.2, 0.2, true}},

@@ -56,6 +56,7 @@ std::vector<std::string> places_of_calibration(const Assembly& assembly) {
 Effect calibration() {
   return {"calibration",
           "what every model is unsure of: no effect that is missing, but factors on a material",
+          "",
           {{"stiffness", "-", "on the stiffness of its joints", 0.2, 5.0, 1.0, 1.0, 0.25, true},
            {"density", "-", "on its density", 0.5, 2.0, 1.0, 1.0, 0.05, true}},
           places_of_calibration,

@@ -23,6 +23,7 @@ std::vector<std::string> places_of_damping_ratio(const Assembly&) {
 Effect damping_ratio() {
   return {"damping",
           "the structure damps more, or less, than thought",
+          "Record for longer: damping needs far more periods than a frequency.",
           {{"ratio", "-", "share of critical", 0.001, 0.2, 0.02, 0.03, 0.5, true}},
           places_of_damping_ratio,
           nullptr,

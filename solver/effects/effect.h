@@ -21,8 +21,9 @@ struct EffectParameter {
 };
 
 struct Effect {
-  std::string name;  // "abutment_restraint"
-  std::string help;  // one sentence
+  std::string name;     // "abutment_restraint"
+  std::string help;     // one sentence
+  std::string on_site;  // where a diagnosis names it: what to look at or to measure there, in one sentence or two
   std::vector<EffectParameter> parameters;
   /// Where it can act in this assembly, such as "left", "pier 0", "all"; empty: nowhere.
   std::vector<std::string> (*places)(const Assembly&) = nullptr;

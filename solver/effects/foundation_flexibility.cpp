@@ -72,6 +72,8 @@ std::vector<std::string> places_of_foundation_flexibility(const Assembly& assemb
 Effect foundation_flexibility() {
   return {"foundation_flexibility",
           "the soil under a support gives way: it sinks, slides and rocks on springs",
+          "Look for settlement and tilt of the support, and sound the ground beside its foundation (penetration tests, "
+          "a core through the base).",
           {{"soil_shear_modulus", "Pa", "of the half-space under the base", 1e6, 1e12, 1e12, 1e8, 1.5, true}},
           places_of_foundation_flexibility,
           apply_foundation_flexibility,

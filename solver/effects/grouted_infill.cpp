@@ -41,6 +41,7 @@ void apply_grouted_infill(Assembly& assembly, const std::string& where, const st
 Effect grouted_infill() {
   return {"grouted_infill",
           "grout in the infill of piers and abutments",
+          "",
           {{"tensile_strength", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1e5, 1e5},
            {"cohesion", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1.5e5, 1e5},
            {"stiffness_factor", "-", "on the stiffness of its joints", 1.0, 20.0, 1.0, 2.0, 0.5, true},

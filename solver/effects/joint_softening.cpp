@@ -5,12 +5,14 @@
 namespace voussoir {
 
 Effect joint_softening() {
-  return {"joint_softening",
-          "the masonry of a part is cracked or decayed",
-          {{"factor", "-", "on the stiffness of its joints", 0.02, 1.0, 1.0, 0.5, 0.5, true}},
-          masonry_parts,
-          scale_masonry_part,
-          nullptr};
+  return {
+      "joint_softening",
+      "the masonry of a part is cracked or decayed",
+      "Inspect that part for cracks, open joints, water and decay; sound it with a hammer, and take a core through it.",
+      {{"factor", "-", "on the stiffness of its joints", 0.02, 1.0, 1.0, 0.5, 0.5, true}},
+      masonry_parts,
+      scale_masonry_part,
+      nullptr};
 }
 
 }  // namespace voussoir

@@ -114,6 +114,7 @@ void apply_retrofit_ties(Assembly& assembly, const std::string& where, const std
 Effect retrofit_ties() {
   return {"retrofit_ties",
           "new ties between the spandrel walls: they only pull, and yield",
+          "",
           {{"axial_stiffness", "N", "E A of a tie", 0.0, 1e10, 0.0, 2e8, 2e8},
            {"yield_force", "N", "of a tie", 1e3, 1e9, 2e5, 2e5, 2e5},
            {"pretension", "N", "of a tie, in the bridge as built", 0.0, 1e9, 0.0, 0.0, 1e4},

@@ -55,6 +55,7 @@ Effect sensor_fault() {
   return {
       "sensor_fault",
       "a channel has the wrong gain, sign or axis or a late clock, or two of one place are swapped",
+      "Check the cable, the axis, the polarity and the calibration of that channel, and record again.",
       {{"gain", "-", "what it reads of the truth; −1 is a reversed channel, 0 a dead one", -20.0, 20.0, 1.0, 1.0, 0.5},
        {"delay", "s", "of its clock: in recordings; a run's histories are not shifted", -0.2, 0.2, 0.0, 0.0, 0.02},
        {"turn", "deg", "of its axis about the vertical, from x to y; after tilt", -180.0, 180.0, 0.0, 0.0, 45.0},

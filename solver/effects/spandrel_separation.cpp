@@ -23,12 +23,14 @@ std::vector<std::string> places_of_spandrel_separation(const Assembly& assembly)
 }  // namespace
 
 Effect spandrel_separation() {
-  return {"spandrel_separation",
-          "a spandrel wall has come away from the vaults",
-          {{"factor", "-", "on the stiffness of the joints between them", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
-          places_of_spandrel_separation,
-          apply_spandrel_separation,
-          nullptr};
+  return {
+      "spandrel_separation",
+      "a spandrel wall has come away from the vaults",
+      "Look at the edge of the vault from below for a crack along the wall, and measure whether the wall leans out.",
+      {{"factor", "-", "on the stiffness of the joints between them", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
+      places_of_spandrel_separation,
+      apply_spandrel_separation,
+      nullptr};
 }
 
 }  // namespace voussoir

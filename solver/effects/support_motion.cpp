@@ -36,6 +36,7 @@ void apply_support_motion(SolverSettings& settings, const std::string& where, co
 Effect support_motion() {
   return {"support_motion",
           "one support moves otherwise than the ground's record says",
+          "Put a sensor on that support, beside the one on the ground.",
           {{"factor", "-", "share of the ground's motion that its base makes", 0.0, 3.0, 1.0, 1.0, 0.3},
            {"delay", "s", "how much later than the ground; negative: earlier", -0.5, 0.5, 0.0, 0.0, 0.05}},
           supports,

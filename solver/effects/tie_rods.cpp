@@ -46,6 +46,7 @@ void apply_tie_rods(Assembly& assembly, const std::string& where, const std::vec
 Effect tie_rods() {
   return {"tie_rods",
           "tie rods hold the spandrel walls together above a support",
+          "Look for the plates of tie rods on both faces of the walls, and for rods that the drawings do not have.",
           {{"axial_stiffness", "N", "E A of the rods at one place", 0.0, 1e10, 0.0, 2e8, 2e8}},
           places_of_tie_rods,
           apply_tie_rods,

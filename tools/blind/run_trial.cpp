@@ -106,8 +106,9 @@ std::string with_channels(const std::string& effect, const std::string& sensors)
 
 nlohmann::json diagnose(const BlindTrial& trial, const std::string& program, const std::string& model,
                         const std::string& measured, const std::string& said, const std::string& log) {
-  std::vector<std::string> words = {program, "diagnose",  model,           "--measured", measured, "--threads",
-                                    "1",     "--no-page", "--run-seconds", "0",          "-o",     said};
+  std::vector<std::string> words = {program,     "diagnose", model,       "--measured",         measured,
+                                    "--threads", "1",        "--no-page", "--no-least-amounts", "--run-seconds",
+                                    "0",         "-o",       said};
   if (!trial.without.empty()) words.insert(words.end(), {"--without", trial.without});
   return execute(words, log) == 0 ? read_json(said + "/diagnosis.json") : nlohmann::json();
 }

@@ -49,7 +49,7 @@ Assembly with_dimension(const Case& c, double value, double amount) {
 
 /// Of the dimensions that a generator is given.
 std::vector<Nuisance> dimension_nuisances(const Case& c) {
-  constexpr double usual = 0.02, step = 1e-3;  // m; not more than a twentieth of the dimension
+  constexpr double usual = 0.02;  // m; not more than a twentieth of the dimension
   std::vector<Nuisance> all;
   if (c.generator.empty()) return all;
   std::map<double, std::string> names;  // of each number
@@ -59,9 +59,15 @@ std::vector<Nuisance> dimension_nuisances(const Case& c) {
     std::string& name = names[value];
     name += (name.empty() ? "" : " = ") + p.name;
   }
-  for (const auto& [value, name] : names)
-    all.push_back({name, "m", std::min(usual, 0.05 * value), step,
-                   [c, value = value](const Assembly&, double amount) { return with_dimension(c, value, amount); }});
+  for (const auto& [value, name] : names) {
+    const double spread = std::min(usual, 0.05 * value);
+    // One standard deviation: joints that come or go at a smaller step would count for more than they are.
+    all.push_back({name, "m", spread, spread, [c, value = value](const Assembly& base, double amount) {
+                     if (!base.fill.nodes.empty())
+                       throw InputError("the deformable fill would be meshed otherwise: it cannot be compared");
+                     return with_dimension(c, value, amount);
+                   }});
+  }
   return all;
 }
 

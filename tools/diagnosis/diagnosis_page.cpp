@@ -12,6 +12,7 @@
 #include "tools/diagnosis/diagnosis_values.h"
 #include "tools/diagnosis/measured_features.h"
 #include "tools/diagnosis/recorded_charts.h"
+#include "tools/diagnosis/three_sentences.h"
 #include "viz/page/html.h"
 #include "viz/page/svg.h"
 
@@ -36,74 +37,21 @@ std::string plain_name(const Candidate& c) {
   return text;
 }
 
-std::string found_text(const Fit& best, std::size_t index, const Round& round) {
-  const std::string values = fitted_text(best, index);
-  return fmt::format("{}{}{}, probability {}", plain_name(best.hypothesis.effects[index]), values.empty() ? "" : ", ",
-                     values, probability_text(round.trials[0].probability));
-}
-
-std::string rival_text(const Round& round) {
-  std::string text;
-  for (std::size_t i = 1; i < round.trials.size(); ++i)
-    if (round.trials[i].tie)
-      text += fmt::format("{}{} (probability {})", text.empty() ? "" : ", ", plain_name(round.trials[i].candidate),
-                          probability_text(round.trials[i].probability));
-  if (!text.empty()) return fmt::format("These measurements cannot tell it from {}.", text);
-  if (round.trials.size() < 2) return "";
-  return fmt::format("The runner-up is {}, probability {}.", plain_name(round.trials[1].candidate),
-                     probability_text(round.trials[1].probability));
-}
-
-std::string found_sentences(const Diagnosis& d) {
-  const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
-  std::string text;
-  for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i) {
-    text += fmt::format("<p><strong>{}</strong> {}. {}</p>\n",
-                        i == 0 ? "Found:" : "And:", escaped(found_text(d.best, i, *rounds[i])),
-                        escaped(rival_text(*rounds[i])));
-  }
-  return text;
-}
-
-std::string disagreeing_parts(const Location& location) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, location.parts.size()); ++i)
-    text += fmt::format("{}{} ({:.0f} %)", i ? ", " : "", location.parts[i].part, 100.0 * location.parts[i].share);
-  return text;
-}
-
-std::string unexplained_sentences(const DiagnosisResult& result) {
-  const Diagnosis& d = result.diagnosis;
-  std::string factors;
-  for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
-    factors += fmt::format("{}{}", i ? "; " : "", nameless_text(d.nameless_best, i));
-  std::string text = "<p><strong>Unexplained:</strong> no effect of the library brings the residuals to noise. ";
-  text += factors.empty()
-              ? std::string("Nor does a factor on the stiffness or mass of any one part, or a spring to the ground.")
-              : fmt::format("By what the data ask for: {}.", escaped(factors));
-  if (const std::string parts = disagreeing_parts(result.where_after); !parts.empty())
-    text += fmt::format(" The model still disagrees most in {}.", escaped(parts));
-  text += "</p>\n";
-  for (const Round* round : accepted_rounds(d.rounds))
-    text += fmt::format("<p>Helps, but is not enough: {}.</p>\n", escaped(round->trials[0].candidate.text()));
-  return text;
-}
-
-std::string consistent_sentence(const Diagnosis& d) {
-  const bool helped = d.calibrated.gap < 0.9 * d.plain.gap;
-  return fmt::format(
-      "<p><strong>Consistent:</strong> {} agrees with the measurements to within their uncertainty and the model's. "
-      "They do not show that any effect is missing.</p>\n",
-      helped ? "the case, with its materials moved within what is likely," : "the case as it is");
-}
-
 std::string verdict_box(const DiagnosisResult& result) {
-  const Diagnosis& d = result.diagnosis;
+  const ThreeSentences said = three_sentences(result);
+  std::string text;
+  const auto sentence = [&](const char* head, const std::string& words) {
+    text += fmt::format("<p><strong>{}</strong> {}</p>\n", head, escaped(words));
+  };
   using Verdict = Diagnosis::Verdict;
-  const std::string text = d.verdict == Verdict::found        ? found_sentences(d)
-                           : d.verdict == Verdict::consistent ? consistent_sentence(d)
-                                                              : unexplained_sentences(result);
-  return fmt::format("<div class=\"verdict {}\">\n{}</div>\n", verdict_name(d.verdict), text);
+  const Verdict verdict = result.diagnosis.verdict;
+  sentence(verdict == Verdict::found        ? "Found."
+           : verdict == Verdict::consistent ? "Consistent."
+                                            : "Unexplained.",
+           said.found);
+  sentence("How sure.", said.sure);
+  sentence("Next on site.", said.next);
+  return fmt::format("<div class=\"verdict {}\">\n{}</div>\n", verdict_name(verdict), text);
 }
 
 std::string count_text(std::size_t count, const std::string& what) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/diagnosis/diagnosis_values.h"
+#include "tools/diagnosis/three_sentences.h"
 
 namespace voussoir {
 
@@ -203,6 +204,8 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
   const Diagnosis& d = result.diagnosis;
   json j;
   j["verdict"] = verdict_name(d.verdict);
+  const ThreeSentences said = three_sentences(result);
+  j["summary"] = {{"found", said.found}, {"how_sure", said.sure}, {"next_on_site", said.next}};
   j["effects"] = json::array();
   std::size_t index = 0;
   for (const Round& round : named_rounds(d))
@@ -298,6 +301,8 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
   text += "\n";
   for (const std::string& alarm : d.alarms) text += fmt::format("compensation: {}\n", alarm);
   text += fmt::format("verdict: {}\n", verdict_name(d.verdict));
+  const ThreeSentences said = three_sentences(result);
+  text += fmt::format("{}\n{}\n{}\n", said.found, said.sure, said.next);
   std::size_t index = 0;
   for (const Round& round : named_rounds(d)) {
     if (!round.accepted) continue;

@@ -67,6 +67,7 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "of those found in recordings: the lowest are used")(
       "run-seconds", real_option("run-seconds", 0.0, 3600.0, &request.run_seconds)->default_value(request.run_seconds),
       "of a recording with the ground's motion for which the explicit solver is run before and after; 0: not")(
+      "no-least-amounts", "do not say what least amount of each effect would have been found")(
       "no-page", "no HTML page and no pictures");
   line.positional = {"CASE"};
   line.required = {"CASE", "measured"};
@@ -78,6 +79,7 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   for (const std::string& name : request.settings.without) find_effect(name);
   request.hold_back = words_in(held);
   request.settings.threads = threads_asked(values);
+  request.settings.detectable = values.count("no-least-amounts") == 0;
   request.quiet = values.count("quiet") > 0;
   request.page = values.count("no-page") == 0;
   return diagnose_and_write(request);

@@ -1,0 +1,130 @@
+#include "tools/diagnosis/three_sentences.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnosis/diagnosis_values.h"
+
+namespace voussoir {
+
+namespace {
+
+std::vector<const Round*> accepted_of(const Diagnosis& d) {
+  std::vector<const Round*> accepted;
+  for (const Round& round : d.rounds)
+    if (round.accepted) accepted.push_back(&round);
+  return accepted;
+}
+
+/// "abutment restraint at both".
+std::string plain(const Candidate& c) {
+  std::string text = candidate_name(c);
+  std::replace(text.begin(), text.begin() + std::ptrdiff_t(c.name.size()), '_', ' ');
+  return text;
+}
+
+ThreeSentences of_found(const DiagnosisResult& result) {
+  const Diagnosis& d = result.diagnosis;
+  const std::vector<const Round*> rounds = accepted_of(d);
+  std::vector<std::string> what, sure, ties, next;
+  for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i) {
+    const Candidate& c = d.best.hypothesis.effects[i];
+    const std::string values = fitted_text(d.best, i);
+    const Effect& effect = find_effect(c.name);
+    what.push_back(fmt::format("{} ({}{}{})", effect.help, plain(c), values.empty() ? "" : ": ", values));
+    sure.push_back(probability_text(rounds[i]->trials[0].probability));
+    for (const Trial& trial : rounds[i]->trials)
+      if (trial.tie)
+        ties.push_back(fmt::format("{} (probability {})", plain(trial.candidate), probability_text(trial.probability)));
+    if (std::find(next.begin(), next.end(), effect.on_site) == next.end()) next.push_back(effect.on_site);
+  }
+  ThreeSentences s;
+  s.found = fmt::format("The bridge has what the case lacks: {}.", fmt::join(what, "; and "));
+  s.sure = fmt::format("The probability of {} is {}, and the gap falls from {} to {} (1 is noise)",
+                       what.size() == 1 ? "that, among all that was tried," : "these, among all that was tried,",
+                       fmt::join(sure, " and "), gap_text(result.before.gap), gap_text(result.after.gap));
+  s.sure += ties.empty() ? "." : fmt::format("; these measurements cannot tell it from {}.", fmt::join(ties, ", "));
+  s.next = fmt::format("{}", fmt::join(next, " "));
+  for (const Advice& a : d.advice) s.next += fmt::format(" To tell it from {}: {}.", a.against, a.text);
+  return s;
+}
+
+/// The largest of the least amounts of an effect over its places that stand for one support or one part each; nothing
+/// where one of them has none.
+std::string at_worst(const std::vector<Detectable>& all, const std::string& name, const std::string& place,
+                     const std::string& words) {
+  double worst = 0.0;
+  std::string unit;
+  for (const Detectable& d : all) {
+    if (d.name != name || !d.where.starts_with(place)) continue;
+    if (!std::isfinite(d.above)) return "";
+    worst = std::max(worst, d.above), unit = d.unit;
+  }
+  if (worst == 0.0) return "";
+  return fmt::format("{} above {:.2g}{}", words, worst, unit == "-" ? "" : " " + unit);
+}
+
+ThreeSentences of_consistent(const DiagnosisResult& result) {
+  const Diagnosis& d = result.diagnosis;
+  ThreeSentences s;
+  s.found = fmt::format(
+      "The measurements agree with {} to within their uncertainty and the model's: they do not show that any effect is "
+      "missing.",
+      d.calibrated.gap < 0.9 * d.plain.gap ? "the case, with its materials moved within what is likely,"
+                                           : "the case as it is");
+  std::vector<std::string> seen;
+  for (const std::string& text : {at_worst(d.detectable, "abutment_restraint", "both", "a restraint of both abutments"),
+                                  at_worst(d.detectable, "scour", "pier", "a share of bearing lost at any pier"),
+                                  at_worst(d.detectable, "added_mass", "deck", "added mass"),
+                                  at_worst(d.detectable, "tie_rods", "all", "stiffness of tie rods")})
+    if (!text.empty()) seen.push_back(text);
+  const auto hidden = std::count_if(d.detectable.begin(), d.detectable.end(), [](const Detectable& least) {
+    return !std::isfinite(least.below) && !std::isfinite(least.above);
+  });
+  s.sure = seen.empty()
+               ? std::string("What they would have shown nine times out of ten stands in the table of least amounts.")
+               : fmt::format("Nine times out of ten they would have shown {}; the table of least amounts has the rest.",
+                             fmt::join(seen, ", "));
+  s.next = hidden > 0 ? fmt::format(
+                            "Nothing need be looked for on site because of them; {} of {} effects and places could not "
+                            "have been seen at any amount, so inspect those by eye.",
+                            hidden, d.detectable.size())
+                      : std::string("Nothing need be looked for on site because of them.");
+  return s;
+}
+
+ThreeSentences of_unexplained(const DiagnosisResult& result) {
+  const Diagnosis& d = result.diagnosis;
+  ThreeSentences s;
+  s.found =
+      "The case and the measurements disagree by more than their errors, and no effect of the library explains it.";
+  s.sure = fmt::format("The gap is {} before and {} with fitted materials (1 is noise).", gap_text(result.before.gap),
+                       gap_text(d.calibrated.gap));
+  std::vector<std::string> asked, parts;
+  for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
+    asked.push_back(nameless_text(d.nameless_best, i));
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, result.where_after.parts.size()); ++i)
+    parts.push_back(result.where_after.parts[i].part);
+  s.next = asked.empty() ? fmt::format("Look first at {}, where the model disagrees most.", fmt::join(parts, ", "))
+                         : fmt::format("Look first where stiffness or mass is missing: {}.", fmt::join(asked, "; "));
+  const std::vector<const Round*> rounds = accepted_of(d);
+  for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i)
+    s.next += fmt::format(" Before that, {}: {}", plain(d.best.hypothesis.effects[i]),
+                          find_effect(d.best.hypothesis.effects[i].name).on_site);
+  return s;
+}
+
+}  // namespace
+
+ThreeSentences three_sentences(const DiagnosisResult& result) {
+  using Verdict = Diagnosis::Verdict;
+  const Verdict verdict = result.diagnosis.verdict;
+  return verdict == Verdict::found        ? of_found(result)
+         : verdict == Verdict::consistent ? of_consistent(result)
+                                          : of_unexplained(result);
+}
+
+}  // namespace voussoir
