@@ -13,7 +13,7 @@ struct Detectable {
 };
 
 struct DetectionSettings {
-  double margin = 3.0;  // as DiagnosisSettings has it
+  double margin = 3.0;  // as a further effect must be better than none
   int threads = 1;
 };
 

@@ -164,11 +164,19 @@ double gain_of(const Trial& trial, const Fit& current) {
   return trial.fit.log_evidence + std::log(trial.candidate.prior) - current.log_evidence;
 }
 
+/// By how much a further effect beside those of a hypothesis must be better than none.
+double margin_beside(const Hypothesis& hypothesis, const DiagnosisSettings& settings) {
+  const std::vector<Candidate>& there = hypothesis.effects;
+  const bool first = std::all_of(there.begin(), there.end(), [](const Candidate& c) { return c.of_sensors(); });
+  return settings.margin + (first ? 0.0 : settings.further);
+}
+
 bool accepts(const Round& round, const Fit& current, const DiagnosisSettings& settings) {
   if (round.trials.empty()) return false;
   const Fit& best = round.trials[0].fit;
   const bool predicts = !settings.predict || best.predicted_gap < current.predicted_gap;
-  return gain_of(round.trials[0], current) > settings.margin && predicts && best.gap < current.gap;
+  return gain_of(round.trials[0], current) > margin_beside(current.hypothesis, settings) && predicts &&
+         best.gap < current.gap;
 }
 
 /// Whether the others, and the model, do not believe these channels as they are and do once the fault is put right;
@@ -413,9 +421,10 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     for (std::size_t i = faults; i < d.rounds.size(); ++i) d.rounds[i].accepted = false;
     say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
     problem = with_sound_channels;
-    // They say where something is missing, not what: no prediction is asked of them.
+    // They say where something is missing, not what: no prediction is asked of them, and several are as likely as one.
     DiagnosisSettings lenient = settings;
     lenient.predict = false;
+    lenient.further = 0.0;
     Standing nameless = sound;
     add_greedily(problem, lenient, nameless, 3, nameless_factors(problem.base), d.nameless, say);
     d.nameless_best = nameless.fit;
@@ -426,7 +435,8 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   const Standing& judged = d.verdict == Diagnosis::Verdict::unexplained ? sound : standing;
   const DiagnosisProblem& by = d.verdict == Diagnosis::Verdict::unexplained ? with_sound_channels : final_problem;
   if (settings.detectable) {
-    d.detectable = least_amounts(by, judged.fit, *judged.origin, all, {settings.margin, settings.threads});
+    d.detectable = least_amounts(by, judged.fit, *judged.origin, all,
+                                 {margin_beside(judged.fit.hypothesis, settings), settings.threads});
     say(fmt::format("least amounts of {} effects that these data would show", d.detectable.size()));
   }
   d.covariance = by.covariance;

@@ -12,6 +12,7 @@ struct DiagnosisSettings {
   int fits = 12;             // candidates fitted fully in a round
   int iterations = 8;        // of each fit
   double margin = 3.0;       // an effect must beat "none" by so much in log probability
+  double further = 3.5;      // and by so much more where an effect is there: two are rarer than one
   double certain = 12.0;     // a fault of a channel, to be put right before anything else is judged
   double consistent = 0.02;  // probability of a larger misfit, above which a model is consistent
   double credible = 1e-3;    // below which it is not, whatever was added
