@@ -184,6 +184,8 @@ bool accepts(const Round& round, const Fit& current, const DiagnosisSettings& se
 bool is_certain(const DiagnosisProblem& problem, const Round& round, const Fit& current,
                 const DiagnosisSettings& settings) {
   if (round.trials.empty() || gain_of(round.trials[0], current) < settings.certain) return false;
+  // An effect that acts near one sensor looks like several faults of it, and like none altogether.
+  if (round.trials[0].probability < 0.95) return false;
   const std::vector<LeftOutSensor> before = leave_out_sensors(problem, current),
                                    after = leave_out_sensors(problem, round.trials[0].fit);
   std::vector<double> others;  // mean squares
@@ -196,7 +198,7 @@ bool is_certain(const DiagnosisProblem& problem, const Round& round, const Fit& 
   return std::all_of(own.begin(), own.end(), [&](std::size_t s) {
     const double mean = before[s].misfit / std::max(before[s].rows, 1);
     return before[s].rows >= 2 && chi_square_tail(before[s].misfit, before[s].rows) < 1e-6 && mean > 3.0 * usual &&
-           after[s].misfit < 0.3 * before[s].misfit;
+           after[s].misfit < 0.3 * before[s].misfit && chi_square_tail(after[s].misfit, after[s].rows) > 1e-4;
   });
 }
 
