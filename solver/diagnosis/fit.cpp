@@ -96,7 +96,7 @@ struct LinearFit {
   Eigen::MatrixXd jacobian;
 };
 
-/// Evidence, and what the data leave of x, under one scale of the structured errors.
+/// Evidence, and what the data leave of x, under one pair of scales of the errors.
 struct UnderScale {
   ErrorScale scale;
   double log_evidence = 0.0;

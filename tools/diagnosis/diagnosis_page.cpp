@@ -22,21 +22,6 @@ namespace {
 
 // What was found, in sentences.
 
-/// The round that each effect of the best hypothesis comes from.
-std::vector<const Round*> accepted_rounds(const std::vector<Round>& rounds) {
-  std::vector<const Round*> accepted;
-  for (const Round& round : rounds)
-    if (round.accepted) accepted.push_back(&round);
-  return accepted;
-}
-
-/// "abutment restraint at both".
-std::string plain_name(const Candidate& c) {
-  std::string text = candidate_name(c);
-  std::replace(text.begin(), text.begin() + std::ptrdiff_t(c.name.size()), '_', ' ');
-  return text;
-}
-
 std::string verdict_box(const DiagnosisResult& result) {
   const ThreeSentences said = three_sentences(result);
   std::string text;

@@ -108,6 +108,19 @@ std::string candidate_name(const Candidate& c) {
   return c.text() + (!c.parameters.empty() ? ", gain" : c.gain == 0.0 ? ", dead" : ", reversed");
 }
 
+std::string plain_name(const Candidate& c) {
+  std::string text = candidate_name(c);
+  std::replace(text.begin(), text.begin() + std::ptrdiff_t(c.name.size()), '_', ' ');
+  return text;
+}
+
+std::vector<const Round*> accepted_rounds(const std::vector<Round>& rounds) {
+  std::vector<const Round*> accepted;
+  for (const Round& round : rounds)
+    if (round.accepted) accepted.push_back(&round);
+  return accepted;
+}
+
 std::string mode_title(const ModeComparison& mode) {
   const bool number = std::all_of(mode.name.begin(), mode.name.end(), [](char c) { return c >= '0' && c <= '9'; });
   return number ? fmt::format("mode {}", mode.name) : mode.name;

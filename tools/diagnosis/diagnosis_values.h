@@ -25,6 +25,10 @@ std::string nameless_text(const Fit& fit, std::size_t index);
 std::string probability_text(double probability);
 /// "sensor_fault at channel A01x, reversed": its text, and what tells apart faults of the same channel.
 std::string candidate_name(const Candidate& candidate);
+/// "abutment restraint at both": the same in words.
+std::string plain_name(const Candidate& candidate);
+/// Those whose best trial was added, in the order of the effects of the last fit.
+std::vector<const Round*> accepted_rounds(const std::vector<Round>& rounds);
 /// "0.43"; "none" where it is not finite.
 std::string gap_text(double gap);
 /// "mode 3", or its name where that is a word.

@@ -12,33 +12,20 @@ namespace voussoir {
 
 namespace {
 
-std::vector<const Round*> accepted_of(const Diagnosis& d) {
-  std::vector<const Round*> accepted;
-  for (const Round& round : d.rounds)
-    if (round.accepted) accepted.push_back(&round);
-  return accepted;
-}
-
-/// "abutment restraint at both".
-std::string plain(const Candidate& c) {
-  std::string text = candidate_name(c);
-  std::replace(text.begin(), text.begin() + std::ptrdiff_t(c.name.size()), '_', ' ');
-  return text;
-}
-
 ThreeSentences of_found(const DiagnosisResult& result) {
   const Diagnosis& d = result.diagnosis;
-  const std::vector<const Round*> rounds = accepted_of(d);
+  const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
   std::vector<std::string> what, sure, ties, next;
   for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i) {
     const Candidate& c = d.best.hypothesis.effects[i];
     const std::string values = fitted_text(d.best, i);
     const Effect& effect = find_effect(c.name);
-    what.push_back(fmt::format("{} ({}{}{})", effect.help, plain(c), values.empty() ? "" : ": ", values));
+    what.push_back(fmt::format("{} ({}{}{})", effect.help, plain_name(c), values.empty() ? "" : ": ", values));
     sure.push_back(probability_text(rounds[i]->trials[0].probability));
     for (const Trial& trial : rounds[i]->trials)
       if (trial.tie)
-        ties.push_back(fmt::format("{} (probability {})", plain(trial.candidate), probability_text(trial.probability)));
+        ties.push_back(
+            fmt::format("{} (probability {})", plain_name(trial.candidate), probability_text(trial.probability)));
     if (std::find(next.begin(), next.end(), effect.on_site) == next.end()) next.push_back(effect.on_site);
   }
   ThreeSentences s;
@@ -110,9 +97,9 @@ ThreeSentences of_unexplained(const DiagnosisResult& result) {
     parts.push_back(result.where_after.parts[i].part);
   s.next = asked.empty() ? fmt::format("Look first at {}, where the model disagrees most.", fmt::join(parts, ", "))
                          : fmt::format("Look first where stiffness or mass is missing: {}.", fmt::join(asked, "; "));
-  const std::vector<const Round*> rounds = accepted_of(d);
+  const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
   for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i)
-    s.next += fmt::format(" Before that, {}: {}", plain(d.best.hypothesis.effects[i]),
+    s.next += fmt::format(" Before that, {}: {}", plain_name(d.best.hypothesis.effects[i]),
                           find_effect(d.best.hypothesis.effects[i].name).on_site);
   return s;
 }

@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-/// Plain text, without a full stop missing; the same on the page, in the terminal and in diagnosis.json.
+/// Plain text, a sentence or two each: on the page, in the terminal and in diagnosis.json.
 struct ThreeSentences {
   std::string found, sure, next;
 };
