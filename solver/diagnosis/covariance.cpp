@@ -149,8 +149,12 @@ Eigen::MatrixXd rows_of_nuisances(const DiagnosisProblem& problem, const std::ve
 
 void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Hypothesis& hypothesis,
                     const Eigen::VectorXd& x, int threads) {
+  set_covariance(problem, origin, origin.response(), hypothesis, x, threads);
+}
+
+void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Response& plain,
+                    const Hypothesis& hypothesis, const Eigen::VectorXd& x, int threads) {
   const std::vector<ResidualRow> rows = residual_rows(problem);
-  const Response& plain = origin.response();
   RowCovariance& c = problem.covariance;
   const Observed as_is = hypothesis.observe(plain, problem.damping, x);
   const OwnErrors own(problem, rows, plain, as_is.readings);

@@ -18,20 +18,26 @@ constexpr double not_found = std::numeric_limits<double>::quiet_NaN();
 /// How far the rows of two models are apart, in standard deviations of what neither errors nor materials explain.
 class Distance {
  public:
-  Distance(const DiagnosisProblem& problem, const Fit& fit) : rows_(residual_rows(problem)) {
-    fitted_ = split_rows(problem, rows_).fitted;
-    const Eigen::MatrixXd j = (problem.colouring * fit.jacobian)(fitted_, Eigen::all);
-    white_ = whitening_of(problem.covariance.at(fit.scale)(fitted_, fitted_) + j * j.transpose());
+  Distance(const Extended& all, const Hypothesis& hypothesis, const Eigen::VectorXd& x, const Origin& origin,
+           const Vectors& shared, const ErrorScale& scale)
+      : all_(&all), rows_(residual_rows(all.problem)) {
+    const DiagnosisProblem& p = all.problem;
+    ModelFamily family(origin, p.base, hypothesis, question_of(p, all.plain), x, ModelFamily::Use::often);
+    family.append(shared);
+    const ModelFamily::Member member = family.member(x);
+    const Evaluation at = evaluate(p, rows_, hypothesis, family, member);
+    const Eigen::MatrixXd j = p.colouring * jacobian(p, rows_, hypothesis, family, member, at);
+    covariance_ = p.covariance.at(scale) + j * j.transpose();
+    white_ = whitening_of(Eigen::MatrixXd(covariance_(all.had, all.had)));
   }
   const std::vector<ResidualRow>& rows() const { return rows_; }
-  double between(const Eigen::VectorXd& one, const Eigen::VectorXd& other) const {
-    return (white_ * Eigen::VectorXd(one(fitted_) - other(fitted_))).norm();
-  }
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+  double of(const Eigen::VectorXd& trace) const { return (white_ * Eigen::VectorXd(trace(all_->had))).norm(); }
 
  private:
+  const Extended* all_;
   std::vector<ResidualRow> rows_;
-  std::vector<int> fitted_;
-  Eigen::MatrixXd white_;
+  Eigen::MatrixXd covariance_, white_;
 };
 
 /// The effect's first parameter from where it changes nothing to a bound.
@@ -42,42 +48,52 @@ struct Way {
   }
 };
 
-/// Models with an effect of any amount beside the hypothesis of a fit.
+/// Models with an effect of any amount beside a hypothesis at x.
 class Amounts {
  public:
-  Amounts(const DiagnosisProblem& problem, const Fit& fit, const Origin& origin, const Candidate& candidate,
-          const Distance& distance)
-      : problem_(&problem), candidate_(&candidate), hypothesis_(fit.hypothesis.with(candidate)), distance_(&distance) {
-    x_ = fit.best.x;
-    x_.head(Eigen::Index(fit.hypothesis.materials.size())).setZero();
+  Amounts(const Extended& all, const Hypothesis& hypothesis, const Eigen::VectorXd& x, const Origin& origin,
+          const Candidate& candidate, const Distance& distance)
+      : all_(&all), candidate_(&candidate), hypothesis_(hypothesis.with(candidate)), distance_(&distance), x_(x) {
     first_ = x_.size();
     x_.conservativeResize(Eigen::Index(hypothesis_.size()));
     x_.tail(x_.size() - first_) = Eigen::Map<const Eigen::VectorXd>(candidate.starts[0].data(), x_.size() - first_);
-    if (candidate.kind == Candidate::Kind::effect) {
-      family_ = std::make_unique<ModelFamily>(origin, problem.base, hypothesis_,
-                                              question_of(problem, origin.response()), x_, ModelFamily::Use::often);
-      family_->converge(x_, 1e-3);
-    }
-    response_ = origin.response();
+    if (candidate.kind != Candidate::Kind::effect) return;
+    family_ = std::make_unique<ModelFamily>(origin, all.problem.base, hypothesis_, question_of(all.problem, all.plain),
+                                            x_, ModelFamily::Use::often);
+    family_->converge(x_, 1e-3);
   }
-  /// Measured − computed.
-  Eigen::VectorXd rows_at(double value) const {
+  /// Measured − computed, and which computed mode each measured one is.
+  struct Rows {
+    Eigen::VectorXd values;
+    std::vector<int> computed;
+  };
+  Rows rows_at(double value) const {
+    const DiagnosisProblem& p = all_->problem;
     Eigen::VectorXd x = x_;
     x[first_] = candidate_->parameters[0].x(value);
-    const Response response = family_ ? family_->response(family_->member(x)) : response_;
-    const Observed seen = hypothesis_.observe(response, problem_->damping, x);
-    return differences(*problem_, distance_->rows(), pair_features(problem_->features, response, seen.readings), seen);
+    const Response response = family_ ? family_->response(family_->member(x)) : all_->plain;
+    const Observed seen = hypothesis_.observe(response, p.damping, x);
+    const ModePairs pairs = pair_features(p.features, response, seen.readings);
+    return {differences(p, distance_->rows(), pairs, seen), pairs.computed};
+  }
+  /// What changes from one to the other. Of a further mode that is taken for another one then, nothing is promised.
+  Eigen::VectorXd trace(const Rows& from, const Rows& to) const {
+    Eigen::VectorXd rows = to.values - from.values;
+    for (Eigen::Index i = 0; i < rows.size(); ++i) {
+      const auto mode = std::size_t(distance_->rows()[std::size_t(i)].mode);
+      if (all_->further.size() > mode && all_->further[mode] && from.computed[mode] != to.computed[mode]) rows[i] = 0.0;
+    }
+    return rows;
   }
 
  private:
-  const DiagnosisProblem* problem_;
+  const Extended* all_;
   const Candidate* candidate_;
   Hypothesis hypothesis_;
   const Distance* distance_;
   Eigen::VectorXd x_;
   Eigen::Index first_ = 0;
   std::unique_ptr<ModelFamily> family_;
-  Response response_;
 };
 
 /// The evidence for an amount that is there exceeds half the square of its distance, less what freedom costs, with the
@@ -87,55 +103,91 @@ double distance_needed(const Candidate& c, double margin, double slope) {
   return 1.2816 + std::sqrt(2.0 * std::max(margin - std::log(c.prior) + occam, 0.0));
 }
 
-/// Least value on the way at which the distance is as large as needed.
-double least_on(const Way& way, const Amounts& amounts, const Distance& distance, const Candidate& c, double margin) {
+/// The least value on the way at which the distance is as large as needed, and the trace it leaves; that of the bound
+/// where no value is found.
+struct Least {
+  double value = not_found;
+  Trace trace;
+};
+Least least_on(const Way& way, const Amounts& amounts, const Distance& distance, const Candidate& c, double margin) {
   constexpr int halvings = 6;
   const FitParameter& p = c.parameters[0];
-  const Eigen::VectorXd none = amounts.rows_at(way.neutral);
+  const Amounts::Rows none = amounts.rows_at(way.neutral);
+  Least least;
+  least.trace.name = c.name, least.trace.where = c.where;
   const auto is_found = [&](double share) {
-    const double value = way.at(share, p), apart = distance.between(amounts.rows_at(value), none);
-    const double steps = std::abs(p.x(value) - p.x(way.neutral));
-    return apart >= distance_needed(c, margin, steps > 0.0 ? apart / steps : 0.0);
+    const double value = way.at(share, p), steps = std::abs(p.x(value) - p.x(way.neutral));
+    Eigen::VectorXd rows = amounts.trace(none, amounts.rows_at(value));
+    const double apart = distance.of(rows), needed = distance_needed(c, margin, steps > 0.0 ? apart / steps : 0.0);
+    const bool found = apart >= needed;
+    if (!found && share < 1.0) return false;
+    least.trace.rows = std::move(rows);
+    least.trace.needed = needed;
+    if (found) least.value = value;
+    return found;
   };
-  if (!is_found(1.0)) return not_found;
+  if (!is_found(1.0)) return least;
   double low = 0.0, high = 1.0;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
     (is_found(middle) ? high : low) = middle;
   }
-  return way.at(high, p);
+  return least;
+}
+
+/// Of one candidate: both sides of where it changes nothing.
+struct Found {
+  Detectable least;
+  std::vector<Trace> traces;
+};
+Found look_for(const Candidate& c, const Amounts& amounts, const Distance& distance, double damping, double margin) {
+  const EffectParameter& p = find_effect(c.name).parameters[0];
+  const FitParameter& own = c.parameters[0];
+  Found f = {{c.name, c.where, p.name, p.unit, p.neutral, not_found, not_found}, {}};
+  if (c.kind == Candidate::Kind::damping) f.least.neutral = damping;
+  const double neutral = std::clamp(f.least.neutral, own.low, own.high);
+  const auto look = [&](double bound, double& value) {
+    Least least = least_on({neutral, bound}, amounts, distance, c, margin);
+    value = least.value;
+    f.traces.push_back(std::move(least.trace));
+  };
+  if (own.low < neutral) look(own.low, f.least.below);
+  if (own.high > neutral) look(own.high, f.least.above);
+  return f;
 }
 
 }  // namespace
 
-std::vector<Detectable> least_amounts(const DiagnosisProblem& problem, const Fit& fit, const Origin& origin,
-                                      const std::vector<Candidate>& candidates, const DetectionSettings& settings) {
+Detection detection(const DiagnosisProblem& problem, const Fit& fit, const Origin& origin, const Vectors& shared,
+                    const std::vector<Candidate>& candidates, const DetectionSettings& settings) {
   std::vector<const Candidate*> asked;
   for (const Candidate& c : candidates)
     if ((c.kind == Candidate::Kind::effect || c.kind == Candidate::Kind::damping) && !c.parameters.empty())
       asked.push_back(&c);
-  const Distance distance(problem, fit);
-  std::vector<std::optional<Detectable>> found(asked.size());
+  Eigen::VectorXd x = fit.best.x;
+  x.head(Eigen::Index(fit.hypothesis.materials.size())).setZero();
+  const Extended all = extended(problem, origin, fit.hypothesis, x, settings.further > 0, settings.threads);
+  const Distance distance(all, fit.hypothesis, x, origin, shared, fit.scale);
+  std::vector<std::optional<Found>> found(asked.size());
   for_all(asked.size(), settings.threads, [&](std::size_t i) {
-    const Candidate& c = *asked[i];
-    const EffectParameter& p = find_effect(c.name).parameters[0];
-    const FitParameter& own = c.parameters[0];
-    Detectable d = {c.name, c.where, p.name, p.unit, p.neutral, not_found, not_found};
-    if (c.kind == Candidate::Kind::damping) d.neutral = problem.damping;
     try {
-      const Amounts amounts(problem, fit, origin, c, distance);
-      const double neutral = std::clamp(d.neutral, own.low, own.high);
-      if (own.low < neutral) d.below = least_on({neutral, own.low}, amounts, distance, c, settings.margin);
-      if (own.high > neutral) d.above = least_on({neutral, own.high}, amounts, distance, c, settings.margin);
-      found[i] = d;
+      const Amounts amounts(all, fit.hypothesis, x, origin, *asked[i], distance);
+      found[i] = look_for(*asked[i], amounts, distance, problem.damping, settings.margin);
     } catch (const std::runtime_error&) {
       // Its place is taken by an effect that is there already.
     }
   });
-  std::vector<Detectable> all;
-  for (const auto& d : found)
-    if (d) all.push_back(*d);
-  return all;
+  Detection d;
+  std::vector<Trace> traces;
+  for (auto& f : found)
+    if (f) {
+      d.least.push_back(f->least);
+      std::move(f->traces.begin(), f->traces.end(), std::back_inserter(traces));
+    }
+  for (const bool sensors : {true, false})
+    for (Addition& a : best_additions(all, sensors, distance.covariance(), traces, settings.further))
+      d.further.push_back(std::move(a));
+  return d;
 }
 
 }  // namespace voussoir

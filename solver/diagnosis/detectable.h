@@ -1,6 +1,6 @@
 // What a measurement could have shown: the least amount of each effect that it would find.
 #pragma once
-#include "solver/diagnosis/screening.h"
+#include "solver/diagnosis/further.h"
 
 namespace voussoir {
 
@@ -14,13 +14,20 @@ struct Detectable {
 
 struct DetectionSettings {
   double margin = 3.0;  // as a further effect must be better than none
+  int further = 3;      // sensors that are looked for, and modes
   int threads = 1;
 };
 
-/// Beside the hypothesis of a fit, of which `origin` is the model at usual materials, and under its covariance: from
-/// the evidence to first order about models with the effect (docs/theory/diagnosis.md). Effects that change the model,
-/// and damping where it was measured.
-std::vector<Detectable> least_amounts(const DiagnosisProblem& problem, const Fit& fit, const Origin& origin,
-                                      const std::vector<Candidate>& candidates, const DetectionSettings& settings);
+/// What these data would show, and what would show more.
+struct Detection {
+  std::vector<Detectable> least;
+  std::vector<Addition> further;  // sensors, then modes; each beside those of its kind before it
+};
+
+/// Beside the hypothesis of a fit, of which `origin` is the model at usual materials and `shared` what materials do to
+/// it, and under its covariance: from the evidence to first order about models with the effect
+/// (docs/theory/diagnosis.md). Effects that change the model, and damping where it was measured.
+Detection detection(const DiagnosisProblem& problem, const Fit& fit, const Origin& origin, const Vectors& shared,
+                    const std::vector<Candidate>& candidates, const DetectionSettings& settings);
 
 }  // namespace voussoir

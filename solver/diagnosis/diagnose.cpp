@@ -26,13 +26,27 @@ int fitted_rows(const DiagnosisProblem& problem) {
 /// How well the standard deviations themselves are known: the model's are measured on half a dozen modes.
 constexpr double std_doubt = 1.1;
 
+struct Tail {
+  double probability = 1.0;
+  std::string of;  // the rows that are worst
+};
+
+std::string kind_name(ResidualRow::Kind kind) {
+  static const char* const names[] = {"frequencies", "shapes",        "damping ratios",
+                                      "phases",      "participation", "phases of participation"};
+  return names[int(kind)];
+}
+
 /// Probability of a misfit at least as large if the model were right and all standard deviations `wider` times as
 /// large: with hundreds of rows a tenth would make noise look like an effect. Of all rows, or of the kind of rows that
 /// is worst (Bonferroni): hundreds of shape values that agree do not excuse a few frequencies that do not. The scale of
 /// each shape is free, and its phase where that is known.
-double tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_doubt) {
+Tail tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_doubt) {
   const std::vector<ResidualRow> rows = residual_rows(problem);
-  const Eigen::MatrixXd covariance = problem.covariance.at(fit.scale);
+  // No measurement is held to less error than it says it has, however well most of it agrees; and errors of the model
+  // that would have to be more than twice as large as they are taken are a misfit.
+  const Eigen::MatrixXd covariance =
+      problem.covariance.at({std::min(fit.scale.structure, 2.0), std::max(fit.scale.shapes, 1.0)});
   using Kind = ResidualRow::Kind;
   // Phases by sensor: many right clocks do not excuse one that is late.
   std::map<std::pair<Kind, int>, std::vector<int>> kinds;
@@ -52,14 +66,26 @@ double tail(const DiagnosisProblem& problem, const Fit& fit, double wider = std_
     const Eigen::VectorXd d = fit.best.differences(of);
     return d.dot(solve_symmetric(Eigen::MatrixXd(covariance(of, of)), d));
   };
-  const auto tail_of = [&](double misfit, int freedom) { return chi_square_tail(misfit / (wider * wider), freedom); };
+  Tail worst;
+  const auto look_at = [&](double times, double misfit, int freedom, const std::string& of) {
+    const double probability = times * chi_square_tail(misfit / (wider * wider), freedom);
+    if (probability < worst.probability) worst = {probability, of};
+  };
   // Materials that are pulled far are as unlikely as rows that are.
   const Eigen::VectorXd materials = fit.best.x.head(Eigen::Index(fit.hypothesis.materials.size()));
   const auto groups = double(kinds.size() + 1);
-  double worst = groups * tail_of(materials.squaredNorm(), int(materials.size()));
+  look_at(groups, materials.squaredNorm(), int(materials.size()), "materials");
   for (const auto& [kind, of] : kinds)
-    worst = std::min(worst, groups * tail_of(misfit_of(of), int(of.size()) - (kind.first == Kind::shape ? shapes : 0)));
-  return std::min(worst, tail_of(misfit_of(fitted) + fit.best.x.squaredNorm(), int(fitted.size()) - shapes - phases));
+    look_at(groups, misfit_of(of), int(of.size()) - (kind.first == Kind::shape ? shapes : 0),
+            kind.first == Kind::quadrature ? "phases at " + problem.features.sensors[std::size_t(kind.second)].id
+                                           : kind_name(kind.first));
+  look_at(1.0, misfit_of(fitted) + fit.best.x.squaredNorm(), int(fitted.size()) - shapes - phases, "all");
+  return worst;
+}
+
+std::string misfit_text(const Tail& t) {
+  return t.of.empty() ? std::string("a misfit as large is usual")
+                      : fmt::format("a misfit as large has probability {:.2g} ({})", t.probability, t.of);
 }
 
 /// Materials that the fit has pulled farther than their priors like.
@@ -74,6 +100,18 @@ std::vector<std::string> alarms_of(const Fit& fit) {
                                    x, fit.at_bound[i] ? " (at its bound)" : ""));
   }
   return alarms;
+}
+
+/// Least fault of a gain that is one: less is what mountings and the model's shapes leave.
+constexpr double least_gain_fault = 0.1;
+
+/// Why a fitted fault of a channel is none; empty: it is one.
+std::string no_fault(const Fit& fit) {
+  const Candidate& added = fit.hypothesis.effects.back();
+  if (added.kind != Candidate::Kind::gain || added.parameters.empty()) return {};
+  const double gain = added.parameters[0].value(fit.best.x[fit.best.x.size() - 1]);
+  if (std::abs(gain - 1.0) >= least_gain_fault) return {};
+  return fmt::format("a gain of {:.2f} is not told from 1", gain);
 }
 
 /// The model of a hypothesis at x; that of the base is there already.
@@ -92,7 +130,7 @@ Eigen::VectorXd at_usual_materials(const Fit& fit) {
 }
 
 bool is_noise(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& fit) {
-  return tail(problem, fit) > settings.consistent;
+  return tail(problem, fit).probability > settings.consistent;
 }
 
 /// Of each candidate its best start, best first; at most `count`.
@@ -212,8 +250,21 @@ bool excludes(const Candidate& there, const Candidate& c) {
   return on_springs(there, c) || on_springs(c, there);
 }
 
-Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Fit& current,
-                const std::vector<Candidate>& all_candidates, const Origin& origin, const Say& say) {
+/// A fit, the model it has with usual materials, about which candidates are tried, and what materials do to that.
+struct Standing {
+  Fit fit;
+  std::shared_ptr<const Origin> origin;
+  Vectors shared;
+};
+
+Vectors shared_by_fits(const DiagnosisProblem& problem, const Origin& origin, const Hypothesis& hypothesis,
+                       const Eigen::VectorXd& x) {
+  return material_vectors(origin, problem.base, hypothesis, x, question_of(problem, origin.response()).wanted);
+}
+
+Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settings, const Standing& standing,
+                const std::vector<Candidate>& all_candidates, const Say& say) {
+  const Fit& current = standing.fit;
   Round round;
   std::vector<Candidate> candidates;  // those that are not there already
   for (const Candidate& c : all_candidates)
@@ -221,10 +272,8 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
                      [&](const Candidate& there) { return excludes(there, c); }))
       candidates.push_back(c);
   const Eigen::VectorXd x = at_usual_materials(current);
-  const Vectors shared =
-      material_vectors(origin, problem.base, current.hypothesis, x, question_of(problem, origin.response()).wanted);
   const std::vector<Signature> all =
-      signatures(problem, current.hypothesis, x, candidates, settings.threads, origin, shared);
+      signatures(problem, current.hypothesis, x, candidates, settings.threads, *standing.origin, standing.shared);
   for (const Signature& s : shortlist(all, all.size()))
     round.screened.emplace_back(candidates[s.candidate].text(), s.explained);
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
@@ -236,10 +285,11 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
     Trial trial;
     trial.candidate = candidate;
     try {
-      trial.fit =
-          fit(problem, current.hypothesis.with(candidate),
-              beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations, origin, shared);
-      trials[i] = std::move(trial);
+      trial.fit = fit(problem, current.hypothesis.with(candidate),
+                      beginning(current, candidate, candidate.starts[chosen[i].start]), settings.iterations,
+                      *standing.origin, standing.shared);
+      failures[i] = no_fault(trial.fit);
+      if (failures[i].empty()) trials[i] = std::move(trial);
     } catch (const std::runtime_error& error) {  // it leaves no bridge that stands: no explanation either
       failures[i] = error.what();
     }
@@ -248,11 +298,8 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
     if (trials[i]) round.trials.push_back(std::move(*trials[i]));
     if (!failures[i].empty()) round.not_fitted.emplace_back(candidates[chosen[i].candidate].text(), failures[i]);
   }
-  for (const auto& [candidate, why] : round.not_fitted)
-    say(fmt::format("  {} could not be fitted: {}", candidate, why));
+  for (const auto& [candidate, why] : round.not_fitted) say(fmt::format("  {} is no explanation: {}", candidate, why));
   weigh(round, current);
-  for (Trial& trial : round.trials)
-    if (trial.probability > 0.1 * round.trials[0].probability) make_whole(problem, trial.fit);
   if (!round.trials.empty()) mark_ties(round, all, candidates);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i) {
     const Trial& t = round.trials[i];
@@ -264,11 +311,22 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   return round;
 }
 
-/// A fit from x; nothing where it leads to no bridge that stands, or does not converge.
+/// A fit from x about the model there; nothing where that is no bridge that stands, or the fit does not converge.
 std::optional<Fit> fit_if_possible(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
                                    const Eigen::VectorXd& x, int iterations) {
   try {
-    return fit(problem, hypothesis, x, iterations);
+    const Origin own(hypothesis.assembly(problem.base, x), problem.features.sensors, problem.modes,
+                     problem.features.driven());
+    return fit(problem, hypothesis, x, iterations, own, shared_by_fits(problem, own, hypothesis, x));
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+/// The same about the standing model.
+std::optional<Fit> fit_again(const DiagnosisProblem& problem, const Standing& s, int iterations) {
+  try {
+    return fit(problem, s.fit.hypothesis, s.fit.best.x, iterations, *s.origin, s.shared);
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
@@ -297,33 +355,26 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
   }
 }
 
-/// Of one model: candidates are tried about it.
-struct Standing {
-  Fit fit;
-  std::shared_ptr<const Origin> origin;
-};
-
 /// The fit of a round's best trial, its model, and what the mesh and all that is not exactly known do to that.
 Standing adopt(DiagnosisProblem& problem, const DiagnosisSettings& settings, const Trial& trial,
                const Standing& before) {
-  Standing s = {trial.fit, before.origin};
+  Standing s = {trial.fit, before.origin, before.shared};
   const Eigen::VectorXd x = at_usual_materials(s.fit);
   if (!trial.candidate.of_sensors()) {
     s.origin = origin_at(problem, s.fit.hypothesis, x);
+    s.shared = shared_by_fits(problem, *s.origin, s.fit.hypothesis, x);
     set_mesh_error(problem, s.origin->response(), s.fit.hypothesis, x);
   }
   set_covariance(problem, *s.origin, s.fit.hypothesis, x, settings.threads);
   set_scale(problem, {1.0, s.fit.scale.shapes});
-  if (std::optional<Fit> again = fit_if_possible(problem, s.fit.hypothesis, s.fit.best.x, 2)) s.fit = std::move(*again);
+  if (std::optional<Fit> again = fit_again(problem, s, settings.iterations)) s.fit = std::move(*again);
   return s;
 }
 
 void say_of(const DiagnosisProblem& problem, const Trial& added, const Fit& current, const Say& say) {
-  say(
-      fmt::format("with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; a misfit as large has "
-                  "probability {:.2g}",
+  say(fmt::format("with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; {}",
                   added.candidate.text(), current.gap, 100.0 * problem.error.frequency, 100.0 * problem.error.shape,
-                  tail(problem, current)));
+                  misfit_text(tail(problem, current))));
   for (const std::string& alarm : alarms_of(current)) say("  compensation: " + alarm);
 }
 
@@ -335,7 +386,7 @@ void set_channels_right(DiagnosisProblem& problem, const DiagnosisSettings& sett
   DiagnosisSettings few = settings;
   few.fits = std::min(settings.fits, 4);
   while (!faults.empty()) {
-    Round round = run_round(problem, few, standing.fit, faults, *standing.origin, say);
+    Round round = run_round(problem, few, standing, faults, say);
     round.accepted = is_certain(problem, round, standing.fit, settings);
     if (!round.accepted) return;
     standing = adopt(problem, settings, round.trials[0], standing);
@@ -348,16 +399,33 @@ void set_channels_right(DiagnosisProblem& problem, const DiagnosisSettings& sett
 void add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, Standing& standing, int most,
                   const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
   for (int added = 0; added < most; ++added) {
-    rounds.push_back(run_round(problem, settings, standing.fit, candidates, *standing.origin, say));
+    rounds.push_back(run_round(problem, settings, standing, candidates, say));
     Round& round = rounds.back();
     round.accepted = accepts(round, standing.fit, settings);
     if (!round.accepted) break;
     standing = adopt(problem, settings, round.trials[0], standing);
     const std::size_t effects = standing.fit.hypothesis.effects.size();
     drop_superseded(problem, settings, standing.fit, rounds, say);
-    if (standing.fit.hypothesis.effects.size() < effects)
-      standing.origin = origin_at(problem, standing.fit.hypothesis, at_usual_materials(standing.fit));
+    if (standing.fit.hypothesis.effects.size() < effects) {
+      const Eigen::VectorXd x = at_usual_materials(standing.fit);
+      standing.origin = origin_at(problem, standing.fit.hypothesis, x);
+      standing.shared = shared_by_fits(problem, *standing.origin, standing.fit.hypothesis, x);
+    }
     say_of(problem, rounds.back().trials[0], standing.fit, say);
+  }
+}
+
+/// What would tell the best trial of each accepted round from those that are as good.
+void add_advice(const DiagnosisProblem& problem, Diagnosis& d) {
+  for (Round& round : d.rounds) {
+    if (!round.accepted) continue;
+    const bool tied = std::any_of(round.trials.begin(), round.trials.end(), [](const Trial& t) { return t.tie; });
+    if (tied) make_whole(problem, round.trials[0].fit);
+    for (Trial& other : round.trials) {
+      if (!other.tie) continue;
+      make_whole(problem, other.fit);
+      d.advice.push_back(advise(problem, round.trials[0], other));
+    }
   }
 }
 
@@ -385,20 +453,17 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   const std::shared_ptr<const Origin> base_model = problem.origin;
   const Origin& origin = *base_model;
   if (problem.covariance.own.size() == 0) set_covariance(problem, origin, none, usual, settings.threads);
-  const Vectors shared =
-      material_vectors(origin, problem.base, none, usual, question_of(problem, origin.response()).wanted);
+  const Vectors shared = shared_by_fits(problem, origin, none, usual);
   d.calibrated = fit(problem, none, usual, 2 * settings.iterations, origin, shared);
   set_scale(problem, {1.0, d.calibrated.scale.shapes});
-  d.scale = problem.scale;
   d.plain = fit(problem, none, usual, 0, origin, shared);
   d.plain.best = evaluate(problem, residual_rows(problem), none, usual, origin);
   say(fmt::format("the case as it is: gap {:.2f}; shapes are as if known {:.2f} times as badly as said", d.plain.gap,
                   problem.scale.shapes));
   d.calibrated = fit(problem, none, d.calibrated.best.x, settings.iterations, origin, shared);
-  make_whole(problem, d.calibrated);
   d.alarms = alarms_of(d.calibrated);
-  say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}", d.calibrated.gap, d.alarms.size(),
-                  d.alarms.size() == 1 ? "" : "s"));
+  say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}; {}", d.calibrated.gap, d.alarms.size(),
+                  d.alarms.size() == 1 ? "" : "s", misfit_text(tail(problem, d.calibrated))));
   CandidateChoice choice;
   choice.without = settings.without;
   choice.driven = problem.features.driven();
@@ -407,7 +472,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     choice.clocks |= mode.quadrature.size() > 0;
   }
   const std::vector<Candidate> all = candidates(problem.base, problem.features.sensors, choice);
-  Standing standing = {d.calibrated, base_model};
+  Standing standing = {d.calibrated, base_model, shared};
   set_channels_right(problem, settings, standing, all, d.rounds, say);
   const Standing sound = standing;
   const DiagnosisProblem with_sound_channels = problem;
@@ -416,7 +481,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   d.best = standing.fit;
   const DiagnosisProblem final_problem = problem;
   const bool added = !d.best.hypothesis.effects.empty();
-  if (is_noise(problem, settings, d.best) || (added && tail(problem, d.best) > settings.credible))
+  if (is_noise(problem, settings, d.best) || (added && tail(problem, d.best).probability > settings.credible))
     d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     d.best = sound.fit;  // what only helps is not named
@@ -431,17 +496,16 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     add_greedily(problem, lenient, nameless, 3, nameless_factors(problem.base), d.nameless, say);
     d.nameless_best = nameless.fit;
   }
-  for (const Round& round : d.rounds)
-    for (std::size_t i = 1; i < round.trials.size() && d.verdict == Diagnosis::Verdict::found; ++i)
-      if (round.accepted && round.trials[i].tie) d.advice.push_back(advise(problem, round.trials[0], round.trials[i]));
+  if (d.verdict == Diagnosis::Verdict::found) add_advice(problem, d);
   const Standing& judged = d.verdict == Diagnosis::Verdict::unexplained ? sound : standing;
   const DiagnosisProblem& by = d.verdict == Diagnosis::Verdict::unexplained ? with_sound_channels : final_problem;
   if (settings.detectable) {
-    d.detectable = least_amounts(by, judged.fit, *judged.origin, all,
-                                 {margin_beside(judged.fit.hypothesis, settings), settings.threads});
-    say(fmt::format("least amounts of {} effects that these data would show", d.detectable.size()));
+    const DetectionSettings asked_for = {margin_beside(judged.fit.hypothesis, settings), settings.further_measurements,
+                                         settings.threads};
+    d.detection = detection(by, judged.fit, *judged.origin, judged.shared, all, asked_for);
+    say(fmt::format("least amounts of {} effects that these data would show", d.detection.least.size()));
   }
-  d.covariance = by.covariance;
+  d.judged = by;
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return d;
 }

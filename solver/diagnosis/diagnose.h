@@ -8,16 +8,17 @@
 namespace voussoir {
 
 struct DiagnosisSettings {
-  int effects = 3;           // most that are added
-  int fits = 12;             // candidates fitted fully in a round
-  int iterations = 8;        // of each fit
-  double margin = 3.0;       // an effect must beat "none" by so much in log probability
-  double further = 3.5;      // and by so much more where an effect is there: two are rarer than one
-  double certain = 12.0;     // a fault of a channel, to be put right before anything else is judged
-  double consistent = 0.02;  // probability of a larger misfit, above which a model is consistent
-  double credible = 1e-3;    // below which it is not, whatever was added
-  bool detectable = true;    // say what least amounts would be found
-  bool predict = true;       // what is added must also predict each mode better from the others
+  int effects = 3;               // most that are added
+  int fits = 12;                 // candidates fitted fully in a round
+  int iterations = 8;            // of each fit
+  double margin = 3.0;           // an effect must beat "none" by so much in log probability
+  double further = 3.5;          // and by so much more where an effect is there: two are rarer than one
+  double certain = 12.0;         // a fault of a channel, to be put right before anything else is judged
+  double consistent = 0.02;      // probability of a larger misfit, above which a model is consistent
+  double credible = 1e-3;        // below which it is not, whatever was added
+  bool detectable = true;        // say what least amounts would be found
+  int further_measurements = 3;  // and which further sensors or modes would lower them most
+  bool predict = true;           // what is added must also predict each mode better from the others
   int threads = 1;
   std::vector<std::string> without;  // names of effects that are not tried
 };
@@ -55,9 +56,8 @@ struct Diagnosis {
   std::vector<Round> nameless;  // unexplained: factors on parts
   Fit nameless_best;
   std::vector<Advice> advice;
-  std::vector<Detectable> detectable;  // beside what was found
-  ErrorScale scale;                    // under which the case as it is was judged
-  RowCovariance covariance;            // that it was judged by, in the end
+  Detection detection;      // beside what was found
+  DiagnosisProblem judged;  // with the errors that it was judged by in the end
   double seconds = 0.0;
 };
 const char* verdict_name(Diagnosis::Verdict verdict);

@@ -20,6 +20,7 @@ struct MeasuredFeature {
   std::string direction;      // longitudinal, transverse, vertical, torsional; empty: not known
   Eigen::VectorXd shape;      // per sensor; empty: none
   Eigen::VectorXd shape_std;  // in the units of the shape
+  double unit = 0.0;          // the component that rows are shares of; 0: the largest of those that were measured
   /// Imaginary parts of the shape, with the same standard deviations: of a structure with the damping of its parts
   /// alike they are noise, of a channel whose clock is late they are not. Empty: not known.
   Eigen::VectorXd quadrature;
@@ -30,6 +31,11 @@ struct MeasuredFeature {
   Eigen::Vector3d participation_std = Eigen::Vector3d::Zero();  // of each of real and imaginary part
   bool held_back = false;                                       // not fitted: to be predicted
 };
+
+/// Known at three sensors or more: of fewer it says nothing, because its scale is free.
+bool has_shape(const MeasuredFeature& mode);
+/// What the rows of a mode's shape are shares of.
+double unit_of(const MeasuredFeature& mode);
 
 struct Features {
   std::vector<Sensor> sensors;

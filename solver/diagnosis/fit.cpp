@@ -113,14 +113,14 @@ UnderScale under_scale(const RowCovariance& c, const std::vector<int>& fitted, c
   return u;
 }
 
-/// Over all scales: logarithmic priors of deviation 0.35 about 1; of the structure from a half to two, of shapes from
-/// a half to 2.2.
+/// Over all scales: logarithmic priors of deviation 0.35 about 1; of the structure from a half to 2.8, of shapes from
+/// a half to 2.2. The structure's bound is far: a scale at its bound would leave misfit for effects to explain.
 void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitted, const LinearFit& l, Fit& fit) {
   constexpr double spread = 0.35;
   std::vector<UnderScale> all;
   std::vector<double> prior, weights;
   double priors = 0.0, most = -1e300, sum = 0.0;
-  for (const double structure : {0.5, 0.7, 1.0, 1.4, 2.0})
+  for (const double structure : {0.5, 0.7, 1.0, 1.4, 2.0, 2.8})
     for (const double shapes : {0.5, 0.75, 1.0, 1.5, 2.2}) {
       all.push_back(under_scale(problem.covariance, fitted, l, {structure, shapes}));
       prior.push_back(
@@ -142,6 +142,20 @@ void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitte
     variance += weights[i] / sum * all[i].covariance.diagonal();
   }
   fit.std = variance.cwiseSqrt();
+}
+
+/// The amount of an effect stands beside stiffnesses and masses of its own part, which are as little known as those of
+/// any other: a relative standard deviation that no measurement takes away.
+void add_own_law(Fit& fit) {
+  constexpr double own = 0.08;  // that of the stiffness of a part (nuisance.cpp)
+  auto at = Eigen::Index(fit.hypothesis.materials.size());
+  for (const Candidate& c : fit.hypothesis.effects)
+    for (const FitParameter& p : c.parameters) {
+      const double x = fit.best.x[at];
+      if (c.kind == Candidate::Kind::effect)
+        fit.std[at] = std::hypot(fit.std[at], own / p.spread * (p.logarithmic ? 1.0 : std::abs(p.value(x))));
+      ++at;
+    }
 }
 
 LinearFit linear_fit(const DiagnosisProblem& problem, const Fit& fit, const std::vector<int>& fitted) {
@@ -295,6 +309,7 @@ Fit fit_in(ModelFamily& family, const DiagnosisProblem& problem, const Hypothesi
   result.held_gap = mean_square_root(result.best.residuals(split.held));
   const LinearFit l = linear_fit(problem, result, split.fitted);
   weigh_scales(problem, split.fitted, l, result);
+  add_own_law(result);
   result.predicted_gap = predicted_gap(problem, rows, split.fitted, l);
   const std::vector<FitParameter> parameters = hypothesis.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 // Standard deviations: of one part against the mean of its material, which is fitted (docs/theory/diagnosis.md).
 constexpr double part_stiffness = 0.08, part_density = 0.02;
-constexpr double contact_stiffness = 0.2, base_stiffness = 0.15;
+constexpr double contact_stiffness = 0.3, base_stiffness = 0.15;
 
 /// Joints that are `chosen` by the numbers of their blocks' parts.
 void scale_joints(Assembly& assembly, const std::function<bool(const Joint&)>& chosen, double factor) {
@@ -91,6 +91,12 @@ std::vector<Nuisance> part_nuisances(const Assembly& base) {
       scale_joints(
           a, [&](const Joint& j) { return is_fill(a, j.a) != is_fill(a, j.b); }, f);
       scale_patches(a, BlockSet(a.blocks.size(), true), f);
+    });
+  if (!all_if_filled(base).empty() && !all_if_any(base, Component::spandrel).empty())
+    add("contact of the fill at the spandrel walls", contact_stiffness, [](Assembly& a, double f) {
+      const BlockSet walls = masonry_part(a, "spandrels");
+      scale_between(a, component(a, Component::backfill), walls, f);
+      scale_patches(a, walls, f);
     });
   for (const std::string& support : supports(base))
     add("stiffness of the base of " + support, base_stiffness, [support](Assembly& a, double f) {

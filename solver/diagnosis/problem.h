@@ -67,6 +67,9 @@ void set_mesh_error(DiagnosisProblem& problem, const Response& response, const H
 /// Sets the covariance of all rows about a model, which is that of the hypothesis at x (docs/theory/diagnosis.md).
 void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Hypothesis& hypothesis,
                     const Eigen::VectorXd& x, int threads);
+/// The same with `plain`: what the sensors of the problem have of the origin's modes, where it was solved for others.
+void set_covariance(DiagnosisProblem& problem, const Origin& origin, const Response& plain,
+                    const Hypothesis& hypothesis, const Eigen::VectorXd& x, int threads);
 /// About the base, which is solved for it.
 void set_covariance(DiagnosisProblem& problem);
 /// Fits are made under another scale from here on.

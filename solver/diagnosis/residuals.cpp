@@ -15,17 +15,6 @@ int measured_entries(const MeasuredFeature& mode) {
   return int(std::count_if(mode.shape.begin(), mode.shape.end(), [](double v) { return std::isfinite(v); }));
 }
 
-bool has_shape(const MeasuredFeature& mode) {
-  return measured_entries(mode) >= 3;
-}
-
-double largest(const Eigen::VectorXd& shape) {
-  double most = 0.0;
-  for (double v : shape)
-    if (std::isfinite(v)) most = std::max(most, std::abs(v));
-  return most;
-}
-
 double assurance_at_sensors(const MeasuredFeature& mode, const Eigen::VectorXd& computed) {
   double mm = 0.0, cc = 0.0, mc = 0.0;
   for (Eigen::Index s = 0; s < computed.size(); ++s) {
@@ -72,6 +61,18 @@ void add_participation(const DiagnosisProblem& problem, int m, double scale, std
 
 }  // namespace
 
+bool has_shape(const MeasuredFeature& mode) {
+  return measured_entries(mode) >= 3;
+}
+
+double unit_of(const MeasuredFeature& mode) {
+  if (mode.unit > 0.0) return mode.unit;
+  double most = 0.0;
+  for (double v : mode.shape)
+    if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  return most;
+}
+
 std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
   std::vector<ResidualRow> rows;
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
@@ -81,7 +82,7 @@ std::vector<ResidualRow> residual_rows(const DiagnosisProblem& problem) {
     if (mode.damping && problem.damping > 0.0)
       rows.push_back({ResidualRow::Kind::damping, at, 0, std::hypot(mode.damping_std, problem.error.damping)});
     if (!has_shape(mode)) continue;
-    const double scale = largest(mode.shape);
+    const double scale = unit_of(mode);
     for (Eigen::Index s = 0; s < mode.shape.size(); ++s)
       if (std::isfinite(mode.shape[s]))
         rows.push_back(
@@ -143,7 +144,7 @@ namespace {
 void add_phases(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows, int m, int computed,
                 double stretch, const Observed& seen, Eigen::VectorXd& r) {
   const MeasuredFeature& mode = problem.features.modes[std::size_t(m)];
-  const double scale = largest(mode.shape), omega = 2.0 * EIGEN_PI * mode.frequency;
+  const double scale = unit_of(mode), omega = 2.0 * EIGEN_PI * mode.frequency;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ResidualRow& row = rows[i];
     if (row.mode != m) continue;
@@ -219,7 +220,7 @@ Eigen::VectorXd differences(const DiagnosisProblem& problem, const std::vector<R
     const RowRange range = rows_of(rows, int(m), ResidualRow::Kind::shape);
     if (range.count() == 0) continue;
     const MeasuredFeature& mode = problem.features.modes[m];
-    const Eigen::VectorXd measured = seen(rows, range, mode.shape) / largest(mode.shape);
+    const Eigen::VectorXd measured = seen(rows, range, mode.shape) / unit_of(mode);
     r.segment(range.at(), range.count()) = measured;
     const int c = pairing.computed[m];
     double stretch = 0.0;

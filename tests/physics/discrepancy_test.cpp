@@ -1,4 +1,5 @@
 // Errors of the model that have a structure, channels that do not read what they should, and what data could show.
+#include "geometry/nearest_block.h"
 #include "solver/linear/dense_solve.h"
 #include "tests/physics/measured_bridge.h"
 
@@ -170,7 +171,7 @@ TEST(LeastAmounts, AreWhatADiagnosisFinds) {
   ASSERT_EQ(none.verdict, Diagnosis::Verdict::consistent);
   settings.detectable = false;
   int checked = 0;
-  for (const Detectable& least : none.detectable) {
+  for (const Detectable& least : none.detection.least) {
     const bool chosen = (least.name == "joint_softening" && least.where == "pier 1") ||
                         (least.name == "added_mass" && least.where == "deck") ||
                         (least.name == "scour" && least.where == "pier 1 y-");
@@ -193,6 +194,64 @@ TEST(LeastAmounts, AreWhatADiagnosisFinds) {
     ++checked;
   }
   EXPECT_EQ(checked, 3);
+}
+
+/// What is promised of a channel or of a mode is what a measurement that has it would show.
+TEST(FurtherMeasurements, LowerLeastAmountsByWhatTheyPromise) {
+  const Assembly base = bridge();
+  DiagnosisProblem problem = measured(base, base, 5);
+  problem.nuisances = part_nuisances(base);
+  set_covariance(problem);
+  const auto least_of = [](const Detection& d, const Addition::Helped& h) {
+    for (const Detectable& least : d.least)
+      if (least.name == h.name && least.where == h.where)
+        return std::pair(least.neutral, std::isfinite(least.below) ? least.below : least.above);
+    return std::pair(0.0, std::nan(""));
+  };
+  const Hypothesis materials = {calibrations(base), {}};
+  Fit as_it_is;
+  as_it_is.hypothesis = materials;
+  as_it_is.best.x = Eigen::VectorXd::Zero(Eigen::Index(materials.size()));
+  const auto detect = [&](const DiagnosisProblem& p, int further) {
+    const Origin origin(base, p.features.sensors, p.modes);
+    const Vectors shared =
+        material_vectors(origin, base, materials, as_it_is.best.x, question_of(p, origin.response()).wanted);
+    CandidateChoice choice;
+    return detection(p, as_it_is, origin, shared, candidates(base, p.features.sensors, choice), {3.0, further, 2});
+  };
+  const Detection before = detect(problem, 3);
+  ASSERT_EQ(before.further.size(), 6u);
+  for (const std::size_t i : {1, 2, 4, 5}) EXPECT_LE(before.further[i].factor, before.further[i - 1].factor);
+  // The same bridge, measured with the first sensor as well; and with one mode more where that is the first.
+  const Addition& sensor = before.further[0];
+  ASSERT_FALSE(sensor.sensor.empty());
+  double x = 0.0, y = 0.0, z = 0.0;
+  char axis = ' ';
+  ASSERT_EQ(std::sscanf(sensor.sensor.c_str(), "%lf,%lf,%lf,%c", &x, &y, &z, &axis), 4) << sensor.sensor;
+  DiagnosisProblem more = problem;
+  more.features.sensors.push_back(
+      {"new", Vec3(x, y, z), Vec3::Unit(axis - 'x'), nearest_block(base, Vec3(x, y, z)).block});
+  EigenMemory memory;
+  const Response r = response(base, linear_model(base), more.features.sensors, 5, memory);
+  for (Eigen::Index m = 0; m < 5; ++m) {
+    MeasuredFeature& mode = more.features.modes[std::size_t(m)];
+    const double largest = unit_of(mode), scale = largest / r.sensors.col(m).head(15).cwiseAbs().maxCoeff();
+    mode.shape = scale * r.sensors.col(m);
+    mode.shape_std = Eigen::VectorXd::Constant(16, 0.02 * largest);
+    mode.unit = largest;
+  }
+  set_covariance(more);
+  const Detection after = detect(more, 0);
+  int checked = 0;
+  for (const Addition::Helped& h : sensor.most) {
+    const auto [neutral, had] = least_of(before, h);
+    const double has = least_of(after, h).second;
+    if (!std::isfinite(had) || !std::isfinite(has)) continue;
+    const double fell = neutral > 0.0 ? std::log(has / neutral) / std::log(had / neutral) : has / had;
+    EXPECT_NEAR(fell, h.factor, 0.2 * h.factor) << h.name << " " << h.where << " " << had << " " << has;
+    ++checked;
+  }
+  EXPECT_GE(checked, 1);
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -23,9 +23,8 @@ std::string corrected_text(const DiagnosisInput& input, const std::vector<Effect
 }
 
 /// The hypothesis' faults of sensors and motions of supports alone: what the corrected assembly does not hold.
-Fit rerun(const DiagnosisProblem& full, const ErrorScale& scale, Assembly corrected, double damping, const Fit& found) {
-  DiagnosisProblem problem = full;
-  set_scale(problem, scale);
+Fit rerun(const DiagnosisProblem& judged, Assembly corrected, double damping, const Fit& found) {
+  DiagnosisProblem problem = judged;
   problem.base = std::move(corrected);
   problem.origin = nullptr;  // that of the case
   problem.damping = damping;
@@ -51,9 +50,8 @@ DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisReques
   result.before = d.plain;
   result.corrected_text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
   result.corrected = parse_case(result.corrected_text, input.c.path, CaseUse::geometry);
-  result.after =
-      rerun(input.problem, d.scale, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
-  result.modes = compare_modes(input.problem, result.before, result.after);
+  result.after = rerun(d.judged, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
+  result.modes = compare_modes(input.problem, result.before, d.judged, result.after);
   result.where = locate(input.problem, result.before.best);
   result.where_after = locate(input.problem, result.after.best);
   try {

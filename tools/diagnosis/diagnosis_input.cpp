@@ -75,7 +75,7 @@ std::vector<Nuisance> dimension_nuisances(const Case& c) {
 void measure_errors(const DiagnosisRequest& request, DiagnosisInput& input) {
   DiagnosisProblem& p = input.problem;
   p.coarser = coarser_mesh(input);
-  p.origin = std::make_shared<Origin>(p.base, p.features.sensors, p.modes, p.features.driven());
+  if (!p.origin) p.origin = std::make_shared<Origin>(p.base, p.features.sensors, p.modes, p.features.driven());
   set_mesh_error(p, p.origin->response(), {}, {});
   p.nuisances = part_nuisances(p.base);
   for (Nuisance& dimension : dimension_nuisances(input.c)) p.nuisances.push_back(std::move(dimension));
@@ -133,6 +133,30 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   input.identification = identify(input.measured, input.c, own, request.most_modes);
   input.runs = problem_of(request, input, for_runs(input.c, own));
   input.problem = problem_of(request, input, std::move(own));
+  measure_errors(request, input);
+  return input;
+}
+
+DiagnosisInput planned_input(const DiagnosisRequest& request, const MeasurementPlan& plan) {
+  DiagnosisInput input;
+  input.c = read_case(request.case_file, CaseUse::geometry);
+  input.measured.directory = plan.sensors;
+  input.measured.sensors = read_sensors(plan.sensors);
+  Assembly own = make_assembly(input.c);
+  for (std::string& text : remarks(input.c, own)) input.measured.remarks.push_back(std::move(text));
+  std::vector<Sensor> sensors;
+  const std::vector<std::int64_t> blocks = place_sensors(input.measured.sensors, plan.sensors, own);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const MeasuredSensor& s = input.measured.sensors[i];
+    sensors.push_back({s.id, s.position, s.direction, blocks[i]});
+  }
+  auto origin = std::make_shared<Origin>(own, sensors, plan.modes + 8);
+  const double ratio = input.c.settings.damping.ratio;
+  input.measured.modes = expected_modes(origin->response(), plan.modes, {plan.noise, 2.0 * plan.noise, ratio});
+  if (ratio <= 0.0)
+    for (MeasuredMode& mode : input.measured.modes) mode.damping.reset();
+  input.problem = problem_of(request, input, std::move(own));
+  input.problem.origin = std::move(origin);
   measure_errors(request, input);
   return input;
 }

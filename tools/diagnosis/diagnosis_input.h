@@ -25,6 +25,16 @@ struct DiagnosisInput {
   Identification identification;
 };
 
+/// Measurements that are to be made.
+struct MeasurementPlan {
+  std::string sensors;  // a file like measured/sensors.csv
+  int modes = 6;        // the lowest that are not local
+  double noise = 0.01;  // standard deviation of periods, share; of shapes twice that
+};
+
+/// As if the plan had been measured on the case itself, without errors but with their deviations. Throws InputError.
+DiagnosisInput planned_input(const DiagnosisRequest& request, const MeasurementPlan& plan);
+
 /// Reads both and measures what the mesh does. Throws InputError.
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request);
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "solver/effects/effect.h"
+#include "tools/diagnosis/detection_report.h"
 #include "tools/diagnosis/diagnosis_charts.h"
 #include "tools/diagnosis/diagnosis_values.h"
 #include "tools/diagnosis/measured_features.h"
@@ -283,20 +284,6 @@ std::string advice_section(const Diagnosis& d) {
   return text + "</ul>\n";
 }
 
-/// What the data could have shown.
-std::string detectable_section(const Diagnosis& d) {
-  if (d.detectable.empty()) return "";
-  std::string text = heading("What these data could have shown");
-  text += note(
-      "The least amount of each effect, beside what was found, that would be named with a probability of 0.9 from "
-      "these "
-      "modes, sensors and uncertainties. What is less than that may be there all the same.");
-  text += "<table>\n" + table_row({{"effect"}, {"where"}, {"least amount"}}, "th");
-  for (const Detectable& least : d.detectable)
-    text += table_row({words_cell(least.name), words_cell(least.where), words_cell(detectable_text(least))}, "td");
-  return text + "</table>\n";
-}
-
 std::string model_error_text(const DiagnosisInput& input) {
   std::string text = fmt::format(
       "A right model is taken to be right to {:.1f} % of frequencies and {:.1f} % of a shape's largest value.",
@@ -382,7 +369,7 @@ std::string diagnosis_page(const DiagnosisInput& input, const DiagnosisResult& r
   page += modes_section(result.modes) + shapes_section(input, result) + recorded_section(input, result);
   page += where_section(result);
   page += nameless_section(d) + candidates_section(d) + materials_section(d) + advice_section(d);
-  page += detectable_section(d);
+  page += detection_section(d.detection);
   page += pictures_section(pictures) + identification_section(input) + data_section(input) +
           corrected_section(input, result);
   return html_page(fmt::format("Diagnosis of {}", name), page);

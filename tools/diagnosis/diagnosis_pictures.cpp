@@ -76,14 +76,14 @@ PagePicture shape_picture(const Fit& fit, const ModeComparison& mode, std::size_
   return {options.title, fmt::format("measured {:.3f} s ({:.3f} Hz)", mode.measured, 1.0 / mode.measured), png};
 }
 
+}  // namespace
+
 PagePicture sensor_picture(const Assembly& assembly, const std::vector<Sensor>& sensors, const std::string& png) {
   RenderOptions options = plain_options();
   options.title = "Where the sensors are";
   draw_sensors(assembly, sensors, options, png);
   return {options.title, fmt::format("{} channels; arrows point to where readings are positive", sensors.size()), png};
 }
-
-}  // namespace
 
 std::vector<PagePicture> draw_diagnosis(const DiagnosisInput& input, const DiagnosisResult& result,
                                         const std::string& directory,

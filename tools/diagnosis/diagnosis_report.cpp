@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tools/diagnosis/detection_report.h"
 #include "tools/diagnosis/diagnosis_values.h"
 #include "tools/diagnosis/three_sentences.h"
 
@@ -152,22 +153,10 @@ json recorded_json(const RecordedMatch& m) {
   return j;
 }
 
-json detectable_json(const std::vector<Detectable>& all) {
-  json list = json::array();
-  for (const Detectable& d : all)
-    list.push_back({{"effect", d.name},
-                    {"where", d.where},
-                    {"parameter", d.parameter},
-                    {"unit", d.unit},
-                    {"neutral", d.neutral},
-                    {"below", number(d.below)},
-                    {"above", number(d.above)}});
-  return list;
-}
-
 }  // namespace
 
-std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before, const Fit& after) {
+std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before,
+                                          const DiagnosisProblem& judged, const Fit& after) {
   const std::vector<ResidualRow> rows = residual_rows(problem);
   std::vector<ModeComparison> all;
   for (std::size_t m = 0; m < problem.features.modes.size(); ++m) {
@@ -185,19 +174,11 @@ std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i].mode == int(m) && rows[i].kind == ResidualRow::Kind::frequency) {
         c.deviations_before = before.best.differences[Eigen::Index(i)] / problem.covariance.std[Eigen::Index(i)];
-        c.deviations_after = after.best.differences[Eigen::Index(i)] / problem.covariance.std[Eigen::Index(i)];
+        c.deviations_after = after.best.differences[Eigen::Index(i)] / judged.covariance.std[Eigen::Index(i)];
       }
     all.push_back(c);
   }
   return all;
-}
-
-std::string detectable_text(const Detectable& d) {
-  std::vector<std::string> sides;
-  if (std::isfinite(d.below)) sides.push_back(fmt::format("below {:.2g}", d.below));
-  if (std::isfinite(d.above)) sides.push_back(fmt::format("above {:.2g}", d.above));
-  if (sides.empty()) return fmt::format("{}: not within its bounds", d.parameter);
-  return fmt::format("{} {}{}", d.parameter, fmt::join(sides, " or "), d.unit == "-" ? "" : " " + d.unit);
 }
 
 nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult& result) {
@@ -266,10 +247,10 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
                       {"mesh_scatter", input.problem.mesh.scatter}};
   j["model_error"]["scale"] = d.best.scale.structure;
   j["model_error"]["scale_of_shapes"] = d.best.scale.shapes;
-  for (const Sensitivity& n : d.covariance.nuisances)
+  for (const Sensitivity& n : d.judged.covariance.nuisances)
     j["model_error"]["not_exactly_known"].push_back(
         {{"name", n.name}, {"unit", n.unit}, {"std", n.spread}, {"left_out", n.why}});
-  j["detectable"] = detectable_json(d.detectable);
+  add_detection(d.detection, j);
   if (result.recorded) j["recorded"] = recorded_json(*result.recorded);
   j["without"] = input.without;
   j["seconds"] = d.seconds;
@@ -321,11 +302,7 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
     for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
       text += fmt::format("  {}, for a reason that has no name here\n", nameless_text(d.nameless_best, i));
   for (const Advice& a : d.advice) text += fmt::format("to tell it from {}: {}\n", a.against, a.text);
-  if (!d.detectable.empty()) {
-    text += "what these data would show, each with a probability of 0.9:\n";
-    for (const Detectable& least : d.detectable)
-      text += fmt::format("  {} at {}: {}\n", least.name, least.where, detectable_text(least));
-  }
+  text += detection_text(d.detection);
   for (const SetAside& s : input.measured.set_aside) text += fmt::format("set aside: {}: {}\n", s.place, s.what);
   for (const std::string& remark : input.measured.remarks) text += fmt::format("remark: {}\n", remark);
   if (const auto& m = result.recorded)

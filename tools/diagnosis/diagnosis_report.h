@@ -28,9 +28,8 @@ struct DiagnosisResult {
   std::string corrected_text;             // of corrected.toml
 };
 
-std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before, const Fit& after);
-/// "below 0.35, above 2.1", with the unit; "not within its bounds".
-std::string detectable_text(const Detectable& d);
+std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before,
+                                          const DiagnosisProblem& judged, const Fit& after);
 nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult& result);
 std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& result);
 

@@ -53,6 +53,26 @@ Features features_of(const Measured& measured, const Assembly& assembly) {
   return features;
 }
 
+std::vector<MeasuredMode> expected_modes(const Response& r, int most, const Precision& precision) {
+  std::vector<MeasuredMode> modes;
+  for (std::size_t i = 0; i < r.words.size() && int(modes.size()) < most; ++i) {
+    if (r.words[i].direction == "local" || r.words[i].order == 0) continue;
+    MeasuredMode mode;
+    mode.name = fmt::format("{}", modes.size() + 1);
+    mode.period = std::exp(-r.log_frequency[Eigen::Index(i)]);
+    mode.period_std = precision.periods * mode.period;
+    mode.direction = r.words[i].direction;
+    mode.damping = precision.damping_ratio;
+    mode.damping_std = 0.1 * precision.damping_ratio;
+    const Eigen::VectorXd seen = r.sensors.col(Eigen::Index(i));
+    const double largest = seen.isZero(0.0) ? 1.0 : seen.cwiseAbs().maxCoeff();
+    for (Eigen::Index s = 0; s < seen.size(); ++s)
+      mode.shape.push_back({std::size_t(s), seen[s] / largest, precision.shapes});
+    modes.push_back(mode);
+  }
+  return modes;
+}
+
 std::string sensors_used(const Features& features) {
   std::vector<bool> used(features.sensors.size());
   for (const MeasuredFeature& mode : features.modes)

@@ -63,12 +63,13 @@ ThreeSentences of_consistent(const DiagnosisResult& result) {
       d.calibrated.gap < 0.9 * d.plain.gap ? "the case, with its materials moved within what is likely,"
                                            : "the case as it is");
   std::vector<std::string> seen;
-  for (const std::string& text : {at_worst(d.detectable, "abutment_restraint", "both", "a restraint of both abutments"),
-                                  at_worst(d.detectable, "scour", "pier", "a share of bearing lost at any pier"),
-                                  at_worst(d.detectable, "added_mass", "deck", "added mass"),
-                                  at_worst(d.detectable, "tie_rods", "all", "stiffness of tie rods")})
+  for (const std::string& text :
+       {at_worst(d.detection.least, "abutment_restraint", "both", "a restraint of both abutments"),
+        at_worst(d.detection.least, "scour", "pier", "a share of bearing lost at any pier"),
+        at_worst(d.detection.least, "added_mass", "deck", "added mass"),
+        at_worst(d.detection.least, "tie_rods", "all", "stiffness of tie rods")})
     if (!text.empty()) seen.push_back(text);
-  const auto hidden = std::count_if(d.detectable.begin(), d.detectable.end(), [](const Detectable& least) {
+  const auto hidden = std::count_if(d.detection.least.begin(), d.detection.least.end(), [](const Detectable& least) {
     return !std::isfinite(least.below) && !std::isfinite(least.above);
   });
   s.sure = seen.empty()
@@ -78,8 +79,10 @@ ThreeSentences of_consistent(const DiagnosisResult& result) {
   s.next = hidden > 0 ? fmt::format(
                             "Nothing need be looked for on site because of them; {} of {} effects and places could not "
                             "have been seen at any amount, so inspect those by eye.",
-                            hidden, d.detectable.size())
+                            hidden, d.detection.least.size())
                       : std::string("Nothing need be looked for on site because of them.");
+  if (!d.detection.further.empty())
+    s.next += fmt::format(" What would show more than any other measurement: {}.", d.detection.further[0].text);
   return s;
 }
 

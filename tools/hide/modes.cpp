@@ -10,23 +10,7 @@
 namespace voussoir {
 
 std::vector<MeasuredMode> true_modes(const Response& r, const HideRequest& request, double ratio) {
-  std::vector<MeasuredMode> modes;
-  for (std::size_t i = 0; i < r.words.size() && int(modes.size()) < request.modes; ++i) {
-    if (r.words[i].direction == "local" || r.words[i].order == 0) continue;
-    MeasuredMode mode;
-    mode.name = fmt::format("{}", modes.size() + 1);
-    mode.period = std::exp(-r.log_frequency[Eigen::Index(i)]);
-    mode.period_std = request.noise * mode.period;
-    mode.direction = r.words[i].direction;
-    mode.damping = ratio;
-    mode.damping_std = 0.1 * ratio;
-    const Eigen::VectorXd seen = r.sensors.col(Eigen::Index(i));
-    const double largest = seen.isZero(0.0) ? 1.0 : seen.cwiseAbs().maxCoeff();
-    const double spread = 2.0 * request.noise;  // shapes are known half as well as periods
-    for (Eigen::Index s = 0; s < seen.size(); ++s) mode.shape.push_back({std::size_t(s), seen[s] / largest, spread});
-    modes.push_back(mode);
-  }
-  return modes;
+  return expected_modes(r, request.modes, {request.noise, 2.0 * request.noise, ratio});  // shapes: half as well
 }
 
 std::vector<MeasuredMode> measured_modes(const Response& truth, const std::vector<Sensor>& sensors,
