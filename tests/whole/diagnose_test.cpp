@@ -56,6 +56,47 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   EXPECT_NE(modal.out.find("abutment_restraint both"), std::string::npos);
 }
 
+/// A plan is judged before anything is measured.
+TEST(Diagnose, SaysWhatAPlanWouldShow) {
+  const Folder folder;
+  hide(folder, {"--sensors", "sparse"});
+  const Outcome outcome = voussoir({"diagnose", "bridge.toml", "--plan", "hidden/measured/sensors.csv", "--plan-modes",
+                                    "4", "-o", "plan", "--threads", "2"},
+                                   {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("what these data would show"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("a sensor at ("), std::string::npos) << outcome.out;
+  const nlohmann::json json = read_json(folder / "plan/plan.json");
+  EXPECT_EQ(json["modes"].size(), 4u);
+  EXPECT_GT(json["detectable"].size(), 20u);
+  ASSERT_EQ(json["further"].size(), 6u);
+  EXPECT_FALSE(json["further"][0]["sensor"].get<std::string>().empty());
+  EXPECT_LT(json["further"][0]["factor"].get<double>(), 1.0);
+  EXPECT_TRUE(exists(folder / "plan/plan.html"));
+  EXPECT_TRUE(exists(folder / "plan/images/sensors.png"));
+  // The suggestion is a row of a plan.
+  const nlohmann::json& first = json["further"][0];
+  folder.write("more.csv",
+               bytes_of(folder / "hidden/measured/sensors.csv") + "B01," + first["sensor"].get<std::string>() + "\n");
+  const Outcome more = voussoir({"diagnose", "bridge.toml", "--plan", "more.csv", "--plan-modes", "4", "-o", "more",
+                                 "--threads", "2", "--no-page"},
+                                {.folder = folder.path()});
+  ASSERT_EQ(more.status, 0) << more.err;
+  EXPECT_FALSE(exists(folder / "more/plan.html"));
+}
+
+TEST(Diagnose, WantsMeasurementsOrAPlan) {
+  const Folder folder;
+  folder.write("bridge.toml", bridge);
+  const Outcome neither = voussoir({"diagnose", "bridge.toml"}, {.folder = folder.path()});
+  EXPECT_EQ(neither.status, 2);
+  EXPECT_NE(neither.err.find("--plan FILE"), std::string::npos) << neither.err;
+  const Outcome both =
+      voussoir({"diagnose", "bridge.toml", "--measured", "a", "--plan", "b.csv"}, {.folder = folder.path()});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_NE(both.err.find("both are given"), std::string::npos) << both.err;
+}
+
 /// A deformable fill is in what is measured and in what is compared with it.
 TEST(Diagnose, FindsWhatABridgeWithADeformableFillLacks) {
   const Folder folder;

@@ -9,6 +9,7 @@
 #include "tools/diagnosis/diagnosis_page.h"
 #include "tools/diagnosis/diagnosis_pictures.h"
 #include "tools/diagnosis/measured_features.h"
+#include "tools/diagnosis/plan.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {
@@ -47,10 +48,35 @@ int diagnose_and_write(const DiagnosisRequest& request) {
   return 0;
 }
 
+/// Before anything is measured.
+int look_and_write(const DiagnosisRequest& request, const MeasurementPlan& plan) {
+  const auto say = [&](const std::string& line) {
+    if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
+  };
+  const PlanResult result = look_at_plan(request, plan);
+  fs::create_directories(request.directory);
+  write_json(request.directory + "/plan.json", plan_json(result));
+  if (request.page) {
+    std::vector<PagePicture> pictures;
+    const DiagnosisProblem& problem = result.input.problem;
+    try {
+      fs::create_directories(request.directory + "/images");
+      pictures.push_back(
+          sensor_picture(problem.base, problem.features.sensors, request.directory + "/images/sensors.png"));
+    } catch (const RunError& error) {
+      say(fmt::format("no picture: {}", error.what()));
+    }
+    write_atomically(request.directory + "/plan.html", plan_page(result, pictures));
+  }
+  say(plan_text(result));
+  return 0;
+}
+
 int diagnose_run(const std::vector<std::string>& arguments) {
-  CommandLine line("diagnose", "diagnose CASE --measured DIR [-o DIR]",
+  CommandLine line("diagnose", "diagnose CASE --measured DIR | --plan FILE [-o DIR]",
                    "voussoir diagnose cases/cs1-f.toml --measured measured -o diagnosis");
   DiagnosisRequest request;
+  MeasurementPlan plan;
   std::string without, held;
   line.described.add_options()("measured", options::value<std::string>(&request.measured)->value_name("DIR"),
                                "folder with modes.csv, sensors.csv, shapes.csv, records/")(
@@ -68,11 +94,22 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "run-seconds", real_option("run-seconds", 0.0, 3600.0, &request.run_seconds)->default_value(request.run_seconds),
       "of a recording with the ground's motion for which the explicit solver is run before and after; 0: not")(
       "no-least-amounts", "do not say what least amount of each effect would have been found")(
-      "no-page", "no HTML page and no pictures");
+      "plan", options::value<std::string>(&plan.sensors)->value_name("FILE"),
+      "instead of measurements: sensors like measured/sensors.csv; says what least amounts they would show")(
+      "plan-modes", whole_option("plan-modes", 1, 30, &plan.modes)->default_value(plan.modes),
+      "with --plan: so many of the lowest modes are counted on")(
+      "plan-noise", real_option("plan-noise", 1e-6, 0.5, &plan.noise)->default_value(plan.noise),
+      "with --plan: standard deviation of periods, share; of shapes twice that")("no-page",
+                                                                                 "no HTML page and no pictures");
   line.positional = {"CASE"};
-  line.required = {"CASE", "measured"};
+  line.required = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
+  if (request.measured.empty() == plan.sensors.empty())
+    throw InputError(
+        "voussoir diagnose wants one of --measured DIR, a folder with what was measured, and --plan FILE, "
+        "sensors that are not there yet; {} given",
+        plan.sensors.empty() ? "neither is" : "both are");
   request.case_file = values["CASE"].as<std::string>();
   if (request.directory.empty()) request.directory = fs::path(request.case_file).stem().string() + "-diagnosis";
   request.settings.without = words_in(without);
@@ -82,7 +119,7 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   request.settings.detectable = values.count("no-least-amounts") == 0;
   request.quiet = values.count("quiet") > 0;
   request.page = values.count("no-page") == 0;
-  return diagnose_and_write(request);
+  return plan.sensors.empty() ? diagnose_and_write(request) : look_and_write(request, plan);
 }
 
 }  // namespace
