@@ -110,27 +110,34 @@ struct Least {
   Trace trace;
 };
 Least least_on(const Way& way, const Amounts& amounts, const Distance& distance, const Candidate& c, double margin) {
-  constexpr int halvings = 6;
+  constexpr int most = 8;
+  constexpr double near = 0.004;  // of the way
   const FitParameter& p = c.parameters[0];
   const Amounts::Rows none = amounts.rows_at(way.neutral);
   Least least;
   least.trace.name = c.name, least.trace.where = c.where;
-  const auto is_found = [&](double share) {
+  // By how much the distance exceeds what is needed. The last that does, or else the bound, is kept.
+  const auto excess = [&](double share) {
     const double value = way.at(share, p), steps = std::abs(p.x(value) - p.x(way.neutral));
     Eigen::VectorXd rows = amounts.trace(none, amounts.rows_at(value));
     const double apart = distance.of(rows), needed = distance_needed(c, margin, steps > 0.0 ? apart / steps : 0.0);
-    const bool found = apart >= needed;
-    if (!found && share < 1.0) return false;
-    least.trace.rows = std::move(rows);
-    least.trace.needed = needed;
-    if (found) least.value = value;
-    return found;
+    if (apart >= needed) least.value = value;
+    if (apart >= needed || share >= 1.0) least.trace.rows = std::move(rows), least.trace.needed = needed;
+    return apart - needed;
   };
-  if (!is_found(1.0)) return least;
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (is_found(middle) ? high : low) = middle;
+  double low = 0.0, high = 1.0, above = excess(1.0), below = -least.trace.needed;
+  if (above < 0.0) return least;
+  // Regula falsi; a side that stays counts for half (Illinois: Dowell & Jarratt 1971).
+  for (int i = 0, side = 0; i < most && high - low > near; ++i) {
+    const double share = std::clamp(-below / std::max(above - below, 1e-300), 0.1, 0.9);
+    const double at = low + share * (high - low), own = excess(at);
+    if (own >= 0.0) {
+      if (side > 0) below *= 0.5;
+      high = at, above = own, side = 1;
+    } else {
+      if (side < 0) above *= 0.5;
+      low = at, below = own, side = -1;
+    }
   }
   return least;
 }

@@ -204,9 +204,7 @@ double gain_of(const Trial& trial, const Fit& current) {
 
 /// By how much a further effect beside those of a hypothesis must be better than none.
 double margin_beside(const Hypothesis& hypothesis, const DiagnosisSettings& settings) {
-  const std::vector<Candidate>& there = hypothesis.effects;
-  const bool first = std::all_of(there.begin(), there.end(), [](const Candidate& c) { return c.of_sensors(); });
-  return settings.margin + (first ? 0.0 : settings.further);
+  return settings.margin + (hypothesis.effects.empty() ? 0.0 : settings.further);
 }
 
 bool accepts(const Round& round, const Fit& current, const DiagnosisSettings& settings) {

@@ -133,29 +133,29 @@ Response ModelFamily::response(const Member& member) const {
 }
 
 ModalData ModelFamily::derivative(const Member& member, Eigen::Index index) const {
-  constexpr double step = 1e-3;
+  constexpr double step = 1e-4;  // to one side: K and M are smooth in x, and the other side would cost as much again
   const FitParameter p = hypothesis_.parameters()[std::size_t(index)];
-  Eigen::VectorXd low = member.x, high = member.x;
-  low[index] = step_down(p, member.x[index], step);
-  high[index] = step_up(p, member.x[index], step);
-  const Member a = without_modes(low), b = without_modes(high);
-  const double apart = high[index] - low[index];
+  Eigen::VectorXd x = member.x;
+  x[index] = step_up(p, member.x[index], step);
+  if (x[index] == member.x[index]) x[index] = step_down(p, member.x[index], step);
+  const Member moved = without_modes(x);
+  const double apart = x[index] - member.x[index];
   const ReducedModes& modes = member.modes;
   const Eigen::Index count = std::min<Eigen::Index>(question_.modes, modes.q.cols());
   Eigen::VectorXd dlambda;
-  const Eigen::MatrixXd dq =
-      moved_modes(modes, (b.matrices.k - a.matrices.k) / apart, (b.matrices.m - a.matrices.m) / apart, count, dlambda);
+  const Eigen::MatrixXd dq = moved_modes(modes, (moved.matrices.k - member.matrices.k) / apart,
+                                         (moved.matrices.m - member.matrices.m) / apart, count, dlambda);
   ModalData d;
   d.log_frequency = 0.5 * dlambda.cwiseQuotient(modes.eigenvalues.head(count));
   d.sensors = seen_ * dq;
   d.motions = motions_ * dq;
   if (!question_.driven) return d;
-  const GroundRows &g = member.ground, &g0 = a.ground, &g1 = b.ground;
+  const GroundRows &g = member.ground, &g1 = moved.ground;
   const Eigen::MatrixXd q = modes.q.leftCols(count);
   const Eigen::ArrayXd over = modes.eigenvalues.head(count).array().inverse();
-  d.participation = g.inertia * dq + (g1.inertia - g0.inertia) / apart * q;
+  d.participation = g.inertia * dq + (g1.inertia - g.inertia) / apart * q;
   for (std::size_t k = 0; k < g.pull.size(); ++k) {
-    const Eigen::MatrixXd work = g.pull[k] * dq + (g1.pull[k] - g0.pull[k]) / apart * q;
+    const Eigen::MatrixXd work = g.pull[k] * dq + (g1.pull[k] - g.pull[k]) / apart * q;
     const Eigen::ArrayXXd own = g.pull[k] * q;
     d.at_support.push_back(work.array().rowwise() * over.transpose() -
                            own.rowwise() * (over * over * dlambda.array()).transpose());

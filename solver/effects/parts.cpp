@@ -105,15 +105,16 @@ std::int64_t base_of(const Assembly& assembly, const std::string& support) {
 std::vector<EndFace> end_faces(const Assembly& assembly, bool left) {
   const auto counts = [](const Block& b) { return !b.fixed && b.component != Component::parapet; };
   double plane = left ? 1e300 : -1e300;
+  std::vector<double> reach;  // of each block
   for (const Block& b : assembly.blocks) {
-    if (!counts(b)) continue;
-    const Box box = block_box(b);
-    plane = left ? std::min(plane, box.low.x()) : std::max(plane, box.high.x());
+    const Box box = counts(b) ? block_box(b) : Box();
+    reach.push_back(left ? box.low.x() : box.high.x());
+    if (counts(b)) plane = left ? std::min(plane, reach.back()) : std::max(plane, reach.back());
   }
   std::vector<EndFace> found;
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
     const Block& b = assembly.blocks[i];
-    if (!counts(b)) continue;
+    if (!counts(b) || std::abs(reach[i] - plane) > 1e-6) continue;
     for (std::size_t c = 0; c < b.cells.size(); ++c)
       for (std::size_t f = 0; f < b.cells[c].faces.size(); ++f) {
         const Plane face = face_plane(b.cells[c], int(f));
