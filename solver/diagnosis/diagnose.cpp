@@ -133,6 +133,16 @@ bool is_noise(const DiagnosisProblem& problem, const DiagnosisSettings& settings
   return tail(problem, fit).probability > settings.consistent;
 }
 
+/// Takes out wrong gains that would come out too near 1 to be faults: readings are linear in them.
+void drop_small_gains(const std::vector<Candidate>& candidates, std::vector<Signature>& all) {
+  for (Signature& s : all) {
+    const Candidate& c = candidates[s.candidate];
+    if (!s.possible || c.kind != Candidate::Kind::gain || c.parameters.empty()) continue;
+    const double change = s.share * (c.parameters[0].value(c.starts[s.start][0]) - 1.0);
+    s.possible = std::abs(change) >= 0.5 * least_gain_fault;
+  }
+}
+
 /// Of each candidate its best start, best first; at most `count`.
 std::vector<Signature> shortlist(std::vector<Signature> all, std::size_t count) {
   std::erase_if(all, [](const Signature& s) { return !s.possible; });
@@ -270,8 +280,9 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
                      [&](const Candidate& there) { return excludes(there, c); }))
       candidates.push_back(c);
   const Eigen::VectorXd x = at_usual_materials(current);
-  const std::vector<Signature> all =
+  std::vector<Signature> all =
       signatures(problem, current.hypothesis, x, candidates, settings.threads, *standing.origin, standing.shared);
+  drop_small_gains(candidates, all);
   for (const Signature& s : shortlist(all, all.size()))
     round.screened.emplace_back(candidates[s.candidate].text(), s.explained);
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));

@@ -101,7 +101,8 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, bool clocks, std::vec
       if ((sensors[i].position - sensors[j].position).norm() > sensor_housing) continue;
       Candidate swap = reversed;
       swap.kind = Candidate::Kind::swap;
-      swap.where = fmt::format("channels {} {}", sensors[i].id, sensors[j].id);
+      const auto [first, second] = std::minmax(sensors[i].id, sensors[j].id);  // whatever the order of the file
+      swap.where = fmt::format("channels {} {}", first, second);
       swap.sensors = {i, j};
       all.push_back(swap);
     }

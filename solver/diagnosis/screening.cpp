@@ -70,7 +70,8 @@ Eigen::VectorXd residuals_with(const Linearised& l, const Hypothesis& hypothesis
   return residuals(*l.problem, l.rows, pairing, observed);
 }
 
-Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {
+/// `amount`: the candidate has one; else it is there or not.
+Signature signature(const Linearised& l, const Eigen::VectorXd& changed, bool amount) {
   Signature s;
   s.possible = true;
   const Eigen::VectorXd after = with_priors(l, changed);
@@ -79,8 +80,8 @@ Signature signature(const Linearised& l, const Eigen::VectorXd& changed) {
   s.direction = size2 > 0.0 ? Eigen::VectorXd(move / std::sqrt(size2)) : move;
   // Along the straight line through both points as far as helps, at most to three times the usual strength; or as it
   // is.
-  const double share = size2 > 0.0 ? std::clamp(-left.dot(move) / size2, 0.0, 3.0) : 0.0;
-  s.misfit = std::min((left + share * move).squaredNorm(), left_over(l, after).squaredNorm());
+  s.share = !amount ? 1.0 : size2 > 0.0 ? std::clamp(-left.dot(move) / size2, 0.0, 3.0) : 0.0;
+  s.misfit = std::min((left + s.share * move).squaredNorm(), left_over(l, after).squaredNorm());
   s.explained = l.misfit > 0.0 ? 1.0 - s.misfit / l.misfit : 0.0;
   return s;
 }
@@ -102,7 +103,8 @@ std::vector<Signature> signatures(const DiagnosisProblem& problem, const Hypothe
   for_all(all.size(), threads, [&](std::size_t i) {
     const Candidate& candidate = candidates[all[i].candidate];
     try {
-      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start], origin));
+      Signature s = signature(l, residuals_with(l, hypothesis, candidate, candidate.starts[all[i].start], origin),
+                              !candidate.parameters.empty());
       s.candidate = all[i].candidate;
       s.start = all[i].start;
       all[i] = s;

@@ -7,9 +7,10 @@ namespace voussoir {
 /// What a candidate at its usual strength does to the residuals.
 struct Signature {
   std::size_t candidate = 0, start = 0;
-  bool possible = false;      // it can act beside what is already there
-  double misfit = 0.0;        // predicted, of the candidate and the materials together
-  double explained = 0.0;     // share of the misfit that it takes away, over what the materials can
+  bool possible = false;   // it can act beside what is already there
+  double share = 0.0;      // of the way from without to the start (and on) at which the straight line between is best
+  double misfit = 0.0;     // predicted, of the candidate and the materials together
+  double explained = 0.0;  // share of the misfit that it takes away, over what the materials can
   Eigen::VectorXd direction;  // unit, of fitted rows and prior rows, without what the materials can do
 };
 
