@@ -69,9 +69,9 @@ void add_detection(const Detection& d, json& j) {
   }
 }
 
-std::string detection_section(const Detection& d) {
+std::string detection_section(const Detection& d, std::string_view title) {
   if (d.least.empty()) return "";
-  std::string text = heading("What these data could have shown");
+  std::string text = heading(title);
   text += note(
       "The least amount of each effect, beside what was found, that would be named with a probability of 0.9 from "
       "these modes, sensors and uncertainties. What is less than that may be there all the same.");

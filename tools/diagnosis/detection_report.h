@@ -1,6 +1,7 @@
 // What measurements would show, and what would show more, in words, JSON and on a page.
 #pragma once
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "solver/diagnosis/detectable.h"
 
@@ -13,6 +14,6 @@ std::string detection_text(const Detection& d);
 /// Adds `detectable` and `further`.
 void add_detection(const Detection& d, nlohmann::json& j);
 /// Two tables in HTML, what they mean before them; empty: nothing was asked.
-std::string detection_section(const Detection& d);
+std::string detection_section(const Detection& d, std::string_view title);
 
 }  // namespace voussoir

@@ -369,7 +369,7 @@ std::string diagnosis_page(const DiagnosisInput& input, const DiagnosisResult& r
   page += modes_section(result.modes) + shapes_section(input, result) + recorded_section(input, result);
   page += where_section(result);
   page += nameless_section(d) + candidates_section(d) + materials_section(d) + advice_section(d);
-  page += detection_section(d.detection);
+  page += detection_section(d.detection, "What these data could have shown");
   page += pictures_section(pictures) + identification_section(input) + data_section(input) +
           corrected_section(input, result);
   return html_page(fmt::format("Diagnosis of {}", name), page);

@@ -83,7 +83,7 @@ std::string plan_page(const PlanResult& result, const std::vector<PagePicture>& 
                             std::filesystem::path(result.input.measured.directory).filename().string(), name,
                             result.input.problem.features.sensors.size(), result.input.problem.features.modes.size()));
   page += pictures_section(pictures, "The plan") + modes_table(result.input.problem.features) +
-          detection_section(result.detection);
+          detection_section(result.detection, "What they would show");
   return html_page(fmt::format("What a plan would show on {}", name), page);
 }
 

@@ -73,12 +73,12 @@ std::vector<PaperRow> rows_of(const std::string& bridge, const std::string& ends
 
 std::string periods_part(const std::vector<PaperRow>& rows, bool& miss) {
   std::string text =
-      "| bridge | mode | motion | published s | found s | error | prototype s | error |\n| --- | --- | --- | --- | --- "
-      "| "
-      "--- | --- | --- |\n";
+      "| bridge | mode | motion | published s | found s | found Hz | error | prototype s | error |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const PaperRow& row : rows)
-    text += fmt::format("| {}-{} | {} | {} | {:.2f} | {:.3f} | {} | {:.3f} | {} |\n", row.bridge, row.ends, row.number,
-                        row.words.text(), row.published, row.found,
+    text += fmt::format("| {}-{} | {} | {} | {:.2f} | {:.3f} | {} | {} | {:.3f} | {} |\n", row.bridge, row.ends,
+                        row.number, row.words.text(), row.published, row.found,
+                        row.found > 0.0 ? fmt::format("{:.2f}", 1.0 / row.found) : "none",
                         error_text(row.found, row.published, period_tolerance, miss), row.prototype,
                         error_text(row.found, row.prototype, prototype_tolerance, miss));
   return text;
