@@ -196,6 +196,28 @@ TEST(LeastAmounts, AreWhatADiagnosisFinds) {
   EXPECT_EQ(checked, 3);
 }
 
+/// Alone, restraint of both ends explains more than that of one; beside the soft foundation of a pier it does not.
+TEST(TwoEffects, AnEffectGivesWayToItsNeighbourBesideALaterOne) {
+  const Assembly base = bridge();
+  const Assembly truth = with(with(base, "foundation_flexibility", "pier 1", {{"soil_shear_modulus", 1e7}}),
+                              "abutment_restraint", "right", {{"stiffness_share", 0.5}});
+  DiagnosisProblem problem = measured(base, truth, 6);
+  problem.nuisances = part_nuisances(base);
+  set_covariance(problem);
+  DiagnosisSettings settings = quick(2);
+  settings.fits = 8;
+  settings.detectable = false;
+  std::string said;
+  const Diagnosis d = diagnose(problem, settings, [&](const std::string& line) { said += line + "\n"; });
+  EXPECT_EQ(d.verdict, Diagnosis::Verdict::found) << said;
+  std::vector<std::string> names;
+  for (const Candidate& c : d.best.hypothesis.effects) names.push_back(c.text());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"abutment_restraint at right", "foundation_flexibility at pier 1"}))
+      << said;
+  EXPECT_NE(said.find("abutment_restraint at right in the place of"), std::string::npos) << said;
+}
+
 /// What is promised of a channel or of a mode is what a measurement that has it would show.
 TEST(FurtherMeasurements, LowerLeastAmountsByWhatTheyPromise) {
   const Assembly base = bridge();

@@ -40,6 +40,33 @@ Fit rerun(const DiagnosisProblem& judged, Assembly corrected, double damping, co
   return fit(problem, faults, Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size())), 0);
 }
 
+/// The hypothesis with the parameters of its effects as they were found, x = 0.
+Hypothesis with_found_effects(const Fit& found) {
+  constexpr double held = 1e-4;  // of their priors
+  Hypothesis h = found.hypothesis;
+  auto at = Eigen::Index(h.materials.size());
+  for (Candidate& c : h.effects)
+    for (FitParameter& p : c.parameters) {
+      p.usual = p.value(found.best.x[at++]);
+      p.spread *= held;
+    }
+  return h;
+}
+
+/// The materials of the corrected case, with the effects as they were found: fitted under the errors that each row has
+/// for itself. Beside what is not exactly known materials have no need to follow what all rows have in common; a case
+/// that is to be used must.
+Fit fit_corrected(const DiagnosisProblem& judged, const Fit& found) {
+  DiagnosisProblem problem = judged;
+  set_scale(problem, {0.0, judged.scale.shapes});
+  const Hypothesis hypothesis = with_found_effects(found);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(Eigen::Index(hypothesis.size()));
+  const Origin origin(hypothesis.assembly(problem.base, x), problem.features.sensors, problem.modes,
+                      problem.features.driven());
+  const int wanted = question_of(problem, origin.response()).wanted;
+  return fit(problem, hypothesis, x, 16, origin, material_vectors(origin, problem.base, hypothesis, x, wanted));
+}
+
 }  // namespace
 
 DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisRequest& request,
@@ -48,14 +75,16 @@ DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisReques
   result.diagnosis = diagnose(input.problem, request.settings, say);
   Diagnosis& d = result.diagnosis;
   result.before = d.plain;
-  result.corrected_text = corrected_text(input, d.best.hypothesis.settings(d.best.best.x));
+  result.calibrated = fit_corrected(d.judged, d.best);
+  const Fit& c = result.calibrated;
+  result.corrected_text = corrected_text(input, c.hypothesis.settings(c.best.x));
   result.corrected = parse_case(result.corrected_text, input.c.path, CaseUse::geometry);
-  result.after = rerun(d.judged, make_assembly(result.corrected), result.corrected.settings.damping.ratio, d.best);
+  result.after = rerun(d.judged, make_assembly(result.corrected), result.corrected.settings.damping.ratio, c);
   result.modes = compare_modes(input.problem, result.before, d.judged, result.after);
   result.where = locate(input.problem, result.before.best);
   result.where_after = locate(input.problem, result.after.best);
   try {
-    result.recorded = run_recorded(input, d.best, request.run_seconds, request.settings.threads, say);
+    result.recorded = run_recorded(input, c, request.run_seconds, request.settings.threads, say);
   } catch (const std::runtime_error& error) {
     say(fmt::format("no runs under the recorded motion: {}", error.what()));
   }

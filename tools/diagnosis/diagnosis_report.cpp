@@ -47,12 +47,14 @@ json trial_json(const Trial& trial) {
   return j;
 }
 
-json materials_json(const Fit& fit) {
+json materials_json(const Fit& fit, const Fit& corrected) {
   json all = json::object();
   for (std::size_t i = 0; i < fit.hypothesis.materials.size(); ++i) {
     const auto at = Eigen::Index(i);
     all[fit.hypothesis.materials[i].parameter.name] =
         parameter_json(fit.hypothesis.materials[i].parameter, fit.best.x[at], fit.std[at]);
+    all[fit.hypothesis.materials[i].parameter.name]["corrected"] =
+        corrected.hypothesis.materials[i].parameter.value(corrected.best.x[at]);
   }
   return all;
 }
@@ -208,7 +210,7 @@ nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult
   j["where"] = where_json(result.where);
   j["where_after"] = where_json(result.where_after);
   j["alarms"] = d.alarms;
-  j["materials"] = materials_json(d.best);
+  j["materials"] = materials_json(d.best, result.calibrated);
   j["advice"] = json::array();
   for (const Advice& a : d.advice) j["advice"].push_back({{"against", a.against}, {"would_tell", a.text}});
   for (const ModeComparison& m : result.modes)

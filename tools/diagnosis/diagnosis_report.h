@@ -21,6 +21,7 @@ struct ModeComparison {
 struct DiagnosisResult {
   Diagnosis diagnosis;
   Fit before, after;  // on the case's own mesh: the case as it is; the corrected one
+  Fit calibrated;     // of which the corrected one has its materials
   std::vector<ModeComparison> modes;
   Location where, where_after;
   std::optional<RecordedMatch> recorded;  // the explicit solver under the recorded motion of the ground
