@@ -116,20 +116,22 @@ Least least_on(const Way& way, const Amounts& amounts, const Distance& distance,
   const Amounts::Rows none = amounts.rows_at(way.neutral);
   Least least;
   least.trace.name = c.name, least.trace.where = c.where;
-  // By how much the distance exceeds what is needed. The last that does, or else the bound, is kept.
+  // The logarithm of the distance over what is needed: distances grow like powers. The last that is found, or else the
+  // bound, is kept.
   const auto excess = [&](double share) {
     const double value = way.at(share, p), steps = std::abs(p.x(value) - p.x(way.neutral));
     Eigen::VectorXd rows = amounts.trace(none, amounts.rows_at(value));
     const double apart = distance.of(rows), needed = distance_needed(c, margin, steps > 0.0 ? apart / steps : 0.0);
     if (apart >= needed) least.value = value;
     if (apart >= needed || share >= 1.0) least.trace.rows = std::move(rows), least.trace.needed = needed;
-    return apart - needed;
+    return std::log(std::max(apart, 1e-12) / needed);
   };
-  double low = 0.0, high = 1.0, above = excess(1.0), below = -least.trace.needed;
+  double low = 0.0, high = 1.0, above = excess(1.0), below = 0.0;  // below 0: not known
   if (above < 0.0) return least;
-  // Regula falsi; a side that stays counts for half (Illinois: Dowell & Jarratt 1971).
+  // Halves, until both sides are known; then regula falsi, of which a side that stays counts for half (Illinois: Dowell
+  // & Jarratt 1971).
   for (int i = 0, side = 0; i < most && high - low > near; ++i) {
-    const double share = std::clamp(-below / std::max(above - below, 1e-300), 0.1, 0.9);
+    const double share = below < 0.0 ? std::clamp(-below / (above - below), 0.1, 0.9) : 0.5;
     const double at = low + share * (high - low), own = excess(at);
     if (own >= 0.0) {
       if (side > 0) below *= 0.5;
