@@ -111,7 +111,7 @@ struct Least {
 };
 Least least_on(const Way& way, const Amounts& amounts, const Distance& distance, const Candidate& c, double margin) {
   constexpr int most = 8;
-  constexpr double near = 0.004;  // of the way
+  constexpr double near = 0.03, least_share = 1e-5;
   const FitParameter& p = c.parameters[0];
   const Amounts::Rows none = amounts.rows_at(way.neutral);
   Least least;
@@ -126,16 +126,20 @@ Least least_on(const Way& way, const Amounts& amounts, const Distance& distance,
     if (apart >= needed || share >= 1.0) least.trace.rows = std::move(rows), least.trace.needed = needed;
     return std::log(std::max(apart, 1e-12) / needed);
   };
+  // Along u, in which it is nearly straight: the share of the way of a logarithmic parameter, the logarithm of the
+  // share of another.
+  const auto share_at = [&](double u) { return p.logarithmic ? u : std::pow(least_share, 1.0 - u); };
   double low = 0.0, high = 1.0, above = excess(1.0), below = 0.0;  // below 0: not known
   if (above < 0.0) return least;
+  double reached = above;  // at `high`
   // Halves, until both sides are known; then regula falsi, of which a side that stays counts for half (Illinois: Dowell
   // & Jarratt 1971).
-  for (int i = 0, side = 0; i < most && high - low > near; ++i) {
-    const double share = below < 0.0 ? std::clamp(-below / (above - below), 0.1, 0.9) : 0.5;
-    const double at = low + share * (high - low), own = excess(at);
+  for (int i = 0, side = 0; i < most && reached > near; ++i) {
+    const double part = below < 0.0 ? std::clamp(-below / (above - below), 0.1, 0.9) : 0.5;
+    const double at = low + part * (high - low), own = excess(share_at(at));
     if (own >= 0.0) {
       if (side > 0) below *= 0.5;
-      high = at, above = own, side = 1;
+      high = at, above = reached = own, side = 1;
     } else {
       if (side < 0) above *= 0.5;
       low = at, below = own, side = -1;

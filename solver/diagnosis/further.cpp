@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "geometry/nearest_block.h"
@@ -14,7 +15,8 @@ namespace voussoir {
 
 namespace {
 
-constexpr double usual_shape_std = 0.05;  // share of the largest component, where no measured mode says better
+// Where no measured mode says better.
+constexpr double usual_frequency_std = 0.01, usual_shape_std = 0.05;  // of the logarithm; of the largest component
 
 double median(std::vector<double> all, double otherwise) {
   if (all.empty()) return otherwise;
@@ -102,10 +104,40 @@ void make_virtual(MeasuredFeature& mode, const Observed& seen, int computed, Eig
     if (s >= measured || std::isfinite(mode.shape[s])) mode.shape[s] = size / own * seen.readings(s, computed);
 }
 
+void pad_rows(Eigen::MatrixXd& m, Eigen::Index rows) {
+  if (m.size() == 0) return;
+  const Eigen::Index had = m.rows();
+  m.conservativeResize(rows, Eigen::NoChange);
+  m.bottomRows(rows - had).setZero();
+}
+
+/// How well modes are known that were measured, and by which channels.
+struct Quality {
+  std::vector<bool> used;  // by sensor
+  double frequency_std = 0.0, shape_std = 0.0;
+  bool shaped() const { return std::find(used.begin(), used.end(), true) != used.end(); }
+};
+Quality quality_of(const Features& features) {
+  Quality q;
+  q.used.assign(features.sensors.size(), false);
+  std::vector<double> frequencies, shapes;
+  for (const MeasuredFeature& mode : features.modes) {
+    frequencies.push_back(mode.frequency_std);
+    if (!has_shape(mode)) continue;
+    for (std::size_t s = 0; s < q.used.size(); ++s)
+      if (std::isfinite(mode.shape[Eigen::Index(s)])) {
+        q.used[s] = true;
+        shapes.push_back(mode.shape_std[Eigen::Index(s)] / unit_of(mode));
+      }
+  }
+  q.frequency_std = median(frequencies, usual_frequency_std);
+  q.shape_std = median(shapes, usual_shape_std);
+  return q;
+}
+
 /// Modes of the model that were not measured, up to twice the highest measured frequency.
 std::vector<MeasuredFeature> further_modes(const DiagnosisProblem& problem, const Response& plain, const Observed& seen,
-                                           const std::vector<int>& paired, double frequency_std, double shape_std,
-                                           const std::vector<bool>& used) {
+                                           const std::vector<int>& paired, const Quality& quality) {
   constexpr std::size_t most = 6;
   double highest = 0.0;
   for (const MeasuredFeature& mode : problem.features.modes) highest = std::max(highest, mode.frequency);
@@ -116,29 +148,54 @@ std::vector<MeasuredFeature> further_modes(const DiagnosisProblem& problem, cons
     if (std::find(paired.begin(), paired.end(), int(c)) != paired.end()) continue;
     MeasuredFeature mode;
     mode.frequency = std::exp(plain.log_frequency[c]);
-    mode.frequency_std = frequency_std;
+    mode.frequency_std = quality.frequency_std;
     mode.direction = words.direction;
     mode.name =
         fmt::format("the mode {}, about {:.3f} s ({:.2f} Hz)", words.text(), 1.0 / mode.frequency, mode.frequency);
     double size = 0.0;
     mode.shape = Eigen::VectorXd::Constant(seen.readings.rows(), std::nan(""));
-    for (std::size_t s = 0; s < used.size(); ++s)
-      if (used[s]) {
+    for (std::size_t s = 0; s < quality.used.size(); ++s)
+      if (quality.used[s]) {
         mode.shape[Eigen::Index(s)] = seen.readings(Eigen::Index(s), c);
         size = std::max(size, std::abs(seen.readings(Eigen::Index(s), c)));
       }
-    mode.shape_std = Eigen::VectorXd::Constant(seen.readings.rows(), shape_std * size);
+    mode.shape_std = Eigen::VectorXd::Constant(seen.readings.rows(), quality.shape_std * size);
     if (!has_shape(mode) || size <= 0.0) mode.shape.resize(0);
     modes.push_back(std::move(mode));
   }
   return modes;
 }
 
-void pad_rows(Eigen::MatrixXd& m, Eigen::Index rows) {
-  if (m.size() == 0) return;
-  const Eigen::Index had = m.rows();
-  m.conservativeResize(rows, Eigen::NoChange);
-  m.bottomRows(rows - had).setZero();
+/// Which rows there are already, and which each option brings.
+void sort_rows(const Assembly& assembly, std::size_t measured, Extended& e) {
+  const Features& features = e.problem.features;
+  const std::vector<ResidualRow> rows = residual_rows(e.problem);
+  std::vector<Extended::Option> channels(features.sensors.size() - measured);
+  std::map<int, Extended::Option> modes;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ResidualRow& row = rows[i];
+    const bool of_channel = row.kind == ResidualRow::Kind::shape || row.kind == ResidualRow::Kind::quadrature;
+    if (features.modes[std::size_t(row.mode)].held_back) continue;
+    if (e.further[std::size_t(row.mode)])
+      modes[row.mode].rows.push_back(int(i));
+    else if (of_channel && std::size_t(row.sensor) >= measured)
+      channels[std::size_t(row.sensor) - measured].rows.push_back(int(i));
+    else
+      e.had.push_back(int(i));
+  }
+  const std::vector<std::string> parts = parts_of_blocks(assembly);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].rows.empty()) continue;
+    const Sensor& s = features.sensors[measured + c];
+    channels[c].addition.text = sensor_text(s, parts);
+    channels[c].addition.sensor = fmt::format("{:g},{:g},{:g},{}", s.position.x(), s.position.y(), s.position.z(),
+                                              channels[c].addition.text.back());
+    e.options.push_back(std::move(channels[c]));
+  }
+  for (auto& [mode, option] : modes) {
+    option.addition.text = features.modes[std::size_t(mode)].name;
+    e.options.push_back(std::move(option));
+  }
 }
 
 }  // namespace
@@ -152,69 +209,33 @@ Extended extended(const DiagnosisProblem& problem, const Origin& origin, const H
     e.had = split_rows(problem, residual_rows(problem)).fitted;
     return e;
   }
+  const Assembly& assembly = origin.assembly();
+  const Unknowns& unknowns = origin.model().unknowns;
   Features& features = e.problem.features;
-  const auto measured = Eigen::Index(features.sensors.size());
-  std::vector<bool> used(std::size_t(measured), false);
-  std::vector<double> frequency_stds, shape_stds;
-  bool shaped = false;
-  for (const MeasuredFeature& mode : features.modes) {
-    frequency_stds.push_back(mode.frequency_std);
-    if (!has_shape(mode)) continue;
-    shaped = true;
-    const double size = unit_of(mode);
-    for (Eigen::Index s = 0; s < measured; ++s)
-      if (std::isfinite(mode.shape[s])) used[std::size_t(s)] = true, shape_stds.push_back(mode.shape_std[s] / size);
-  }
+  const std::size_t measured = features.sensors.size();
+  const Quality quality = quality_of(features);
   const std::vector<int> paired =
       pair_features(features, e.plain, hypothesis.observe(e.plain, problem.damping, x).readings).computed;
-  std::vector<Sensor> pool;
-  if (shaped) pool = pool_of(origin.assembly(), features.sensors);
-  features.sensors.insert(features.sensors.end(), pool.begin(), pool.end());
-  e.plain.sensors = at_sensors(origin.assembly(), origin.model().unknowns, features.sensors, e.plain.vectors);
-  e.plain.motions = motions_at(origin.assembly(), origin.model().unknowns, features.sensors, e.plain.vectors);
+  if (quality.shaped())
+    for (Sensor& s : pool_of(assembly, features.sensors)) features.sensors.push_back(std::move(s));
+  e.plain.sensors = at_sensors(assembly, unknowns, features.sensors, e.plain.vectors);
+  e.plain.motions = motions_at(assembly, unknowns, features.sensors, e.plain.vectors);
   const Observed seen = hypothesis.observe(e.plain, problem.damping, x);
-  const double shape_std = median(shape_stds, usual_shape_std);
   for (std::size_t m = 0; m < features.modes.size(); ++m)
-    make_virtual(features.modes[m], seen, paired[m], measured, shape_std);
+    make_virtual(features.modes[m], seen, paired[m], Eigen::Index(measured), quality.shape_std);
   std::set<std::string> further;
-  for (MeasuredFeature& mode :
-       further_modes(problem, e.plain, seen, paired, median(frequency_stds, 0.01), shape_std, used)) {
+  for (MeasuredFeature& mode : further_modes(problem, e.plain, seen, paired, quality)) {
     further.insert(mode.name);
     features.modes.push_back(std::move(mode));
   }
   std::stable_sort(features.modes.begin(), features.modes.end(),
                    [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  for (const MeasuredFeature& mode : features.modes) e.further.push_back(further.contains(mode.name));
   // The coarser mesh was not asked about further channels: what it leaves open there is in their own errors alone.
   pad_rows(e.problem.mesh.difference.sensors, e.plain.sensors.rows());
   pad_rows(e.problem.mesh.difference.motions, e.plain.motions.rows());
   set_covariance(e.problem, origin, e.plain, hypothesis, x, threads);
-  for (const MeasuredFeature& mode : features.modes) e.further.push_back(further.contains(mode.name));
-  const std::vector<ResidualRow> rows = residual_rows(e.problem);
-  const std::vector<std::string> parts = parts_of_blocks(origin.assembly());
-  std::vector<Extended::Option> channels(pool.size());
-  std::map<std::string, Extended::Option> modes;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ResidualRow& row = rows[i];
-    const MeasuredFeature& mode = features.modes[std::size_t(row.mode)];
-    const bool of_channel = row.kind == ResidualRow::Kind::shape || row.kind == ResidualRow::Kind::quadrature;
-    if (e.further[std::size_t(row.mode)])
-      modes[mode.name].rows.push_back(int(i));
-    else if (of_channel && row.sensor >= measured)
-      channels[std::size_t(row.sensor - measured)].rows.push_back(int(i));
-    else if (!mode.held_back)
-      e.had.push_back(int(i));
-  }
-  for (std::size_t p = 0; p < pool.size(); ++p) {
-    Addition& a = channels[p].addition;
-    a.text = sensor_text(pool[p], parts);
-    a.sensor = fmt::format("{:g},{:g},{:g},{}", pool[p].position.x(), pool[p].position.y(), pool[p].position.z(),
-                           a.text.back());
-    if (!channels[p].rows.empty()) e.options.push_back(std::move(channels[p]));
-  }
-  for (auto& [name, option] : modes) {
-    option.addition.text = name;
-    e.options.push_back(std::move(option));
-  }
+  sort_rows(assembly, measured, e);
   return e;
 }
 
