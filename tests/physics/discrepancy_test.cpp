@@ -225,7 +225,7 @@ TEST(TwoEffects, AnEffectGivesWayToItsNeighbourBesideALaterOne) {
   EXPECT_NE(said.find("abutment_restraint at right in the place of"), std::string::npos) << said;
 }
 
-/// What is promised of a channel or of a mode is what a measurement that has it would show.
+/// What is promised of a channel is what a measurement that has it would show.
 TEST(FurtherMeasurements, LowerLeastAmountsByWhatTheyPromise) {
   const Assembly base = bridge();
   DiagnosisProblem problem = measured(base, base, 5);
@@ -251,7 +251,7 @@ TEST(FurtherMeasurements, LowerLeastAmountsByWhatTheyPromise) {
   const Detection before = detect(problem, 3);
   ASSERT_EQ(before.further.size(), 6u);
   for (const std::size_t i : {1, 2, 4, 5}) EXPECT_LE(before.further[i].factor, before.further[i - 1].factor);
-  // The same bridge, measured with the first sensor as well; and with one mode more where that is the first.
+  // The same bridge, measured with the first sensor as well.
   const Addition& sensor = before.further[0];
   ASSERT_FALSE(sensor.sensor.empty());
   double x = 0.0, y = 0.0, z = 0.0;

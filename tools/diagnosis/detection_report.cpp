@@ -13,10 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-json bound(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
 std::string per_cent(double factor) {
   return fmt::format("{:.0f} %", 100.0 * factor);
 }
@@ -29,6 +25,10 @@ std::vector<std::string> helped(const Addition& a) {
 }
 
 }  // namespace
+
+json number(double x) {
+  return std::isfinite(x) ? json(x) : json(nullptr);
+}
 
 std::string detectable_text(const Detectable& d) {
   std::vector<std::string> sides;
@@ -58,8 +58,8 @@ void add_detection(const Detection& d, json& j) {
                                {"parameter", least.parameter},
                                {"unit", least.unit},
                                {"neutral", least.neutral},
-                               {"below", bound(least.below)},
-                               {"above", bound(least.above)}});
+                               {"below", number(least.below)},
+                               {"above", number(least.above)}});
   j["further"] = json::array();
   for (const Addition& a : d.further) {
     json most = json::array();

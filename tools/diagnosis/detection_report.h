@@ -7,6 +7,8 @@
 
 namespace voussoir {
 
+/// Null where it is not finite.
+nlohmann::json number(double x);
 /// "below 0.35 or above 2.1 t/m"; "not within its bounds".
 std::string detectable_text(const Detectable& d);
 /// Lines for the terminal.

@@ -14,10 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-json number(double x) {
-  return std::isfinite(x) ? json(x) : json(nullptr);
-}
-
 /// Value and standard deviation of a parameter from those of x.
 json parameter_json(const FitParameter& p, double x, double std) {
   const double value = p.value(x), spread = 0.5 * (p.value(x + std) - p.value(x - std));

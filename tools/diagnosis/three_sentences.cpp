@@ -54,6 +54,17 @@ std::string at_worst(const std::vector<Detectable>& all, const std::string& name
   return fmt::format("{} above {:.2g}{}", words, worst, unit == "-" ? "" : " " + unit);
 }
 
+/// The best further sensor and the best further mode.
+std::string next_measurements(const Detection& d) {
+  std::vector<std::string> best;
+  for (const bool sensor : {true, false}) {
+    const auto first =
+        std::find_if(d.further.begin(), d.further.end(), [&](const Addition& a) { return a.sensor.empty() != sensor; });
+    if (first != d.further.end()) best.push_back(first->text);
+  }
+  return best.empty() ? "" : fmt::format(" What would show more: {}.", fmt::join(best, "; or "));
+}
+
 ThreeSentences of_consistent(const DiagnosisResult& result) {
   const Diagnosis& d = result.diagnosis;
   ThreeSentences s;
@@ -81,8 +92,7 @@ ThreeSentences of_consistent(const DiagnosisResult& result) {
                             "have been seen at any amount, so inspect those by eye.",
                             hidden, d.detection.least.size())
                       : std::string("Nothing need be looked for on site because of them.");
-  if (!d.detection.further.empty())
-    s.next += fmt::format(" What would show more than any other measurement: {}.", d.detection.further[0].text);
+  s.next += next_measurements(d.detection);
   return s;
 }
 
