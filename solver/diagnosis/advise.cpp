@@ -76,7 +76,7 @@ Difference in_frequencies(const DiagnosisProblem& problem, const Trial& a, const
 Advice advise(const DiagnosisProblem& problem, const Trial& best, const Trial& other) {
   const Difference shape = in_shapes(problem, best, other), period = in_frequencies(problem, best, other);
   Advice advice;
-  advice.against = other.candidate.text();
+  advice.against = other.candidate.full_text();
   const Difference& most = shape.deviations > period.deviations ? shape : period;
   advice.text = most.deviations > 1.0 ? most.text : "no mode that was looked at tells them apart";
   return advice;

@@ -20,7 +20,7 @@ class Distance {
  public:
   Distance(const Extended& all, const Hypothesis& hypothesis, const Eigen::VectorXd& x, const Origin& origin,
            const Vectors& shared, const ErrorScale& scale)
-      : all_(&all), rows_(residual_rows(all.problem)) {
+      : rows_(residual_rows(all.problem)), had_(all.had) {
     const DiagnosisProblem& p = all.problem;
     ModelFamily family(origin, p.base, hypothesis, question_of(p, all.plain), x, ModelFamily::Use::often);
     family.append(shared);
@@ -28,15 +28,22 @@ class Distance {
     const Evaluation at = evaluate(p, rows_, hypothesis, family, member);
     const Eigen::MatrixXd j = p.colouring * jacobian(p, rows_, hypothesis, family, member, at);
     covariance_ = p.covariance.at(scale) + j * j.transpose();
-    white_ = whitening_of(Eigen::MatrixXd(covariance_(all.had, all.had)));
+    white_ = whitening_of(Eigen::MatrixXd(covariance_(had_, had_)));
   }
   const std::vector<ResidualRow>& rows() const { return rows_; }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
-  double of(const Eigen::VectorXd& trace) const { return (white_ * Eigen::VectorXd(trace(all_->had))).norm(); }
+  double of(const Eigen::VectorXd& trace) const { return (white_ * Eigen::VectorXd(trace(had_))).norm(); }
+  /// With these rows too.
+  Distance with(const std::vector<int>& rows) const {
+    Distance d = *this;
+    d.had_.insert(d.had_.end(), rows.begin(), rows.end());
+    d.white_ = whitening_of(Eigen::MatrixXd(covariance_(d.had_, d.had_)));
+    return d;
+  }
 
  private:
-  const Extended* all_;
   std::vector<ResidualRow> rows_;
+  std::vector<int> had_;
   Eigen::MatrixXd covariance_, white_;
 };
 
@@ -162,11 +169,19 @@ Found look_for(const Candidate& c, const Amounts& amounts, const Distance& dista
   const auto look = [&](double bound, double& value) {
     Least least = least_on({neutral, bound}, amounts, distance, c, margin);
     value = least.value;
+    least.trace.above = bound > neutral;
     f.traces.push_back(std::move(least.trace));
   };
   if (own.low < neutral) look(own.low, f.least.below);
   if (own.high > neutral) look(own.high, f.least.above);
   return f;
+}
+
+/// By which a least value falls: by the logarithm of the amount where the parameter is a factor on what is there.
+double fall(const Detectable& before, const Detectable& after, bool above) {
+  const double had = above ? before.above : before.below, has = above ? after.above : after.below;
+  const double none = before.neutral;
+  return none > 0.0 ? std::log(has / none) / std::log(had / none) : has / had;
 }
 
 }  // namespace
@@ -192,14 +207,29 @@ Detection detection(const DiagnosisProblem& problem, const Fit& fit, const Origi
   });
   Detection d;
   std::vector<Trace> traces;
-  for (auto& f : found)
-    if (f) {
-      d.least.push_back(f->least);
-      std::move(f->traces.begin(), f->traces.end(), std::back_inserter(traces));
-    }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!found[i]) continue;
+    d.least.push_back(found[i]->least);
+    for (Trace& trace : found[i]->traces) trace.candidate = i, traces.push_back(std::move(trace));
+  }
   for (const bool sensors : {true, false})
     for (Addition& a : best_additions(all, sensors, distance.covariance(), traces, settings.further))
       d.further.push_back(std::move(a));
+  // Distances do not quite grow in proportion: the effects that each helps most are looked for anew.
+  std::vector<std::pair<Addition::Helped*, const std::vector<int>*>> helped;
+  for (Addition& a : d.further)
+    for (Addition::Helped& h : a.most) helped.emplace_back(&h, &a.rows);
+  for_all(helped.size(), settings.threads, [&](std::size_t i) {
+    auto [h, rows] = helped[i];
+    const Trace& trace = traces[h->trace];
+    const Candidate& c = *asked[trace.candidate];
+    const Amounts amounts(all, fit.hypothesis, x, origin, c, distance);
+    const Found more = look_for(c, amounts, distance.with(*rows), problem.damping, settings.margin);
+    const double factor = fall(found[trace.candidate]->least, more.least, trace.above);
+    if (std::isfinite(factor)) h->factor = std::min(factor, 1.0);
+  });
+  for (Addition& a : d.further)
+    std::stable_sort(a.most.begin(), a.most.end(), [](const auto& p, const auto& q) { return p.factor < q.factor; });
   return d;
 }
 

@@ -204,7 +204,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
       signatures(problem, current.hypothesis, x, candidates, settings.threads, *standing.origin, standing.shared);
   drop_small_gains(candidates, all);
   for (const Signature& s : shortlist(all, all.size()))
-    round.screened.emplace_back(candidates[s.candidate].text(), s.explained);
+    round.screened.emplace_back(candidates[s.candidate].full_text(), s.explained);
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
   say(fmt::format("screened {} candidates; fitting {}", round.screened.size(), chosen.size()));
   std::vector<std::optional<Trial>> trials(chosen.size());
@@ -225,7 +225,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   });
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (trials[i]) round.trials.push_back(std::move(*trials[i]));
-    if (!failures[i].empty()) round.not_fitted.emplace_back(candidates[chosen[i].candidate].text(), failures[i]);
+    if (!failures[i].empty()) round.not_fitted.emplace_back(candidates[chosen[i].candidate].full_text(), failures[i]);
   }
   for (const auto& [candidate, why] : round.not_fitted) say(fmt::format("  {} is no explanation: {}", candidate, why));
   weigh(round, current);
@@ -234,8 +234,8 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
     const Trial& t = round.trials[i];
     say(fmt::format(
         "  {}: probability {:.2f}, gap {:.2f}, predicted {:.2f}, evidence {:+.1f}, errors × {:.2f}, of shapes × {:.2f}",
-        t.candidate.text(), t.probability, t.fit.gap, t.fit.predicted_gap, gain_of(t, current), t.fit.scale.structure,
-        t.fit.scale.shapes));
+        t.candidate.full_text(), t.probability, t.fit.gap, t.fit.predicted_gap, gain_of(t, current),
+        t.fit.scale.structure, t.fit.scale.shapes));
   }
   return round;
 }
@@ -272,7 +272,7 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
       ++i;
       continue;
     }
-    say(fmt::format("  {} is not needed any more", out.text()));
+    say(fmt::format("  {} is not needed any more", out.full_text()));
     current = *less;
     std::size_t accepted = 0;
     for (Round& round : rounds)
@@ -302,8 +302,8 @@ Standing adopt(DiagnosisProblem& problem, const DiagnosisSettings& settings, con
 
 void say_of(const DiagnosisProblem& problem, const Trial& added, const Fit& current, const Say& say) {
   say(fmt::format("with {}: gap {:.2f}, model error {:.1f} % of frequencies, {:.1f} % of shapes; {}",
-                  added.candidate.text(), current.gap, 100.0 * problem.error.frequency, 100.0 * problem.error.shape,
-                  misfit_text(tail(problem, current))));
+                  added.candidate.full_text(), current.gap, 100.0 * problem.error.frequency,
+                  100.0 * problem.error.shape, misfit_text(tail(problem, current))));
   for (const std::string& alarm : alarms_of(current)) say("  compensation: " + alarm);
 }
 
@@ -366,8 +366,8 @@ void exchange(DiagnosisProblem& problem, const DiagnosisSettings& settings, Stan
     const double better = other->fit.log_evidence + std::log(other->candidate.prior) - standing.fit.log_evidence -
                           std::log(there.effects[effect].prior);
     if (better <= 0.0) continue;
-    say(fmt::format("  {} in the place of {}: evidence {:+.1f}", other->candidate.text(), there.effects[effect].text(),
-                    better));
+    say(fmt::format("  {} in the place of {}: evidence {:+.1f}", other->candidate.full_text(),
+                    there.effects[effect].full_text(), better));
     const auto at = std::find_if(round.trials.begin(), round.trials.end(), [&](const Trial& t) {
       return t.candidate.text() == other->candidate.text() && t.candidate.kind == other->candidate.kind;
     });

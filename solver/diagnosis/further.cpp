@@ -285,13 +285,13 @@ std::vector<Addition> best_additions(const Extended& all, bool sensors, const Ei
     needed[Eigen::Index(i)] = traces[i].needed;
   }
   std::vector<int> had = all.had;
-  Eigen::VectorXd first;
+  const Known measured(covariance, had, columns);
+  const Eigen::VectorXd first = measured.squares();
   std::vector<Extended::Option> options = all.options;
   std::erase_if(options, [&](const Extended::Option& o) { return o.addition.sensor.empty() == sensors; });
   while (int(chosen.size()) < count && !options.empty()) {
     const Known known(covariance, had, columns);
     const Eigen::VectorXd before = known.squares();
-    if (first.size() == 0) first = before;
     std::size_t best = 0;
     double least = 0.0;
     Eigen::VectorXd growth;
@@ -302,8 +302,9 @@ std::vector<Addition> best_additions(const Extended& all, bool sensors, const Ei
     }
     if (growth.size() == 0) break;
     Addition a = options[best].addition;
+    a.rows = options[best].rows;
     a.factor = std::exp(factors_of(first, before + growth - first, needed).log().mean());
-    const Eigen::ArrayXd own = factors_of(before, growth, needed);
+    const Eigen::ArrayXd own = factors_of(first, measured.growth(a.rows), needed);
     std::vector<std::size_t> order(traces.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
@@ -311,8 +312,8 @@ std::vector<Addition> best_additions(const Extended& all, bool sensors, const Ei
     std::set<std::string> said;  // an effect has two sides
     for (const std::size_t i : order)
       if (a.most.size() < 3 && said.insert(traces[i].name + " " + traces[i].where).second)
-        a.most.push_back({traces[i].name, traces[i].where, own[Eigen::Index(i)]});
-    had.insert(had.end(), options[best].rows.begin(), options[best].rows.end());
+        a.most.push_back({traces[i].name, traces[i].where, own[Eigen::Index(i)], traces[i].above, i});
+    had.insert(had.end(), a.rows.begin(), a.rows.end());
     options.erase(options.begin() + std::ptrdiff_t(best));
     chosen.push_back(std::move(a));
   }

@@ -12,8 +12,11 @@ struct Addition {
   struct Helped {
     std::string name, where;
     double factor = 1.0;
+    bool above = false;     // which of its two least values: that above neutral
+    std::size_t trace = 0;  // of those given to best_additions()
   };
   std::vector<Helped> most;  // the least amounts that fall most by it alone, at most three
+  std::vector<int> rows;     // of the extended problem: what it measures
 };
 
 /// A problem with all that could be measured besides, as if a model had been measured: channels at further places of
@@ -40,6 +43,8 @@ struct Trace {
   std::string name, where;
   Eigen::VectorXd rows;
   double needed = 1.0;
+  std::size_t candidate = 0;  // of those asked about
+  bool above = false;         // of its neutral value
 };
 
 /// The `count` sensors, or modes, that lower least amounts most, one after the other (greedily). In proportion to its

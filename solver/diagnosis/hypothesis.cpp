@@ -197,6 +197,17 @@ std::string Candidate::text() const {
   return name + (where.empty() ? "" : " at " + where);
 }
 
+std::string Candidate::full_text() const {
+  if (kind == Kind::swap) return text() + ", swapped";
+  if (kind == Kind::turn) {
+    const char* how = turn == 0.0 ? "tilted" : tilt == 0.0 ? "turned" : "turned and tilted";
+    return fmt::format("{}, {} by {:+.0f}°", text(), how, tilt == 0.0 ? turn : tilt);
+  }
+  if (kind == Kind::clock) return text() + ", late";
+  if (kind != Kind::gain) return text();
+  return text() + (!parameters.empty() ? ", gain" : gain == 0.0 ? ", dead" : ", reversed");
+}
+
 EffectSetting Candidate::setting(const double* x) const {
   EffectSetting setting = {name, where, {}};
   for (std::size_t i = 0; i < parameters.size(); ++i) setting.values[parameters[i].name] = parameters[i].value(x[i]);

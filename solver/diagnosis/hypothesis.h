@@ -42,6 +42,7 @@ struct Candidate {
   Vec3 direction = Vec3::Zero();                        // turn: of the sensor as it is mounted then
   std::function<void(Assembly&, double factor)> apply;  // factor
   std::string text() const;                             // "abutment_restraint at both"
+  std::string full_text() const;                        // of a channel with what is wrong with it: "…, reversed"
   EffectSetting setting(const double* x) const;
   bool of_sensors() const {  // what is wrong with a channel
     return kind == Kind::gain || kind == Kind::swap || kind == Kind::turn || kind == Kind::clock;

@@ -74,6 +74,11 @@ TEST(Diagnose, SaysWhatAPlanWouldShow) {
   EXPECT_LT(json["further"][0]["factor"].get<double>(), 1.0);
   EXPECT_TRUE(exists(folder / "plan/plan.html"));
   EXPECT_TRUE(exists(folder / "plan/images/sensors.png"));
+  // What a plan is expected to bring means nothing beside what was measured.
+  const Outcome both = voussoir({"diagnose", "bridge.toml", "--measured", "hidden/measured", "--plan-modes", "4"},
+                                {.folder = folder.path()});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_NE(both.err.find("--plan-modes"), std::string::npos) << both.err;
   // The suggestion is a row of a plan.
   const nlohmann::json& first = json["further"][0];
   folder.write("more.csv",

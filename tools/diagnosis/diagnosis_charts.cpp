@@ -72,7 +72,7 @@ std::vector<ProbabilityRow> probability_rows(const Round& round) {
   for (std::size_t i = 0; i < round.trials.size(); ++i) {
     const Trial& t = round.trials[i];
     const bool added = i == 0 && round.accepted;
-    rows.push_back({candidate_name(t.candidate),
+    rows.push_back({t.candidate.full_text(),
                     added   ? "added"
                     : t.tie ? "tie"
                             : "",

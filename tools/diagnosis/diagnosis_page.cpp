@@ -147,9 +147,8 @@ std::string help_of(const Candidate& c) {
 
 Cell candidate_cell(const Candidate& c) {
   const std::string help = help_of(c);
-  return {help.empty()
-              ? escaped(candidate_name(c))
-              : fmt::format("{}<br><span class=\"note\">{}</span>", escaped(candidate_name(c)), escaped(help))};
+  return {help.empty() ? escaped(c.full_text())
+                       : fmt::format("{}<br><span class=\"note\">{}</span>", escaped(c.full_text()), escaped(help))};
 }
 
 Cell parameters_cell(const Fit& fit, std::size_t index) {

@@ -286,14 +286,14 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
   for (const Round& round : named_rounds(d)) {
     if (!round.accepted) continue;
     const Trial& best = round.trials[0];
-    text += fmt::format("  {} (probability {:.2f})", best.candidate.text(), best.probability);
+    text += fmt::format("  {} (probability {:.2f})", best.candidate.full_text(), best.probability);
     const json parameters = parameters_json(d.best, index);
     for (const auto& [name, p] : parameters.items())
       text += fmt::format(", {} {:.3g} ± {:.2g}", name, p["value"].get<double>(), p["std"].get<double>());
     text += "\n";
     for (const Trial& trial : round.trials)
       if (trial.tie)
-        text += fmt::format("    a tie with {} (probability {:.2f})\n", trial.candidate.text(), trial.probability);
+        text += fmt::format("    a tie with {} (probability {:.2f})\n", trial.candidate.full_text(), trial.probability);
     ++index;
   }
   if (d.verdict == Diagnosis::Verdict::unexplained)

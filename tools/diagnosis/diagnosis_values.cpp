@@ -96,20 +96,8 @@ std::string gap_text(double gap) {
   return std::isfinite(gap) ? fmt::format("{:.2f}", gap) : std::string("none");
 }
 
-std::string candidate_name(const Candidate& c) {
-  if (c.kind == Candidate::Kind::swap) return c.text() + ", swapped";
-  if (c.kind == Candidate::Kind::turn)
-    return fmt::format("{}, {} by {:+.0f}°", c.text(),
-                       c.turn == 0.0   ? "tilted"
-                       : c.tilt == 0.0 ? "turned"
-                                       : "turned and tilted",
-                       c.tilt == 0.0 ? c.turn : c.tilt);
-  if (c.kind != Candidate::Kind::gain) return c.text();
-  return c.text() + (!c.parameters.empty() ? ", gain" : c.gain == 0.0 ? ", dead" : ", reversed");
-}
-
 std::string plain_name(const Candidate& c) {
-  std::string text = candidate_name(c);
+  std::string text = c.full_text();
   std::replace(text.begin(), text.begin() + std::ptrdiff_t(c.name.size()), '_', ' ');
   return text;
 }

@@ -23,8 +23,6 @@ std::string with_std(double value, double std);
 std::string nameless_text(const Fit& fit, std::size_t index);
 /// "0.97", "below 0.01", "above 0.99".
 std::string probability_text(double probability);
-/// "sensor_fault at channel A01x, reversed": its text, and what tells apart faults of the same channel.
-std::string candidate_name(const Candidate& candidate);
 /// "abutment restraint at both": the same in words.
 std::string plain_name(const Candidate& candidate);
 /// Those whose best trial was added, in the order of the effects of the last fit.

@@ -110,6 +110,12 @@ int diagnose_run(const std::vector<std::string>& arguments) {
         "voussoir diagnose wants one of --measured DIR, a folder with what was measured, and --plan FILE, "
         "sensors that are not there yet; {} given",
         plan.sensors.empty() ? "neither is" : "both are");
+  for (const char* option : {"plan-modes", "plan-noise"})
+    if (plan.sensors.empty() && !values[option].defaulted())
+      throw InputError(
+          "--{} says what is counted on of a plan, and there is none; give --plan FILE instead of --measured, or leave "
+          "it out",
+          option);
   request.case_file = values["CASE"].as<std::string>();
   if (request.directory.empty()) request.directory = fs::path(request.case_file).stem().string() + "-diagnosis";
   request.settings.without = words_in(without);
