@@ -61,6 +61,7 @@ void read_output(TableReader& table, OutputSettings& s) {
   s.checkpoint_wall = table.number("checkpoint_wall", s.checkpoint_wall, {0.0, 1e9, "s", true});
   s.fields_every = table.number("fields_every", s.fields_every, {0.0, 1e9, "s"});
   s.history_every = table.number("history_every", s.history_every, {0.0, 1e9, "s", true});
+  s.gravity_modes = int(table.integer("gravity_modes", s.gravity_modes, 0, 20));
   table.finish();
 }
 

@@ -150,6 +150,51 @@ void read_collapse(TableReader& table, StageSettings& stage) {
   s.confirm = table.number("confirm", s.confirm, {0.0, 1e4, "s"});
 }
 
+ConstructionStep read_step(TableReader& table) {
+  ConstructionStep step;
+  step.add = table.texts("add"), step.strike = table.texts("strike");
+  if (step.add.empty() == step.strike.empty())
+    table.missing(step.add.empty() ? "add" : "strike",
+                  "a list of components or groups that come in this step, or 'strike', those whose centering is taken "
+                  "away, and not both");
+  step.label = table.text("label", "");
+  step.below = table.number("below", step.below, {-1e5, 1e5, "m"});
+  step.lift = table.number("lift", 0.0, {0.0, 1e4, "m"});
+  step.centering = table.flag("centering", false);
+  if (!step.strike.empty())
+    for (const char* key : {"below", "lift", "centering"})
+      if (table.has(key))
+        table.fail(key, "belongs to a step that adds something, and this one strikes centering: remove it");
+  table.finish();
+  return step;
+}
+
+/// construction = "staged", or a list of steps.
+void read_construction(TableReader& table, bool first, StageSettings& stage) {
+  const bool lift = table.has("lift");
+  if (!table.has("construction")) {
+    if (lift)
+      table.fail("lift",
+                 "says how high the lifts of a staged construction are: add construction = \"staged\" or remove it");
+    return;
+  }
+  ConstructionSettings construction;
+  if (table.is_text("construction")) {
+    if (table.word("construction", {"at once", "staged"}, 0) == 0) {
+      if (lift)
+        table.fail("lift", "has no meaning where all is built at once: remove it, or set construction = \"staged\"");
+      return;
+    }
+    construction.lift = table.number("lift", construction.lift, {0.0, 1e4, "m", true});
+  } else {
+    if (lift) table.fail("lift", "belongs to construction = \"staged\"; each step of a list has a 'lift' of its own");
+    for (TableReader& sub : table.tables("construction")) construction.steps.push_back(read_step(sub));
+    if (construction.steps.empty()) table.fail("construction", "has no steps: give at least one, or \"staged\"");
+  }
+  if (!first) table.fail("construction", "belongs to the first stage: what stands already is built");
+  stage.construction = construction;
+}
+
 const char* plain_label(const StageSettings& stage) {
   switch (stage.kind) {
     case StageSettings::Kind::gravity:
@@ -175,7 +220,7 @@ void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
                  "has no meaning in a " + name + " stage, which takes no time: drive in a free or motion stage");
   }
   if (kind != StageSettings::Kind::gravity)
-    for (const char* key : {"method", "allow_motion"})
+    for (const char* key : {"method", "allow_motion", "construction", "lift"})
       if (table.has(key)) table.fail(key, "belongs to a gravity stage: remove it");
   if (kind != StageSettings::Kind::collapse)
     for (const char* key : {"to", "tilt", "tolerance", "displacement", "confirm"})
@@ -199,7 +244,8 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
     refuse_foreign_keys(table, stage.kind);
     if (stage.kind == StageSettings::Kind::gravity)
       stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0)),
-      stage.allow_motion = table.flag("allow_motion", false);
+      stage.allow_motion = table.flag("allow_motion", false),
+      read_construction(table, &table == &tables.front(), stage);
     if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, use, stage, source);
     if (stage.timed()) read_drives(table, stage), read_placements(table, stage);

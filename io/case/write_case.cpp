@@ -110,6 +110,7 @@ void write_settings(TomlText& out, const SolverSettings& s) {
   out.set("checkpoint_wall", s.output.checkpoint_wall);
   out.set("fields_every", s.output.fields_every);
   out.set("history_every", s.output.history_every);
+  out.raw("gravity_modes", fmt::format("{}", s.output.gravity_modes));
 }
 
 std::string pulse_text(const PulseSettings& pulse) {
@@ -163,6 +164,31 @@ void write_drives(TomlText& out, const std::vector<Drive>& drives) {
   if (!texts.empty()) out.raw("drive", fmt::format("[{}]", fmt::join(texts, ", ")));
 }
 
+std::string quoted_list(const std::vector<std::string>& words) {
+  std::vector<std::string> all;
+  for (const std::string& word : words) all.push_back(quoted(word));
+  return fmt::format("[{}]", fmt::join(all, ", "));
+}
+
+void write_construction(TomlText& out, const std::optional<ConstructionSettings>& construction) {
+  if (!construction) return out.set("construction", std::string("at once"));
+  if (construction->steps.empty()) {
+    out.set("construction", std::string("staged"));
+    out.set("lift", construction->lift);
+    return;
+  }
+  std::vector<std::string> texts;
+  for (const ConstructionStep& step : construction->steps) {
+    std::string text = step.add.empty() ? "strike = " + quoted_list(step.strike) : "add = " + quoted_list(step.add);
+    if (!step.label.empty()) text += ", label = " + quoted(step.label);
+    if (step.below < 1e300) text += fmt::format(", below = {}", number_text(step.below));
+    if (step.lift > 0.0) text += fmt::format(", lift = {}", number_text(step.lift));
+    if (step.centering) text += ", centering = true";
+    texts.push_back("{ " + text + " }");
+  }
+  out.raw("construction", fmt::format("[{}]", fmt::join(texts, ", ")));
+}
+
 void write_placements(TomlText& out, const std::vector<Placement>& placements) {
   std::vector<std::string> texts;
   for (const Placement& p : placements)
@@ -210,6 +236,7 @@ void write_stages(TomlText& out, const Case& c) {
     if (stage.kind == StageSettings::Kind::gravity) {
       out.set("method", gravity_methods()[std::size_t(stage.method)]);
       out.set_flag("allow_motion", stage.allow_motion);
+      write_construction(out, stage.construction);
     }
     if (stage.timed()) out.set("duration", stage.duration);
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);

@@ -142,6 +142,7 @@ class Joints {
     };
     move_rows(all_, 3, points(), model_.points.data());
     move_rows(all_, 2, corners, reinterpret_cast<double*>(model_.batch_corners.data()));
+    if (!model_.built.empty()) move_rows(all_, 6, one_each, reinterpret_cast<float*>(model_.built.data()));
     std::vector<JointBatch> old;
     old.reserve(all_.sources.size());
     for (const std::size_t k : all_.sources) old.push_back(model_.batches[k]);
@@ -320,6 +321,21 @@ void take_joint_order(Model& model, const State& state) {
       order.push_back(std::size_t(at.now));
     }
     if (!order.empty()) Joints(model, tile, order).move_model();
+  }
+  take_built(model, state);
+}
+
+void take_built(Model& model, const State& state) {
+  if (model.built.empty()) return;
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      model.joints[i].built[c] = state.built[6 * std::size_t(model.joint_of_patch[i]) + c];
+  for (std::size_t k = 0; k < model.batches.size(); ++k) {
+    const JointBatch& batch = model.batches[k];
+    for (int lane = 0; lane < lane_count; ++lane)  // further lanes repeat the last joint
+      for (std::size_t c = 0; c < 6; ++c)
+        model.built[6 * k + c][lane] =
+            float(model.joints[std::size_t(batch.first_joint + std::min(lane, batch.count - 1))].built[c]);
   }
 }
 

@@ -18,5 +18,7 @@ void group_patches(Model& model, State& state, int threads);
 /// Puts the joints of a model as it was built, or of one in any other order, into that of a state that has been read.
 /// Throws InputError where that is no order of these joints.
 void take_joint_order(Model& model, const State& state);
+/// Gives the model's joints the jumps at which the state has them free of stress.
+void take_built(Model& model, const State& state);
 
 }  // namespace voussoir

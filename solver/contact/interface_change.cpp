@@ -97,6 +97,11 @@ void note_jump(const Model& model, const State& state, std::size_t slot, PatchMe
     }
 }
 
+void bond(const Interface& interface, std::size_t slot, PatchMemory& memory) {
+  for (std::size_t i = 0; i < interface.patches[slot].points.size(); ++i)
+    memory.broken[interface.point_index(slot, i, 1, 0)] = 0;
+}
+
 /// Puts all patches into batches anew.
 void rebuild(const Model& model, State& state, int branches, InterfaceChange& change) {
   const Interface before = std::move(state.interface);
@@ -116,6 +121,7 @@ void rebuild(const Model& model, State& state, int branches, InterfaceChange& ch
   for (std::size_t slot = 0; slot < now.patches.size(); ++slot) {
     const std::int32_t from = now.patches[slot].from;
     if (from < 0 || !now.used(slot)) {
+      if (change.bonded && has_bond(model.laws[std::size_t(now.patches[slot].law)])) bond(now, slot, memory);
       note_jump(model, state, slot, memory);
       continue;
     }

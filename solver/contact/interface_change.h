@@ -10,6 +10,7 @@ struct InterfaceChange {
   std::vector<char> gone;             // of each slot: dropped, or clipped anew
   std::vector<InterfacePatch> fresh;  // clipped anew (`from` is their slot), or made (−1)
   double energy_before = 0.0;         // J, elastic, of the patches that are gone
+  bool bonded = false;                // those made have the bond of their law, else none
 };
 
 /// Clipped patches take the places of those they come from and dropped ones leave theirs empty; if any has been made,

@@ -44,6 +44,13 @@ template <class Side>
   return local_jump(move_b - move_a, move_a + move_b, load<Side>(batch.place), relative, sum);
 }
 
+/// As since_built().
+template <class Side>
+[[gnu::always_inline]] inline void less_built(const Singles* built, Jump<typename Side::Numbers>& j) {
+  typename Side::Numbers* numbers[6] = {&j.n, &j.s, &j.t, &j.rn, &j.rs, &j.rt};
+  for (int c = 0; c < 6; ++c) *numbers[c] -= widen(Side::of(built[c]));
+}
+
 /// Calls f(a number of the one, the same of the other) for all numbers of two jumps.
 [[gnu::always_inline]] inline void each_number(auto& one, auto& other, const auto& f) {
   const auto three = [&](auto& v, auto& w) { f(v.x, w.x), f(v.y, w.y), f(v.z, w.z); };
@@ -98,6 +105,7 @@ struct BatchArrays {
   std::uint8_t* mode;
   Singles *last, *branch;
   Lanes* slip;
+  const Singles* built;  // none: all joints are as drawn
   double* sums;
   SlidingLimits limits;
   SingleBranches<count> several;
@@ -110,6 +118,7 @@ struct BatchArrays {
         last(reinterpret_cast<Singles*>(pass.state->joint.last.data())),
         branch(reinterpret_cast<Singles*>(pass.state->branch.data())),
         slip(reinterpret_cast<Lanes*>(pass.state->slip.data())),
+        built(pass.model->built.empty() ? nullptr : pass.model->built.data()),
         sums(pass.sums),
         limits(*pass.model),
         several(pass.branches) {}
@@ -140,6 +149,7 @@ struct BatchAhead {
     fetch(in.slip_of(after), 3 * sizeof(Lanes));
     fetch(in.mode + in.batches[k].first_joint + 2 * lane_count, 1);
     if constexpr (count > 0) fetch(in.branches_of(after), 6 * count * sizeof(Singles));
+    if (in.built) fetch(in.built + 6 * after, 6 * sizeof(Singles));
   }
   /// Of patches that are likely to go point by point, too.
   [[gnu::always_inline]] void notes(const PatchMemory& memory) const {
@@ -174,7 +184,8 @@ struct BatchPass {
     bool bear = closed;
     each_side([&](auto side) __attribute__((always_inline)) {
       using Side = decltype(side);
-      const auto j = side_jump<Side>(batch, a, b);
+      auto j = side_jump<Side>(batch, a, b);
+      if (in.built) less_built<Side>(in.built + 6 * k, j);
       each_number(
           j, jump, [](const auto& x, Lanes& of) __attribute__((always_inline)) { Side::of(of) = x; });
       if (bear) bear = bears<Side>(j, modes);

@@ -60,6 +60,13 @@ inline Quat<double> conjugate(const Quat<double>& q) {
 /// of its stretch, n = L − |x_b − x_a|, along the axis from b to a. So it is pressed when it pulls.
 Jump<double> tie_jump(const Patch& patch, const Triple<double>& move_a, const Triple<double>& move_b);
 
+/// Since the joint was made, if its stones had moved before (docs/theory/construction.md).
+inline Jump<double> since_built(const Patch& patch, Jump<double> j) {
+  j.n -= patch.built[0], j.s -= patch.built[1], j.t -= patch.built[2];
+  j.rn -= patch.built[3], j.rs -= patch.built[4], j.rt -= patch.built[5];
+  return j;
+}
+
 /// The jump of any patch, from its bodies' poses.
 inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const double* pose_b) {
   const Quat<double> qa = pose_rotation(pose_a), qb = pose_rotation(pose_b);
@@ -70,10 +77,11 @@ inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const d
   const Triple<double> arm_a = triple(patch.arm_a), arm_b = triple(patch.arm_b);
   const Triple<double> move_a = pose_displacement(pose_a) + turn_change(qa, arm_a);
   const Triple<double> move_b = pose_displacement(pose_b) + turn_change(qb, arm_b);
-  if (patch.length > 0.0) return tie_jump(patch, move_a, move_b);
+  if (patch.length > 0.0) return since_built(patch, tie_jump(patch, move_a, move_b));
   const Quat<double> sum = {fa.w + fb.w, fa.v + fb.v};
   const Triple<double> shift = triple(patch.shift);
-  return local_jump(shift + (move_b - move_a), shift + (move_a + move_b), triple(patch.place), relative, sum);
+  return since_built(
+      patch, local_jump(shift + (move_b - move_a), shift + (move_a + move_b), triple(patch.place), relative, sum));
 }
 
 /// The turning axes n, s, t as columns.

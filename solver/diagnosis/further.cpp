@@ -8,7 +8,7 @@
 #include <set>
 
 #include "geometry/nearest_block.h"
-#include "solver/diagnosis/locate.h"
+#include "solver/effects/parts.h"
 #include "solver/linear/dense_solve.h"
 
 namespace voussoir {

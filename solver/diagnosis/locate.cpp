@@ -108,20 +108,6 @@ std::vector<std::string> parts_of_sites(const Assembly& assembly, const Unknowns
 
 }  // namespace
 
-std::vector<std::string> parts_of_blocks(const Assembly& assembly) {
-  static const std::vector<std::string> groups = {"arches", "piers", "abutments", "spandrels", "all"};
-  std::vector<std::string> of(assembly.blocks.size());
-  for (const std::string& name : masonry_parts(assembly)) {
-    if (std::find(groups.begin(), groups.end(), name) != groups.end()) continue;
-    const BlockSet part = masonry_part(assembly, name);
-    for (std::size_t i = 0; i < part.size(); ++i)
-      if (part[i]) of[i] = name;
-  }
-  for (std::size_t i = 0; i < of.size(); ++i)
-    if (of[i].empty()) of[i] = component_names()[std::size_t(assembly.blocks[i].component)];
-  return of;
-}
-
 Location locate(const DiagnosisProblem& problem, const Evaluation& at) {
   Location location;
   Energy energy(at.assembly, at.model.unknowns);

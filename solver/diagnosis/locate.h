@@ -29,7 +29,4 @@ struct PartSensitivity {
 };
 std::vector<PartSensitivity> sensitivities(const Evaluation& at, int mode);
 
-/// The part of the bridge that each block belongs to.
-std::vector<std::string> parts_of_blocks(const Assembly& assembly);
-
 }  // namespace voussoir

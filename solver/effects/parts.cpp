@@ -91,6 +91,20 @@ BlockSet masonry_part(const Assembly& assembly, const std::string& name) {
   });
 }
 
+std::vector<std::string> parts_of_blocks(const Assembly& assembly) {
+  static const std::vector<std::string> groups = {"arches", "piers", "abutments", "spandrels", "all"};
+  std::vector<std::string> of(assembly.blocks.size());
+  for (const std::string& name : masonry_parts(assembly)) {
+    if (std::find(groups.begin(), groups.end(), name) != groups.end()) continue;
+    const BlockSet part = masonry_part(assembly, name);
+    for (std::size_t i = 0; i < part.size(); ++i)
+      if (part[i]) of[i] = name;
+  }
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i].empty()) of[i] = component_names()[std::size_t(assembly.blocks[i].component)];
+  return of;
+}
+
 std::vector<std::string> supports(const Assembly& assembly) {
   std::vector<std::string> names;
   for (const auto& [name, blocks] : assembly.groups)

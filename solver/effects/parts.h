@@ -24,6 +24,9 @@ std::vector<std::string> masonry_parts(const Assembly& assembly);
 /// The blocks of one of them; the infill of a pier or abutment belongs to it.
 BlockSet masonry_part(const Assembly& assembly, const std::string& name);
 
+/// The part of the bridge that each block belongs to.
+std::vector<std::string> parts_of_blocks(const Assembly& assembly);
+
 /// Supports that have a base: "abutment left", "pier 0", …: the groups "base …".
 std::vector<std::string> supports(const Assembly& assembly);
 std::int64_t base_of(const Assembly& assembly, const std::string& support);

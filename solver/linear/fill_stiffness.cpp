@@ -36,9 +36,11 @@ FillElement element(const FillModel& fill, const Array<double>& pose, std::size_
 std::vector<FillElement> elements_of(const Model& model, const State& state) {
   const FillModel& fill = model.fill;
   std::vector<FillElement> elements;
-  for (std::size_t b = 0; b < fill.batches.size(); ++b)
+  for (std::size_t b = 0; b < fill.batches.size(); ++b) {
+    if (fill.law_of(b).bulk <= 0.0) continue;  // not there yet, while a bridge is built
     for (int lane = 0; lane < fill.batches[b].count; ++lane)
       elements.push_back(element(fill, state.fill.pose, b, lane));
+  }
   return elements;
 }
 

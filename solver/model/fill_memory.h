@@ -9,7 +9,8 @@ enum TetYield : std::uint8_t {
   yields_in_shear = 1,
   yields_in_tension = 2,
   has_yielded_in_shear = 4,
-  has_yielded_in_tension = 8
+  has_yielded_in_tension = 8,
+  built_deformed = 16  // its nodes had moved before it was there: its plastic memory is the shape it was made in
 };
 
 constexpr int plastic_width = 8, strain_rows = 7;

@@ -41,13 +41,17 @@ Corners lowest_first(const Corners& n) {
   return r;
 }
 
-std::vector<Element> order_elements(const Assembly& assembly, FillModel& fill) {
-  std::map<std::int32_t, std::int32_t> law_of;  // of the assembly's materials
+std::vector<Element> order_elements(const Assembly& assembly, const std::vector<std::int32_t>& steps, FillModel& fill) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> law_of;  // of a step and the assembly's materials
   std::vector<Element> elements;
   for (std::size_t i = 0; i < assembly.fill.tets.size(); ++i) {
     const std::int32_t material = assembly.fill.material[i];
-    const auto [at, fresh] = law_of.try_emplace(material, std::int32_t(fill.laws.size()));
-    if (fresh) fill.laws.push_back(fill_law(assembly.materials.at(std::size_t(material))));
+    const std::int32_t step = steps.empty() ? 0 : steps[i];
+    const auto [at, fresh] = law_of.try_emplace(std::pair(step, material), std::int32_t(fill.laws.size()));
+    if (fresh) {
+      fill.laws.push_back(fill_law(assembly.materials.at(std::size_t(material))));
+      fill.step_of_law.push_back(step);
+    }
     Corners nodes;
     for (std::size_t k = 0; k < 4; ++k) nodes[k] = fill.node_of[std::size_t(assembly.fill.tets[i][k])];
     elements.push_back({at->second, lowest_first(nodes), std::int32_t(i)});
@@ -152,6 +156,8 @@ void make_tiles(const std::vector<Element>& elements, FillModel& fill) {
   fill.first_sum.push_back(std::int32_t(fill.sums.size()));
 }
 
+}  // namespace
+
 /// A quarter of each tetrahedron's mass, and its κ V, to each of its nodes.
 void lump(FillModel& fill) {
   fill.mass.assign(fill.nodes.size(), 0.0);
@@ -167,10 +173,11 @@ void lump(FillModel& fill) {
       }
     }
   }
+  fill.held.assign(fill.nodes.size(), 0);
+  for (std::size_t i = 0; i < fill.nodes.size(); ++i)
+    if (!(fill.weight[i] > 0.0)) fill.held[i] = 7, fill.weight[i] = 1.0;
   fill.inertial = fill.mass;
 }
-
-}  // namespace
 
 TetShape tet_shape(const std::array<std::int32_t, 4>& corners, const std::vector<Vec3>& nodes) {
   TetShape shape;
@@ -194,18 +201,17 @@ TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane) {
   return tet_shape(corners, fill.nodes);
 }
 
-FillModel build_fill(const Assembly& assembly) {
+FillModel build_fill(const Assembly& assembly, const std::vector<std::int32_t>& steps) {
   FillModel fill;
   if (assembly.fill.empty()) return fill;
   order_nodes(assembly.fill, fill);
-  const std::vector<Element> elements = order_elements(assembly, fill);
+  const std::vector<Element> elements = order_elements(assembly, steps, fill);
   fill.lane_of_tet.assign(assembly.fill.tets.size(), -1);
   make_tiles(elements, fill);
   lump(fill);
   for (const auto& corners : assembly.fill.triangles)
     fill.triangles.push_back({fill.node_of[std::size_t(corners[0])], fill.node_of[std::size_t(corners[1])],
                               fill.node_of[std::size_t(corners[2])]});
-  fill.held.assign(fill.nodes.size(), 0);
   for (std::size_t i = 0; i < fill.nodes.size(); ++i)
     if (!(fill.mass[i] > 0.0))
       throw InputError("node {} of the fill belongs to no tetrahedron; leave it out of the mesh", fill.mesh_node[i]);

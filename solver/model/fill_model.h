@@ -33,11 +33,12 @@ struct FillTile {
 constexpr std::int32_t tile_nodes = 128;
 
 struct FillModel {
-  std::vector<FillLaw> laws;       // of the assembly's materials that the fill is made of
-  std::vector<Vec3> nodes;         // m, reference placement
-  Array<double> place;             // the same, node_width a node, the last zero
-  std::vector<double> mass;        // kg, lumped
-  std::vector<double> inertial;    // kg, differs from mass only in relaxations
+  std::vector<FillLaw> laws;  // of the assembly's materials that the fill is made of, for each step of building
+  std::vector<std::int32_t> step_of_law;  // of the ConstructionPlan; 0 without any
+  std::vector<Vec3> nodes;                // m, reference placement
+  Array<double> place;                    // the same, node_width a node, the last zero
+  std::vector<double> mass;               // kg, lumped
+  std::vector<double> inertial;           // kg, differs from mass only in relaxations
   Array<double> weight;            // J, Σ κ V of the tetrahedra around a node: weights its mean volumetric strain
   std::vector<std::uint8_t> held;  // bit c: displacement c keeps the velocity it has
   std::vector<std::array<std::int32_t, 3>> triangles;  // the surface's nodes, in the order of FillMesh::triangles
@@ -64,6 +65,9 @@ TetShape tet_shape(const std::array<std::int32_t, 4>& corners, const std::vector
 TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane);
 
 /// Throws InputError for a material that cannot be one of a fill, or a tetrahedron without positive volume.
-FillModel build_fill(const Assembly& assembly);
+/// `steps`: in which step of building each tetrahedron comes; empty: all at once.
+FillModel build_fill(const Assembly& assembly, const std::vector<std::int32_t>& steps = {});
+/// Masses and weights of the nodes from the laws. Nodes that nothing is there of are held.
+void lump(FillModel& fill);
 
 }  // namespace voussoir

@@ -22,6 +22,10 @@ struct LawConstants {
   double most_tension = 0.0, most_cohesion = 0.0, slope = 0.0;
 };
 LawConstants law_constants(const JointLaw& law);
+/// Whether a joint of this law begins with a bond that it can lose; elastic ones count, though they never do.
+inline bool has_bond(const LawConstants& law) {
+  return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+}
 
 /// What a point remembers: plastic jump (normal, s, t), whether the bond is lost, how far it has softened.
 struct PointMemory {

@@ -466,7 +466,9 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   model.contact = settings.contact;
   model.gravity = settings.gravity;
   if (!model.gravity.isZero(0.0)) model.up = -model.gravity.normalized();
-  model.fill = build_fill(assembly);
+  if (!settings.stages.empty() && settings.stages[0].construction)
+    model.plan = construction_plan(assembly, *settings.stages[0].construction);
+  model.fill = build_fill(assembly, model.plan.tet);
   add_bodies(assembly, model);
   for (const JointLaw& law : assembly.laws) model.laws.push_back(law_constants(law));
   add_contact_laws(model);
@@ -474,6 +476,7 @@ Model build_model(const Assembly& assembly, const SolverSettings& settings) {
   model.tile_bodies = bodies_of_tile(model.bodies.size());
   find_still(assembly, settings.guides, model);
   make_tiles(model, add_joints(assembly, model));
+  if (!model.plan.empty()) model.built.assign(6 * model.batches.size(), Singles{});
   model.joint_by_cells.reserve(model.joints.size());
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     if (model.joints[i].length == 0.0)  // stones that a tie holds may still touch

@@ -12,6 +12,7 @@
 #include "geometry/convex.h"
 #include "solver/base/arrays.h"
 #include "solver/base/lanes.h"
+#include "solver/model/construction.h"
 #include "solver/model/fill_model.h"
 #include "solver/model/laws.h"
 #include "solver/model/quadrature.h"
@@ -56,6 +57,8 @@ struct Patch {
   double gap[3] = {};                     // un (m), θs, θt (rad) when the bodies are where they were when it was made
   double kn = 0.0, ks = 0.0;              // Pa/m
   double area = 0.0, ss = 0.0, tt = 0.0;  // m2, m4, m4
+  // The jump at which it is free of stress (m, rad): of a joint whose stones had moved before it was made.
+  double built[6] = {};
   // Above 0 (m): no patch but a tie of this length as built. arm_a and arm_b then end in its anchors, `shift` is the
   // way from one to the other and ss = tt = 0; see tie_jump().
   double length = 0.0;
@@ -186,6 +189,7 @@ struct Model {
   std::size_t point_rows = 0;
   Array<JointBatch> batches;
   Array<Lanes> batch_corners;  // s, t of each corner
+  Array<Singles> built;        // of each batch Patch::built, six rows; none where all joints are as drawn
   LineRule rule;               // of rectangles: its tensor product
   std::vector<Tile> tiles;
   std::int32_t tile_bodies = 64;  // each, but for the last: whole batches of bodies
@@ -198,6 +202,7 @@ struct Model {
   // Sums of each body in the order they are added up: first of each body (and one past the end), places of the sums.
   std::vector<std::int32_t> first_sum, sums;
 
+  ConstructionPlan plan;  // empty: all stands there at once
   FillModel fill;
   std::vector<InterfacePatch> interface;  // of the assembly, in the order of its fill_joints
 

@@ -80,16 +80,33 @@ struct CollapseSettings {
   std::optional<Vec3> tilt;    // axis about which gravity is turned instead, by the arc tangent of the multiplier
 };
 
+/// One step of building a bridge: what is added, and what is let go.
+struct ConstructionStep {
+  std::string label;                // for logs; made of the names if empty
+  std::vector<std::string> add;     // components ("arch"), components with their part ("arch 0"), groups, "fill"
+  std::vector<std::string> strike;  // the same, of what stands on centering
+  double below = 1e300;             // m: of what is named only what has its centroid below this height
+  double lift = 0.0;                // m: laid in lifts of this height at most; 0: all at once
+  bool centering = false;           // what is added is held until it is struck
+};
+
+/// How a bridge came to be: in these steps, or, without any, in the order in which masons build.
+struct ConstructionSettings {
+  std::vector<ConstructionStep> steps;
+  double lift = 2.0;  // m, of the masons' order
+};
+
 struct StageSettings {
   enum class Kind { gravity, motion, free, collapse };
   enum class Method { automatic, newton, relaxation };  // gravity only
   Kind kind = Kind::gravity;
   Method method = Method::automatic;
-  bool allow_motion = false;          // gravity: an equilibrium is one wherever stones come to rest
-  double duration = 0.0;              // s; motion and free
-  GroundMotion motion;                // motion only: scaled, in m/s2
-  std::vector<Drive> drives;          // motion and free; no group twice
-  std::vector<Placement> placements;  // motion and free, from rest
+  bool allow_motion = false;                         // gravity: an equilibrium is one wherever stones come to rest
+  std::optional<ConstructionSettings> construction;  // gravity, of the first stage; none: all stands there at once
+  double duration = 0.0;                             // s; motion and free
+  GroundMotion motion;                               // motion only: scaled, in m/s2
+  std::vector<Drive> drives;                         // motion and free; no group twice
+  std::vector<Placement> placements;                 // motion and free, from rest
   /// At the end of the stage and until another stage has some; none: as the stages before have left them. Of a collapse
   /// stage: the pattern that the multiplier multiplies.
   std::optional<Loads> loads;
@@ -130,6 +147,7 @@ struct OutputSettings {
   double checkpoint_wall = 600.0;  // s of wall time
   double fields_every = 0.5;       // s of simulated time; 0: only at the end of stages
   double history_every = 0.005;    // s of simulated time
+  int gravity_modes = 3;           // of a bridge: periods in the report of a gravity stage; 0: none
 };
 
 struct SolverSettings {

@@ -111,6 +111,7 @@ std::vector<NamedArray> State::arrays() {
   list.push_back({"contacts/corners", 2, "m", &contact_corners});
   add(list, "contacts", contact);
   list.push_back({"contacts/slid", 4, "m", &contact_slid});
+  if (!built.empty()) list.push_back({"joints/built", 6, "m, rad", &built});
   if (fill.pose.empty()) return list;
   list.push_back({"fill/pose", node_width, "m, -", &fill.pose});
   list.push_back({"fill/motion", node_width, "m/s", &fill.motion});
@@ -191,7 +192,7 @@ namespace {
 void note_bonds(const Model& model, State& state) {
   for (std::size_t i = 0; i < state.interface.patches.size(); ++i) {
     const LawConstants& law = model.laws[std::size_t(state.interface.patches[i].law)];
-    const bool bond = law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+    const bool bond = has_bond(law);
     const PatchBatch& batch = state.interface.batches[i / lane_count].patch;
     for (std::int32_t row = 0; row < batch.points; ++row)
       state.interface_memory.broken[lane_count * std::size_t(batch.first_point + row) + i % lane_count] = bond ? 0 : 1;
@@ -221,6 +222,7 @@ State initial_state(const Model& model) {
     state.searched[searched_width * i] = 1e18f;  // never looked for: as if they had come from far
   state.listed = state.searched;
   state.joint_order.assign(model.joint_of_patch.begin(), model.joint_of_patch.end());
+  if (!model.plan.empty()) state.built.assign(6 * model.joints.size(), 0.0f);
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.joint.resize(model.joints.size(), model.batches.size(), lane_count * model.point_rows);
   state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);
@@ -228,9 +230,7 @@ State initial_state(const Model& model) {
   state.support_work.assign(model.tiles.size(), 0.0);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const LawConstants& law = model.laws[model.joints[i].law];
-    const bool bondless =
-        law.kind != JointLaw::Kind::elastic && law.tension <= 0.0 && law.cohesion <= law.residual_cohesion;
-    if (bondless) state.joint.mode[i] |= mode_broken;
+    if (!has_bond(law)) state.joint.mode[i] |= mode_broken;
     if (law.kind == JointLaw::Kind::tie) stretch(model.joints[i], law.prestress, i, state);
   }
   state.fill = initial_fill(model.fill);

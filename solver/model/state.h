@@ -61,6 +61,7 @@ struct State {
                                    // examined (m, quaternion); how far it may move before they must be again (m)
 
   Array<std::int32_t> joint_order;  // index in Assembly::joints of each of Model::joints, see solver/contact/grouping
+  Array<float> built;               // 6 of each of Assembly::joints: Patch::built; empty without a ConstructionPlan
   PatchMemory joint;                // of Model::joints
   Array<double> slip;               // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
   Array<float> branch;              // per batch 6 × branches × 8: q of the six generalised jumps

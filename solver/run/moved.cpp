@@ -37,12 +37,13 @@ std::vector<double> sizes_of(const Assembly& assembly, const Model& model) {
   return sizes;
 }
 
-/// How the faces of a patch have moved against each other: at its centroid (m), and turned (rad).
-Way between_faces(const Patch& patch, const Array<double>& from, const Array<double>& to) {
+/// How the faces of a patch have moved against each other: at its centroid (m), and turned (rad). `from` none: since it
+/// was made.
+Way between_faces(const Patch& patch, const Array<double>* from, const Array<double>& to) {
   const auto jump = [&](const Array<double>& pose) {
     return patch_jump(patch, &pose[pose_width * std::size_t(patch.a)], &pose[pose_width * std::size_t(patch.b)]);
   };
-  const Jump<double> x = jump(from), y = jump(to);
+  const Jump<double> x = from ? jump(*from) : Jump<double>{}, y = jump(to);
   return {Vec3(y.n - x.n, y.s - x.s, y.t - x.t), Vec3(y.rn - x.rn, y.rs - x.rs, y.rt - x.rt).norm()};
 }
 
@@ -68,7 +69,8 @@ std::string joints_text(const std::vector<MechanismJoint>& mechanism, std::int64
 }  // namespace
 
 Standing standing_of(const State& state) {
-  Standing standing = {state.pose, state.joint.mode, {}};
+  Standing standing;
+  standing.pose = state.pose, standing.joint_mode = state.joint.mode;
   for (std::size_t i = 0; i < state.contacts.size(); ++i)
     if (state.has_contact(i) && !(state.contact.mode[i] & mode_open)) standing.contacts.push_back(state.contacts[i]);
   return standing;
@@ -90,7 +92,7 @@ std::vector<std::int32_t> moved_away(const Assembly& assembly, const Model& mode
     const double size = model.bodies[a].fixed   ? sizes[b]
                         : model.bodies[b].fixed ? sizes[a]
                                                 : std::min(sizes[a], sizes[b]);
-    if (!is_far(between_faces(patch, before.pose, after.pose), size)) return;
+    if (!is_far(between_faces(patch, before.drawn ? &before.pose : nullptr, after.pose), size)) return;
     const bool first = reach(a) > reach(b);
     gone[first ? a : b] = 1;
   };

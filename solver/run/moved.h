@@ -13,6 +13,7 @@ struct Standing {
   Array<double> pose;
   Array<std::uint8_t> joint_mode;  // of Model::joints, whose order no stage without time changes
   std::vector<Patch> contacts;     // those that were closed
+  bool drawn = true;               // joints were where they are drawn: else they count from where they were made
 };
 Standing standing_of(const State& state);
 

@@ -386,7 +386,8 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
 
 RunEnd Simulation::run(double until) {
   report_progress(true, "");
-  if (state_.counters[1] == 0 && model_.contact.search) {  // who is near whom before anything moves
+  const bool site = position_.stage == 0 && !model_.plan.empty();   // nothing stands yet
+  if (state_.counters[1] == 0 && model_.contact.search && !site) {  // who is near whom before anything moves
     update_contacts(model_, state_, stepper_.damping.branches, true, stepper_.threads);
     stepper_.prepare_contacts();
   }

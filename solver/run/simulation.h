@@ -37,7 +37,7 @@ struct Sample {
   Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
   std::int64_t contacts = 0;
   std::int64_t stage = 0;             // index in the settings
-  std::vector<double> broken_shares;  // of the bonds of bonded_components()
+  std::vector<double> broken_shares;  // of the bonds of bonded_families()
   std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
   std::vector<double> accelerations;  // m/s2, of the assembly's sensors along their directions; 0 where no time passes
 };
@@ -104,6 +104,8 @@ class Simulation {
  private:
   void begin_stage(const StageSettings& stage);
   bool gravity(const StageSettings& stage);
+  void find_equilibrium(const StageSettings& stage, bool from_unloaded);
+  void construct(const StageSettings& stage);
   bool stayed(const StageSettings& stage, const Standing& before);
   bool collapse(const StageSettings& stage);
   void impose(const StageSettings& stage);
@@ -137,6 +139,7 @@ class Simulation {
   Collapse collapse_;
   std::vector<std::string> held_groups_;
   std::string failure_;
+  std::string construction_failed_;  // " in step 3 of its construction (…)"
   std::vector<std::int32_t> moving_;
   Advance last_;
   RunCosts costs_;

@@ -3,9 +3,11 @@
 
 #include "solver/base/process.h"
 #include "solver/base/timed.h"
+#include "solver/contact/search.h"
 #include "solver/run/confirm.h"
 #include "solver/run/moved.h"
 #include "solver/run/simulation.h"
+#include "solver/statics/construction.h"
 #include "solver/step/make_snapshot.h"
 
 namespace voussoir {
@@ -28,34 +30,75 @@ double extent(const Model& model) {
 
 bool Simulation::gravity(const StageSettings& stage) {
   const Timed timed(costs_.equilibrium);
-  equilibrium_ = {};  // whatever an earlier stage has found
-  const Standing before = standing_of(state_);
+  Standing before = standing_of(state_);
+  before.drawn = !stage.construction;
   stepper_.damping = DampingAtWork{};
   set_branches(model_, state_, 0);
+  if (stage.construction)
+    construct(stage);
+  else
+    find_equilibrium(stage, position_.stage == 0);
+  give_memory_back();  // stiffness and its inverse take several times what the steps to come need
+  if (stopped()) return false;
+  if (!stayed(stage, before)) return false;
+  set_baseline(state_);
+  return true;
+}
+
+/// An equilibrium of what the stepper's model has, from where it stands.
+void Simulation::find_equilibrium(const StageSettings& stage, bool from_unloaded) {
+  equilibrium_ = {};  // whatever was found before
   const double tolerance = settings_.step.equilibrium_tolerance;
   // A fill is a large system whose elements tear and flow on the way: relaxation is there first.
   const bool by_itself = stage.method == StageSettings::Method::automatic;
-  if (stage.method == StageSettings::Method::newton || (by_itself && model_.fill.empty())) {
+  const bool stones_alone = stepper_.model->fill.empty();
+  if (stage.method == StageSettings::Method::newton || (by_itself && stones_alone)) {
     equilibrium_ = newton_equilibrium(stepper_, tolerance, observers_.stop, [&](int i, double r) {
       report_progress(true, fmt::format("Newton {}: out-of-balance {:.1e}", i, r));
     });
     log(equilibrium_.account);
   }
   if (!equilibrium_.converged && !stopped() && stage.method != StageSettings::Method::newton) {
-    if (by_itself && model_.fill.empty()) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
+    if (by_itself && stones_alone) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
     RelaxationLimits limits;
     limits.displacement = extent(model_);  // what has gone so far falls, and would for ever
-    limits.from_unloaded = position_.stage == 0;
+    limits.from_unloaded = from_unloaded;
     equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
     });
     log(equilibrium_.account);
   }
-  give_memory_back();  // stiffness and its inverse take several times what the steps to come need
-  if (stopped()) return false;
-  if (!stayed(stage, before)) return false;
-  set_baseline(state_);
-  return true;
+}
+
+/// Step by step, each found in equilibrium before the next; the stage's loads come at the end.
+void Simulation::construct(const StageSettings& stage) {
+  const LoadsAtWork loads = std::exchange(stepper_.loads, LoadsAtWork{});
+  const ConstructionPlan& plan = model_.plan;
+  clear_site(model_, state_);
+  for (std::int32_t step = 0; step < plan.steps() && !stopped(); ++step) {
+    log(fmt::format("construction, step {} of {}: {}", step + 1, plan.steps(), plan.labels[std::size_t(step)]));
+    add_step(step, model_, state_);
+    const bool last = step + 1 == plan.steps();
+    const Model standing = last ? Model{} : during_step(model_, step);
+    if (last) {
+      stepper_.loads = loads;
+      if (model_.contact.search) update_contacts(model_, state_, stepper_.damping.branches, true, stepper_.threads);
+    } else {
+      stepper_.model = &standing;
+      stepper_.search_distance = search_distance(standing);
+    }
+    stepper_.prepare();
+    find_equilibrium(stage, step == 0);
+    stepper_.model = &model_;
+    stepper_.search_distance = search_distance(model_);
+    if (!equilibrium_.converged) {
+      construction_failed_ =
+          fmt::format(" in step {} of its construction ({})", step + 1, plan.labels[std::size_t(step)]);
+      break;
+    }
+  }
+  stepper_.loads = loads;
+  stepper_.prepare();
 }
 
 /// Whether there is an equilibrium, and where the joints held the stones; else the failure names those that move.
@@ -64,7 +107,7 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
   if (!equilibrium_.converged) {
     const Array<double>& from = equilibrium_.earlier.empty() ? before.pose : equilibrium_.earlier;
     moving_ = farthest_moved(model_, from, state_, named);
-    failure_ = fmt::format("no equilibrium under gravity: {}{}{}", equilibrium_.account,
+    failure_ = fmt::format("no equilibrium under gravity{}: {}{}{}", construction_failed_, equilibrium_.account,
                            moving_.empty() ? "" : "\nOn their way, in the last steps:",
                            moved_text(*assembly_, model_, moving_, before, from, state_));
     return false;

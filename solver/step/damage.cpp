@@ -1,15 +1,14 @@
 #include "solver/step/damage.h"
 
 #include <algorithm>
-#include <array>
+#include <set>
+#include <tuple>
 
 #include "solver/contact/jump.h"
 
 namespace voussoir {
 
 namespace {
-
-constexpr std::size_t most_components = 32;
 
 /// Share of a patch's area whose bond is lost.
 double broken_share(const Model& model, const State& state, std::size_t i) {
@@ -26,37 +25,40 @@ double broken_share(const Model& model, const State& state, std::size_t i) {
   return broken / area;
 }
 
-}  // namespace
-
-bool has_bond(const LawConstants& law) {
-  return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+Component component_of(const Assembly& assembly, std::int64_t block) {
+  return assembly.blocks[std::size_t(block)].component;
 }
 
-std::vector<Component> bonded_components(const Assembly& assembly) {
-  std::array<bool, most_components> bonded = {};
-  for (const Joint& joint : assembly.joints)
-    if (has_bond(law_constants(assembly.laws[std::size_t(joint.law)])))
-      for (const std::int64_t block : {joint.a, joint.b})
-        bonded[std::size_t(assembly.blocks[std::size_t(block)].component)] = true;
-  std::vector<Component> components;
-  for (std::size_t c = 0; c < component_names().size(); ++c)
-    if (bonded[c]) components.push_back(Component(c));
-  return components;
+}  // namespace
+
+std::string joint_family(Component a, Component b) {
+  const auto [first, second] = std::minmax(a, b);
+  const std::string& name = component_names()[std::size_t(first)];
+  return first == second ? name : name + "-" + component_names()[std::size_t(second)];
+}
+
+std::vector<std::string> bonded_families(const Assembly& assembly) {
+  std::set<std::tuple<bool, Component, Component>> bonded;
+  for (const Joint& joint : assembly.joints) {
+    if (!has_bond(law_constants(assembly.laws[std::size_t(joint.law)]))) continue;
+    const auto [a, b] = std::minmax({component_of(assembly, joint.a), component_of(assembly, joint.b)});
+    bonded.insert({a != b, a, b});
+  }
+  std::vector<std::string> families;
+  for (const auto& [apart, a, b] : bonded) families.push_back(joint_family(a, b));
+  return families;
 }
 
 LostBonds::LostBonds(const Assembly& assembly, const Model& model) : bonds_(assembly.joints.size()) {
-  const std::vector<Component> components = bonded_components(assembly);
-  bonded_.assign(components.size(), 0.0);
+  const std::vector<std::string> families = bonded_families(assembly);
+  bonded_.assign(families.size(), 0.0);
   lost_.assign(model.tiles.size(), bonded_);
-  const auto number = [&](std::int64_t block) {
-    const Component component = assembly.blocks[std::size_t(block)].component;
-    return std::uint8_t(std::find(components.begin(), components.end(), component) - components.begin());
-  };
   for (std::size_t j = 0; j < bonds_.size(); ++j) {
     const Joint& joint = assembly.joints[j];
     if (!has_bond(model.laws[std::size_t(joint.law)])) continue;
-    bonds_[j] = {joint.area, {number(joint.a), number(joint.b)}};
-    for (const std::uint8_t c : bonds_[j].of) bonded_[c] += joint.area;
+    const std::string family = joint_family(component_of(assembly, joint.a), component_of(assembly, joint.b));
+    bonds_[j] = {joint.area, std::size_t(std::find(families.begin(), families.end(), family) - families.begin())};
+    bonded_[bonds_[j].of] += joint.area;
   }
 }
 
@@ -67,8 +69,7 @@ void LostBonds::count(const Model& model, const State& state, std::size_t tile) 
     if (!(state.joint.mode[i] & (mode_gone | mode_points | mode_broken))) continue;
     const Bond& bond = bonds_[std::size_t(model.joint_of_patch[i])];
     if (bond.area == 0.0) continue;
-    const double area = bond.area * broken_share(model, state, i);
-    for (const std::uint8_t c : bond.of) lost[c] += area;
+    lost[bond.of] += bond.area * broken_share(model, state, i);
   }
 }
 

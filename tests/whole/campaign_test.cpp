@@ -64,6 +64,26 @@ TEST(Campaign, FailuresAreKeptAndTheRestGoesOn) {
   EXPECT_EQ(occurrences(status.out, "failed     broken__"), 4u) << status.out;
 }
 
+/// Gravity is found once for all runs of a case, and each ends with the bits of one that finds its own.
+TEST(Campaign, PaysGravityOnce) {
+  Folder folder;
+  write_long_campaign(folder, 3, "[engine]\nkind = \"local\"\nruns_at_once = 3\nthreads = 1\n");
+  ASSERT_EQ(campaign(folder, {"long.toml", "-o", "out"}).status, 0);
+  const std::string gravity = folder / "out/gravity";
+  ASSERT_EQ(names_in(gravity).size(), 1u);
+  for (const std::string& run : names_in(folder / "out/runs")) {
+    const std::string log = bytes_of(folder / ("out/runs/" + run + "/run.log"));
+    EXPECT_NE(log.find("gravity as found in"), std::string::npos) << log;
+    EXPECT_EQ(log.find("stage 1: gravity"), std::string::npos) << log;
+    // The same case from its beginning.
+    const std::string own = "out/runs/" + run;
+    ASSERT_EQ(voussoir({"run", own + "/case.toml", "-o", "alone-" + run, "--quiet"}, {.folder = folder.path()}).status, 0);
+    const nlohmann::json shared = summary(folder / own), alone = summary(folder / ("alone-" + run));
+    EXPECT_EQ(shared["state_hash"], alone["state_hash"]) << run;
+    EXPECT_EQ(shared["demand"], alone["demand"]) << run;
+  }
+}
+
 TEST(Campaign, ThePlanIsOnlyPrinted) {
   Folder folder;
   write_campaign(folder);

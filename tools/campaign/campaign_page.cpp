@@ -195,10 +195,10 @@ std::string damage_section(const CampaignTable& table) {
   for (const std::string& name : table.names("damage."))
     if (name.ends_with(ending)) components.push_back(name.substr(7, name.size() - 7 - ending.size()));
   if (components.empty()) return "";
-  std::vector<Cell> top = {words_cell("component")};
+  std::vector<Cell> top = {words_cell("joints within, or between")};
   const std::vector<std::string> cases = table.cases();
   for (const std::string& name : cases) top.push_back(words_cell(name));
-  std::string text = heading("Damage by component") + "<table>\n" + table_row(top, "th");
+  std::string text = heading("Damage by joints") + "<table>\n" + table_row(top, "th");
   for (const std::string& component : components) {
     std::vector<Cell> row = {words_cell(component)};
     for (const std::string& name : cases) {

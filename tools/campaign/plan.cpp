@@ -245,6 +245,17 @@ Case case_of(const Plan& plan, const PlannedRun& run, const std::string& directo
   return c;
 }
 
+std::optional<Case> before_motion(const Case& c) {
+  const auto timed = std::ranges::find_if(c.settings.stages, &StageSettings::timed);
+  const auto count = timed - c.settings.stages.begin();
+  if (count == 0 || timed == c.settings.stages.end()) return {};
+  Case before = c;
+  before.settings.stages.resize(std::size_t(count));
+  before.motions.resize(std::size_t(count));
+  before.plots.clear();
+  return before;
+}
+
 const PlannedRun& find_run(const Plan& plan, const std::string& id) {
   const auto found = std::ranges::find(plan.runs, id, &PlannedRun::id);
   if (found == plan.runs.end()) throw InputError("this campaign has no run '{}'; --status lists them", id);

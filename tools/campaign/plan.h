@@ -1,5 +1,7 @@
 // The plan of a campaign: which runs there are, in which order, under which names, and what makes each of them.
 #pragma once
+#include <optional>
+
 #include "tools/campaign/settings.h"
 
 namespace voussoir::campaign {
@@ -56,6 +58,9 @@ std::string slug(const std::string& name, const std::string& fallback, std::vect
 
 /// The case of a run, with its motion: DIRECTORY is the campaign's folder. Throws InputError.
 Case case_of(const Plan& plan, const PlannedRun& run, const std::string& directory);
+
+/// The stages of a case before the first that takes time, alone; none where there are no such or no other stages.
+std::optional<Case> before_motion(const Case& c);
 
 /// Reads DIRECTORY/campaign.json. Throws InputError.
 Plan read_plan(const std::string& directory);

@@ -42,8 +42,8 @@ std::vector<Channel> history_channels(const Assembly& assembly, const std::vecto
   for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("base/acceleration_{}", axis), "m/s2"});
   channels.push_back({"contacts", "-"});
   for (const DemandPoint& point : demand_points(assembly)) channels.push_back({demand_channel(point), "m"});
-  for (const Component component : bonded_components(assembly))
-    channels.push_back({fmt::format("damage/{}/broken_share", component_names()[std::size_t(component)]), "-"});
+  for (const std::string& family : bonded_families(assembly))
+    channels.push_back({fmt::format("damage/{}/broken_share", family), "-"});
   for (const Sensor& sensor : assembly.sensors) {
     channels.push_back({"sensors/" + sensor.id + "/displacement", "m"});
     channels.push_back({"sensors/" + sensor.id + "/since_built", "m"});

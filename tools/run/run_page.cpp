@@ -14,6 +14,7 @@
 #include "solver/base/json_file.h"
 #include "solver/motion/intensity.h"
 #include "tools/run/damage_words.h"
+#include "tools/run/gravity_report.h"
 #include "viz/page/html.h"
 #include "viz/page/line_chart.h"
 #include "viz/page/palette.h"
@@ -61,7 +62,7 @@ std::string stages_text(const Case& c) {
   return text;
 }
 
-/// The component with the widest opening, in a sentence.
+/// The joints with the widest opening, in a sentence.
 std::string verdict(const RunFiles& run) {
   const nlohmann::json damage = run.summary.value("damage", nlohmann::json::object());
   std::string worst;
@@ -119,8 +120,8 @@ std::string remarks_section(const RunFiles& run) {
 std::string damage_section(const RunFiles& run) {
   const nlohmann::json damage = run.summary.value("damage", nlohmann::json::object());
   if (damage.empty()) return "";
-  std::string text = heading("Damage by component") + "<table>\n";
-  text += table_row({words_cell("component"), words_cell("damage")}, "th");
+  std::string text = heading("Damage by joints") + "<table>\n";
+  text += table_row({words_cell("joints within, or between"), words_cell("damage")}, "th");
   for (const auto& [name, entry] : damage.items())
     text += table_row({words_cell(name), words_cell(damage_sentence(entry))}, "td");
   text += "</table>\n";
@@ -233,7 +234,8 @@ std::string histories_section(const RunFiles& run) {
   for (const Channel& channel : run.history.channels())
     if (channel.path.starts_with("damage/"))
       damage.emplace_back(channel.path, channel.path.substr(7, channel.path.rfind('/') - 7));
-  text += channels_chart(run, "Lost bond by component", "share of the bonded joint area (%)", damage, 100.0);
+  text += channels_chart(run, "Lost bond by joints within a component, or between two",
+                         "share of the bonded joint area (%)", damage, 100.0);
   text += channels_chart(run, "Energy since the start", "energy (kJ)",
                          {{"energy/kinetic", "kinetic"},
                           {"energy/elastic", "elastic"},
@@ -274,8 +276,10 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
 
 void write_run_page(const std::string& directory) {
   const RunFiles run = run_files(directory);
-  const std::string body = verdict(run) + facts(run) + remarks_section(run) + damage_section(run) +
-                           demand_section(run) + pictures_section(pictures_of(run)) + histories_section(run);
+  const std::string body = verdict(run) + facts(run) + remarks_section(run) +
+                           gravity_section(run.summary.value("gravity", nlohmann::json::array())) +
+                           damage_section(run) + demand_section(run) + pictures_section(pictures_of(run)) +
+                           histories_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));
 }
 

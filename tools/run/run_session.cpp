@@ -18,6 +18,7 @@
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
 #include "solver/step/make_snapshot.h"
+#include "tools/run/gravity_report.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/run_page.h"
 #include "tools/run/summary.h"
@@ -91,8 +92,30 @@ const Equilibrium& RunSession::equilibrium() const {
   return simulation_->equilibrium().account.empty() ? equilibrium_before_ : simulation_->equilibrium();
 }
 
+/// What the gravity stage that has just ended did: to the log, and beside those of earlier ones to gravity.json.
+void RunSession::report_gravity() {
+  const Simulation& run = *simulation_;
+  const nlohmann::json report =
+      gravity_report(run, make_snapshot(run.model(), run.state()), case_.settings.output.gravity_modes);
+  nlohmann::json all = json_if_any(path("gravity.json"));
+  if (!all.is_array()) all = nlohmann::json::array();
+  while (!all.empty() && all.back().value("stage", 0) >= report["stage"]) all.erase(all.size() - 1);  // run again
+  all.push_back(report);
+  write_json(path("gravity.json"), all);
+  log(gravity_text(report));
+}
+
 void RunSession::write_checkpoint(bool stage_end) {
+  const std::int64_t ended = simulation_->position().stage - 1;
+  if (stage_end && case_.settings.stages[std::size_t(ended)].kind == StageSettings::Kind::gravity) report_gravity();
   history_.flush();  // first: a resumed run finds every row up to its checkpoint
+  const std::string name = checkpoint_name(simulation_->state().time());
+  const std::string file = stage_end ? fmt::format("stage_{:02}_", simulation_->position().stage) + name : name;
+  voussoir::write_checkpoint(path("checkpoints/") + file, own_header(), simulation_->state().arrays());
+  prune_checkpoints(path("checkpoints"), 3);
+}
+
+CheckpointHeader RunSession::own_header() {
   State& state = simulation_->state();
   const RunPosition& p = simulation_->position();
   CheckpointHeader header;
@@ -119,10 +142,7 @@ void RunSession::write_checkpoint(bool stage_end) {
       {"out_of_balance", e.residual},
       {"wall_seconds",
        before_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count()}};
-  const std::string name = checkpoint_name(state.time());
-  voussoir::write_checkpoint(path("checkpoints/") + (stage_end ? fmt::format("stage_{:02}_", p.stage) + name : name),
-                             header, state.arrays());
-  prune_checkpoints(path("checkpoints"), 3);
+  return header;
 }
 
 void RunSession::resume() {
@@ -158,6 +178,27 @@ void RunSession::resume() {
   }
   throw InputError("none of the {} checkpoints in {} can be read; start again with voussoir run and --overwrite",
                    files.size(), path("checkpoints"));
+}
+
+void RunSession::begin_where(const std::string& other) {
+  const std::vector<std::string> files = list_checkpoints(other + "/checkpoints");
+  if (files.empty())
+    throw InputError("{} has no checkpoint to begin with: remove the folder, and it is run again", other);
+  CheckpointHeader header;
+  State& state = simulation_->state();
+  read_checkpoint(files.front(), header, state.arrays());
+  if (header.assembly_hash != assembly_hash_)
+    throw InputError("{} belongs to another assembly than {}", files.front(), path("assembly.h5"));
+  for (const char* name : {"history.h5", "gravity.json", "vtk"})
+    if (fs::exists(other + "/" + name))
+      fs::copy(other + "/" + name, path(name), fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  state.unpack(simulation_->model());
+  go_on_from(header);
+  before_seconds_ = 0.0;  // they were paid once, for all
+  for (const char* folder : {"checkpoints/", "vtk/"}) make_folder_of(path(folder));
+  voussoir::write_checkpoint(path("checkpoints/") + fs::path(files.front()).filename().string(), own_header(),
+                             state.arrays());
+  log("gravity as found in " + other);
 }
 
 /// After the state has been read.
@@ -238,6 +279,8 @@ void RunSession::write_summary(RunEnd end) {
   if (!json.contains("collapse"))
     if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))
       json["collapse"] = before["collapse"];  // found before a restart
+  if (nlohmann::json gravity = json_if_any(path("gravity.json")); gravity.is_array())
+    json["gravity"] = std::move(gravity);
   if (!run.collapse().curve.empty()) write_atomically(path("collapse_curve.csv"), curve_table(run.collapse()));
   write_json(path("summary.json"), json);
 }

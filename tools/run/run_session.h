@@ -34,6 +34,9 @@ class RunSession {
   /// before its first checkpoint starts from the beginning. Throws InputError when no checkpoint is left, or when it
   /// belongs to another case or assembly.
   void resume();
+  /// Goes on from the end of another run of the same assembly, whose stages were the first of this case's: takes its
+  /// history and frames along. The directory must be a fresh one. Throws InputError.
+  void begin_where(const std::string& other);
   /// Runs to the end (or `until`); returns the exit status.
   int run();
   /// How run() ended, also when it threw: `failed` is the solver's failure, `none` anything else (a full disk).
@@ -51,7 +54,9 @@ class RunSession {
   void go_on_from(const CheckpointHeader& header);
   const Equilibrium& equilibrium() const;
   void write_checkpoint(bool stage_end);
+  CheckpointHeader own_header();
   void append_history(const Sample& sample);
+  void report_gravity();
   void write_summary(RunEnd end);
   void log(const std::string& text);
   std::string path(const std::string& name) const { return request_.directory + "/" + name; }

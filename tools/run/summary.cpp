@@ -7,6 +7,7 @@
 #include "geometry/joint_counts.h"
 #include "solver/base/constants.h"
 #include "solver/statics/hinges.h"
+#include "solver/step/damage.h"
 #include "solver/step/loads.h"
 #include "tools/run/damage_words.h"
 #include "tools/run/history_rows.h"
@@ -36,22 +37,22 @@ nlohmann::json demand_json(const Assembly& assembly, const History& history) {
   return demand;
 }
 
-/// Per component: share of the area of its bonded joints whose bond is lost, largest opening and slip since the start
-/// and at present (m), and a word for it.
+/// Per family of joints (joint_family()): share of the area of its bonded joints whose bond is lost, largest opening
+/// and slip since the start and at present (m), and a word for it.
 nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   struct Damage {
     double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0, open_now = 0.0, slip_now = 0.0;
   };
   std::map<std::string, Damage> damage;
-  for (const PatchSnapshot& p : snapshot.patches)
-    for (std::int64_t block : {p.a, p.b}) {
-      Damage& d = damage[component_names()[std::size_t(assembly.blocks[block].component)]];
-      if (p.had_bond) d.bonded += p.area, d.broken += p.area * (1.0 - p.bonded);
-      d.opening = std::max(d.opening, p.largest_opening);
-      d.slip = std::max(d.slip, p.largest_slip);
-      d.open_now = std::max(d.open_now, p.opening);
-      d.slip_now = std::max(d.slip_now, p.slip);
-    }
+  for (const PatchSnapshot& p : snapshot.patches) {
+    Damage& d =
+        damage[joint_family(assembly.blocks[std::size_t(p.a)].component, assembly.blocks[std::size_t(p.b)].component)];
+    if (p.had_bond) d.bonded += p.area, d.broken += p.area * (1.0 - p.bonded);
+    d.opening = std::max(d.opening, p.largest_opening);
+    d.slip = std::max(d.slip, p.largest_slip);
+    d.open_now = std::max(d.open_now, p.opening);
+    d.slip_now = std::max(d.slip_now, p.slip);
+  }
   nlohmann::json json = nlohmann::json::object();
   for (const auto& [name, d] : damage)
     json[name] = {{"broken_share", d.bonded > 0.0 ? d.broken / d.bonded : 0.0},

@@ -33,6 +33,15 @@ void end_with(pid_t parent) {
   if (::getppid() != parent) throw RunError("the campaign that started this run has ended");
 }
 
+/// A folder once no other process holds it, however long that takes.
+DirectoryLock locked(const std::string& folder) {
+  while (true) try {
+      return DirectoryLock(folder);
+    } catch (const InputError&) {
+      pause_milliseconds(100);
+    }
+}
+
 /// Waits until no other process is in the run's folder.
 void wait_for(const std::string& folder) {
   for (int i = 0;; ++i) try {
@@ -62,6 +71,34 @@ RunRequest request_of(const Job& job) {
   return r;
 }
 
+/// Thrown where a signal asks for the end: the run is to go on later.
+struct Stopped {};
+
+/// What a run's stages without time make of its bridge is the same for all runs of one case and sample: the first that
+/// comes finds it, in DIR/gravity/…, and the others wait for it. The folder of that run; empty where a case does not
+/// begin so, or has nothing but such stages. Throws RunError where it cannot be found.
+std::string gravity_of(const Job& job, const Case& c) {
+  const std::optional<Case> before = before_motion(c);
+  if (!before) return "";
+  const std::uint64_t of_case = job.plan.cases[job.run.case_number].hash;  // and of an assembly that it reads
+  const std::string shared = fmt::format("{}/gravity/{:016x}", job.directory,
+                                         hash_text(fmt::format("{} {}", of_case, resolved_text(*before))));
+  const std::string run = shared + "/run";
+  fs::create_directories(shared);
+  const DirectoryLock lock = locked(shared);
+  if (const json done = json_if_any(run + "/summary.json"); done.is_object() && done.value("finished", false))
+    return run;
+  const DirectoryLock own = prepare_directory(*before, run, true);
+  RunRequest request = request_of(job);
+  request.directory = run, request.pictures = false;
+  RunSession session(request);
+  session.run();
+  if (session.end() == SessionEnd::stopped) throw Stopped();
+  if (session.end() == SessionEnd::late)
+    throw RunError("its time limit of {:g} s was over before gravity was found", job.plan.engine.time_limit);
+  return run;
+}
+
 /// Goes on with what is there, or begins; what is there and cannot be gone on with is begun anew.
 struct Held {
   std::optional<DirectoryLock> lock;
@@ -78,8 +115,11 @@ void begin(const Job& job, Held& held) {
       held.session.reset();
       held.lock.reset();
     }
-  held.lock.emplace(prepare_directory(case_of(job.plan, job.run, job.directory), job.folder, true));
+  const Case c = case_of(job.plan, job.run, job.directory);
+  const std::string gravity = gravity_of(job, c);
+  held.lock.emplace(prepare_directory(c, job.folder, true));
   held.session.emplace(request_of(job));
+  if (!gravity.empty()) held.session->begin_where(gravity);
 }
 
 /// The end state's checkpoint stays, for modes and pictures.
@@ -144,6 +184,8 @@ int work(const Job& job) {
     begin(job, held);
     held.session->run();
     o = outcome_of(job, *held.session);
+  } catch (const Stopped&) {
+    return 1;
   } catch (const std::bad_alloc&) {
     fail("out of memory: let fewer runs go at once, or give the bridge fewer blocks");
   } catch (const std::exception& error) {
