@@ -152,7 +152,8 @@ void read_collapse(TableReader& table, StageSettings& stage) {
 
 ConstructionStep read_step(TableReader& table) {
   ConstructionStep step;
-  step.add = table.texts("add"), step.strike = table.texts("strike");
+  if (table.has("add")) step.add = table.texts("add");
+  if (table.has("strike")) step.strike = table.texts("strike");
   if (step.add.empty() == step.strike.empty())
     table.missing(step.add.empty() ? "add" : "strike",
                   "a list of components or groups that come in this step, or 'strike', those whose centering is taken "

@@ -1,6 +1,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -76,6 +77,28 @@ Shaking read_shaking(TableReader& table, const std::string& path) {
   return s;
 }
 
+/// axes = ["x", "y"]: the components of recordings that shake; the others are left out.
+void keep_axes(TableReader& campaign, std::vector<Shaking>& records) {
+  if (!campaign.has("axes")) return;
+  const std::vector<std::string> names = {"x", "y", "z"};
+  std::array<bool, 3> kept = {};
+  for (const std::string& name : campaign.texts("axes")) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) campaign.fail("axes", fmt::format("holds \"{}\": expected x, y or z", name));
+    kept[std::size_t(found - names.begin())] = true;
+  }
+  for (Shaking& record : records) {
+    bool any = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!kept[axis]) record.source.files[axis].clear(), record.source.texts[axis].clear();
+      any |= !record.source.files[axis].empty();
+    }
+    if (!any)
+      campaign.fail("axes",
+                    fmt::format("leaves nothing of record '{}': name an axis along which it shakes", record.name));
+  }
+}
+
 void read_records(TableReader& root, TableReader& campaign, Settings& s) {
   std::vector<TableReader> tables = root.tables("record");
   const bool named = campaign.has("records");
@@ -84,7 +107,7 @@ void read_records(TableReader& root, TableReader& campaign, Settings& s) {
     campaign.missing("records", "a selection.json or a folder of record files; or [[record]] tables");
   }
   if (!named)
-    for (const char* key : {"units", "dt", "correct"})
+    for (const char* key : {"units", "dt", "correct", "axes"})
       if (campaign.has(key)) campaign.fail(key, "belongs to 'records': give it in each [[record]]");
   for (TableReader& table : tables) s.records.push_back(read_shaking(table, s.path));
   if (!named) return;
@@ -103,6 +126,7 @@ void read_records(TableReader& root, TableReader& campaign, Settings& s) {
   } else {
     campaign.fail("records", fmt::format("is \"{}\": there is no such file or folder", place));
   }
+  keep_axes(campaign, s.records);
 }
 
 void check_names(const TableReader& root, const Settings& s) {

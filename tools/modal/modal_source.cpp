@@ -36,6 +36,7 @@ void rest_under_gravity(ModalSource& source, int threads, bool quiet) {
   progress.end();
   if (end != RunEnd::finished) throw RunError("no equilibrium under gravity: {}", run.failure());
   source.state = run.state();
+  take_joint_order(source.model, source.state);  // and where joints were made, if they were one after the other
 }
 
 /// What a state of a run is when it has come to rest.
