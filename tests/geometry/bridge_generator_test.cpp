@@ -94,16 +94,23 @@ struct Kind {
   double scale;
   bool restrained;
   int voussoirs;
+  bool wings = false;  // of cs1: the leaf of its abutments is as short as 1.5 m
 };
 void PrintTo(const Kind& k, std::ostream* out) {
-  *out << k.name << " " << k.scale << (k.restrained ? " restrained" : " free");
+  *out << k.name << " " << k.scale << (k.restrained ? " restrained" : " free") << (k.wings ? " with wing walls" : "");
+}
+
+GeneratorInput input_of(const Kind& kind) {
+  GeneratorInput input = input_of(kind.name, kind.scale, kind.restrained);
+  if (kind.wings) input.values["abutment_leaf_length"] = 1.5;
+  return input;
 }
 
 class Bridges : public testing::TestWithParam<Kind> {};
 
 TEST_P(Bridges, NothingIsLeftOpenOrCountedTwiceOrLost) {
   const Kind kind = GetParam();
-  const GeneratorInput input = input_of(kind.name, kind.scale, kind.restrained);
+  const GeneratorInput input = input_of(kind);
   const Assembly bridge = build(kind.name, input);
   const Analytic analytic{input, kind.voussoirs};
   EXPECT_NEAR(uncovered_surface(bridge), analytic.surface(), 1e-3);
@@ -113,7 +120,7 @@ TEST_P(Bridges, NothingIsLeftOpenOrCountedTwiceOrLost) {
 
 TEST_P(Bridges, JointsAreWhatASearchOfTheFinishedBlocksFinds) {
   const Kind kind = GetParam();
-  const Assembly bridge = build(kind.name, input_of(kind.name, kind.scale, kind.restrained));
+  const Assembly bridge = build(kind.name, input_of(kind));
   Assembly again = bridge;
   again.joints.clear();
   const JointReport report = find_joints(again);
@@ -134,10 +141,12 @@ INSTANTIATE_TEST_SUITE_P(All, Bridges,
                          testing::Values(Kind{"cs1", 1.0, false, 38}, Kind{"cs1", 1.0, true, 38},
                                          Kind{"cs2", 1.0, false, 42}, Kind{"cs2", 1.0, true, 42},
                                          Kind{"cs1", 2.0, false, 20}, Kind{"cs1", 2.5, true, 16},
+                                         Kind{"cs1", 1.0, false, 38, true}, Kind{"cs1", 2.5, true, 16, true},
                                          Kind{"cs2", 2.0, false, 22}, Kind{"cs2", 2.5, true, 18}),
                          [](const auto& test) {
                            const Kind& k = test.param;
-                           return fmt::format("{}_{}_{}", k.name, int(10 * k.scale), k.restrained ? "R" : "F");
+                           return fmt::format("{}_{}_{}{}", k.name, int(10 * k.scale), k.restrained ? "R" : "F",
+                                              k.wings ? "_wings" : "");
                          });
 
 /// A span of its own shifts what is to the right of it and takes its vault out of the same height.

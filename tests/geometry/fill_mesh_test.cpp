@@ -292,6 +292,7 @@ GeneratorInput bridge_input(const std::string& name, double edge, double scale) 
   input.values["fill_edge"] = edge;
   input.values["block_scale"] = scale;
   input.choices["backfill"] = "deformable";
+  input.values["abutment_leaf_length"] = 1.5;  // of cs1: wing walls with fill between
   return input;
 }
 

@@ -12,6 +12,7 @@ Assembly with_key(const std::string& key, double more) {
   GeneratorInput input = default_input(generator);
   input.choices.at("abutments") = "free";
   input.values.at("block_scale") = 4.0;
+  input.values.at("abutment_leaf_length") = 1.5;
   input.values.at(key) += more;
   Assembly assembly = generator.build(input);
   assembly.generator = "cs1";

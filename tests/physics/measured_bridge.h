@@ -13,6 +13,7 @@ inline Assembly bridge(double block_scale = 4.0) {
   GeneratorInput input = default_input(generator);
   input.choices.at("abutments") = "free";
   input.values.at("block_scale") = block_scale;
+  input.values.at("abutment_leaf_length") = 1.5;
   Assembly assembly = generator.build(input);
   assembly.generator = "cs1";
   return assembly;
@@ -23,6 +24,7 @@ inline Assembly bridge(double block_scale = 4.0) {
 inline Assembly small_bridge(const std::string& name, double block_scale, double edge = 0.0, int spans = 0) {
   GeneratorInput input = default_input(find_generator(name));
   input.values.at("block_scale") = block_scale;
+  if (name == "cs1") input.values.at("abutment_leaf_length") = 1.5;
   if (spans > 0) input.values.at("spans") = spans;
   if (edge > 0.0) input.choices.at("backfill") = "deformable", input.values.at("fill_edge") = edge;
   Assembly assembly = find_generator(name).build(input);

@@ -46,6 +46,7 @@ Assembly bridge(const char* name, double scale, const char* backfill = "") {
   const Generator& generator = find_generator(name);
   GeneratorInput in = default_input(generator);
   in.values["block_scale"] = scale;
+  in.values["abutment_leaf_length"] = 1.5;  // of cs1, as it was when the scenes were made: they are compared over years
   if (*backfill) in.choices["backfill"] = backfill;
   return generator.build(in);
 }

@@ -137,7 +137,7 @@ std::string damage_section(const RunFiles& run) {
          note(
              "Words by the largest opening of a joint since the start, as widths of cracks after Burland, Broms & "
              "de Mello (1977): " +
-             classes + ". A joint counts for the components on both its sides.");
+             classes + ". Joints between two components are counted by themselves.");
 }
 
 std::string demand_section(const RunFiles& run) {

@@ -37,6 +37,14 @@ struct ModalRequest {
   std::function<void(ModalSettings&)> settings;
 };
 
+ModalSettings::State state_asked(const options::variables_map& values) {
+  const std::string state = values["state"].as<std::string>();
+  const auto& known = modal_states();
+  const auto at = std::find(known.begin(), known.end(), state);
+  if (at == known.end()) throw InputError("--state is {}; give intact or gravity", state);
+  return ModalSettings::State(at - known.begin());
+}
+
 ModalRequest modal_request(const options::variables_map& values) {
   ModalRequest request;
   request.from = values["CASE"].as<std::string>();
@@ -54,12 +62,7 @@ ModalRequest modal_request(const options::variables_map& values) {
   request.settings = [values](ModalSettings& modal) {
     if (values.count("modes")) modal.modes = values["modes"].as<int>();
     if (values.count("geometric")) modal.geometric = true;
-    if (!values.count("state")) return;
-    const std::string state = values["state"].as<std::string>();
-    const auto& known = modal_states();
-    const auto at = std::find(known.begin(), known.end(), state);
-    if (at == known.end()) throw InputError("--state is {}; give intact or gravity", state);
-    modal.state = ModalSettings::State(at - known.begin());
+    if (values.count("state")) modal.state = state_asked(values);
   };
   return request;
 }
@@ -253,7 +256,8 @@ int modal(const std::vector<std::string>& arguments) {
   if (!line.parse(arguments, values)) return 0;
   if (values.count("paper")) {
     if (values.count("CASE")) throw InputError("--paper takes no case: it reads the four bridges in cases/");
-    return modal_paper(values.count("output") ? values["output"].as<std::string>() : "");
+    const auto state = values.count("state") ? state_asked(values) : ModalSettings::State::intact;
+    return modal_paper(values.count("output") ? values["output"].as<std::string>() : "", state, threads_asked(values));
   }
   if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
   return analyse(modal_request(values));
