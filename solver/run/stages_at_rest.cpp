@@ -75,6 +75,8 @@ void Simulation::construct(const StageSettings& stage) {
   const LoadsAtWork loads = std::exchange(stepper_.loads, LoadsAtWork{});
   const ConstructionPlan& plan = model_.plan;
   clear_site(model_, state_);
+  int iterations = 0;
+  std::int64_t relaxed = 0;  // of all steps
   for (std::int32_t step = 0; step < plan.steps() && !stopped(); ++step) {
     log(fmt::format("construction, step {} of {}: {}", step + 1, plan.steps(), plan.labels[std::size_t(step)]));
     add_step(step, model_, state_);
@@ -91,6 +93,8 @@ void Simulation::construct(const StageSettings& stage) {
     find_equilibrium(stage, step == 0);
     stepper_.model = &model_;
     stepper_.search_distance = search_distance(model_);
+    equilibrium_.iterations = iterations += equilibrium_.iterations;
+    equilibrium_.steps = relaxed += equilibrium_.steps;
     if (!equilibrium_.converged) {
       construction_failed_ =
           fmt::format(" in step {} of its construction ({})", step + 1, plan.labels[std::size_t(step)]);
