@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "geometry/fill_mesh.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -211,29 +212,10 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-/// The tetrahedron that each triangle of the surface belongs to.
-std::vector<std::int32_t> tets_of_triangles(const FillMesh& fill) {
-  std::map<std::array<std::int32_t, 3>, std::int32_t> tet_of;
-  for (std::size_t t = 0; t < fill.tets.size(); ++t)
-    for (std::size_t left = 0; left < 4; ++left) {
-      std::array<std::int32_t, 3> face;
-      for (std::size_t k = 0, n = 0; k < 4; ++k)
-        if (k != left) face[n++] = fill.tets[t][k];
-      std::sort(face.begin(), face.end());
-      tet_of[face] = std::int32_t(t);
-    }
-  std::vector<std::int32_t> tets;
-  for (auto triangle : fill.triangles) {
-    std::sort(triangle.begin(), triangle.end());
-    tets.push_back(tet_of.at(triangle));
-  }
-  return tets;
-}
-
 /// In every step all that is there must hang together with something held.
 void check_held(const Assembly& assembly, const ConstructionPlan& plan) {
   const std::size_t blocks = assembly.blocks.size();
-  const std::vector<std::int32_t> tet_of = tets_of_triangles(assembly.fill);
+  const std::vector<std::int32_t> tet_of = triangle_tets(assembly.fill);
   for (std::int32_t step = 0; step < plan.steps(); ++step) {
     const auto there = [&](std::int64_t block) { return plan.block[std::size_t(block)] <= step; };
     Sets sets(blocks + assembly.fill.nodes.size());
@@ -330,6 +312,7 @@ ConstructionPlan construction_plan(const Assembly& assembly, const ConstructionS
     planner.take(step);
   ConstructionPlan plan = planner.finish();
   check_held(assembly, plan);
+  for (const std::int32_t tet : triangle_tets(assembly.fill)) plan.triangle.push_back(plan.tet[std::size_t(tet)]);
   return plan;
 }
 

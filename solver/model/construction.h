@@ -12,10 +12,11 @@ namespace voussoir {
 
 /// Steps are numbered from 0. Fixed blocks are there from the first, unless a step adds them.
 struct ConstructionPlan {
-  std::vector<std::string> labels;  // of the steps
-  std::vector<std::int32_t> block;  // of Assembly::blocks: the step in which it comes
-  std::vector<std::int32_t> free;   // and that in which it is let go: later, where it stands on centering
-  std::vector<std::int32_t> tet;    // of FillMesh::tets: the step in which it comes
+  std::vector<std::string> labels;     // of the steps
+  std::vector<std::int32_t> block;     // of Assembly::blocks: the step in which it comes
+  std::vector<std::int32_t> free;      // and that in which it is let go: later, where it stands on centering
+  std::vector<std::int32_t> tet;       // of FillMesh::tets: the step in which it comes
+  std::vector<std::int32_t> triangle;  // of FillMesh::triangles: that of the tetrahedron behind it
   bool empty() const { return labels.empty(); }
   std::int32_t steps() const { return std::int32_t(labels.size()); }
 };

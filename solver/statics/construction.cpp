@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <map>
 
 #include "solver/contact/grouping.h"
 #include "solver/contact/interface_change.h"
@@ -31,32 +30,14 @@ void make_joints(std::int32_t step, Model& model, State& state) {
   take_built(model, state);
 }
 
-/// The step in which the tetrahedron behind each triangle of the fill's surface comes, by the triangle's nodes.
-std::map<std::array<std::int32_t, 3>, std::int32_t> steps_of_faces(const FillModel& fill) {
-  std::map<std::array<std::int32_t, 3>, std::int32_t> steps;
-  for (std::size_t b = 0; b < fill.batches.size(); ++b)
-    for (int lane = 0; lane < fill.batches[b].count; ++lane)
-      for (int left = 0; left < 4; ++left) {
-        std::array<std::int32_t, 3> face;
-        for (std::size_t k = 0, n = 0; k < 4; ++k)
-          if (int(k) != left) face[n++] = fill.batches[b].node[k][lane];
-        std::sort(face.begin(), face.end());
-        steps[face] = fill.step_of_law[std::size_t(fill.batches[b].law)];
-      }
-  return steps;
-}
-
 /// Patches of stones with the fill, as both lie now.
 void make_patches(std::int32_t step, const Model& model, State& state) {
   if (model.interface.empty()) return;
-  const auto steps = steps_of_faces(model.fill);
   InterfaceChange change;
   change.gone.assign(state.interface.patches.size(), 0);
   change.bonded = true;
   for (InterfacePatch patch : model.interface) {
-    std::array<std::int32_t, 3> face = {patch.node[0], patch.node[1], patch.node[2]};
-    std::sort(face.begin(), face.end());
-    if (std::max(step_of_body(model, patch.body), steps.at(face)) != step) continue;
+    if (std::max(step_of_body(model, patch.body), model.plan.triangle[std::size_t(patch.triangle)]) != step) continue;
     const InterfaceJump j = interface_jump(model, state, patch);
     for (std::size_t k = 0; k < 3; ++k)
       for (int c = 0; c < 3; ++c) patch.rest[k][c] += j.moved[k][c];

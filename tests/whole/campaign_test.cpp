@@ -77,7 +77,8 @@ TEST(Campaign, PaysGravityOnce) {
     EXPECT_EQ(log.find("stage 1: gravity"), std::string::npos) << log;
     // The same case from its beginning.
     const std::string own = "out/runs/" + run;
-    ASSERT_EQ(voussoir({"run", own + "/case.toml", "-o", "alone-" + run, "--quiet"}, {.folder = folder.path()}).status, 0);
+    ASSERT_EQ(voussoir({"run", own + "/case.toml", "-o", "alone-" + run, "--quiet"}, {.folder = folder.path()}).status,
+              0);
     const nlohmann::json shared = summary(folder / own), alone = summary(folder / ("alone-" + run));
     EXPECT_EQ(shared["state_hash"], alone["state_hash"]) << run;
     EXPECT_EQ(shared["demand"], alone["demand"]) << run;

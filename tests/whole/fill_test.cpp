@@ -8,7 +8,8 @@ namespace voussoir::test {
 namespace VOUSSOIR_FILE {
 
 const std::string bridge =
-    "[bridge]\ngenerator = \"cs1\"\nspans = 1\nblock_scale = 3.0\nfill_edge = 1.5\nabutment_leaf_length = 1.5\nbackfill = \"deformable\"\n";
+    "[bridge]\ngenerator = \"cs1\"\nspans = 1\nblock_scale = 3.0\nfill_edge = 1.5\nabutment_leaf_length = "
+    "1.5\nbackfill = \"deformable\"\n";
 
 void expect_holds(const std::string& text, const std::vector<std::string>& pieces) {
   for (const std::string& piece : pieces) EXPECT_NE(text.find(piece), std::string::npos) << piece << "\nin\n" << text;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "solver/effects/parts.h"
@@ -118,6 +119,18 @@ json periods_json(const Simulation& run, int wanted) {
   return all;
 }
 
+/// The periods, or why there are none: a report does not end a run.
+void add_periods(const Simulation& run, int wanted, json& report) {
+  report["periods"] = json::array();
+  try {
+    report["periods"] = periods_json(run, wanted);
+  } catch (const std::bad_alloc&) {
+    report["no_periods"] = "there was not enough memory for the modes";
+  } catch (const std::exception& error) {
+    report["no_periods"] = error.what();
+  }
+}
+
 /// Where gravity alone has done more than a bridge that stands should have to bear: of the families of joints that have
 /// moved far, or have lost much bond and are no loose filling, the one that has lost most in all.
 std::string warning_of(const json& joints, bool at_once) {
@@ -165,8 +178,8 @@ json gravity_report(const Simulation& run, const Snapshot& snapshot, int modes) 
                  {"construction", settings.construction ? "staged" : "at once"},
                  {"steps", settings.construction ? run.model().plan.steps() : 0},
                  {"parts", parts_json(run.assembly(), snapshot)},
-                 {"joints", joints_json(run.assembly(), snapshot)},
-                 {"periods", periods_json(run, modes)}};
+                 {"joints", joints_json(run.assembly(), snapshot)}};
+  add_periods(run, modes, report);
   report["warning"] = warning_of(report["joints"], !settings.construction);
   return report;
 }
@@ -184,6 +197,7 @@ std::string gravity_text(const json& report) {
   for (const json& mode : report["periods"])
     text += fmt::format("\n  {}: {} s intact, {} s now", mode["motion"].get<std::string>(), period_text(mode["intact"]),
                         period_text(mode["now"]));
+  if (report.contains("no_periods")) text += "\n  no periods: " + report["no_periods"].get<std::string>();
   if (const std::string warning = report["warning"]; !warning.empty()) text += "\nwarning: " + warning;
   return text;
 }
@@ -218,6 +232,8 @@ std::string gravity_section(const json& reports) {
     html += "</table>\n" + note(
                                "Within a component, and between two. Largest opening and slip of a joint; largest mean "
                                "compression of one.");
+    if (report.contains("no_periods"))
+      html += note("No periods: " + escaped(report["no_periods"].get<std::string>()) + ".");
     if (report["periods"].empty()) continue;
     html += "<table>\n" + table_row({{"mode"}, {"intact, s"}, {"now, s"}, {"MAC"}}, "th");
     for (const json& mode : report["periods"])
