@@ -6,7 +6,7 @@
 // Strain is total: of each tetrahedron F = 1 + Σ u ∇N from the reference placement. With the plastic memory Cp⁻¹ the
 // elastic left Cauchy–Green tensor is b = F Cp⁻¹ Fᵀ, the elastic strain e = dev ½ ln b, so that rotations of any size
 // are exact and no stress is accumulated (Simo 1992; de Souza Neto, Perić & Owen 2008, ch. 14). The elastic volumetric
-// strain θ = ½ (J − 1/J) − θp of a tetrahedron is replaced by the mean of its nodes' means, or plastic flow at constant
+// strain θ = ϑ(J) − θp of a tetrahedron is replaced by the mean of its nodes' means, or plastic flow at constant
 // volume would lock (average nodal pressure: Bonet & Burton 1998; nodal mixed discretisation: Detournay & Dzik 2006).
 // It is the strain less what plastic flow has added that is averaged: all of it, or neighbours that dilate would drift
 // apart, and tearing would give energy back.

@@ -12,11 +12,20 @@ struct ElasticStrain {
   Lanes mean, own;
 };
 
-/// Fᵀ (e + ⅓ θ 1) F.
-[[gnu::always_inline]] inline Symmetric<Lanes> material(const Tensor<Lanes>& f, const ElasticStrain& s) {
+/// 3 over the trace of FᵀF. With it axes that the material carries along keep their mean length, however far it has
+/// flowed: Fᵀ e F alone would grow with the square of a stretch, and what it does to the nodes with the fourth power.
+[[gnu::always_inline]] inline Lanes stretch_back(const Tensor<Lanes>& f) {
+  Lanes sum = splat(0.0);
+  for (const auto& row : f.m)
+    for (const Lanes& x : row) sum += x * x;
+  return 3.0 / sum;
+}
+
+/// Fᵀ (e + ⅓ θ 1) F 3/tr FᵀF.
+[[gnu::always_inline]] inline Symmetric<Lanes> material(const Tensor<Lanes>& f, Lanes back, const ElasticStrain& s) {
   const Lanes third = (1.0 / 3.0) * s.mean;
   const Symmetric<Lanes> whole = {s.e.xx + third, s.e.yy + third, s.e.zz + third, s.e.xy, s.e.xz, s.e.yz};
-  return push(transposed(f), whole);
+  return back * push(transposed(f), whole);
 }
 
 /// The six components two by two: xx yy, zz xy, xz yz.
@@ -40,16 +49,16 @@ struct Packed {
   std::memcpy(rows, &x, sizeof(x));
 }
 
-/// Their stress on material axes, and the work done on them (J/m3): q ← e q + g Δε of the elastic strain
-/// Fᵀ (e + ⅓ θ 1) F, θ the mean one. Nodes work on it with all strain, what has flowed included (`trial`: before the
-/// flow), and with the tetrahedron's own volumetric part. `last`: strain at the last pass, rounded to single precision,
-/// so that changes add up.
+/// Their stress on material axes, and the work done on them (J/m3): q ← e q + g Δε of the elastic strain material(),
+/// θ the mean one; `back`: stretch_back(). Nodes work on it with all strain, what has flowed included (`trial`: before
+/// the flow), and with the tetrahedron's own volumetric part. `last`: strain at the last pass, rounded to single
+/// precision, so that changes add up.
 template <int count>
 [[gnu::always_inline]] inline Symmetric<Lanes> viscous(const Branches& branches, const FillLaw& law,
-                                                       const Tensor<Lanes>& f, const ElasticStrain& strain,
+                                                       const Tensor<Lanes>& f, Lanes back, const ElasticStrain& strain,
                                                        const ElasticStrain& trial, bool flows, Singles* last,
                                                        Singles* kept, Lanes& work) {
-  const Symmetric<Lanes> now = material(f, strain);
+  const Symmetric<Lanes> now = material(f, back, strain);
   const Packed rounded = pack(now);
   Packed change, q{}, both{};  // sums over the branches, and over both ends of the step
   for (int c = 0; c < 3; ++c) {
@@ -70,7 +79,7 @@ template <int count>
   Singles swollen = own - last[6];
   last[6] = own;
   if (flows) {
-    const Packed flowed = pack(material(f, trial) - now);
+    const Packed flowed = pack(material(f, back, trial) - now);
     for (int c = 0; c < 3; ++c) change.of[c] += flowed.of[c];
     swollen += narrow(trial.own - strain.own);
   }

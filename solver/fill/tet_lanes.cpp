@@ -101,7 +101,8 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   Strain s = strain_of(shape, n, flowed ? plastic : nullptr);
   const LaneMask flat = ~less(splat(least_volume - 1.0), s.change) & used;
   if (any(flat)) note_inverted(fill, index, flat, tile.report);
-  const Lanes swollen = flowed ? plastic[row_volume] : zero, own = volumetric(s.change) - swollen;
+  const Volumetric grown = volumetric(s.change);
+  const Lanes swollen = flowed ? plastic[row_volume] : zero, own = grown.strain - swollen;
   const Lanes mean = pass.averaged ? 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]) : own;
   Lanes p = law.bulk * mean;
   const ElasticStrain trial = {s.e, mean, own};
@@ -123,8 +124,7 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
   coming.plastic();
 
   // 3. a sixth of the first Piola–Kirchhoff stress: τ F⁻ᵀ, and F S of the branches
-  const auto [tau, by] = kirchhoff(law, s, p);
-  const Symmetric<Lanes> pull = ((1.0 / 6.0) * by) * tau;
+  const Symmetric<Lanes> pull = ((1.0 / 6.0) * grown.by) * kirchhoff(law, s, grown.slope, p);
   const Lanes t[3][3] = {{pull.xx, pull.xy, pull.xz}, {pull.xy, pull.yy, pull.yz}, {pull.xz, pull.yz, pull.zz}};
   Tensor<Lanes> piola;
   for (int i = 0; i < 3; ++i)
@@ -134,8 +134,9 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
     auto* last = reinterpret_cast<Singles*>(&memory.last[strain_rows * lane_count * index]);
     auto* kept = reinterpret_cast<Singles*>(&memory.branch[6 * lane_count * std::size_t(count) * index]);
     Lanes work;
+    const Lanes back = flowed ? stretch_back(s.f) : splat(1.0);
     const Symmetric<Lanes> v =
-        splat(1.0 / 6.0) * viscous<count>(pass.branches, law, s.f, strain, trial, flows, last, kept, work);
+        (1.0 / 6.0) * back * viscous<count>(pass.branches, law, s.f, back, strain, trial, flows, last, kept, work);
     tile.work += volume * work;
     const Lanes w[3][3] = {{v.xx, v.xy, v.xz}, {v.xy, v.yy, v.yz}, {v.xz, v.yz, v.zz}};
     for (int i = 0; i < 3; ++i)
@@ -185,7 +186,7 @@ void FillPass::volumes(std::size_t tile) const {
     const Nodes n = gather_nodes(memory->pose.data(), batch);
     const Shape shape = shape_of(fill->place.data(), batch);
     const Lanes change = clipped(volume_change(gradient(shape, n)));
-    Lanes strain = volumetric(change);
+    Lanes strain = volumetric(change).strain;
     if (has_flowed(&memory->yield[lane_count * std::size_t(b)])) {
       const auto* plastic = reinterpret_cast<const Lanes*>(&memory->plastic[plastic_index(std::size_t(b), 0)]);
       strain -= plastic[row_volume];

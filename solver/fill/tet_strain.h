@@ -75,9 +75,17 @@ constexpr double least_volume = 0.02;  // of the reference
   return larger(change, splat(least_volume - 1.0));
 }
 
-/// θ = ½ (J − 1/J), which is ln J to third order.
-[[gnu::always_inline]] inline Lanes volumetric(Lanes change) {
-  return 0.5 * change * (1.0 + 1.0 / (1.0 + change));
+/// θ for ln J, and dθ/d ln J: ½ (J − 1/J) in compression, which resists the loss of all volume; y + ½ y² + ⅓ y³ with
+/// y = 1 − 1/J in extension, the series of ln J, whose slope 1 − y³ falls with J, so that what has been torn wide open
+/// is not stiffer than it was. Both agree with ln J to second order.
+struct Volumetric {
+  Lanes strain, slope, by;  // by: 1/J
+};
+[[gnu::always_inline]] inline Volumetric volumetric(Lanes change) {
+  const Lanes volume = 1.0 + change, by = 1.0 / volume, y = change * by;
+  const LaneMask grown = less(splat(0.0), change);
+  return {select(grown, y * (1.0 + y * (0.5 + (1.0 / 3.0) * y)), 0.5 * change * (1.0 + by)),
+          select(grown, 1.0 - y * y * y, 0.5 * (volume + by)), by};
 }
 
 /// dev ½ ln b from b − 1, to fourth order in the elastic strain. The mean of b is divided out first.
@@ -145,16 +153,11 @@ struct Strain {
 LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
               Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated);
 
-/// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa, and 1/J.
-struct Kirchhoff {
-  Symmetric<Lanes> stress;
-  Lanes by;
-};
-[[gnu::always_inline]] inline Kirchhoff kirchhoff(const FillLaw& law, const Strain& s, Lanes p) {
-  const Lanes volume = 1.0 + s.change, by = 1.0 / volume;
-  const Lanes round = 0.5 * p * (volume + by);
+/// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa.
+[[gnu::always_inline]] inline Symmetric<Lanes> kirchhoff(const FillLaw& law, const Strain& s, Lanes slope, Lanes p) {
+  const Lanes round = p * slope;
   const Symmetric<Lanes> dev = splat(2.0 * law.shear) * s.e;
-  return {{dev.xx + round, dev.yy + round, dev.zz + round, dev.xy, dev.xz, dev.yz}, by};
+  return {dev.xx + round, dev.yy + round, dev.zz + round, dev.xy, dev.xz, dev.yz};
 }
 
 }  // namespace voussoir::tet

@@ -17,8 +17,8 @@ Symmetric<Lanes> batch_cauchy(const FillModel& fill, FillMemory& memory, std::si
   const LaneMask yields = tet::may_flow(law, s.e, p);
   Lanes dissipated;
   if (any(yields)) tet::flow(law, s, yields, plastic, &memory.yield[lane_count * index], s.e, p, dissipated);
-  const auto [tau, by] = tet::kirchhoff(law, s, p);
-  return by * tau;
+  const tet::Volumetric grown = tet::volumetric(s.change);
+  return grown.by * tet::kirchhoff(law, s, grown.slope, p);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "solver/contact/interface_change.h"
 #include "solver/contact/interface_jump.h"
 #include "solver/contact/jump.h"
+#include "solver/fill/tet_strain.h"
 
 namespace voussoir {
 
@@ -56,7 +57,7 @@ void make_tetrahedron(const Model& model, State& state, std::size_t batch, int l
     h += Vec3(&state.fill.pose[node_width * std::size_t(shape.nodes[k])]) * shape.gradient[k].transpose();
   if (h.isZero(0.0)) return;
   const Mat3 f = Mat3::Identity() + h, inverse = f.inverse();
-  const double volume = f.determinant();
+  const Lanes change = splat(f.determinant() - 1.0);
   const Mat3 memory = inverse * inverse.transpose() - Mat3::Identity();
   const double rows[row_shear] = {memory(0, 0),
                                   memory(1, 1),
@@ -64,7 +65,7 @@ void make_tetrahedron(const Model& model, State& state, std::size_t batch, int l
                                   memory(0, 1),
                                   memory(0, 2),
                                   memory(1, 2),
-                                  0.5 * (volume - 1.0 / volume)};
+                                  tet::volumetric(change).strain[0]};
   for (int c = 0; c < row_shear; ++c) state.fill.plastic[plastic_index(batch, c) + std::size_t(lane)] = rows[c];
   state.fill.yield[lane_count * batch + std::size_t(lane)] |= built_deformed;
 }
