@@ -106,7 +106,8 @@ TEST(CampaignPlan, ARunsCaseIsWhatThePlanSays) {
   folder.write("x.txt", "0.1\n0.2\n-0.1\n0.0\n0.05\n0.0\n");
   const Draft draft = make_draft(read_settings(folder.campaign(
       "scales = [3.0]\nfree_after = 0.7\nduration = 0.03\nfields_every = 0.25\nsamples = 1\n[[campaign.sample]]\n"
-      "key = \"materials.masonry.density\"\ndistribution = \"normal\"\ncov = 0.1",
+      "key = \"materials.masonry.density\"\ndistribution = \"normal\"\ncov = 0.1\n[campaign.set]\n"
+      "\"damping.ratio\" = 0.031",
       "[[record]]\nname = \"r\"\nrecord = [\"\", \"x.txt\"]\nunits = \"g\"\ndt = 0.01\nfactor = 2.0\n")));
   write_draft(draft, folder / "out");
   const Plan plan = read_plan(folder / "out");
@@ -121,6 +122,7 @@ TEST(CampaignPlan, ARunsCaseIsWhatThePlanSays) {
   EXPECT_NEAR(c.settings.stages[1].motion.acceleration[1].y(), 6.0 * 0.2 * 9.80665, 1e-12);
   EXPECT_EQ(c.generator_input.materials.at("masonry").density, plan.runs[0].values[0]);
   EXPECT_NE(plan.runs[0].values[0], 2000.0);
+  EXPECT_EQ(c.settings.damping.ratio, 0.031);
   // The resolved copy, which is what the run's folder holds, is the same again.
   std::filesystem::create_directory(folder / "run");
   write_resolved_case(c, folder / "run");

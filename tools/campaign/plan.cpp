@@ -109,9 +109,20 @@ std::vector<std::vector<double>> draw_samples(const Settings& s, const Case& c) 
   return samples;
 }
 
+/// That the numbers all runs set are numbers of the case.
+void check_set(const Settings& s, const Case& c) {
+  for (const auto& [key, value] : s.run.set) try {
+      if (key.starts_with("stage.")) throw InputError("'{}' is of a stage: stages cannot be set", key);
+      number_at(c, key);
+    } catch (const InputError& error) {
+      throw InputError("{}: [campaign.set]: {}", s.path, error.what());
+    }
+}
+
 /// What a run does not vary, set in the case's text.
 toml::table changed(toml::table table, const Plan& plan, const std::vector<double>& values) {
   if (plan.run.block_scale > 0.0) set_number(table, "bridge.block_scale", plan.run.block_scale);
+  for (const auto& [key, value] : plan.run.set) set_number(table, key, value);
   if (plan.run.fields_every >= 0.0) set_number(table, "output.fields_every", plan.run.fields_every);
   for (std::size_t k = 0; k < plan.keys.size(); ++k) set_number(table, plan.keys[k], values[k]);
   return table;
@@ -139,6 +150,7 @@ std::uint64_t run_hash(const Plan& plan, const PlannedRun& run) {
   for (const double value : {record.duration, run.scale, plan.run.block_scale, plan.run.free_after,
                              plan.run.fall.displacement, plan.run.fall.share})
     hash = more(hash, value);
+  for (const auto& [key, value] : plan.run.set) hash = more(more(hash, key), value);
   for (std::size_t k = 0; k < plan.keys.size(); ++k) hash = more(more(hash, plan.keys[k]), run.values[k]);
   return hash;
 }
@@ -160,6 +172,7 @@ void plan_runs(const Settings& s, Draft& draft) {
         "campaigns of it",
         s.path, s.cases.size(), s.records.size(), s.scales.size(), samples, all, most_runs);
   for (std::size_t c = 0; c < s.cases.size(); ++c) {
+    check_set(s, draft.cases[c]);
     const std::vector<std::vector<double>> values = draw_samples(s, draft.cases[c]);
     check_samples(s, plan, draft.cases[c], values);
     for (std::size_t r = 0; r < s.records.size(); ++r)

@@ -42,6 +42,7 @@ std::string file_of(const std::string& directory) {
 
 json run_settings_json(const RunSettings& s) {
   return {{"block_scale", s.block_scale},
+          {"set", s.set},
           {"free_after", s.free_after},
           {"fields_every", s.fields_every},
           {"pictures", s.pictures},
@@ -53,6 +54,7 @@ json run_settings_json(const RunSettings& s) {
 RunSettings read_run_settings(const json& j, const std::string& place) {
   RunSettings s;
   s.block_scale = need<double>(j, "block_scale", place);
+  s.set = need<std::vector<std::pair<std::string, double>>>(j, "set", place);
   s.free_after = need<double>(j, "free_after", place);
   s.fields_every = need<double>(j, "fields_every", place);
   s.pictures = need<bool>(j, "pictures", place);

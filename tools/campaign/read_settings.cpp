@@ -156,6 +156,18 @@ void read_samples(TableReader& campaign, Settings& s) {
   if (s.samples == 0 && !s.sampled.empty()) campaign.missing("samples", "how many are drawn of [[campaign.sample]]");
 }
 
+/// [campaign.set]: "damping.ratio" = 0.03.
+void read_set(TableReader& campaign, Settings& s) {
+  auto table = campaign.table("set", "[campaign.set]");
+  if (!table) return;
+  for (const std::string& key : table->keys()) {
+    const auto holds = [&](const Sampled& sampled) { return std::ranges::count(sampled.keys, key) > 0; };
+    if (std::ranges::any_of(s.sampled, holds)) table->fail(key, "is sampled too: keep one of the two");
+    s.run.set.emplace_back(key, table->required_number(key));
+  }
+  table->finish();
+}
+
 void read_output(TableReader& campaign, Settings& s) {
   s.run.fields_every = campaign.number("fields_every", -1.0, {0.0, 1e6, "s"});
   s.run.pictures = campaign.flag("pictures", false);
@@ -195,6 +207,7 @@ void read_campaign(TableReader& root, Settings& s) {
     s.duration = campaign->number("duration", 0.0, {0.0, 1e6, "s", true});
   s.run.free_after = campaign->number("free_after", 0.0, {0.0, 1e6, "s", true});
   read_samples(*campaign, s);
+  read_set(*campaign, s);
   read_output(*campaign, s);
   campaign->finish();
 }

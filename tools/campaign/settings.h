@@ -49,8 +49,9 @@ struct FallSettings {
 
 /// How each run is made.
 struct RunSettings {
-  double block_scale = 0.0;  // 0: the case's
-  double free_after = 0.0;   // s of free vibration after the motion; 0: what the case has
+  double block_scale = 0.0;                         // 0: the case's
+  std::vector<std::pair<std::string, double>> set;  // numbers of the cases by their dotted keys, the same in all runs
+  double free_after = 0.0;                          // s of free vibration after the motion; 0: what the case has
   FallSettings fall;
   double fields_every = -1.0;  // s; below 0: the case's
   bool pictures = false, keep_checkpoints = false;

@@ -79,7 +79,7 @@ double number_at(const Case& c, const std::string& key) {
         "'{}' is no number of {}{}", key, c.path,
         near.empty() ? ": expected a key with its tables, such as damping.ratio" : ": did you mean '" + near + "'?");
   }
-  if (node->is_integer()) throw InputError("'{}' of {} is a whole number, which cannot be sampled", key, c.path);
+  if (node->is_integer()) throw InputError("'{}' of {} is a whole number, which a campaign cannot change", key, c.path);
   return *node->value<double>();
 }
 
