@@ -297,7 +297,7 @@ void Simulation::sample(const BodyPass& pass) {
     s.accelerations[i] = sensor.direction.dot(point_acceleration(pass, sensor.block, sensor.position));
   }
   const Energies& e = s.energies;
-  for (double term : {e.kinetic, std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.plastic,
+  for (double term : {std::abs(e.kinetic), std::abs(e.gravitational), e.elastic, e.friction, e.fracture, e.plastic,
                       e.joint_damping, e.body_damping, std::abs(e.external_work)})
     state_.largest_energy() = std::max(state_.largest_energy(), term);
   if (state_.largest_energy() > 0.0) s.balance_error = (e.total() - state_.starting_energy()) / state_.largest_energy();
