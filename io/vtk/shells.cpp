@@ -4,27 +4,16 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "solver/base/constants.h"
+#include "solver/base/disjoint_sets.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 namespace {
 
 using Edge = std::pair<int, int>;  // from, to
-
-/// Disjoint sets with path halving.
-struct Sets {
-  std::vector<int> parent;
-  explicit Sets(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-  int root(int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(int i, int j) { parent[root(i)] = root(j); }
-};
 
 /// Faces of one object, with vertex numbers of the whole surface or welded ones.
 struct Part {
@@ -39,11 +28,11 @@ std::string place(const std::string& path, const std::string& name, std::size_t 
 }
 
 /// Groups the parts' faces by the sets, in the order of their first faces.
-std::vector<Part> grouped(const Part& part, Sets& sets, const std::vector<int>& key) {
+std::vector<Part> grouped(const Part& part, DisjointSets& sets, const std::vector<int>& key) {
   std::vector<Part> groups;
-  std::map<int, std::size_t> known;
+  std::map<std::size_t, std::size_t> known;
   for (std::size_t f = 0; f < part.loops.size(); ++f) {
-    const auto [entry, fresh] = known.try_emplace(sets.root(key[f]), groups.size());
+    const auto [entry, fresh] = known.try_emplace(sets.of(std::size_t(key[f])), groups.size());
     if (fresh) groups.push_back({part.vertices, {}, {}});
     groups[entry->second].loops.push_back(part.loops[f]);
     groups[entry->second].faces.push_back(part.faces[f]);
@@ -52,10 +41,10 @@ std::vector<Part> grouped(const Part& part, Sets& sets, const std::vector<int>& 
 }
 
 std::vector<Part> split_by_vertices(const Part& part) {
-  Sets sets(part.vertices->size());
+  DisjointSets sets(part.vertices->size());
   std::vector<int> key;
   for (const auto& loop : part.loops) {
-    for (const int v : loop) sets.join(loop[0], v);
+    for (const int v : loop) sets.join(std::size_t(loop[0]), std::size_t(v));
     key.push_back(loop[0]);
   }
   return grouped(part, sets, key);
@@ -143,7 +132,7 @@ double inner_angle(const Part& part, const Edge& edge, int face, int other) {
 /// Follows the faces over shared edges. Throws when an edge has no second face.
 std::vector<Part> split_by_edges(const Part& part, const std::string& where) {
   const auto edges = directed_edges(part);
-  Sets sets(part.loops.size());
+  DisjointSets sets(part.loops.size());
   std::size_t open = 0;
   Vec3 open_at = Vec3::Zero();
   for (const auto& [edge, faces] : edges)
@@ -156,7 +145,7 @@ std::vector<Part> split_by_edges(const Part& part, const std::string& where) {
       const auto angle = [&, &e = edge](int other) { return inner_angle(part, e, face, other); };
       const int neighbour = *std::min_element(back->second.begin(), back->second.end(),
                                               [&](int a, int b) { return angle(a) < angle(b); });
-      sets.join(face, neighbour);
+      sets.join(std::size_t(face), std::size_t(neighbour));
     }
   if (open > 0)
     throw InputError(

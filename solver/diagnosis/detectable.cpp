@@ -155,12 +155,13 @@ Least least_on(const Way& way, const Amounts& amounts, const Distance& distance,
   return least;
 }
 
-/// Of one candidate: both sides of where it changes nothing.
+/// Of one candidate: both sides of where it changes nothing, or (`side` −1, 1) below or above it alone.
 struct Found {
   Detectable least;
   std::vector<Trace> traces;
 };
-Found look_for(const Candidate& c, const Amounts& amounts, const Distance& distance, double damping, double margin) {
+Found look_for(const Candidate& c, const Amounts& amounts, const Distance& distance, double damping, double margin,
+               int side = 0) {
   const EffectParameter& p = find_effect(c.name).parameters[0];
   const FitParameter& own = c.parameters[0];
   Found f = {{c.name, c.where, p.name, p.unit, p.neutral, not_found, not_found}, {}};
@@ -172,8 +173,8 @@ Found look_for(const Candidate& c, const Amounts& amounts, const Distance& dista
     least.trace.above = bound > neutral;
     f.traces.push_back(std::move(least.trace));
   };
-  if (own.low < neutral) look(own.low, f.least.below);
-  if (own.high > neutral) look(own.high, f.least.above);
+  if (side <= 0 && own.low < neutral) look(own.low, f.least.below);
+  if (side >= 0 && own.high > neutral) look(own.high, f.least.above);
   return f;
 }
 
@@ -224,7 +225,8 @@ Detection detection(const DiagnosisProblem& problem, const Fit& fit, const Origi
     const Trace& trace = traces[h->trace];
     const Candidate& c = *asked[trace.candidate];
     const Amounts amounts(all, fit.hypothesis, x, origin, c, distance);
-    const Found more = look_for(c, amounts, distance.with(*rows), problem.damping, settings.margin);
+    const Found more =
+        look_for(c, amounts, distance.with(*rows), problem.damping, settings.margin, trace.above ? 1 : -1);
     const double factor = fall(found[trace.candidate]->least, more.least, trace.above);
     if (std::isfinite(factor)) h->factor = std::min(factor, 1.0);
   });

@@ -1,8 +1,8 @@
 #include "solver/linear/loose.h"
 
 #include <Eigen/Dense>
-#include <numeric>
 
+#include "solver/base/disjoint_sets.h"
 #include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
@@ -20,22 +20,14 @@ std::vector<int> ways(const Unknowns& unknowns, std::size_t site) {
 /// Connected parts by union of the sites that a non-zero block couples; what has a prescribed component is one part
 /// with the ground (the last label).
 std::vector<std::int32_t> connected_parts(const BlockMatrix& k, const Unknowns& unknowns) {
-  std::vector<std::int32_t> parent(k.sites() + 1);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t i) {
-    while (parent[std::size_t(i)] != i) i = parent[std::size_t(i)] = parent[std::size_t(parent[std::size_t(i)])];
-    return i;
-  };
-  const auto ground = std::int32_t(k.sites());
+  DisjointSets sets(k.sites() + 1);
   for (std::size_t site = 0; site < k.sites(); ++site)
-    if (ways(unknowns, site).size() < unknowns.ways(site)) parent[std::size_t(root(std::int32_t(site)))] = ground;
+    if (ways(unknowns, site).size() < unknowns.ways(site)) sets.join(site, k.sites());
   k.for_each([&](std::int32_t row, std::int32_t column, const Matrix6& block) {
-    if (row == column || block.isZero(0.0)) return;
-    const std::int32_t i = root(row), j = root(column);
-    parent[std::size_t(std::min(i, j))] = std::max(i, j);  // the ground stays on top
+    if (row != column && !block.isZero(0.0)) sets.join(std::size_t(row), std::size_t(column));
   });
   std::vector<std::int32_t> part;
-  for (std::int32_t i = 0; i <= ground; ++i) part.push_back(root(i));
+  for (std::size_t i = 0; i <= k.sites(); ++i) part.push_back(std::int32_t(sets.of(i)));
   return part;
 }
 

@@ -6,11 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "geometry/fill_mesh.h"
+#include "solver/base/disjoint_sets.h"
 #include "solver/base/error.h"
+#include "solver/base/suggestion.h"
 
 namespace voussoir {
 
@@ -42,14 +43,14 @@ std::vector<std::int64_t> blocks_of(const Assembly& assembly, std::int32_t compo
 }
 
 /// What a step may name here.
-std::string names_there(const Assembly& assembly) {
+std::vector<std::string> names_there(const Assembly& assembly) {
   std::set<std::string> names;
   for (const Block& block : assembly.blocks)
     if (!block.fixed) names.insert(component_names()[std::size_t(block.component)]);
   std::vector<std::string> all(names.begin(), names.end());
   if (!assembly.fill.empty()) all.emplace_back(fill_name);
   for (const auto& group : assembly.groups) all.push_back(group.first);
-  return fmt::format("{}", fmt::join(all, ", "));
+  return all;
 }
 
 Named look_up(const Assembly& assembly, const std::string& name) {
@@ -68,7 +69,8 @@ Named look_up(const Assembly& assembly, const std::string& name) {
       named.blocks = blocks_of(assembly, component_index(name.substr(0, space)), part);
   }
   if (named.blocks.empty() && !named.fill)
-    throw InputError("construction: there is no \"{}\" in this assembly; it has {}", name, names_there(assembly));
+    throw InputError("construction: there is no \"{}\" in this assembly{}", name,
+                     suggestion(name, names_there(assembly)));
   return named;
 }
 
@@ -198,27 +200,13 @@ class Planner {
   int count_ = 0;
 };
 
-/// Sets that grow together (Tarjan 1975): blocks, then nodes of the fill.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
-  std::size_t of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 /// In every step all that is there must hang together with something held.
 void check_held(const Assembly& assembly, const ConstructionPlan& plan) {
   const std::size_t blocks = assembly.blocks.size();
   const std::vector<std::int32_t> tet_of = triangle_tets(assembly.fill);
   for (std::int32_t step = 0; step < plan.steps(); ++step) {
     const auto there = [&](std::int64_t block) { return plan.block[std::size_t(block)] <= step; };
-    Sets sets(blocks + assembly.fill.nodes.size());
+    DisjointSets sets(blocks + assembly.fill.nodes.size());
     for (const Joint& joint : assembly.joints)
       if (there(joint.a) && there(joint.b)) sets.join(std::size_t(joint.a), std::size_t(joint.b));
     for (std::size_t t = 0; t < assembly.fill.tets.size(); ++t)

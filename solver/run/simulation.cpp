@@ -410,6 +410,10 @@ RunEnd Simulation::run(double until) {
       const RunEnd end = timed(stage, until);
       if (end != RunEnd::finished) return end;
     }
+    if (observers_.ended) {
+      const Timed spent(costs_.reports);
+      observers_.ended(*this, position_.stage);
+    }
     ++position_.stage;
     position_.stage_begun = 0.0;
     write_fields();

@@ -45,6 +45,8 @@ struct Sample {
 struct Observers {
   std::function<void(const Simulation&, const Sample&)> history;
   std::function<void(Simulation&)> fields;
+  /// A stage (its index in the settings) has just ended, and its end is not stored yet.
+  std::function<void(const Simulation&, std::int64_t stage)> ended;
   std::function<void(Simulation&, bool stage_end)> checkpoint;
   std::function<void(const Progress&)> progress;
   std::function<void(const std::string&)> log;
@@ -54,7 +56,7 @@ struct Observers {
 /// Where the wall time of a run has gone, s; of this part of it, if it was resumed.
 struct RunCosts {
   double equilibrium = 0.0, steps = 0.0, searches = 0.0;
-  double history = 0.0, fields = 0.0, checkpoints = 0.0;  // by the observers; history with its energies
+  double history = 0.0, fields = 0.0, reports = 0.0, checkpoints = 0.0;  // by the observers; history with its energies
 };
 
 enum class RunEnd { finished, interrupted, failed };

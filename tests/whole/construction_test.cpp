@@ -63,7 +63,8 @@ TEST(Construction, IsRefusedWhereItLeavesSomethingOut) {
   };
   refused("construction = \"stages\"\n", {"'construction'", "did you mean \"staged\"?"});
   refused("construction = [ { add = [\"pier\"] } ]\n", {"bridge.toml", "no step adds", "of arch"});
-  refused("construction = [ { add = [\"vault\"] } ]\n", {"there is no \"vault\"", "it has abutment, arch"});
+  refused("construction = [ { add = [\"vault\"] } ]\n", {"there is no \"vault\"", "expected one of: abutment, arch"});
+  refused("construction = [ { add = [\"piers\"] } ]\n", {"there is no \"piers\"", "did you mean 'pier'?"});
   refused(
       "construction = [ { add = [\"parapet\"] }, { add = [\"pier\", \"abutment\", \"infill\", \"arch\", \"backing\", "
       "\"spandrel\", \"backfill\"] } ]\n",

@@ -171,7 +171,7 @@ std::string period_text(const json& period) {
 }  // namespace
 
 json gravity_report(const Simulation& run, const Snapshot& snapshot, int modes) {
-  const auto stage = std::size_t(run.position().stage - 1);  // that it is at is the next
+  const auto stage = std::size_t(run.position().stage);  // which has just ended
   const StageSettings& settings = run.settings().stages[stage];
   json report = {{"stage", stage + 1},
                  {"label", settings.label},

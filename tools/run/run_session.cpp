@@ -68,6 +68,9 @@ Observers RunSession::observers() {
     vtk_.write(assembly_, make_snapshot(run.model(), run.state()), request_.threads);
     history_.flush();
   };
+  o.ended = [this](const Simulation&, std::int64_t stage) {
+    if (case_.settings.stages[std::size_t(stage)].kind == StageSettings::Kind::gravity) report_gravity();
+  };
   o.checkpoint = [this](Simulation&, bool stage_end) { write_checkpoint(stage_end); };
   o.progress = [this](const Progress& p) { progress_.show(p); };
   o.log = [this](const std::string& text) { log(text); };
@@ -106,8 +109,6 @@ void RunSession::report_gravity() {
 }
 
 void RunSession::write_checkpoint(bool stage_end) {
-  const std::int64_t ended = simulation_->position().stage - 1;
-  if (stage_end && case_.settings.stages[std::size_t(ended)].kind == StageSettings::Kind::gravity) report_gravity();
   history_.flush();  // first: a resumed run finds every row up to its checkpoint
   const std::string name = checkpoint_name(simulation_->state().time());
   const std::string file = stage_end ? fmt::format("stage_{:02}_", simulation_->position().stage) + name : name;
@@ -270,7 +271,8 @@ void RunSession::write_summary(RunEnd end) {
   const RunCosts& costs = run.costs();
   json["seconds_of_this_part"] = {
       {"equilibrium", costs.equilibrium}, {"steps", costs.steps},   {"contact_searches", costs.searches},
-      {"history", costs.history},         {"fields", costs.fields}, {"checkpoints", costs.checkpoints}};
+      {"history", costs.history},         {"fields", costs.fields}, {"reports", costs.reports},
+      {"checkpoints", costs.checkpoints}};
   if (const MassScaling& scaling = run.mass_scaling(); scaling.at_work())
     json["mass_scaling"] = {{"share", scaling.share},     {"blocks", scaling.bodies},
                             {"heavier", scaling.heavier}, {"nodes", scaling.nodes},
