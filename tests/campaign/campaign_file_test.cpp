@@ -138,6 +138,10 @@ TEST(CampaignFile, SelectionsAndFolders) {
   EXPECT_EQ(selected.records[0].source.scale, 1.5);
   EXPECT_EQ(selected.records[0].source.units, "g");
   EXPECT_TRUE(selected.records[0].source.files[1].empty());
+  const Settings both = read_settings(folder.campaign("records = [\"s/selection.json\", \"set\"]\nunits = \"g\"", ""));
+  ASSERT_EQ(both.records.size(), 2u);
+  EXPECT_EQ(both.records[0].name, "A, \"B\"");
+  EXPECT_EQ(both.records[1].name, "AQK");
   const Settings found = read_settings(folder.campaign("records = \"set\"\nunits = \"cm/s2\"\ndt = 0.02", ""));
   ASSERT_EQ(found.records.size(), 1u);
   EXPECT_EQ(found.records[0].name, "AQK");

@@ -99,6 +99,32 @@ void keep_axes(TableReader& campaign, std::vector<Shaking>& records) {
   }
 }
 
+bool is_folder(const std::string& place) {
+  std::error_code ignored;
+  return fs::is_directory(place, ignored);
+}
+
+/// The recordings of selections and folders, one after the other.
+void read_places(TableReader& campaign, Settings& s) {
+  std::vector<std::string> places;
+  for (const std::string& name : campaign.texts("records")) places.push_back(relative_to(s.path, name));
+  if (places.empty()) campaign.fail("records", "is empty: name a selection.json or a folder of record files");
+  if (std::ranges::none_of(places, is_folder))
+    for (const char* key : {"units", "dt"})
+      if (campaign.has(key)) campaign.fail(key, "is of plain columns in a folder: a selection says it itself");
+  const std::vector<std::string>& units = acceleration_units();
+  const std::string unit = units[campaign.word("units", units, 0)];
+  const double dt = campaign.number("dt", 0.005, {1e-5, 1.0, "s"});
+  const bool correct = campaign.flag("correct", false);
+  for (const std::string& place : places) {
+    if (std::error_code ignored; !is_folder(place) && !fs::is_regular_file(place, ignored))
+      campaign.fail("records", fmt::format("names \"{}\": there is no such file or folder", place));
+    std::vector<Shaking> records =
+        is_folder(place) ? read_folder(place, unit, dt, correct, s.left_out) : read_selection(place, correct);
+    std::ranges::move(records, std::back_inserter(s.records));
+  }
+}
+
 void read_records(TableReader& root, TableReader& campaign, Settings& s) {
   std::vector<TableReader> tables = root.tables("record");
   const bool named = campaign.has("records");
@@ -111,21 +137,7 @@ void read_records(TableReader& root, TableReader& campaign, Settings& s) {
       if (campaign.has(key)) campaign.fail(key, "belongs to 'records': give it in each [[record]]");
   for (TableReader& table : tables) s.records.push_back(read_shaking(table, s.path));
   if (!named) return;
-  const std::string place = relative_to(s.path, campaign.text("records", ""));
-  const std::vector<std::string>& units = acceleration_units();
-  const std::string unit = units[campaign.word("units", units, 0)];
-  const double dt = campaign.number("dt", 0.005, {1e-5, 1.0, "s"});
-  const bool correct = campaign.flag("correct", false);
-  std::error_code ignored;
-  if (fs::is_directory(place, ignored)) {
-    s.records = read_folder(place, unit, dt, correct, s.left_out);
-  } else if (fs::is_regular_file(place, ignored)) {
-    for (const char* key : {"units", "dt"})
-      if (campaign.has(key)) campaign.fail(key, "is of plain columns in a folder: a selection says it itself");
-    s.records = read_selection(place, correct);
-  } else {
-    campaign.fail("records", fmt::format("is \"{}\": there is no such file or folder", place));
-  }
+  read_places(campaign, s);
   keep_axes(campaign, s.records);
 }
 
