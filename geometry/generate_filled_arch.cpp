@@ -46,7 +46,6 @@ Ring make_segment(double middle, double span, double rise, double thickness, int
     ring.extrados.push_back(point(radius + thickness, angle, i == j));
   }
   // The fill's floor is level with the feet of the extrados: what lies above it is cut by the ring.
-  ring.centre = {middle, 0.0, ring.extrados.front().z()};
   return ring;
 }
 

@@ -1,18 +1,13 @@
 #include "geometry/masonry.h"
 
 #include <algorithm>
-#include <boost/iterator/counting_iterator.hpp>
 #include <cmath>
 
-#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
 
 namespace {
-
-/// Thickness in m below which a piece of a polygon is rounding, not masonry: its neighbours then touch across it.
-constexpr double kNothing = 1e-7;
 
 /// Blocks of one layout, which take some kilobytes each before there is a model of them.
 constexpr double kMostStones = 2e6;
@@ -23,20 +18,6 @@ void check_number(double stones) {
         "[bridge] asks for {:.3g} blocks, expected at most {:g}: make them larger (block_scale, or the sizes of the "
         "blocks), or the structure smaller",
         stones, kMostStones);
-}
-
-double perimeter(const Polygon& polygon) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
-  return sum;
-}
-
-bool is_nothing(const Polygon& polygon) {
-  return polygon.size() < 3 || polygon_area(polygon) < kNothing * perimeter(polygon);
-}
-
-Polygon rectangle(double x0, double x1, double z0, double z1) {
-  return {{x0, 0.0, z0}, {x1, 0.0, z0}, {x1, 0.0, z1}, {x0, 0.0, z1}};
 }
 
 Polyhedron sweep_across(Polygon polygon, double y0, double y1) {
@@ -50,7 +31,7 @@ double shared_edge(const Polygon& a, const Polygon& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec3 &p = a[i], &q = a[(i + 1) % a.size()];
     const double length = (q - p).norm();
-    if (length < kNothing) continue;
+    if (length < no_masonry) continue;
     const Vec3 t = (q - p) / length;
     for (std::size_t j = 0; j < b.size(); ++j) {
       const Vec3 u = b[j] - p, v = b[(j + 1) % b.size()] - p;
@@ -84,81 +65,11 @@ std::vector<std::vector<Polygon>> connected_groups(std::vector<Polygon> polygons
   return groups;
 }
 
-/// The half-plane past joint i of a ring, going from left to right.
-Plane past_joint(const Ring& ring, int i) {
-  const Vec3 along = (ring.extrados[std::size_t(i)] - ring.centre).normalized();
-  const Vec3 backward(-along.z(), 0.0, along.x());
-  return {backward, backward.dot(ring.centre)};
-}
-
-Plane before_joint(const Ring& ring, int i) {
-  const Plane past = past_joint(ring, i);
-  return {-past.normal, -past.offset};
-}
-
-/// The half-plane outside the extrados of wedge i.
-Plane above_wedge(const Ring& ring, int i) {
-  const Vec3 &p = ring.extrados[std::size_t(i)], &q = ring.extrados[std::size_t(i) + 1];
-  const Vec3 inward = Vec3(q.z() - p.z(), 0.0, p.x() - q.x()).normalized();
-  return {inward, inward.dot(0.5 * (p + q))};
-}
-
-/// The part of a polygon between joints `first` and `last` + 1 of a ring, outside the extrados of wedge `facet`.
-Polygon sector(const Polygon& polygon, const Ring& ring, int first, int last, int facet) {
-  Polygon piece = cut(polygon, past_joint(ring, first), 1e-9);
-  if (piece.size() >= 3) piece = cut(piece, before_joint(ring, last + 1), 1e-9);
-  if (piece.size() >= 3) piece = cut(piece, above_wedge(ring, facet), 1e-9);
-  return piece;
-}
-
-struct Piece {
-  int first = 0, last = 0, facet = 0;  // wedges it reaches over; the one whose extrados cuts it
-  Polygon polygon;
-};
-
-/// One piece instead of two neighbours, if the extrados of one of them bounds both. (A point of another sector outside
-/// that facet's line is outside the convex ring, so equal areas mean equal sets.)
-bool join(const Polygon& polygon, const Ring& ring, Piece& left, const Piece& right) {
-  const double both = polygon_area(left.polygon) + polygon_area(right.polygon);
-  for (const int facet : {left.facet, right.facet}) {
-    const Polygon whole = sector(polygon, ring, left.first, right.last, facet);
-    if (whole.size() < 3 || std::abs(polygon_area(whole) - both) > 1e-9 * (1.0 + both)) continue;
-    left = {left.first, right.last, facet, whole};
-    return true;
-  }
-  return false;
-}
-
-/// First wedge whose sector a polygon may reach, and one past the last. Above the springing its corners lie past a
-/// joint or before it in the joints' order, so that both are found by halving.
-std::pair<int, int> sectors_reached(const Polygon& polygon, const Ring& ring) {
-  const auto below = [&](const Vec3& p) { return p.z() < ring.centre.z(); };
-  if (std::any_of(polygon.begin(), polygon.end(), below)) return {0, ring.wedges()};
-  const auto reaches = [&](const Plane& plane) {
-    const auto inside = [&](const Vec3& p) { return plane.normal.dot(p) - plane.offset < kNothing; };
-    return std::any_of(polygon.begin(), polygon.end(), inside);
-  };
-  const boost::counting_iterator<int> begin(0), end(ring.wedges());
-  const auto first = std::partition_point(begin, end, [&](int i) { return !reaches(before_joint(ring, i + 1)); });
-  const auto last = std::partition_point(begin, end, [&](int i) { return reaches(past_joint(ring, i)); });
-  return {*first, *last};
-}
-
-bool clear_of(const Polygon& polygon, const Ring& ring) {
-  Vec3 low = polygon[0], high = polygon[0];
-  for (const Vec3& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  double top = ring.centre.z();
-  for (const Vec3& p : ring.extrados) top = std::max(top, p.z());
-  return high.x() <= ring.extrados.front().x() || low.x() >= ring.extrados.back().x() || low.z() >= top ||
-         high.z() <= ring.centre.z();
-}
-
-/// Lays one box of a course, cut by the rings.
+/// Lays one box of a course, cut by the limits of the section.
 void lay_box(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, const Vec3& nominal) {
   const Polygon whole = rectangle(low.x(), high.x(), low.z(), high.z());
-  const auto reaches = [&](const Ring& ring) { return !clear_of(whole, ring); };
-  const bool was_cut = std::any_of(layout.rings.begin(), layout.rings.end(), reaches);
-  for (const auto& group : connected_groups(outside(low, high, layout.rings))) {
+  const bool was_cut = reach(layout.limits, whole);
+  for (const auto& group : connected_groups(within(whole, layout.limits))) {
     std::vector<Polyhedron> solids;
     for (const Polygon& cell : group) solids.push_back(sweep_across(cell, low.y(), high.y()));
     lay_stone(layout, std::move(solids), unit, nominal, was_cut);
@@ -180,24 +91,6 @@ std::vector<double> split(double from, double to, double size, bool half) {
   return at;
 }
 
-Ring make_semicircle(const Vec3& centre, double inner_radius, double outer_radius, int wedges) {
-  Ring ring;
-  ring.centre = centre;
-  const auto point = [&](double radius, double c, double s) {
-    return Vec3(centre.x() + radius * c, 0.0, centre.z() + radius * s);
-  };
-  for (int i = 0; i <= wedges; ++i) {
-    // The right half mirrors the left one, so that both have the same bits.
-    const int j = std::min(i, wedges - i);
-    const double angle = pi * j / wedges;
-    const bool crown = 2 * i == wedges;
-    const double c = crown ? 0.0 : (i == j ? -1.0 : 1.0) * std::cos(angle), s = crown ? 1.0 : std::sin(angle);
-    ring.intrados.push_back(point(inner_radius, c, s));
-    ring.extrados.push_back(point(outer_radius, c, s));
-  }
-  return ring;
-}
-
 std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, double y1, const Unit& unit) {
   std::vector<std::int64_t> first;
   for (std::size_t i = 0; i + 1 < ring.intrados.size(); ++i) {
@@ -210,34 +103,6 @@ std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, 
   }
   first.push_back(std::int64_t(layout.stones.size()));
   return first;
-}
-
-std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring) {
-  std::vector<Piece> pieces;
-  const auto [first, last] = sectors_reached(polygon, ring);
-  for (int i = first; i < last; ++i) {
-    Piece piece = {i, i, i, sector(polygon, ring, i, i, i)};
-    if (is_nothing(piece.polygon)) continue;
-    const bool next = !pieces.empty() && pieces.back().last == i - 1;
-    if (!next || !join(polygon, ring, pieces.back(), piece)) pieces.push_back(std::move(piece));
-  }
-  std::vector<Polygon> result;
-  for (Piece& piece : pieces) result.push_back(std::move(piece.polygon));
-  return result;
-}
-
-std::vector<Polygon> outside(const Vec3& low, const Vec3& high, const std::vector<Ring>& rings) {
-  const Polygon whole = rectangle(low.x(), high.x(), low.z(), high.z());
-  std::vector<Polygon> pieces = {whole};
-  for (const Ring& ring : rings) {
-    if (clear_of(whole, ring)) continue;
-    std::vector<Polygon> next;
-    for (const Polygon& piece : pieces) {
-      for (Polygon& part : outside(piece, ring)) next.push_back(std::move(part));
-    }
-    pieces = std::move(next);
-  }
-  return pieces;
 }
 
 void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, int first) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/assembly.h"
+#include "geometry/ring.h"
 
 namespace voussoir {
 
@@ -28,17 +29,10 @@ struct Unit {
   bool bonded = true;        // running bond; otherwise stacked, joints above joints
 };
 
-/// A ring of flat-faced wedges in the plane x-z: joint i runs from intrados[i] to extrados[i], from left to right.
-struct Ring {
-  Polygon intrados, extrados;  // y = 0, m; one more point than there are wedges
-  Vec3 centre = Vec3::Zero();  // m, where the joints' planes meet (springing level)
-  int wedges() const { return int(intrados.size()) - 1; }
-};
-
-/// The stones laid so far, and the rings that cut whatever is laid above the springing.
+/// The stones laid so far, and what cuts those that follow.
 struct Layout {
   std::vector<Stone> stones;
-  std::vector<Ring> rings;
+  SectionLimits limits;
   std::map<std::string, std::vector<std::int64_t>> groups;  // indices into `stones`
 };
 
@@ -46,25 +40,13 @@ struct Layout {
 /// shifted by half of one, with half parts at both ends; a single part is never halved.
 std::vector<double> split(double from, double to, double size, bool half = false);
 
-/// A semicircular ring of `wedges` equal wedges. The feet lie exactly at the springing level and the two halves mirror
-/// one another bit for bit about `centre`.
-Ring make_semicircle(const Vec3& centre, double inner_radius, double outer_radius, int wedges);
-
 /// Lays the wedges of a ring across [y0, y1] in stretcher bond: alternate wedges are offset half a stone, with half
 /// stones at the edges. Returns the first index of each wedge's stones in the layout, and one past the last.
 std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, double y1, const Unit& unit);
 
-/// The parts of a convex polygon in the plane x-z that lie outside a ring's extrados, as convex polygons. They meet
-/// along the planes of the ring's joints.
-std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring);
-
-/// The part of the rectangle between two corners in the plane x-z that lies outside the extrados of all rings, as
-/// convex polygons.
-std::vector<Polygon> outside(const Vec3& low, const Vec3& high, const std::vector<Ring>& rings);
-
 /// Fills a box with horizontal courses in running bond: along x (a course is offset half a length against the ones
 /// above and below) and across y (a row is so against its neighbours in the course), unless the unit is stacked. Stones
-/// that meet a ring of the layout are cut by its extrados; what falls apart becomes separate stones. `first` is the
+/// that meet the limits of the layout are cut by them; what falls apart becomes separate stones. `first` is the
 /// number of the lowest course in the bond, for walls laid in several calls.
 void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, int first = 0);
 

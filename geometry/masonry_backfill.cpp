@@ -36,11 +36,12 @@ std::vector<FillRegion> fill_regions(const Bridge& bridge) {
 }
 
 double fill_space(const Bridge& bridge) {
-  const std::vector<Ring> rings = vault_rings(bridge);
+  const SectionLimits limits = {vault_rings(bridge), {}, {}};
   double volume = 0.0;
   for (const FillRegion& region : fill_regions(bridge)) {
     const double width = region.high.y() - region.low.y();
-    for (const Polygon& piece : outside(region.low, region.high, rings)) volume += width * polygon_area(piece);
+    const Polygon whole = rectangle(region.low.x(), region.high.x(), region.low.z(), region.high.z());
+    for (const Polygon& piece : within(whole, limits)) volume += width * polygon_area(piece);
   }
   return volume;
 }

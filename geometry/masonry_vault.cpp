@@ -25,7 +25,7 @@ void lay_vaults(Layout& layout, const Bridge& bridge) {
     const std::size_t n = std::size_t(bridge.voussoirs);
     auto& keystone = layout.groups[fmt::format("keystone {}", i)];
     for (std::int64_t s = first[(n - 1) / 2]; s < first[n / 2 + 1]; ++s) keystone.push_back(s);
-    layout.rings.push_back(ring);
+    layout.limits.rings.push_back(ring);
   }
 }
 

@@ -54,10 +54,15 @@ auto with_gmsh(const std::string& before, const std::string& after, Work&& work)
   throw RunError("{}: {}; {}", before, reason.empty() ? "it does not say why" : reason, after);
 }
 
+/// Level of the lower foot of the extrados.
+double springing(const Ring& ring) {
+  return std::min(ring.extrados.front().z(), ring.extrados.back().z());
+}
+
 bool reaches(const Ring& ring, const Box& box) {
-  double top = ring.centre.z();
+  double top = springing(ring);
   for (const Vec3& p : ring.extrados) top = std::max(top, p.z());
-  return box.low.z() > ring.centre.z() - 1e-9 && box.low.z() < top && box.high.x() > ring.extrados.front().x() &&
+  return box.low.z() > springing(ring) - 1e-9 && box.low.z() < top && box.high.x() > ring.extrados.front().x() &&
          box.low.x() < ring.extrados.back().x();
 }
 
@@ -74,7 +79,7 @@ std::pair<int, int> add_face(const Polygon& outline) {
 /// What lies below the extrados. Its foot is below the springing, so that no edge but those of the extrados lies in a
 /// box.
 std::pair<int, int> add_vault(const Ring& ring) {
-  const double foot = ring.centre.z() - 1.0;
+  const double foot = springing(ring) - 1.0;
   Polygon outline = ring.extrados;
   outline.emplace_back(outline.back().x(), 0.0, foot);
   outline.emplace_back(outline.front().x(), 0.0, foot);

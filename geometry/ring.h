@@ -1,0 +1,46 @@
+// Rings of voussoirs in the plane x-z, and what they leave of what is laid around them.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "geometry/polyhedron.h"
+
+namespace voussoir {
+
+/// A ring of flat-faced wedges in the plane x-z: joint i runs from intrados[i] to extrados[i], from left to right.
+struct Ring {
+  Polygon intrados, extrados;  // y = 0, m; one more point than there are wedges
+  /// m, where the joints' planes meet (at the springing level), if they do: a semicircle. Without it a joint's plane is
+  /// the one through its ends.
+  std::optional<Vec3> centre = {};
+  int wedges() const { return int(intrados.size()) - 1; }
+};
+
+/// A semicircular ring of `wedges` equal wedges. The feet lie exactly at the springing level and the two halves mirror
+/// one another bit for bit about `centre`.
+Ring make_semicircle(const Vec3& centre, double inner_radius, double outer_radius, int wedges);
+
+/// The upright rectangle [x0, x1] × [z0, z1] in the plane y = 0.
+Polygon rectangle(double x0, double x1, double z0, double z1);
+
+/// Thickness in m below which a piece of a polygon is rounding, not masonry: its neighbours then touch across it.
+constexpr double no_masonry = 1e-7;
+/// Whether a polygon is thinner than that everywhere.
+bool is_nothing(const Polygon& polygon);
+
+/// The parts of a convex polygon in the plane x-z that lie outside a ring and outside the opening below it, as convex
+/// polygons. They meet along the planes of the ring's joints.
+std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring);
+
+/// What bounds the stones of a section, in the plane x-z.
+struct SectionLimits {
+  std::vector<Ring> rings;  // nothing is laid in them or in the openings below them
+  std::vector<Box> taken;   // supports, upright boxes, of whatever depth below: nothing is laid in them
+  std::vector<Plane> top;   // the deck: nothing is laid above them
+};
+/// The parts of a convex polygon that are left, as convex polygons.
+std::vector<Polygon> within(const Polygon& polygon, const SectionLimits& limits);
+/// Whether the limits reach into a polygon, so that it may not be left whole.
+bool reach(const SectionLimits& limits, const Polygon& polygon);
+
+}  // namespace voussoir
