@@ -101,6 +101,12 @@ Masks(Half, Half) -> Masks<Half>;
 [[gnu::always_inline]] inline Register larger(Register a, Register b) {
   return _mm256_max_pd(a, b);
 }
+[[gnu::always_inline]] inline RegisterSingles square_root(RegisterSingles x) {
+  return _mm256_sqrt_ps(x);
+}
+[[gnu::always_inline]] inline RegisterSingles larger(RegisterSingles a, RegisterSingles b) {
+  return _mm256_max_ps(a, b);
+}
 [[gnu::always_inline]] inline RegisterMask not_zero(RegisterMask x) {
   return x != 0;
 }
@@ -135,9 +141,15 @@ Masks(Half, Half) -> Masks<Half>;
 [[gnu::always_inline]] inline Register larger(Register a, Register b) {
   return a > b ? a : b;
 }
+[[gnu::always_inline]] inline RegisterSingles larger(RegisterSingles a, RegisterSingles b) {
+  return a > b ? a : b;
+}
 #if defined(__SSE2__)
 [[gnu::always_inline]] inline Register square_root(Register x) {
   return _mm_sqrt_pd(x);
+}
+[[gnu::always_inline]] inline RegisterSingles square_root(RegisterSingles x) {
+  return _mm_sqrt_ps(x);
 }
 [[gnu::always_inline]] inline unsigned bits_of(RegisterMask m) {
   return unsigned(_mm_movemask_pd(Register(m)));
@@ -145,6 +157,9 @@ Masks(Half, Half) -> Masks<Half>;
 #else
 [[gnu::always_inline]] inline Register square_root(Register x) {
   return Register{std::sqrt(x[0]), std::sqrt(x[1])};
+}
+[[gnu::always_inline]] inline RegisterSingles square_root(RegisterSingles x) {
+  return RegisterSingles{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 }
 [[gnu::always_inline]] inline unsigned bits_of(RegisterMask m) {
   return unsigned(m[0] & 1) | unsigned(m[1] & 2);

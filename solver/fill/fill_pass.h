@@ -50,6 +50,7 @@ struct FillPass {
   double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched calls for a search
   Vec3 base_displacement = Vec3::Zero();  // m, at the end of the step
   bool averaged = true;                   // false: plain tetrahedra, which lock; for comparison
+  bool single = false;                    // strain and stress in single precision: steps of an earthquake
 
   void volumes(std::size_t tile) const;
   void means(std::size_t tile) const;

@@ -26,10 +26,11 @@ template <class T>
 }
 
 /// Whether a stress with these greatest and least principal values may be past the cone or the cut-off, where they are
-/// known to 1e-7 of their difference.
+/// known to the root of their rounding, of their difference.
 template <class T>
 [[gnu::always_inline]] inline auto near_surface(const FillLaw& law, T high, T low) {
-  const T margin = 2e-7 * (high - low);
+  constexpr double root = std::is_same_v<T, Floats> ? 1e-3 : 2e-7;
+  const T margin = root * (high - low);
   return less(law.strength - margin, law.major * high - law.minor * low) | less(law.tension - margin, high);
 }
 
@@ -44,7 +45,8 @@ inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stres
   const double h = a * up - b * down, g12 = a * mid - b * down, g23 = a * up - b * mid;
   const T zero = all_lanes<T>(0.0), cut = all_lanes<T>(ft);
   const T t1 = trial[0], t2 = trial[1], t3 = trial[2];
-  const T slack = 1e-10 * (magnitude(t1) + magnitude(t3) + k);
+  constexpr double share = std::is_same_v<T, Floats> ? 2e-6 : 1e-10;
+  const T slack = share * (magnitude(t1) + magnitude(t3) + k);
   const T f13 = a * t1 - b * t3 - k;
   const auto sorted = [&](T u, T v, T w) { return at_most(v, u + slack) & at_most(w, v + slack); };
   const auto inside = [&](T u, T w) { return at_most(a * u - b * w, k + slack) & at_most(u, ft + slack); };

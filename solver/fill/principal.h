@@ -7,6 +7,10 @@ namespace voussoir {
 
 namespace detail {
 
+/// What a deviator that is all rounding is taken to be at least; its cube and the inverse of that are numbers.
+template <class T>
+constexpr double least_size = std::is_same_v<T, Floats> ? 1e-12 : 1e-100;
+
 template <class T>
 [[gnu::always_inline]] inline Triple<T> times(const Symmetric<T>& a, const Triple<T>& v) {
   return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
@@ -60,7 +64,7 @@ template <class T>
   const T mean = (1.0 / 3.0) * trace(s);
   const Symmetric<T> d = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.xz, s.yz};
   ApartValue<T> a;
-  a.size = larger(square_root((1.0 / 6.0) * inner(d, d)), all_lanes<T>(1e-100));
+  a.size = larger(square_root((1.0 / 6.0) * inner(d, d)), all_lanes<T>(detail::least_size<T>));
   a.scale = 1.0 / a.size;
   const T r =
       0.5 * a.scale * a.scale * a.scale *
@@ -105,7 +109,7 @@ inline Principal<T> principal_axes(const Symmetric<T>& s, const ApartValue<T>& s
   const Triple<T> du = detail::times(d, u), dw = detail::times(d, w);
   const T uu = dot(u, du), uw = 2.0 * dot(u, dw), ww = dot(w, dw);
   const T apart = ww - uu, root = square_root(apart * apart + uw * uw);
-  const T wide = larger(magnitude(apart) + root, all_lanes<T>(1e-100));
+  const T wide = larger(magnitude(apart) + root, all_lanes<T>(detail::least_size<T>));
   const T norm = 1.0 / square_root(wide * wide + uw * uw);
   const auto rises = less(zero, apart);
   const T a = norm * select(rises, uw, wide), b = norm * select(rises, wide, uw);

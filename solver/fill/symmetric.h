@@ -1,6 +1,6 @@
 // Symmetric 3 × 3 tensors and their principal axes, for one element (T double) or eight side by side (T Lanes).
 #pragma once
-#include "solver/base/lanes.h"
+#include "solver/base/floats.h"
 
 namespace voussoir {
 
@@ -28,10 +28,10 @@ inline double larger(double a, double b) {
 }
 template <class T>
 [[gnu::always_inline]] inline T all_lanes(double x) {
-  if constexpr (std::is_same_v<T, double>)
-    return x;
-  else
+  if constexpr (std::is_same_v<T, Lanes>)
     return splat(x);
+  else
+    return T(x);
 }
 template <class T>
 [[gnu::always_inline]] inline T magnitude(T x) {

@@ -7,24 +7,27 @@
 namespace voussoir::tet {
 
 /// Elastic strain with its mean volumetric part, and the tetrahedron's own volumetric part.
+template <class L>
 struct ElasticStrain {
-  Symmetric<Lanes> e;
-  Lanes mean, own;
+  Symmetric<L> e;
+  L mean, own;
 };
 
 /// 3 over the trace of FᵀF. With it axes that the material carries along keep their mean length, however far it has
 /// flowed: Fᵀ e F alone would grow with the square of a stretch, and what it does to the nodes with the fourth power.
-[[gnu::always_inline]] inline Lanes stretch_back(const Tensor<Lanes>& f) {
-  Lanes sum = splat(0.0);
+template <class L>
+[[gnu::always_inline]] inline L stretch_back(const Tensor<L>& f) {
+  L sum = all_lanes<L>(0.0);
   for (const auto& row : f.m)
-    for (const Lanes& x : row) sum += x * x;
+    for (const L& x : row) sum += x * x;
   return 3.0 / sum;
 }
 
 /// Fᵀ (e + ⅓ θ 1) F 3/tr FᵀF.
-[[gnu::always_inline]] inline Symmetric<Lanes> material(const Tensor<Lanes>& f, Lanes back, const ElasticStrain& s) {
-  const Lanes third = (1.0 / 3.0) * s.mean;
-  const Symmetric<Lanes> whole = {s.e.xx + third, s.e.yy + third, s.e.zz + third, s.e.xy, s.e.xz, s.e.yz};
+template <class L>
+[[gnu::always_inline]] inline Symmetric<L> material(const Tensor<L>& f, L back, const ElasticStrain<L>& s) {
+  const L third = (1.0 / 3.0) * s.mean;
+  const Symmetric<L> whole = {s.e.xx + third, s.e.yy + third, s.e.zz + third, s.e.xy, s.e.xz, s.e.yz};
   return back * push(transposed(f), whole);
 }
 
@@ -33,12 +36,15 @@ struct Packed {
   Pairs of[3];
   Singles trace() const { return low(of[0]) + high(of[0]) + low(of[1]); }
 };
-[[gnu::always_inline]] inline Packed pack(const Symmetric<Lanes>& a) {
-  return {{pair(narrow(a.xx), narrow(a.yy)), pair(narrow(a.zz), narrow(a.xy)), pair(narrow(a.xz), narrow(a.yz))}};
+template <class L>
+[[gnu::always_inline]] inline Packed pack(const Symmetric<L>& a) {
+  return {{pair(singles_of(a.xx), singles_of(a.yy)), pair(singles_of(a.zz), singles_of(a.xy)),
+           pair(singles_of(a.xz), singles_of(a.yz))}};
 }
-[[gnu::always_inline]] inline Symmetric<Lanes> unpack(const Packed& a) {
-  return {widen(low(a.of[0])),  widen(high(a.of[0])), widen(low(a.of[1])),
-          widen(high(a.of[1])), widen(low(a.of[2])),  widen(high(a.of[2]))};
+template <class L>
+[[gnu::always_inline]] inline Symmetric<L> unpack(const Packed& a) {
+  return {numbers_of<L>(low(a.of[0])),  numbers_of<L>(high(a.of[0])), numbers_of<L>(low(a.of[1])),
+          numbers_of<L>(high(a.of[1])), numbers_of<L>(low(a.of[2])),  numbers_of<L>(high(a.of[2]))};
 }
 /// a : b.
 [[gnu::always_inline]] inline Singles inner(const Packed& a, const Packed& b) {
@@ -53,12 +59,12 @@ struct Packed {
 /// θ the mean one; `back`: stretch_back(). Nodes work on it with all strain, what has flowed included (`trial`: before
 /// the flow), and with the tetrahedron's own volumetric part. `last`: strain at the last pass, rounded to single
 /// precision, so that changes add up.
-template <int count>
-[[gnu::always_inline]] inline Symmetric<Lanes> viscous(const Branches& branches, const FillLaw& law,
-                                                       const Tensor<Lanes>& f, Lanes back, const ElasticStrain& strain,
-                                                       const ElasticStrain& trial, bool flows, Singles* last,
-                                                       Singles* kept, Lanes& work) {
-  const Symmetric<Lanes> now = material(f, back, strain);
+template <int count, class L>
+[[gnu::always_inline]] inline Symmetric<L> viscous(const Branches& branches, const FillLaw& law, const Tensor<L>& f,
+                                                   L back, const ElasticStrain<L>& strain,
+                                                   const ElasticStrain<L>& trial, bool flows, Singles* last,
+                                                   Singles* kept, Lanes& work) {
+  const Symmetric<L> now = material(f, back, strain);
   const Packed rounded = pack(now);
   Packed change, q{}, both{};  // sums over the branches, and over both ends of the step
   for (int c = 0; c < 3; ++c) {
@@ -75,22 +81,22 @@ template <int count>
       save_pair(next, row);
     }
   }
-  const Singles own = narrow(strain.own);
+  const Singles own = singles_of(strain.own);
   Singles swollen = own - last[6];
   last[6] = own;
   if (flows) {
     const Packed flowed = pack(material(f, back, trial) - now);
     for (int c = 0; c < 3; ++c) change.of[c] += flowed.of[c];
-    swollen += narrow(trial.own - strain.own);
+    swollen += singles_of(trial.own - strain.own);
   }
   // By the mean of the stresses at both ends of the step.
   const Lanes sum = widen(both.trace()), grown = widen(change.trace());
   work =
       law.shear * widen(inner(both, change)) + 0.5 * sum * (law.lame() * grown + law.bulk * (widen(swollen) - grown));
 
-  const Symmetric<Lanes> strains = unpack(q);
-  Symmetric<Lanes> stress = splat(2.0 * law.shear) * strains;
-  const Lanes volume = law.lame() * trace(strains);
+  const Symmetric<L> strains = unpack<L>(q);
+  Symmetric<L> stress = all_lanes<L>(2.0 * law.shear) * strains;
+  const L volume = law.lame() * trace(strains);
   stress.xx += volume, stress.yy += volume, stress.zz += volume;
   return stress;
 }
@@ -101,7 +107,7 @@ Lanes branch_energy(const Branches& branches, const FillLaw& law, const Singles*
   Lanes sum = splat(0.0);
   for (int k = 0; k < count; ++k) {
     const Singles* row = kept + 6 * k;
-    const Symmetric<Lanes> q = unpack({{load_pair(row), load_pair(row + 2), load_pair(row + 4)}});
+    const Symmetric<Lanes> q = unpack<Lanes>({{load_pair(row), load_pair(row + 2), load_pair(row + 4)}});
     const Lanes volume = trace(q);
     sum += branches.stored[k] * (law.shear * inner(q, q) + 0.5 * law.lame() * volume * volume);
   }

@@ -10,10 +10,13 @@ namespace {
 
 using namespace tet;
 
-[[gnu::always_inline]] inline void add_forces(const TetBatch& batch, const Vector (&f)[4], double* sums) {
+template <class L>
+[[gnu::always_inline]] inline void add_forces(const TetBatch& batch, const Triple<L> (&f)[4], double* sums) {
   const Lanes zero = splat(0.0);
   for (int k = 0; k < 4; k += 2) {
-    Lanes rows[lane_count] = {f[k].x, f[k].y, f[k].z, zero, f[k + 1].x, f[k + 1].y, f[k + 1].z, zero};
+    const Triple<L>&one = f[k], &two = f[k + 1];
+    Lanes rows[lane_count] = {doubles_of(one.x), doubles_of(one.y), doubles_of(one.z), zero,
+                              doubles_of(two.x), doubles_of(two.y), doubles_of(two.z), zero};
     transpose(rows);
     for (int lane = 0; lane < batch.count; ++lane) {
       double* a = sums + node_width * std::size_t(batch.sum[k][lane]);
@@ -58,16 +61,21 @@ int count_yielding(const std::uint8_t* yield, int count) {
 /// Batches are passed in order, but each in several arrays: what comes next is asked for before it is needed, a part at
 /// a time (see fetch()). Past the tile's `end` nothing is read, others may be at work there.
 constexpr std::size_t ahead = 4;  // batches
+void fetch_tetrahedra(const FillModel& fill, std::size_t batch, bool single) {
+  fetch(&fill.batches[batch], sizeof(TetBatch));
+  if (single) fetch(&fill.shapes[shape_rows * lane_count * batch], shape_rows * sizeof(Singles));
+}
 template <int count>
 struct TetsAhead {
   const FillModel& fill;
   const FillMemory& memory;
   std::size_t next, end;
+  bool single;
 
   [[gnu::always_inline]] bool any() const { return next < fill.batches.size(); }
   [[gnu::always_inline]] void tetrahedra() const {
     if (!any()) return;
-    fetch(&fill.batches[next], sizeof(TetBatch));
+    fetch_tetrahedra(fill, next, single);
     if constexpr (count > 0) fetch(&memory.last[strain_rows * lane_count * next], strain_rows * sizeof(Singles));
   }
   [[gnu::always_inline]] void branches() const {
@@ -80,53 +88,55 @@ struct TetsAhead {
   }
 };
 
-template <int count>
+/// Eight tetrahedra, computed in Lanes or Floats.
+template <int count, class L>
 void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, TileSums& tile) {
   const FillModel& fill = *pass.fill;
   FillMemory& memory = *pass.memory;
   const TetBatch& batch = fill.batches[index];
   const FillLaw& law = fill.law_of(index);
   const LaneMask used = LaneMask::first(batch.count);
-  const Lanes zero = splat(0.0);
+  const L zero = all_lanes<L>(0.0);
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
   std::uint8_t* yield = &memory.yield[lane_count * index];
   const bool flowed = has_flowed(yield);
-  const TetsAhead<count> coming{fill, memory, index + ahead, end};
+  const TetsAhead<count> coming{fill, memory, index + ahead, end, pass.single};
   coming.tetrahedra();
 
   // 1. strain, elastic trial stress
-  const Nodes n = gather_nodes(memory.pose.data(), batch);
-  const Shape shape = shape_of(fill.place.data(), batch);
-  const Lanes volume = select(used, (1.0 / 6.0) * shape.volume6, zero);
-  Strain s = strain_of(shape, n, flowed ? plastic : nullptr);
-  const LaneMask flat = ~less(splat(least_volume - 1.0), s.change) & used;
+  const Nodes<L> n = gather_nodes<L>(memory.pose.data(), batch);
+  const Shape<L> shape = shape_of<L>(fill, index);
+  const L volume = select(used, shape.volume, zero);
+  Strain<L> s = strain_of(shape, n, flowed ? plastic : nullptr);
+  const LaneMask flat = ~less(all_lanes<L>(least_volume - 1.0), s.change) & used;
   if (any(flat)) note_inverted(fill, index, flat, tile.report);
-  const Volumetric grown = volumetric(s.change);
-  const Lanes swollen = flowed ? plastic[row_volume] : zero, own = grown.strain - swollen;
-  const Lanes mean = pass.averaged ? 0.25 * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]) : own;
-  Lanes p = law.bulk * mean;
-  const ElasticStrain trial = {s.e, mean, own};
-  ElasticStrain strain = trial;
+  const Volumetric<L> grown = volumetric(s.change);
+  const Lanes swollen = flowed ? plastic[row_volume] : splat(0.0);
+  const L own = grown.strain - numbers_of<L>(swollen);
+  const L mean = pass.averaged ? n.mean : own;
+  L p = law.bulk * mean;
+  const ElasticStrain<L> trial = {s.e, mean, own};
+  ElasticStrain<L> strain = trial;
 
   coming.branches();
 
   // 2. plastic flow
   const LaneMask yields = may_flow(law, s.e, p);
   if (flowed) begin_yield(yield);
-  Lanes lost;
+  L lost;
   const bool flows = any(yields) && any(flow(law, s, yields, plastic, yield, s.e, p, lost));
   if (flows) {
-    tile.dissipated += volume * lost;
+    tile.dissipated += doubles_of(volume * lost);
     tile.report.yielding += count_yielding(yield, batch.count);
-    strain = {s.e, p / law.bulk, own - (plastic[row_volume] - swollen)};
+    strain = {s.e, p / law.bulk, own - numbers_of<L>(plastic[row_volume] - swollen)};
   }
 
   coming.plastic();
 
-  // 3. a sixth of the first Piola–Kirchhoff stress: τ F⁻ᵀ, and F S of the branches
-  const Symmetric<Lanes> pull = ((1.0 / 6.0) * grown.by) * kirchhoff(law, s, grown.slope, p);
-  const Lanes t[3][3] = {{pull.xx, pull.xy, pull.xz}, {pull.xy, pull.yy, pull.yz}, {pull.xz, pull.yz, pull.zz}};
-  Tensor<Lanes> piola;
+  // 3. the first Piola–Kirchhoff stress times the volume: τ F⁻ᵀ, and F S of the branches
+  const Symmetric<L> pull = (shape.volume * grown.by) * kirchhoff(law, s, grown.slope, p);
+  const L t[3][3] = {{pull.xx, pull.xy, pull.xz}, {pull.xy, pull.yy, pull.yz}, {pull.xz, pull.yz, pull.zz}};
+  Tensor<L> piola;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       piola.m[i][j] = t[i][0] * s.cofactor.m[0][j] + t[i][1] * s.cofactor.m[1][j] + t[i][2] * s.cofactor.m[2][j];
@@ -134,31 +144,29 @@ void batch_stresses(const FillPass& pass, std::size_t index, std::size_t end, Ti
     auto* last = reinterpret_cast<Singles*>(&memory.last[strain_rows * lane_count * index]);
     auto* kept = reinterpret_cast<Singles*>(&memory.branch[6 * lane_count * std::size_t(count) * index]);
     Lanes work;
-    const Lanes back = flowed ? stretch_back(s.f) : splat(1.0);
-    const Symmetric<Lanes> v =
-        (1.0 / 6.0) * back * viscous<count>(pass.branches, law, s.f, back, strain, trial, flows, last, kept, work);
-    tile.work += volume * work;
-    const Lanes w[3][3] = {{v.xx, v.xy, v.xz}, {v.xy, v.yy, v.yz}, {v.xz, v.yz, v.zz}};
+    const L back = flowed ? stretch_back(s.f) : all_lanes<L>(1.0);
+    const Symmetric<L> v =
+        (shape.volume * back) * viscous<count>(pass.branches, law, s.f, back, strain, trial, flows, last, kept, work);
+    tile.work += doubles_of(volume) * work;
+    const L w[3][3] = {{v.xx, v.xy, v.xz}, {v.xy, v.yy, v.yz}, {v.xz, v.yz, v.zz}};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         piola.m[i][j] += s.f.m[i][0] * w[0][j] + s.f.m[i][1] * w[1][j] + s.f.m[i][2] * w[2][j];
-    if (pass.energies) tile.springs += volume * branch_energy<count>(pass.branches, law, kept);
+    if (pass.energies) tile.springs += doubles_of(volume) * branch_energy<count>(pass.branches, law, kept);
   }
 
   // 4. nodal forces
-  Vector f[4];
+  Triple<L> f[4];
   f[0] = {zero, zero, zero};
   for (int k = 0; k < 3; ++k) {
-    const Vector& g = shape.area[k];
-    Lanes out[3];
+    const Triple<L>& g = shape.gradient[k];
+    L out[3];
     for (int i = 0; i < 3; ++i) out[i] = piola.m[i][0] * g.x + piola.m[i][1] * g.y + piola.m[i][2] * g.z;
     f[k + 1] = {-out[0], -out[1], -out[2]};
     f[0] = f[0] - f[k + 1];
   }
   add_forces(batch, f, pass.sums);
-  if (pass.energies) {
-    tile.elastic += volume * (law.shear * inner(s.e, s.e) + 0.5 * law.bulk * own * mean);
-  }
+  if (pass.energies) tile.elastic += doubles_of(volume * (law.shear * inner(s.e, s.e) + 0.5 * law.bulk * own * mean));
 }
 
 double sum_of(Lanes x) {
@@ -176,22 +184,33 @@ void FillReport::merge(const FillReport& other) {
   search |= other.search;
 }
 
+namespace {
+
+/// κ V θ of eight tetrahedra, J.
+template <class L>
+[[gnu::always_inline]] inline Lanes batch_volumes(const FillPass& pass, std::size_t index) {
+  const FillModel& fill = *pass.fill;
+  const TetBatch& batch = fill.batches[index];
+  const Nodes<L> n = gather_nodes<L>(pass.memory->pose.data(), batch);
+  const Shape<L> shape = shape_of<L>(fill, index);
+  L strain = volumetric(clipped(volume_change(gradient(shape, n)))).strain;
+  if (has_flowed(&pass.memory->yield[lane_count * index])) {
+    const auto* plastic = reinterpret_cast<const Lanes*>(&pass.memory->plastic[plastic_index(index, 0)]);
+    strain -= numbers_of<L>(plastic[row_volume]);
+  }
+  return doubles_of(fill.law_of(index).bulk * shape.volume * strain);
+}
+
+}  // namespace
+
 void FillPass::volumes(std::size_t tile) const {
   if (!averaged) return;
   const FillTile& t = fill->tiles[tile];
   std::fill(volume_sums + t.first_sum, volume_sums + t.end_sum, 0.0);
-  for (std::int32_t b = t.first_batch; b < t.end_batch; ++b) {
-    const TetBatch& batch = fill->batches[std::size_t(b)];
-    if (std::size_t(b) + ahead < fill->batches.size()) fetch(&batch + ahead, sizeof(TetBatch));
-    const Nodes n = gather_nodes(memory->pose.data(), batch);
-    const Shape shape = shape_of(fill->place.data(), batch);
-    const Lanes change = clipped(volume_change(gradient(shape, n)));
-    Lanes strain = volumetric(change).strain;
-    if (has_flowed(&memory->yield[lane_count * std::size_t(b)])) {
-      const auto* plastic = reinterpret_cast<const Lanes*>(&memory->plastic[plastic_index(std::size_t(b), 0)]);
-      strain -= plastic[row_volume];
-    }
-    const Lanes part = fill->law_of(std::size_t(b)).bulk * (1.0 / 6.0) * shape.volume6 * strain;
+  for (auto b = std::size_t(t.first_batch); b < std::size_t(t.end_batch); ++b) {
+    const TetBatch& batch = fill->batches[b];
+    if (b + ahead < fill->batches.size()) fetch_tetrahedra(*fill, b + ahead, single);
+    const Lanes part = single ? batch_volumes<Floats>(*this, b) : batch_volumes<Lanes>(*this, b);
     for (int k = 0; k < 4; ++k)
       for (int lane = 0; lane < batch.count; ++lane) volume_sums[batch.sum[k][lane]] += part[lane];
   }
@@ -203,7 +222,8 @@ FillReport FillPass::stresses(std::size_t tile) const {
   TileSums found;
   with_branches(branches.count, [&](auto count) {
     const auto end = std::size_t(t.end_batch);
-    for (auto b = std::size_t(t.first_batch); b < end; ++b) batch_stresses<count>(*this, b, end, found);
+    for (auto b = std::size_t(t.first_batch); b < end; ++b)
+      single ? batch_stresses<count, Floats>(*this, b, end, found) : batch_stresses<count, Lanes>(*this, b, end, found);
   });
   double* lost = &memory->lost[4 * tile];
   lost[0] += sum_of(found.dissipated);

@@ -1,20 +1,22 @@
 // Eight tetrahedra at a time: from the displacements of their corners to strain and stress, for the step and for what
-// is read off a state.
+// is read off a state. L is Lanes or Floats: differences between corners are taken in double precision, and all that is
+// computed of them is small against 1 or relative to it, so that single precision does for a step.
 #pragma once
 #include "solver/fill/fill_pass.h"
 #include "solver/fill/mohr_coulomb.h"
 
 namespace voussoir::tet {
 
-using Vector = Triple<Lanes>;
-
-/// Displacements of the four corners, and the fourth number of each.
+/// Of four corners three numbers each, as they differ from those of the first, and the mean of their fourth.
+template <class L>
 struct Nodes {
-  Vector u[4];
-  Lanes mean[4];
+  Triple<L> edge[3];
+  L mean;
 };
-[[gnu::always_inline]] inline Nodes gather_nodes(const double* pose, const TetBatch& batch) {
-  Nodes n;
+template <class L>
+[[gnu::always_inline]] inline Nodes<L> gather_nodes(const double* pose, const TetBatch& batch) {
+  Triple<Lanes> at[4];
+  Lanes fourth[4];
   for (int k = 0; k < 4; k += 2) {
     Lanes rows[lane_count];
     for (int lane = 0; lane < lane_count; ++lane) {
@@ -23,36 +25,51 @@ struct Nodes {
       rows[lane] = pair(a, b);
     }
     transpose(rows);
-    n.u[k] = {rows[0], rows[1], rows[2]}, n.mean[k] = rows[3];
-    n.u[k + 1] = {rows[4], rows[5], rows[6]}, n.mean[k + 1] = rows[7];
+    at[k] = {rows[0], rows[1], rows[2]}, fourth[k] = rows[3];
+    at[k + 1] = {rows[4], rows[5], rows[6]}, fourth[k + 1] = rows[7];
   }
+  Nodes<L> n;
+  for (int k = 0; k < 3; ++k) {
+    const Triple<Lanes> d = at[k + 1] - at[0];
+    n.edge[k] = {numbers_of<L>(d.x), numbers_of<L>(d.y), numbers_of<L>(d.z)};
+  }
+  n.mean = numbers_of<L>(0.25 * (fourth[0] + fourth[1] + fourth[2] + fourth[3]));
   return n;
 }
 
-/// In the reference placement: six times the volume (m3), and its products with the gradients of the shape functions
-/// of corners 1 to 3 (m2), which are those of the edges from corner 0.
+/// In the reference placement: gradients of the shape functions of corners 1 to 3 (1/m), and the volume (m3).
+template <class L>
 struct Shape {
-  Vector area[3];
-  Lanes volume6;
+  Triple<L> gradient[3];
+  L volume;
 };
-[[gnu::always_inline]] inline Shape shape_of(const double* place, const TetBatch& batch) {
-  const Nodes at = gather_nodes(place, batch);
-  const Vector e[3] = {at.u[1] - at.u[0], at.u[2] - at.u[0], at.u[3] - at.u[0]};
-  Shape shape;
-  for (int k = 0; k < 3; ++k) shape.area[k] = cross(e[(k + 1) % 3], e[(k + 2) % 3]);
-  shape.volume6 = dot(e[0], shape.area[0]);
+template <class L>
+[[gnu::always_inline]] inline Shape<L> shape_of(const FillModel& fill, std::size_t index) {
+  Shape<L> shape;
+  if constexpr (std::is_same_v<L, Floats>) {
+    const auto* rows = reinterpret_cast<const Singles*>(&fill.shapes[shape_rows * lane_count * index]);
+    for (int k = 0; k < 3; ++k) shape.gradient[k] = {rows[3 * k], rows[3 * k + 1], rows[3 * k + 2]};
+    shape.volume = rows[9];
+  } else {
+    const Nodes<L> at = gather_nodes<L>(fill.place.data(), fill.batches[index]);
+    for (int k = 0; k < 3; ++k) shape.gradient[k] = cross(at.edge[(k + 1) % 3], at.edge[(k + 2) % 3]);
+    const L volume6 = dot(at.edge[0], shape.gradient[0]), by = 1.0 / volume6;
+    for (auto& g : shape.gradient) g = by * g;
+    shape.volume = (1.0 / 6.0) * volume6;
+  }
   return shape;
 }
 
 /// Displacement gradient H = F − 1.
-[[gnu::always_inline]] inline Tensor<Lanes> gradient(const Shape& shape, const Nodes& n) {
-  Tensor<Lanes> h;
-  const Lanes by = 1.0 / shape.volume6;
-  const Vector d[3] = {by * (n.u[1] - n.u[0]), by * (n.u[2] - n.u[0]), by * (n.u[3] - n.u[0])};
-  const auto row = [&](Lanes(&to)[3], Lanes first, Lanes second, Lanes third) {
-    to[0] = first * shape.area[0].x + second * shape.area[1].x + third * shape.area[2].x;
-    to[1] = first * shape.area[0].y + second * shape.area[1].y + third * shape.area[2].y;
-    to[2] = first * shape.area[0].z + second * shape.area[1].z + third * shape.area[2].z;
+template <class L>
+[[gnu::always_inline]] inline Tensor<L> gradient(const Shape<L>& shape, const Nodes<L>& n) {
+  Tensor<L> h;
+  const auto& g = shape.gradient;
+  const auto& d = n.edge;
+  const auto row = [&](L(&to)[3], L first, L second, L third) {
+    to[0] = first * g[0].x + second * g[1].x + third * g[2].x;
+    to[1] = first * g[0].y + second * g[1].y + third * g[2].y;
+    to[2] = first * g[0].z + second * g[1].z + third * g[2].z;
   };
   row(h.m[0], d[0].x, d[1].x, d[2].x);
   row(h.m[1], d[0].y, d[1].y, d[2].y);
@@ -61,51 +78,58 @@ struct Shape {
 }
 
 /// det(1 + H) − 1 without cancellation.
-[[gnu::always_inline]] inline Lanes volume_change(const Tensor<Lanes>& h) {
+template <class L>
+[[gnu::always_inline]] inline L volume_change(const Tensor<L>& h) {
   const auto& m = h.m;
-  const Lanes a = m[1][1] * m[2][2] - m[1][2] * m[2][1], b = m[1][0] * m[2][2] - m[1][2] * m[2][0],
-              c = m[1][0] * m[2][1] - m[1][1] * m[2][0];
-  const Lanes second = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + a;
+  const L a = m[1][1] * m[2][2] - m[1][2] * m[2][1], b = m[1][0] * m[2][2] - m[1][2] * m[2][0],
+          c = m[1][0] * m[2][1] - m[1][1] * m[2][0];
+  const L second = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + a;
   return m[0][0] + m[1][1] + m[2][2] + second + m[0][0] * a - m[0][1] * b + m[0][2] * c;
 }
 
 /// A tetrahedron that has all but lost its volume is kept from infinity; the report says where.
 constexpr double least_volume = 0.02;  // of the reference
-[[gnu::always_inline]] inline Lanes clipped(Lanes change) {
-  return larger(change, splat(least_volume - 1.0));
+template <class L>
+[[gnu::always_inline]] inline L clipped(L change) {
+  return larger(change, all_lanes<L>(least_volume - 1.0));
 }
 
 /// θ for ln J, and dθ/d ln J: ½ (J − 1/J) in compression, which resists the loss of all volume; y + ½ y² + ⅓ y³ with
 /// y = 1 − 1/J in extension, the series of ln J, whose slope 1 − y³ falls with J, so that what has been torn wide open
 /// is not stiffer than it was. Both agree with ln J to second order.
+template <class L>
 struct Volumetric {
-  Lanes strain, slope, by;  // by: 1/J
+  L strain, slope, by;  // by: 1/J
 };
-[[gnu::always_inline]] inline Volumetric volumetric(Lanes change) {
-  const Lanes volume = 1.0 + change, by = 1.0 / volume, y = change * by;
-  const LaneMask grown = less(splat(0.0), change);
+template <class L>
+[[gnu::always_inline]] inline Volumetric<L> volumetric(L change) {
+  const L volume = 1.0 + change, by = 1.0 / volume, y = change * by;
+  const LaneMask grown = less(all_lanes<L>(0.0), change);
   return {select(grown, y * (1.0 + y * (0.5 + (1.0 / 3.0) * y)), 0.5 * change * (1.0 + by)),
           select(grown, 1.0 - y * y * y, 0.5 * (volume + by)), by};
 }
 
 /// dev ½ ln b from b − 1, to fourth order in the elastic strain. The mean of b is divided out first.
-[[gnu::always_inline]] inline Symmetric<Lanes> elastic_deviator(const Symmetric<Lanes>& less_one) {
-  const Lanes sum = trace(less_one), scale = 3.0 / (3.0 + sum), mean = (1.0 / 3.0) * sum;
-  const Symmetric<Lanes> b = {scale * (less_one.xx - mean), scale * (less_one.yy - mean), scale * (less_one.zz - mean),
-                              scale * less_one.xy,          scale * less_one.xz,          scale * less_one.yz};
+template <class L>
+[[gnu::always_inline]] inline Symmetric<L> elastic_deviator(const Symmetric<L>& less_one) {
+  const L sum = trace(less_one), scale = 3.0 / (3.0 + sum), mean = (1.0 / 3.0) * sum;
+  const Symmetric<L> b = {scale * (less_one.xx - mean), scale * (less_one.yy - mean), scale * (less_one.zz - mean),
+                          scale * less_one.xy,          scale * less_one.xz,          scale * less_one.yz};
   // ½ b − ¼ b² + ⅙ b³; without a trace, dev b³ = ½ tr b² b (Cayley–Hamilton).
-  const Symmetric<Lanes> b2 = coaxial_product(b, b);
-  const Lanes squares = trace(b2);
-  return (0.5 + (1.0 / 12.0) * squares) * b - splat(0.25) * deviator(b2);
+  const Symmetric<L> b2 = coaxial_product(b, b);
+  const L squares = trace(b2);
+  return (0.5 + (1.0 / 12.0) * squares) * b - all_lanes<L>(0.25) * deviator(b2);
 }
 
+template <class L>
 struct Strain {
-  Tensor<Lanes> f, cofactor;
-  Lanes change;  // J − 1
-  Symmetric<Lanes> e;
+  Tensor<L> h, f, cofactor;  // F − 1, F, its cofactor
+  L change;                  // J − 1
+  Symmetric<L> e;
 };
 
-[[gnu::always_inline]] inline Tensor<Lanes> cofactor(const Tensor<Lanes>& f) {
+template <class L>
+[[gnu::always_inline]] inline Tensor<L> cofactor(const Tensor<L>& f) {
   const auto& m = f.m;
   const auto minor = [&](int r, int s, int c, int d) { return m[r][c] * m[s][d] - m[r][d] * m[s][c]; };
   return {{{minor(1, 2, 1, 2), minor(1, 2, 2, 0), minor(1, 2, 0, 1)},
@@ -120,22 +144,29 @@ struct Strain {
   return flags != 0;
 }
 
+/// A + Aᵀ + A Aᵀ = (1 + A)(1 + A)ᵀ − 1 without cancellation.
+template <class L>
+[[gnu::always_inline]] inline Symmetric<L> square_less_one(const Tensor<L>& a) {
+  const auto& m = a.m;
+  const auto rows = [&](int i, int j) { return m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]; };
+  return {2.0 * m[0][0] + rows(0, 0),     2.0 * m[1][1] + rows(1, 1),     2.0 * m[2][2] + rows(2, 2),
+          m[0][1] + m[1][0] + rows(0, 1), m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
+}
+
 /// `plastic`: rows of plastic memory, or null where nothing has flowed.
-[[gnu::always_inline]] inline Strain strain_of(const Shape& shape, const Nodes& n, const Lanes* plastic) {
-  const Tensor<Lanes> h = gradient(shape, n);
-  Strain s;
-  s.change = clipped(volume_change(h));
+template <class L>
+[[gnu::always_inline]] inline Strain<L> strain_of(const Shape<L>& shape, const Nodes<L>& n, const Lanes* plastic) {
+  Strain<L> s;
+  s.h = gradient(shape, n);
+  s.change = clipped(volume_change(s.h));
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) s.f.m[i][j] = i == j ? 1.0 + h.m[i][j] : h.m[i][j];
+    for (int j = 0; j < 3; ++j) s.f.m[i][j] = i == j ? 1.0 + s.h.m[i][j] : s.h.m[i][j];
   s.cofactor = cofactor(s.f);
   // b − 1 = H + Hᵀ + H Hᵀ + F (Cp⁻¹ − 1) Fᵀ
-  const auto& m = h.m;
-  const auto rows = [&](int i, int j) { return m[i][0] * m[j][0] + m[i][1] * m[j][1] + m[i][2] * m[j][2]; };
-  Symmetric<Lanes> total = {2.0 * m[0][0] + rows(0, 0),     2.0 * m[1][1] + rows(1, 1),
-                            2.0 * m[2][2] + rows(2, 2),     m[0][1] + m[1][0] + rows(0, 1),
-                            m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
+  Symmetric<L> total = square_less_one(s.h);
   if (plastic) {
-    const Symmetric<Lanes> memory = {plastic[0], plastic[1], plastic[2], plastic[3], plastic[4], plastic[5]};
+    const Symmetric<L> memory = {numbers_of<L>(plastic[0]), numbers_of<L>(plastic[1]), numbers_of<L>(plastic[2]),
+                                 numbers_of<L>(plastic[3]), numbers_of<L>(plastic[4]), numbers_of<L>(plastic[5])};
     total = total + push(s.f, memory);
   }
   s.e = elastic_deviator(total);
@@ -143,20 +174,23 @@ struct Strain {
 }
 
 /// Whether the lanes may have to flow, with the elastic deviator `e` and the mean stress `p` (Pa).
-[[gnu::always_inline]] inline LaneMask may_flow(const FillLaw& law, const Symmetric<Lanes>& e, Lanes p) {
+template <class L>
+[[gnu::always_inline]] inline LaneMask may_flow(const FillLaw& law, const Symmetric<L>& e, L p) {
   const double shear2 = 4.0 * law.shear * law.shear;
   return ~surely_elastic(law, shear2 * inner(e, e), p);
 }
 
 /// Plastic flow of the lanes that need it, which it returns: changes the plastic memory, the yield bits, the elastic
 /// deviator and the mean stress. `dissipated`, the stress after it on what flowed (J/m3), is set if any flows.
-LaneMask flow(const FillLaw& law, const Strain& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
-              Symmetric<Lanes>& e, Lanes& p, Lanes& dissipated);
+template <class L>
+LaneMask flow(const FillLaw& law, const Strain<L>& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
+              Symmetric<L>& e, L& p, L& dissipated);
 
 /// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa.
-[[gnu::always_inline]] inline Symmetric<Lanes> kirchhoff(const FillLaw& law, const Strain& s, Lanes slope, Lanes p) {
-  const Lanes round = p * slope;
-  const Symmetric<Lanes> dev = splat(2.0 * law.shear) * s.e;
+template <class L>
+[[gnu::always_inline]] inline Symmetric<L> kirchhoff(const FillLaw& law, const Strain<L>& s, L slope, L p) {
+  const L round = p * slope;
+  const Symmetric<L> dev = all_lanes<L>(2.0 * law.shear) * s.e;
   return {dev.xx + round, dev.yy + round, dev.zz + round, dev.xy, dev.xz, dev.yz};
 }
 

@@ -11,13 +11,13 @@ Symmetric<Lanes> batch_cauchy(const FillModel& fill, FillMemory& memory, std::si
   const FillLaw& law = fill.law_of(index);
   const TetBatch& batch = fill.batches[index];
   auto* plastic = reinterpret_cast<Lanes*>(&memory.plastic[plastic_index(index, 0)]);
-  const tet::Nodes n = tet::gather_nodes(memory.pose.data(), batch);
-  tet::Strain s = tet::strain_of(tet::shape_of(fill.place.data(), batch), n, plastic);
-  Lanes p = 0.25 * law.bulk * (n.mean[0] + n.mean[1] + n.mean[2] + n.mean[3]);
+  const auto n = tet::gather_nodes<Lanes>(memory.pose.data(), batch);
+  tet::Strain<Lanes> s = tet::strain_of(tet::shape_of<Lanes>(fill, index), n, plastic);
+  Lanes p = law.bulk * n.mean;
   const LaneMask yields = tet::may_flow(law, s.e, p);
   Lanes dissipated;
   if (any(yields)) tet::flow(law, s, yields, plastic, &memory.yield[lane_count * index], s.e, p, dissipated);
-  const tet::Volumetric grown = tet::volumetric(s.change);
+  const tet::Volumetric<Lanes> grown = tet::volumetric(s.change);
   return grown.by * tet::kirchhoff(law, s, grown.slope, p);
 }
 

@@ -158,6 +158,23 @@ void make_tiles(const std::vector<Element>& elements, FillModel& fill) {
 
 }  // namespace
 
+namespace {
+
+void note_shapes(FillModel& fill) {
+  fill.shapes.assign(shape_rows * lane_count * fill.batches.size(), 0.0f);
+  for (std::size_t b = 0; b < fill.batches.size(); ++b)
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const TetShape shape = tet_shape(fill, b, lane);
+      float* const column = &fill.shapes[shape_rows * lane_count * b + std::size_t(lane)];
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+          column[lane_count * (3 * k + c)] = float(shape.gradient[k + 1][Eigen::Index(c)]);
+      column[lane_count * 9] = float(shape.volume);
+    }
+}
+
+}  // namespace
+
 /// A quarter of each tetrahedron's mass, and its κ V, to each of its nodes.
 void lump(FillModel& fill) {
   fill.mass.assign(fill.nodes.size(), 0.0);
@@ -208,6 +225,7 @@ FillModel build_fill(const Assembly& assembly, const std::vector<std::int32_t>& 
   const std::vector<Element> elements = order_elements(assembly, steps, fill);
   fill.lane_of_tet.assign(assembly.fill.tets.size(), -1);
   make_tiles(elements, fill);
+  note_shapes(fill);
   lump(fill);
   for (const auto& corners : assembly.fill.triangles)
     fill.triangles.push_back({fill.node_of[std::size_t(corners[0])], fill.node_of[std::size_t(corners[1])],

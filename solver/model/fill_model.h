@@ -16,13 +16,15 @@ namespace voussoir {
 constexpr int node_width = 4;
 
 /// Eight tetrahedra of one material, a lane each; further lanes repeat the last one and put nothing on its nodes. Their
-/// shapes follow from where the nodes are: to compute them is cheaper than to read them.
+/// shapes follow from where the nodes are; in single precision they are read (FillModel::shapes).
 struct alignas(64) TetBatch {
   std::int32_t node[4][lane_count];
   std::int32_t sum[4][lane_count];  // where the tile adds up what they put on their nodes
   std::int32_t count = 0;
   std::int32_t law = 0;
 };
+
+constexpr int shape_rows = 10;
 
 struct FillTile {
   std::int32_t first_node = 0, end_node = 0;
@@ -47,6 +49,7 @@ struct FillModel {
   std::vector<std::int32_t> tet_of_lane;               // of FillMesh::tets; lane_count a batch, −1 in spare lanes
   std::vector<std::int32_t> lane_of_tet;
   Array<TetBatch> batches;
+  Array<float> shapes;  // shape_rows of lanes a batch: gradients of corners 1 to 3 (x, y, z each, 1/m), volume (m3)
   std::vector<FillTile> tiles;
   // Sums of each node in the order they are added up: first of each node (and one past the end), places of the sums.
   std::vector<std::int32_t> first_sum, sums;

@@ -328,6 +328,7 @@ void Simulation::impose(const StageSettings& stage) {
   const bool departs =
       std::any_of(stage.drives.begin(), stage.drives.end(), [](const Drive& d) { return !d.with_ground(); });
   const bool shaken = stage.kind == StageSettings::Kind::motion;
+  stepper_.single = shaken || stage.kind == StageSettings::Kind::free;
   stepper_.ground = departs && shaken ? ground_path(stage.motion) : GroundPath{};
   stepper_.drive.assign(stage.drives.empty() ? 0 : model_.bodies.size(), -1);
   for (std::size_t i = 0; i < stage.drives.size(); ++i)

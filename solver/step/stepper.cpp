@@ -113,6 +113,7 @@ FillPass Stepper::fill_pass() const {
   pass.fill = &model->fill;
   pass.memory = &state->fill;
   pass.branches = damping.branches;
+  pass.single = single;
   pass.sums = fill_sums.data();
   pass.volume_sums = fill_volumes.data();
   if (!state->interface.empty()) {

@@ -45,6 +45,7 @@ struct Stepper {
   double dt = 0.0;  // s
   int threads = 1;
   bool shortcut = true;
+  bool single = false;  // the fill's strain and stress in single precision, see FillPass
   int most_ahead = 8;  // steps between decisions, in which tiles go ahead of each other; any gives the
                        // same bits
   const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
