@@ -46,8 +46,8 @@ struct Stepper {
   int threads = 1;
   bool shortcut = true;
   bool single = false;  // the fill's strain and stress in single precision, see FillPass
-  int most_ahead = 8;  // steps between decisions, in which tiles go ahead of each other; any gives the
-                       // same bits
+  int most_ahead = 8;   // steps between decisions, in which tiles go ahead of each other; any gives the
+                        // same bits
   const GroundMotion* motion = nullptr;  // none: the base keeps its velocity
   double stage_start = 0.0;              // s, time of the motion's first sample
   double stage_duration = 0.0;           // s
