@@ -26,20 +26,54 @@ int voussoirs(const GeneratorInput& in) {
   return 2 * std::max(2, int(std::ceil(0.5 * middle / (in("voussoir_length") * in("block_scale")) - 1e-9)));
 }
 
-void read_heights(Bridge& bridge, const GeneratorInput& in) {
-  for (int i = 0; i + 1 < bridge.spans; ++i) {
-    const double own = in(fmt::format("pier_{}_height", i));
-    bridge.pier_heights.push_back(own > 0.0 ? own : in("pier_height"));
-  }
-  bridge.abutment_height = in("abutment_height");
+double support_height(const GeneratorInput& in, int support) {
+  if (support == 0 || support == int(in("spans"))) return in("abutment_height");
+  const double own = in(fmt::format("pier_{}_height", support - 1));
+  return own > 0.0 ? own : in("pier_height");
+}
+
+double clear_span(const GeneratorInput& in, int span) {
+  const double own = in(fmt::format("span_{}_clear", span));
+  return own > 0.0 ? own : in("clear_span");
+}
+
+double span_start(const GeneratorInput& in, int span) {
+  double start = in("abutment_length") + span * (in("clear_span") + in("pier_thickness"));
+  for (int j = 0; j < span; ++j) start += clear_span(in, j) - in("clear_span");
+  return start;
 }
 
 void read_spans(Bridge& bridge, const GeneratorInput& in) {
-  bridge.spans = int(in("spans"));
-  bridge.clear_span = in("clear_span");
-  for (int i = 0; i < bridge.spans; ++i) {
-    const double own = in(fmt::format("span_{}_clear", i));
-    bridge.own_spans.push_back(own > 0.0 ? own : bridge.clear_span);
+  const int spans = int(in("spans"));
+  for (int i = 0; i <= spans; ++i) bridge.springing = std::max(bridge.springing, support_height(in, i));
+  bridge.deck = bridge.springing + 0.5 * in("clear_span") + in("ring_thickness") + in("fill_over_crown");
+  bridge.backing_top = bridge.springing + in("backing_height");
+  const double thickness = in("ring_thickness");
+  const int n = voussoirs(in);
+  const Vec3 voussoir(pi * 0.5 * (in("clear_span") + thickness) / n, in("voussoir_width") * in("block_scale"),
+                      thickness);
+  for (int i = 0; i < spans; ++i) {
+    const double x0 = span_start(in, i), x1 = x0 + clear_span(in, i), radius = 0.5 * clear_span(in, i);
+    bridge.vaults.push_back(
+        {{make_semicircle({0.5 * (x0 + x1), 0.0, bridge.springing}, radius, radius + thickness, n)}, voussoir});
+  }
+}
+
+void read_supports(Bridge& bridge, const GeneratorInput& in) {
+  const int spans = int(in("spans"));
+  const bool leaf = in.choices.at("makeup") == "leaf";
+  for (int i = 0; i <= spans; ++i) {
+    Support support;
+    support.x0 = i == 0 ? 0.0 : span_start(in, i - 1) + clear_span(in, i - 1);
+    support.x1 = i < spans ? span_start(in, i) : support.x0 + in("abutment_length");
+    support.height = support_height(in, i);
+    support.leaf = leaf;
+    support.leaf_beside_span = in("abutment_leaf_length");
+    if (!leaf) {
+      support.slope_x = i == 0 || i == spans ? 0.0 : in("batter_x");
+      support.slope_y = in("batter_y");
+    }
+    bridge.supports.push_back(support);
   }
 }
 
@@ -47,9 +81,6 @@ void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
   const auto size = [&](const char* length, const char* width, const char* height) {
     return Vec3(in("block_scale") * Vec3(in(length), in(width), in(height)));
   };
-  bridge.voussoirs = voussoirs(in);
-  bridge.voussoir = Vec3(pi * 0.5 * (in("clear_span") + in("ring_thickness")) / bridge.voussoirs,
-                         in("voussoir_width") * in("block_scale"), in("ring_thickness"));
   bridge.block = size("block_length", "block_width", "block_height");
   bridge.fill = size("fill_length", "fill_width", "fill_height");
   bridge.leaf_piece = size("leaf_length", "leaf_length", "leaf_course_height");
@@ -60,15 +91,8 @@ void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
 Bridge read_bridge(const GeneratorInput& in) {
   Bridge bridge;
   read_spans(bridge, in);
+  read_supports(bridge, in);
   bridge.width = in("width");
-  read_heights(bridge, in);
-  bridge.pier_thickness = in("pier_thickness");
-  bridge.abutment_length = in("abutment_length");
-  bridge.batter_x = in("batter_x");
-  bridge.batter_y = in("batter_y");
-  bridge.ring_thickness = in("ring_thickness");
-  bridge.fill_over_crown = in("fill_over_crown");
-  bridge.backing_height = in("backing_height");
   bridge.backing_over_abutment = in("backing_over_abutment");
   bridge.spandrel_bottom = in("spandrel_thickness_bottom");
   bridge.spandrel_top = in("spandrel_thickness_top");
@@ -76,8 +100,6 @@ Bridge read_bridge(const GeneratorInput& in) {
   bridge.parapet_thickness = in("parapet_thickness");
   bridge.base_depth = in("base_depth");
   bridge.restraint_depth = in("restraint_depth");
-  bridge.leaf = in.choices.at("makeup") == "leaf";
-  bridge.leaf_length_beside_span = in("abutment_leaf_length");
   bridge.wing_wall_thickness = in("wing_wall_thickness");
   bridge.leaf_thickness[0] = in("leaf_thickness_even");
   bridge.leaf_thickness[1] = in("leaf_thickness_odd");
@@ -159,10 +181,14 @@ JointRules joint_rules(const Bridge& bridge, const std::vector<Material>& defaul
   rules.kind = in.choices.at("stiffness") == "table" ? JointRules::Kind::table : JointRules::Kind::moduli;
   rules.table = contact_table(bridge, defaults, materials, in);
   const Vec3 wing(bridge.block.x(), bridge.wing_wall_thickness, bridge.block.z());
-  rules.nominal = {{Component::arch, bridge.voussoir},  {Component::backing, bridge.block},
-                   {Component::spandrel, bridge.block}, {Component::parapet, bridge.block},
-                   {Component::pier, bridge.block},     {Component::abutment, bridge.leaf ? wing : bridge.block},
-                   {Component::infill, bridge.infill},  {Component::backfill, bridge.fill}};
+  rules.nominal = {{Component::arch, bridge.vaults.front().voussoir},
+                   {Component::backing, bridge.block},
+                   {Component::spandrel, bridge.block},
+                   {Component::parapet, bridge.block},
+                   {Component::pier, bridge.block},
+                   {Component::abutment, bridge.supports.front().leaf ? wing : bridge.block},
+                   {Component::infill, bridge.infill},
+                   {Component::backfill, bridge.fill}};
   // There is one layer of interface however large the blocks, so its stiffness does not follow their size.
   rules.interface_share = in("interface_share") * in("block_scale");
   rules.interface_friction = radians(in("interface_friction"));
@@ -183,7 +209,7 @@ std::int32_t index_of(const std::vector<Material>& materials, const std::string&
 void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const GeneratorInput& in) {
   FillSpace space;
   for (const FillRegion& region : fill_regions(bridge)) space.boxes.push_back({region.low, region.high});
-  space.rings = vault_rings(bridge);
+  space.rings = bridge.limits().rings;
   FillMeshing meshing;
   meshing.edge = bridge.fill_edge;
   assembly.fill = mesh_fill(space, meshing);

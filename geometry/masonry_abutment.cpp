@@ -5,38 +5,39 @@ namespace voussoir {
 
 namespace {
 
-void lay_wings(Layout& layout, const Bridge& bridge, int support) {
+void lay_wings(Layout& layout, const Bridge& bridge, std::size_t support) {
   const auto [x0, x1] = wing_extent(bridge, support);
   if (x1 - x0 <= 1e-9) return;
   const int part = support == 0 ? 0 : 1;
-  const double z0 = bridge.support_base(support);
-  const double z1 = bridge.springing(), half = bridge.half_width(), inner = half - bridge.wing_wall_thickness;
+  const double z0 = bridge.base(support);
+  const double z1 = bridge.springing, half = bridge.half_width(), inner = half - bridge.wing_wall_thickness;
   Unit wing = bridge.unit(Component::abutment, part);
   wing.size.y() = bridge.wing_wall_thickness;
   lay_courses(layout, {x0, -half, z0}, {x1, -inner, z1}, wing);
   lay_courses(layout, {x0, inner, z0}, {x1, half, z1}, wing);
   if (!bridge.rigid_backfill) return;
-  for (const FillRegion& region : fill_regions(bridge)) {
-    if (region.support == support) lay_courses(layout, region.low, region.high, bridge.fill_unit(), region.course);
-  }
+  for (const FillRegion& region : fill_regions(bridge))
+    if (region.support == std::ptrdiff_t(support))
+      lay_courses(layout, region.low, region.high, bridge.fill_unit(), region.course);
 }
 
 }  // namespace
 
 void lay_abutments(Layout& layout, const Bridge& bridge) {
-  const double z1 = bridge.springing(), half = bridge.half_width();
-  for (const int support : {0, bridge.spans}) {
-    const int part = support == 0 ? 0 : 1;
-    const double x0 = bridge.support_start(support), x1 = bridge.support_end(support);
-    const double z0 = bridge.support_base(support);
-    if (!bridge.leaf) {
-      lay_solid(layout, {x0, x1, half, z0, z1, 0.0, 0.0, bridge.batter_y}, bridge.unit(Component::abutment, part));
+  const double z1 = bridge.springing, half = bridge.half_width();
+  for (const std::size_t i : {std::size_t(0), bridge.last_support()}) {
+    const int part = i == 0 ? 0 : 1;
+    const Support& support = bridge.supports[i];
+    const double z0 = bridge.base(i);
+    if (!support.leaf) {
+      lay_solid(layout, {support.x0, support.x1, half, z0, z1, 0.0, 0.0, support.slope_y},
+                bridge.unit(Component::abutment, part));
       continue;
     }
-    const auto [wing0, wing1] = wing_extent(bridge, support);
-    const double leaf0 = part == 0 ? wing1 : x0, leaf1 = part == 0 ? x1 : wing0;
-    lay_leaf_and_infill(layout, bridge, {leaf0, -half, z0}, {leaf1, half, z1}, Component::abutment, part, support);
-    lay_wings(layout, bridge, support);
+    const auto [wing0, wing1] = wing_extent(bridge, i);
+    const double leaf0 = part == 0 ? wing1 : support.x0, leaf1 = part == 0 ? support.x1 : wing0;
+    lay_leaf_and_infill(layout, bridge, {leaf0, -half, z0}, {leaf1, half, z1}, Component::abutment, part, int(i));
+    lay_wings(layout, bridge, i);
   }
 }
 

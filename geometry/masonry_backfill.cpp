@@ -3,32 +3,33 @@
 
 namespace voussoir {
 
-std::pair<double, double> wing_extent(const Bridge& bridge, int support) {
-  const double x0 = bridge.support_start(support), x1 = bridge.support_end(support);
-  const double leaf = bridge.leaf ? bridge.leaf_length_beside_span : x1 - x0;
-  return support == 0 ? std::pair(x0, x1 - leaf) : std::pair(x0 + leaf, x1);
+std::pair<double, double> wing_extent(const Bridge& bridge, std::size_t i) {
+  const Support& support = bridge.supports[i];
+  const double x0 = support.x0, x1 = support.x1;
+  const double leaf = support.leaf ? support.leaf_beside_span : x1 - x0;
+  return i == 0 ? std::pair(x0, x1 - leaf) : std::pair(x0 + leaf, x1);
 }
 
 std::vector<FillRegion> fill_regions(const Bridge& bridge) {
   std::vector<FillRegion> regions;
-  const auto add = [&](double x0, double x1, double inner, double z0, double z1, int support, int course) {
+  const auto add = [&](double x0, double x1, double inner, double z0, double z1, std::ptrdiff_t support, int course) {
     if (x1 - x0 > 1e-9) regions.push_back({{x0, -inner, z0}, {x1, inner, z1}, support, course});
   };
-  for (const int support : {0, bridge.spans}) {
+  for (const std::size_t support : {std::size_t(0), bridge.last_support()}) {
     const auto [x0, x1] = wing_extent(bridge, support);
-    add(x0, x1, bridge.half_width() - bridge.wing_wall_thickness, bridge.support_base(support), bridge.springing(),
-        support, 0);
+    add(x0, x1, bridge.half_width() - bridge.wing_wall_thickness, bridge.base(support), bridge.springing,
+        std::ptrdiff_t(support), 0);
   }
-  const double top_of_backing = bridge.springing() + bridge.backing_height;
+  const double top_of_backing = bridge.backing_top;
   int course = 0;
   for (const Band& band : interior_bands(bridge)) {
     const double inner = bridge.half_width() - band.thickness;
     if (band.z0 >= top_of_backing) {
       add(0.0, bridge.length(), inner, band.z0, band.z1, -1, course);
     } else {  // beside the backing: behind the abutments only
-      add(0.0, bridge.support_end(0) - bridge.backing_over_abutment, inner, band.z0, band.z1, -1, course);
-      add(bridge.support_start(bridge.spans) + bridge.backing_over_abutment, bridge.length(), inner, band.z0, band.z1,
-          -1, course);
+      add(0.0, bridge.supports.front().x1 - bridge.backing_over_abutment, inner, band.z0, band.z1, -1, course);
+      add(bridge.supports.back().x0 + bridge.backing_over_abutment, bridge.length(), inner, band.z0, band.z1, -1,
+          course);
     }
     course += int(split(band.z0, band.z1, bridge.fill.z()).size()) - 1;
   }
@@ -36,7 +37,7 @@ std::vector<FillRegion> fill_regions(const Bridge& bridge) {
 }
 
 double fill_space(const Bridge& bridge) {
-  const SectionLimits limits = {vault_rings(bridge), {}, {}};
+  const SectionLimits limits = bridge.limits();
   double volume = 0.0;
   for (const FillRegion& region : fill_regions(bridge)) {
     const double width = region.high.y() - region.low.y();

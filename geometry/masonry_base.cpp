@@ -6,22 +6,22 @@
 namespace voussoir {
 
 void lay_bases(Layout& layout, const Bridge& bridge) {
-  for (int support = 0; support < bridge.supports(); ++support) {
-    const double height = bridge.support_height(support);
-    const double grow_x = bridge.leaf || bridge.is_abutment(support) ? 0.0 : bridge.batter_x * height;
-    const double half = bridge.half_width() + (bridge.leaf ? 0.0 : bridge.batter_y * height);
-    const double z = bridge.support_base(support);
-    const Vec3 low(bridge.support_start(support) - grow_x, -half, z - bridge.base_depth);
-    const Vec3 high(bridge.support_end(support) + grow_x, half, z);
-    layout.groups[fmt::format("base {}", support_name(bridge, support))] = {std::int64_t(layout.stones.size())};
-    lay_stone(layout, {make_box(low, high)}, {Component::base, support, bridge.masonry, high - low}, high - low, false);
+  for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
+    const Support& support = bridge.supports[i];
+    const double grow_x = support.slope_x * support.height;
+    const double half = bridge.half_width() + support.slope_y * support.height;
+    const double z = bridge.base(i);
+    const Vec3 low(support.x0 - grow_x, -half, z - bridge.base_depth);
+    const Vec3 high(support.x1 + grow_x, half, z);
+    layout.groups[fmt::format("base {}", support_name(bridge, i))] = {std::int64_t(layout.stones.size())};
+    lay_stone(layout, {make_box(low, high)}, {Component::base, int(i), bridge.masonry, high - low}, high - low, false);
   }
 }
 
 void lay_restraints(Layout& layout, const Bridge& bridge) {
   if (!bridge.restrained) return;
-  const double z0 = bridge.support_base(0), z1 = bridge.springing(), z2 = bridge.deck(), top = bridge.half_width();
-  const double foot = top + (bridge.leaf ? 0.0 : bridge.batter_y * bridge.abutment_height);
+  const double z0 = bridge.base(0), z1 = bridge.springing, z2 = bridge.deck, top = bridge.half_width();
+  const double foot = top + bridge.supports[0].slope_y * bridge.supports[0].height;
   for (const int end : {0, 1}) {
     const double x = end == 0 ? -bridge.restraint_depth : bridge.length();
     const Vec3 sweep(bridge.restraint_depth, 0.0, 0.0);

@@ -6,38 +6,6 @@
 
 namespace voussoir {
 
-double Bridge::springing() const {
-  double highest = abutment_height;
-  for (const double h : pier_heights) highest = std::max(highest, h);
-  return highest;
-}
-
-double Bridge::deck() const {
-  return springing() + 0.5 * clear_span + ring_thickness + fill_over_crown;
-}
-
-double Bridge::length() const {
-  return span_end(spans - 1) + abutment_length;
-}
-
-double Bridge::span_start(int i) const {
-  double start = abutment_length + i * (clear_span + pier_thickness);
-  for (int j = 0; j < i; ++j) start += own_spans[std::size_t(j)] - clear_span;
-  return start;
-}
-
-double Bridge::support_height(int support) const {
-  return is_abutment(support) ? abutment_height : pier_heights[std::size_t(support) - 1];
-}
-
-double Bridge::support_start(int support) const {
-  return support == 0 ? 0.0 : span_end(support - 1);
-}
-
-double Bridge::support_end(int support) const {
-  return support == spans ? length() : span_start(support);
-}
-
 Unit Bridge::unit(Component component, int part) const {
   return {component, part, masonry, block};
 }
@@ -46,11 +14,15 @@ Unit Bridge::fill_unit() const {
   return {Component::backfill, 0, backfill, fill, fill_bonded};
 }
 
+SectionLimits Bridge::limits() const {
+  SectionLimits limits;
+  for (const Vault& vault : vaults) limits.rings.push_back(whole_vault(vault.rings));
+  return limits;
+}
+
 std::vector<Band> spandrel_courses(const Bridge& bridge) {
-  const double springing = bridge.springing(), deck = bridge.deck();
-  const double backing = std::min(springing + bridge.backing_height, deck);
-  std::vector<double> z = {springing};
-  for (const double to : {backing, deck}) {
+  std::vector<double> z = {bridge.springing};
+  for (const double to : {std::min(bridge.backing_top, bridge.deck), bridge.deck}) {
     if (to <= z.back()) continue;
     const std::vector<double> more = split(z.back(), to, bridge.block.z());
     z.insert(z.end(), more.begin() + 1, more.end());
@@ -66,7 +38,7 @@ std::vector<Band> spandrel_courses(const Bridge& bridge) {
 }
 
 std::vector<Band> interior_bands(const Bridge& bridge) {
-  const double backing = bridge.springing() + bridge.backing_height;
+  const double backing = bridge.backing_top;
   std::vector<Band> bands;
   for (const Band& course : spandrel_courses(bridge)) {
     const bool same = !bands.empty() && bands.back().thickness == course.thickness && course.z0 != backing;

@@ -5,7 +5,7 @@ namespace voussoir {
 
 void lay_parapets(Layout& layout, const Bridge& bridge) {
   if (bridge.parapet_height <= 0.0) return;
-  const double z0 = bridge.deck(), z1 = z0 + bridge.parapet_height;
+  const double z0 = bridge.deck, z1 = z0 + bridge.parapet_height;
   const double outer = bridge.half_width(), inner = outer - bridge.parapet_thickness;
   for (const int side : {0, 1}) {
     Unit unit = bridge.unit(Component::parapet, side);

@@ -5,29 +5,40 @@
 #include <utility>
 
 #include "geometry/masonry.h"
+#include "geometry/vault_shape.h"
 
 namespace voussoir {
+
+/// A vault over one span.
+struct Vault {
+  std::vector<Ring> rings;                                            // the lowest first
+  Vec3 voussoir = Vec3::Ones();                                       // m: along the arc, across, thickness of a ring
+  double left() const { return rings.front().intrados.front().x(); }  // m, of the opening, at the springings
+  double right() const { return rings.front().intrados.back().x(); }
+};
+
+/// What vaults spring from: an abutment or a pier.
+struct Support {
+  double x0 = 0.0, x1 = 0.0;            // m, at the top
+  double height = 0.0;                  // m, from the base to the top
+  double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
+  bool leaf = false;                    // an outer leaf and infill, or solid
+  double leaf_beside_span = 0.0;        // m, of an abutment with a leaf: the rest has wing walls
+};
 
 /// Dimensions of a bridge in m (block sizes already scaled), in the axes of the whole program: x along, origin at the
 /// left end; y across, 0 at mid-width; z up, 0 at the top of the lowest base.
 struct Bridge {
-  int spans = 1;
-  double clear_span = 0.0, width = 0.0;
-  std::vector<double> own_spans;     // clear spans of the vaults, `spans` of them
-  double pier_thickness = 0.0;       // at the springing
-  std::vector<double> pier_heights;  // base to springing, spans - 1 of them
-  double abutment_height = 0.0, abutment_length = 0.0;
-  double batter_x = 0.0, batter_y = 0.0;  // per face, widening downwards; x: piers only
-  double ring_thickness = 0.0;
-  int voussoirs = 0;  // a vault
-  double fill_over_crown = 0.0;
-  double backing_height = 0.0;                       // above the springing
-  double backing_over_abutment = 0.0;                // length beside the span
+  std::vector<Vault> vaults;      // from left to right
+  std::vector<Support> supports;  // left abutment, piers, right abutment
+  double width = 0.0;
+  double springing = 0.0;              // z of the supports' tops, where spandrel walls, backing and fill begin
+  double deck = 0.0;                   // z
+  double backing_top = 0.0;            // z
+  double backing_over_abutment = 0.0;  // length beside the span
   double spandrel_bottom = 0.0, spandrel_top = 0.0;  // thickness
   double parapet_height = 0.0, parapet_thickness = 0.0;
   double base_depth = 1.0, restraint_depth = 1.0;
-  bool leaf = false;                     // piers and abutments: outer leaf and infill, or solid
-  double leaf_length_beside_span = 0.0;  // abutments with a leaf: the rest has wing walls
   double wing_wall_thickness = 0.0;
   double leaf_thickness[2] = {0.0, 0.0};  // even and odd courses
   bool rigid_backfill = true;
@@ -35,27 +46,20 @@ struct Bridge {
   double fill_edge = 0.5;   // longest edge of its tetrahedra
   bool fill_bonded = true;  // rigid backfill in running bond, or stacked
   bool restrained = false;
-  Vec3 voussoir = Vec3::Ones();    // along the arc, across, ring thickness
   Vec3 block = Vec3::Ones();       // masonry laid in courses: along x, across y, height
   Vec3 leaf_piece = Vec3::Ones();  // along the face, -, course height
   Vec3 infill = Vec3::Ones();
   Vec3 fill = Vec3::Ones();
   std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;  // materials
 
-  double springing() const;  // z
-  double deck() const;       // z
-  double length() const;
-  double span_start(int i) const;  // x of the left springing of vault i
-  double span_end(int i) const { return span_start(i) + own_spans[std::size_t(i)]; }
+  double length() const { return supports.back().x1; }
   double half_width() const { return 0.5 * width; }
-  int supports() const { return spans + 1; }  // left abutment, piers, right abutment
-  bool is_abutment(int support) const { return support == 0 || support == spans; }
-  double support_height(int support) const;
-  double support_base(int support) const { return springing() - support_height(support); }  // z
-  double support_start(int support) const;                                                  // x at the springing
-  double support_end(int support) const;
+  std::size_t last_support() const { return supports.size() - 1; }
+  bool is_abutment(std::size_t support) const { return support == 0 || support == last_support(); }
+  double base(std::size_t support) const { return springing - supports[support].height; }  // z
   Unit unit(Component component, int part) const;  // masonry block of a component
   Unit fill_unit() const;                          // rigid backfill
+  SectionLimits limits() const;                    // what the vaults take up
 };
 
 /// A part of the height above the springing with spandrel walls of one thickness.
@@ -73,21 +77,20 @@ std::vector<Band> interior_bands(const Bridge& bridge);
 /// A box of the fill; what lies within a vault's extrados does not belong to it.
 struct FillRegion {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // m
-  int support = -1;  // the abutment between whose wing walls it lies; -1: above the springing
-  int course = 0;    // number of its lowest course in the bond
+  std::ptrdiff_t support = -1;  // the abutment between whose wing walls it lies; -1: above the springing
+  int course = 0;               // number of its lowest course in the bond
 };
 /// The boxes of the fill, which do not overlap: between the wing walls, then those above the springing from below. The
 /// rigid fill is laid in them and the deformable one is meshed in them.
 std::vector<FillRegion> fill_regions(const Bridge& bridge);
 double fill_space(const Bridge& bridge);  // m3, of the boxes less what lies within the vaults
 /// From where to where the wing walls of an abutment go, m; of equal ends when it has none.
-std::pair<double, double> wing_extent(const Bridge& bridge, int support);
+std::pair<double, double> wing_extent(const Bridge& bridge, std::size_t support);
 
 /// "abutment left", "pier 0", …, "abutment right".
-std::string support_name(const Bridge& bridge, int support);
+std::string support_name(const Bridge& bridge, std::size_t support);
 
-std::vector<Ring> vault_rings(const Bridge& bridge);
-void lay_vaults(Layout& layout, const Bridge& bridge);  // sets layout.rings; groups "keystone i"
+void lay_vaults(Layout& layout, const Bridge& bridge);  // sets the layout's rings; groups "keystone i"
 void lay_piers(Layout& layout, const Bridge& bridge);
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them
 void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y- pier 0" …

@@ -74,14 +74,15 @@ void lay_solid(Layout& layout, const Solid& solid, const Unit& unit) {
 }
 
 void lay_piers(Layout& layout, const Bridge& bridge) {
-  for (int support = 1; support < bridge.spans; ++support) {
-    const double x0 = bridge.support_start(support), x1 = bridge.support_end(support);
-    const double z0 = bridge.support_base(support), z1 = bridge.springing(), half = bridge.half_width();
-    if (bridge.leaf) {
-      lay_leaf_and_infill(layout, bridge, {x0, -half, z0}, {x1, half, z1}, Component::pier, support - 1, support);
+  for (std::size_t i = 1; i < bridge.last_support(); ++i) {
+    const Support& support = bridge.supports[i];
+    const double z0 = bridge.base(i), z1 = bridge.springing, half = bridge.half_width();
+    if (support.leaf) {
+      lay_leaf_and_infill(layout, bridge, {support.x0, -half, z0}, {support.x1, half, z1}, Component::pier, int(i) - 1,
+                          int(i));
     } else {
-      const Solid solid = {x0, x1, half, z0, z1, bridge.batter_x, bridge.batter_x, bridge.batter_y};
-      lay_solid(layout, solid, bridge.unit(Component::pier, support - 1));
+      const Solid solid = {support.x0, support.x1, half, z0, z1, support.slope_x, support.slope_x, support.slope_y};
+      lay_solid(layout, solid, bridge.unit(Component::pier, int(i) - 1));
     }
   }
 }

@@ -7,9 +7,9 @@
 
 namespace voussoir {
 
-std::string support_name(const Bridge& bridge, int support) {
+std::string support_name(const Bridge& bridge, std::size_t support) {
   if (support == 0) return "abutment left";
-  if (support == bridge.spans) return "abutment right";
+  if (support == bridge.last_support()) return "abutment right";
   return fmt::format("pier {}", support - 1);
 }
 
@@ -22,8 +22,8 @@ double middle_of(const Stone& stone) {
 
 /// The stones of the top course nearest above each support's middle.
 void name_tops(Layout& layout, const Bridge& bridge, std::size_t first, const std::string& side) {
-  for (int support = 0; support < bridge.supports(); ++support) {
-    const double middle = 0.5 * (bridge.support_start(support) + bridge.support_end(support));
+  for (std::size_t support = 0; support < bridge.supports.size(); ++support) {
+    const double middle = 0.5 * (bridge.supports[support].x0 + bridge.supports[support].x1);
     double nearest = 1e300;
     for (std::size_t i = first; i < layout.stones.size(); ++i) {
       nearest = std::min(nearest, std::abs(middle_of(layout.stones[i]) - middle));
