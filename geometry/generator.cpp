@@ -59,10 +59,11 @@ void check_choice(const Generator& generator, const Choice& choice, const Genera
                    joined(choice.words));
 }
 
-void check_names(const Generator& generator, const GeneratorInput& input) {
+void check_names(const Generator& generator, const Keys& keys, const GeneratorInput& input) {
   std::vector<std::string> known;
-  for (const Parameter& parameter : generator.parameters) known.push_back(parameter.name);
-  for (const Choice& choice : generator.choices) known.push_back(choice.name);
+  for (const Parameter& parameter : keys.parameters) known.push_back(parameter.name);
+  for (const Choice& choice : keys.choices) known.push_back(choice.name);
+  for (const Profile& profile : keys.profiles) known.push_back(profile.name);
   const auto check = [&](const std::string& name) {
     for (const std::string& k : known) {
       if (k == name) return;
@@ -72,6 +73,18 @@ void check_names(const Generator& generator, const GeneratorInput& input) {
   };
   for (const auto& [name, value] : input.values) check(name);
   for (const auto& [name, word] : input.choices) check(name);
+  for (const auto& [name, line] : input.profiles) check(name);
+}
+
+void check_entries(const Generator& generator, const GeneratorInput& input) {
+  for (const KeyTable& table : generator.tables) {
+    if (!table.is_list()) continue;
+    const auto found = input.entries.find(table.name);
+    const std::size_t count = found == input.entries.end() ? 0 : found->second;
+    if (count < table.least || count > table.most)
+      throw InputError("[[bridge.{}]] is there {} times: generator \"{}\" takes {} to {}", table.name, count,
+                       generator.name, table.least, table.most);
+  }
 }
 
 void check_materials(const Generator& generator, const GeneratorInput& input) {
@@ -126,25 +139,57 @@ const Generator& find_generator(const std::string& name, const char* where) {
                    near.empty() ? near : fmt::format(", did you mean \"{}\"?", near), joined(names));
 }
 
+std::string KeyTable::heading() const {
+  return is_list() ? "[[bridge." + name + "]]" : "[bridge." + name + "]";
+}
+
+std::string KeyTable::prefix(std::size_t entry) const {
+  return is_list() ? fmt::format("{}.{}.", name, entry + 1) : name + ".";
+}
+
+Keys keys_of(const Generator& generator, const GeneratorInput& input) {
+  Keys keys = {generator.parameters, generator.choices, {}};
+  const auto add = [](auto& to, auto key, const std::string& prefix) {
+    key.name = prefix + key.name;
+    to.push_back(std::move(key));
+  };
+  for (const KeyTable& table : generator.tables) {
+    const auto count = input.entries.find(table.name);
+    const std::size_t entries = !table.is_list() ? 1 : count == input.entries.end() ? 0 : count->second;
+    for (std::size_t i = 0; i < entries; ++i) {
+      for (const Parameter& p : table.parameters) add(keys.parameters, p, table.prefix(i));
+      for (const Choice& c : table.choices) add(keys.choices, c, table.prefix(i));
+      for (const Profile& p : table.profiles) add(keys.profiles, p, table.prefix(i));
+    }
+  }
+  return keys;
+}
+
 bool is_dimension(const Parameter& p) {
   static const std::vector<std::string> cuts = {"voussoir_",   "block_",    "fill_length", "fill_width",
                                                 "fill_height", "fill_edge", "infill_",     "leaf_",
                                                 "sliver_",     "base_",     "restraint_"};
-  return p.unit == "m" && std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return p.name.starts_with(c); });
+  const std::string key = p.name.substr(p.name.rfind('.') + 1);
+  return p.unit == "m" && std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return key.starts_with(c); });
 }
 
 GeneratorInput default_input(const Generator& generator) {
   GeneratorInput input;
-  for (const Parameter& parameter : generator.parameters) input.values[parameter.name] = parameter.value;
-  for (const Choice& choice : generator.choices) input.choices[choice.name] = choice.words.front();
+  for (const KeyTable& table : generator.tables)
+    if (table.is_list()) input.entries[table.name] = table.least;
+  const Keys keys = keys_of(generator, input);
+  for (const Parameter& parameter : keys.parameters) input.values[parameter.name] = parameter.value;
+  for (const Choice& choice : keys.choices) input.choices[choice.name] = choice.words.front();
   for (const Material& material : generator.materials) input.materials[material.name] = material;
   return input;
 }
 
 void check_input(const Generator& generator, const GeneratorInput& input) {
-  check_names(generator, input);
-  for (const Parameter& parameter : generator.parameters) check_value(generator, parameter, input);
-  for (const Choice& choice : generator.choices) check_choice(generator, choice, input);
+  check_entries(generator, input);
+  const Keys keys = keys_of(generator, input);
+  check_names(generator, keys, input);
+  for (const Parameter& parameter : keys.parameters) check_value(generator, parameter, input);
+  for (const Choice& choice : keys.choices) check_choice(generator, choice, input);
   check_materials(generator, input);
   if (!(input.gap_tolerance > 0.0 && input.gap_tolerance < 0.01)) {
     throw InputError("gap_tolerance = {} m: more than 0 and less than 0.01 m is needed (default 1e-4)",
@@ -152,16 +197,28 @@ void check_input(const Generator& generator, const GeneratorInput& input) {
   }
 }
 
-std::string describe(const Generator& generator) {
-  std::string text =
-      fmt::format("## {}\n\n{}\n\n| key | default | range | unit | meaning |\n| --- | --- | --- | --- | --- |\n",
-                  generator.name, generator.help);
-  for (const Choice& choice : generator.choices) {
+namespace {
+
+std::string key_rows(const std::vector<Parameter>& parameters, const std::vector<Choice>& choices,
+                     const std::vector<Profile>& profiles) {
+  std::string text = "| key | default | range | unit | meaning |\n| --- | --- | --- | --- | --- |\n";
+  for (const Choice& choice : choices)
     text += fmt::format("| `{}` | \"{}\" | {} | | {} |\n", choice.name, choice.words.front(), joined(choice.words),
                         choice.help);
-  }
-  for (const Parameter& p : generator.parameters) {
+  for (const Parameter& p : parameters)
     text += fmt::format("| `{}` | {:g} | {:g} to {:g} | {} | {} |\n", p.name, p.value, p.low, p.high, p.unit, p.help);
+  for (const Profile& p : profiles) text += fmt::format("| `{}` | none | [[x, z], …] | m | {} |\n", p.name, p.help);
+  return text;
+}
+
+}  // namespace
+
+std::string describe(const Generator& generator) {
+  std::string text = fmt::format("## {}\n\n{}\n\n", generator.name, generator.help) +
+                     key_rows(generator.parameters, generator.choices, {});
+  for (const KeyTable& table : generator.tables) {
+    text += fmt::format("\n`{}`: {}\n\n", table.heading(), table.help) +
+            key_rows(table.parameters, table.choices, table.profiles);
   }
   text +=
       "\n| material | density kg/m3 | E Pa | G Pa | ft Pa | c Pa | friction deg |\n| --- | --- | --- | --- | --- | --- "

@@ -25,11 +25,35 @@ struct Choice {
   std::string help;
 };
 
+/// One key whose value is a line in the plane x-z, [[x, z], …] in m; it may be left out.
+struct Profile {
+  std::string name;
+  std::string help;
+};
+
+/// Keys of a table of their own: a list [[bridge.NAME]] of `least` to `most` entries, or, where `most` is 1, the table
+/// [bridge.NAME]. In a GeneratorInput they have dotted names, which count from 1 in lists: "span.1.rise",
+/// "abutment.left.length".
+struct KeyTable {
+  std::string name;
+  std::string help;  // one line
+  std::size_t least = 1, most = 1;
+  std::vector<Parameter> parameters;
+  std::vector<Choice> choices;
+  std::vector<Profile> profiles;
+  bool is_list() const { return most > 1; }
+  std::string heading() const;  // "[[bridge.span]]"
+  /// "span.1.", of entry 0.
+  std::string prefix(std::size_t entry) const;
+};
+
 /// Values of a generator's keys (all present: defaults filled in), and the materials and joint overrides of the case.
 struct GeneratorInput {
   std::map<std::string, double> values;
   std::map<std::string, std::string> choices;
-  std::map<std::string, Material> materials;  // by name, defaults filled in
+  std::map<std::string, Polygon> profiles;     // y = 0, m; those that are given
+  std::map<std::string, std::size_t> entries;  // of each list of tables
+  std::map<std::string, Material> materials;   // by name, defaults filled in
   /// Stiffness and strength that the case sets for a pair of materials: key "masonry-infill" (names in either order).
   struct JointOverride {
     double kn = -1.0, ks = -1.0;  // Pa/m; negative: not set
@@ -46,6 +70,7 @@ struct Generator {
   std::string help;  // one line
   std::vector<Parameter> parameters;
   std::vector<Choice> choices;
+  std::vector<KeyTable> tables;
   std::vector<Material> materials;                       // defaults
   std::function<Assembly(const GeneratorInput&)> build;  // finished: blocks, joints, stiffness, laws, groups
 };
@@ -53,6 +78,13 @@ struct Generator {
 const std::vector<Generator>& generators();
 /// Throws InputError listing the known names when there is none of that name; `where` is where it was given.
 const Generator& find_generator(const std::string& name, const char* where = "[bridge] generator =");
+/// All keys of an input, by their dotted names: the generator's own, then those of its tables, entry by entry.
+struct Keys {
+  std::vector<Parameter> parameters;
+  std::vector<Choice> choices;
+  std::vector<Profile> profiles;
+};
+Keys keys_of(const Generator& generator, const GeneratorInput& input);
 /// Keys that are dimensions of the bridge, which a survey can have wrong; not those that only say how it is cut into
 /// blocks.
 bool is_dimension(const Parameter& parameter);

@@ -21,6 +21,62 @@ std::string relative_to(const std::string& beside, const std::string& name) {
 
 namespace {
 
+/// The keys of one table; what it leaves out keeps its default.
+void read_keys(TableReader& table, const Keys& keys, const std::string& prefix, GeneratorInput& input) {
+  for (const Parameter& p : keys.parameters) {
+    const double value = table.number(p.name, p.value, {p.low, p.high, p.unit});
+    if (p.integer && value != std::floor(value))
+      table.fail(p.name, fmt::format("is {}: must be a whole number", value));
+    input.values[prefix + p.name] = value;
+  }
+  for (const Choice& choice : keys.choices)
+    input.choices[prefix + choice.name] = choice.words[table.word(choice.name, choice.words, 0)];
+  for (const Profile& profile : keys.profiles)
+    if (Polygon line = table.profile(profile.name); !line.empty()) input.profiles[prefix + profile.name] = line;
+}
+
+/// [[bridge.NAME]]: each entry as often as its `repeat` says.
+void read_entries(TableReader& bridge, const KeyTable& table, GeneratorInput& input) {
+  if (!bridge.has(table.name)) return;
+  std::size_t entries = 0;
+  for (TableReader& entry : bridge.tables(table.name)) {
+    const std::int64_t repeat = entry.integer("repeat", 1, 1, std::int64_t(table.most));
+    for (std::int64_t i = 0; i < repeat; ++i, ++entries)
+      read_keys(entry, {table.parameters, table.choices, table.profiles}, table.prefix(entries), input);
+    entry.finish();
+  }
+  if (entries < table.least || entries > table.most)
+    bridge.fail(table.name, fmt::format("is there {} times: expected {} to {}", entries, table.least, table.most));
+  input.entries[table.name] = entries;
+}
+
+/// Lists, and tables that may lie in one another: [bridge.abutment.left].
+void read_key_tables(TableReader& bridge, const Generator& generator, GeneratorInput& input) {
+  std::map<std::string, TableReader> parents;
+  for (const KeyTable& table : generator.tables) {
+    if (table.is_list()) {
+      read_entries(bridge, table, input);
+      continue;
+    }
+    const std::size_t dot = table.name.find('.');
+    const std::string outer = table.name.substr(0, dot);
+    auto parent = parents.find(outer);
+    if (parent == parents.end()) {
+      std::optional<TableReader> reader = bridge.table(outer, fmt::format("[bridge.{}]", outer));
+      if (!reader) continue;
+      parent = parents.emplace(outer, std::move(*reader)).first;
+    }
+    const Keys keys = {table.parameters, table.choices, table.profiles};
+    if (dot == std::string::npos) {
+      read_keys(parent->second, keys, table.prefix(0), input);
+    } else if (auto inner = parent->second.table(table.name.substr(dot + 1), fmt::format("[bridge.{}]", table.name))) {
+      read_keys(*inner, keys, table.prefix(0), input);
+      inner->finish();
+    }
+  }
+  for (auto& [name, parent] : parents) parent.finish();
+}
+
 void read_generator(TableReader& bridge, Case& c) {
   c.generator = bridge.text("generator", "");
   std::vector<std::string> known;
@@ -30,15 +86,8 @@ void read_generator(TableReader& bridge, Case& c) {
 
   const Generator& generator = find_generator(c.generator);
   c.generator_input = default_input(generator);
-  for (const Parameter& p : generator.parameters) {
-    double& value = c.generator_input.values[p.name];
-    value = bridge.number(p.name, value, {p.low, p.high, p.unit});
-    if (p.integer && value != std::floor(value))
-      bridge.fail(p.name, fmt::format("is {}: must be a whole number", value));
-  }
-  for (const Choice& choice : generator.choices)
-    if (bridge.has(choice.name))
-      c.generator_input.choices[choice.name] = choice.words[bridge.word(choice.name, choice.words, 0)];
+  read_keys(bridge, {generator.parameters, generator.choices, {}}, "", c.generator_input);
+  read_key_tables(bridge, generator, c.generator_input);
   for (auto& [name, material] : c.generator_input.materials) {
     material.friction_angle = writable_angle(material.friction_angle);
     material.dilation_angle = writable_angle(material.dilation_angle);

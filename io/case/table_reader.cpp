@@ -218,6 +218,30 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
   return values;
 }
 
+std::vector<Vec3> TableReader::profile(const std::string& key) {
+  const toml::node* node = find(key, "[[x, z], …]");
+  if (!node) return {};
+  constexpr double farthest = 1e4;  // m
+  std::vector<Vec3> line;
+  const auto number = [&](const toml::node* item) {
+    const std::optional<double> x = item && item->is_number() ? item->value<double>() : std::nullopt;
+    if (!x || !(std::abs(*x) <= farthest))
+      fail(key, fmt::format("has a point {} that is not [x, z] in m, up to {:g}", line.size() + 1, farthest));
+    return *x;
+  };
+  const toml::array* points = node->as_array();
+  if (!points || points->size() < 2) fail(key, "must be a list of at least two points, [[x, z], [x, z]], in m");
+  for (const toml::node& item : *points) {
+    const toml::array* point = item.as_array();
+    if (!point || point->size() != 2)
+      fail(key, fmt::format("has a point {} that is {}: expected [x, z], in m", line.size() + 1, kind_of(item)));
+    line.emplace_back(number(point->get(0)), 0.0, number(point->get(1)));
+    if (line.size() > 1 && line.back().x() <= line[line.size() - 2].x())
+      fail(key, fmt::format("goes back at x = {:g} m: give its points from left to right", line.back().x()));
+  }
+  return line;
+}
+
 Vec3 TableReader::vector(const std::string& key, const Vec3& fallback, const Limits& limits) {
   if (!find(key, "[x, y, z]")) return fallback;
   const std::vector<double> v = numbers(key, 3, limits);

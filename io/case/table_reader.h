@@ -54,6 +54,8 @@ class TableReader {
   std::vector<double> number_list(const std::string& key, const Limits& limits = {});
   /// One text or a list of texts.
   std::vector<std::string> texts(const std::string& key);
+  /// Points [[x, z], …] from left to right, y = 0; empty where the key is not given.
+  std::vector<Vec3> profile(const std::string& key);
   /// Three numbers. The limits keep sums of their squares finite; a place is within what geometry/extent.h calls far.
   Vec3 vector(const std::string& key, const Vec3& fallback, const Limits& limits = {-1e15, 1e15, ""});
   Vec3 place_in_m(const std::string& key, const Vec3& fallback);

@@ -46,12 +46,36 @@ class TomlText {
   std::string text_ = "# Resolved case: every value written out, also those that were defaults.\n";
 };
 
+/// Those whose dotted names are the prefix and one more part.
+void write_keys(TomlText& out, const GeneratorInput& input, const std::string& prefix) {
+  const auto own = [&](const std::string& key) {
+    return key.starts_with(prefix) && key.find('.', prefix.size()) == std::string::npos;
+  };
+  for (const auto& [key, word] : input.choices)
+    if (own(key)) out.set(key.substr(prefix.size()), word);
+  for (const auto& [key, value] : input.values)
+    if (own(key)) out.set(key.substr(prefix.size()), value);
+  for (const auto& [key, line] : input.profiles) {
+    if (!own(key)) continue;
+    std::string points;
+    for (const Vec3& p : line)
+      points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", number_text(p.x()), number_text(p.z()));
+    out.raw(key.substr(prefix.size()), "[" + points + "]");
+  }
+}
+
 void write_bridge(TomlText& out, const Case& c) {
   out.heading("[bridge]");
   if (c.generator.empty()) return out.set("assembly", std::string("assembly.h5"));
   out.set("generator", c.generator);
-  for (const auto& [key, word] : c.generator_input.choices) out.set(key, word);
-  for (const auto& [key, value] : c.generator_input.values) out.set(key, value);
+  write_keys(out, c.generator_input, "");
+  for (const KeyTable& table : find_generator(c.generator).tables) {
+    const std::size_t entries = table.is_list() ? c.generator_input.entries.at(table.name) : 1;
+    for (std::size_t i = 0; i < entries; ++i) {
+      out.heading(table.heading());
+      write_keys(out, c.generator_input, table.prefix(i));
+    }
+  }
   for (const auto& [name, m] : c.generator_input.materials) {
     out.heading(fmt::format("[materials.{}]", quoted(name)));
     out.set("density", m.density);

@@ -40,7 +40,7 @@ std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
 /// The case with one dimension changed, and all others that are the same number: on the bridge they are one.
 Assembly with_dimension(const Case& c, double value, double amount) {
   Case other = c;
-  for (const Parameter& p : find_generator(c.generator).parameters) {
+  for (const Parameter& p : keys_of(find_generator(c.generator), c.generator_input).parameters) {
     double& own = other.generator_input.values.at(p.name);
     if (is_dimension(p) && own == value) own = std::clamp(own + amount, p.low, p.high);
   }
@@ -53,7 +53,7 @@ std::vector<Nuisance> dimension_nuisances(const Case& c) {
   std::vector<Nuisance> all;
   if (c.generator.empty()) return all;
   std::map<double, std::string> names;  // of each number
-  for (const Parameter& p : find_generator(c.generator).parameters) {
+  for (const Parameter& p : keys_of(find_generator(c.generator), c.generator_input).parameters) {
     const double value = c.generator_input.values.at(p.name);
     if (!is_dimension(p) || value <= 0.0) continue;
     std::string& name = names[value];

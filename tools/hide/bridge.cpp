@@ -21,8 +21,9 @@ void set_key(Case& c, const std::string& key, const std::string& word) {
   if (key == "block_scale")
     throw InputError("--truth block_scale={}: the size of the true bridge's blocks is --mesh, over the case's", word);
   std::vector<std::string> known;
-  for (const Parameter& p : generator.parameters) known.push_back(p.name);
-  for (const Choice& choice : generator.choices) known.push_back(choice.name);
+  const Keys keys = keys_of(generator, c.generator_input);
+  for (const Parameter& p : keys.parameters) known.push_back(p.name);
+  for (const Choice& choice : keys.choices) known.push_back(choice.name);
   if (std::find(known.begin(), known.end(), key) == known.end())
     throw InputError("--truth {}={}: generator \"{}\" has no key '{}'{}", key, word, c.generator, key,
                      suggestion(key, known));
@@ -50,7 +51,7 @@ Assembly surveyed_wrongly(const Case& model, const HideRequest& request) {
     // Two dimensions that are the same number are one on the bridge: backing that reaches the end still does, instead
     // of ending a centimetre short of it behind a slot of fill.
     std::map<double, double> errors;
-    for (const Parameter& p : find_generator(c.generator).parameters) {
+    for (const Parameter& p : keys_of(find_generator(c.generator), c.generator_input).parameters) {
       double& value = c.generator_input.values.at(p.name);
       if (p.name == "block_scale") value = std::clamp(value * request.mesh, p.low, p.high);
       if (!is_dimension(p) || value <= 0.0) continue;
