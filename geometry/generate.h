@@ -1,4 +1,4 @@
-// The generators, one file each (generate_NAME.cpp; cs1 and cs2 share generate_bridge.cpp); listed in generator.cpp.
+// The generators, one file each (generate_NAME.cpp; cs1 and cs2 share generate_cs.cpp); listed in generator.cpp.
 #pragma once
 #include "geometry/generator.h"
 #include "solver/base/constants.h"
@@ -7,6 +7,7 @@ namespace voussoir {
 
 Generator cs1_generator();          // four-span road bridge, leaf and infill (S. Chiara)
 Generator cs2_generator();          // three-span road bridge, solid piers (Gresal)
+Generator bridge_generator();       // any number of spans of any shape
 Generator arch_generator();         // one ring of voussoirs between fixed springings
 Generator wall_generator();         // running-bond wall of equal blocks
 Generator column_generator();       // stack of equal blocks

@@ -1,16 +1,11 @@
-// cs1 and cs2: one layout of a multi-span masonry arch bridge with two sets of defaults. Dimensions and materials are
-// those of the seed paper "From Monitoring to Modeling: 3D-DEM Application to Masonry Arch Bridge Case Studies" where
-// it gives them; the rest is fitted to its periods (see the documentation of the bridges).
-#include "geometry/generate_bridge.h"
+// bridge: any number of spans of any shape on abutments and piers.
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "geometry/fill_gmsh.h"
-#include "geometry/fill_joints.h"
-#include "geometry/fill_mesh.h"
 #include "geometry/generate.h"
-#include "geometry/masonry_parts.h"
-#include "geometry/stiffness.h"
+#include "geometry/masonry_build.h"
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
 
@@ -18,284 +13,317 @@ namespace voussoir {
 
 namespace {
 
-int voussoirs(const GeneratorInput& in) {
-  const int given = int(in("voussoirs"));
-  if (given > 0) return given;
-  // An even number, so that the crown is a joint and the vault its own mirror image.
-  const double middle = pi * 0.5 * (in("clear_span") + in("ring_thickness"));
-  return 2 * std::max(2, int(std::ceil(0.5 * middle / (in("voussoir_length") * in("block_scale")) - 1e-9)));
+constexpr std::size_t most_spans = 60;
+
+std::string span_prefix(std::size_t i) {
+  return fmt::format("span.{}.", i + 1);
 }
 
-double support_height(const GeneratorInput& in, int support) {
-  if (support == 0 || support == int(in("spans"))) return in("abutment_height");
-  const double own = in(fmt::format("pier_{}_height", support - 1));
-  return own > 0.0 ? own : in("pier_height");
+std::string span_heading(std::size_t i) {
+  return fmt::format("[[bridge.span]] number {}", i + 1);
 }
 
-double clear_span(const GeneratorInput& in, int span) {
-  const double own = in(fmt::format("span_{}_clear", span));
-  return own > 0.0 ? own : in("clear_span");
+/// Keys of a pier; one entry holds for all.
+std::string pier_prefix(const GeneratorInput& in, std::size_t pier) {
+  const std::size_t entries = in.entries.at("pier");
+  return fmt::format("pier.{}.", entries == 1 ? 1 : pier + 1);
 }
 
-double span_start(const GeneratorInput& in, int span) {
-  double start = in("abutment_length") + span * (in("clear_span") + in("pier_thickness"));
-  for (int j = 0; j < span; ++j) start += clear_span(in, j) - in("clear_span");
-  return start;
+double span_length(const GeneratorInput& in, std::size_t i) {
+  const auto line = in.profiles.find(span_prefix(i) + "intrados");
+  return line == in.profiles.end() ? in(span_prefix(i) + "clear_span")
+                                   : line->second.back().x() - line->second.front().x();
+}
+
+/// The shape of a vault whose left springing is at x (m), of springings about z (m).
+VaultShape read_shape(const GeneratorInput& in, std::size_t i, double x, double z) {
+  const std::string key = span_prefix(i);
+  VaultShape v;
+  v.shape = in.choices.at(key + "shape");
+  const auto line = in.profiles.find(key + "intrados");
+  const bool given = line != in.profiles.end();
+  if (given && v.shape != "surveyed")
+    throw InputError("{}: intrados is given, and shape = \"{}\": give shape = \"surveyed\", or leave out intrados",
+                     span_heading(i), v.shape);
+  if (!given && v.shape == "surveyed")
+    throw InputError("{}: shape = \"surveyed\" needs intrados = [[x, z], …], from springing to springing",
+                     span_heading(i));
+  v.left = {x, 0.0, z + in(key + "springing_left")};
+  v.right = {x + span_length(in, i), 0.0, z + in(key + "springing_right")};
+  if (given) {
+    for (const Vec3& p : line->second) v.surveyed.push_back(v.left + (p - line->second.front()));
+    v.right = v.surveyed.back();
+    for (const Vec3& p : v.surveyed) v.rise = std::max(v.rise, p.z() - std::max(v.left.z(), v.right.z()));
+  } else {
+    const double half = 0.5 * v.span();
+    const double usual = v.shape == "semicircular" ? half : v.shape == "pointed" ? 1.2 * half : 0.5 * half;
+    v.rise = in(key + "rise") > 0.0 ? in(key + "rise") : usual;
+  }
+  const double crown = in(key + "ring_thickness"), own = in(key + "springing_thickness");
+  const auto rings = std::size_t(in(key + "rings"));
+  v.crown.assign(rings, crown / double(rings));
+  v.springing.assign(rings, (own > 0.0 ? own : crown) / double(rings));
+  v.voussoirs = int(in(key + "voussoirs"));
+  if (v.voussoirs == 0)  // an even number, so that the crown is a joint
+    v.voussoirs =
+        2 * std::max(2, int(std::ceil(0.5 * intrados_length(v) / (in("voussoir_length") * in("block_scale")) - 1e-9)));
+  return v;
+}
+
+Vault make_vault(const GeneratorInput& in, std::size_t i, const VaultShape& shape) {
+  return {vault_rings(shape, span_heading(i)),
+          {intrados_length(shape) / shape.voussoirs, in("voussoir_width") * in("block_scale"), shape.crown.front()}};
+}
+
+double support_height(const GeneratorInput& in, std::size_t support, std::size_t spans) {
+  if (support == 0) return in("abutment.left.height");
+  if (support == spans) return in("abutment.right.height");
+  return in(pier_prefix(in, support - 1) + "height");
+}
+
+std::string support_key(std::size_t support, std::size_t spans) {
+  if (support == 0) return "[bridge.abutment.left]";
+  if (support == spans) return "[bridge.abutment.right]";
+  return fmt::format("[[bridge.pier]] number {}", support);
 }
 
 void read_spans(Bridge& bridge, const GeneratorInput& in) {
-  const int spans = int(in("spans"));
-  for (int i = 0; i <= spans; ++i) bridge.springing = std::max(bridge.springing, support_height(in, i));
-  bridge.deck = bridge.springing + 0.5 * in("clear_span") + in("ring_thickness") + in("fill_over_crown");
-  bridge.backing_top = bridge.springing + in("backing_height");
-  const double thickness = in("ring_thickness");
-  const int n = voussoirs(in);
-  const Vec3 voussoir(pi * 0.5 * (in("clear_span") + thickness) / n, in("voussoir_width") * in("block_scale"),
-                      thickness);
-  for (int i = 0; i < spans; ++i) {
-    const double x0 = span_start(in, i), x1 = x0 + clear_span(in, i), radius = 0.5 * clear_span(in, i);
-    bridge.vaults.push_back(
-        {{make_semicircle({0.5 * (x0 + x1), 0.0, bridge.springing}, radius, radius + thickness, n)}, voussoir});
+  const std::size_t spans = in.entries.at("span");
+  double level = 0.0;  // of the springings, above the lowest base
+  for (std::size_t i = 0; i <= spans; ++i) level = std::max(level, support_height(in, i, spans));
+  double x = in("abutment.left.length");
+  double crown = 0.0;
+  bridge.springing = 1e300;
+  for (std::size_t i = 0; i < spans; ++i) {
+    const VaultShape shape = read_shape(in, i, x, level);
+    bridge.vaults.push_back(make_vault(in, i, shape));
+    bridge.springing = std::min({bridge.springing, shape.left.z(), shape.right.z()});
+    for (const Vec3& p : bridge.vaults.back().rings.back().extrados) crown = std::max(crown, p.z());
+    x = shape.right.x() + (i + 1 < spans ? in(pier_prefix(in, i) + "thickness") : 0.0);
   }
+  bridge.deck = crown + in("fill_over_crown");
+  bridge.backing_top = bridge.springing + in("backing_height");
+}
+
+/// What an abutment or a pier says beside its height.
+void read_makeup(Support& support, const GeneratorInput& in, const std::string& prefix, const std::string& heading,
+                 bool pier) {
+  support.leaf = in.choices.at(prefix + "makeup") == "leaf";
+  support.slope_x = pier ? in(prefix + "batter_x") : 0.0;
+  support.slope_y = in(prefix + "batter_y");
+  if (support.leaf && (support.slope_x > 0.0 || support.slope_y > 0.0))
+    throw InputError("{}: makeup = \"leaf\" has upright faces: set its batter to 0, or makeup = \"solid\"", heading);
 }
 
 void read_supports(Bridge& bridge, const GeneratorInput& in) {
-  const int spans = int(in("spans"));
-  const bool leaf = in.choices.at("makeup") == "leaf";
-  for (int i = 0; i <= spans; ++i) {
+  const std::size_t spans = bridge.vaults.size();
+  double level = 0.0;
+  for (std::size_t i = 0; i <= spans; ++i) level = std::max(level, support_height(in, i, spans));
+  for (std::size_t i = 0; i <= spans; ++i) {
+    const std::string heading = support_key(i, spans);
     Support support;
-    support.x0 = i == 0 ? 0.0 : span_start(in, i - 1) + clear_span(in, i - 1);
-    support.x1 = i < spans ? span_start(in, i) : support.x0 + in("abutment_length");
-    support.height = support_height(in, i);
-    support.leaf = leaf;
-    support.leaf_beside_span = in("abutment_leaf_length");
-    if (!leaf) {
-      support.slope_x = i == 0 || i == spans ? 0.0 : in("batter_x");
-      support.slope_y = in("batter_y");
-    }
+    const Vault* before = i > 0 ? &bridge.vaults[i - 1] : nullptr;
+    const Vault* after = i < spans ? &bridge.vaults[i] : nullptr;
+    support.x0 = before ? before->right() : 0.0;
+    support.x1 = after ? after->left() : support.x0 + in("abutment.right.length");
+    support.base = level - support_height(in, i, spans);
+    support.springing = 1e300, support.top = -1e300;
+    const auto stands = [&](const Vec3& in_end, const Vec3& out_end) {
+      support.springing = std::min(support.springing, in_end.z());
+      support.top = std::max({support.top, in_end.z(), out_end.z()});
+    };
+    if (before) stands(before->rings.front().intrados.back(), before->rings.back().extrados.back());
+    if (after) stands(after->rings.front().intrados.front(), after->rings.back().extrados.front());
+    support.height = support.springing - support.base;
+    if (support.height < 0.05)
+      throw InputError("{}: height = {:g} m leaves {:g} m below the springing there: make it higher", heading,
+                       support_height(in, i, spans), support.height);
+    const std::string prefix = i == 0 ? "abutment.left." : i == spans ? "abutment.right." : pier_prefix(in, i - 1);
+    read_makeup(support, in, prefix, heading, before && after);
+    support.leaf_beside_span = support.x1 - support.x0;
+    const double left = before ? before->rings.back().extrados.back().x() : support.x0 + 0.05,
+                 right = after ? after->rings.back().extrados.front().x() : support.x1 - 0.05;
+    if (right < left - 1e-9)
+      throw InputError("{}: {} = {:g} m is too little for the feet of the vaults on it: at least {:g} m", heading,
+                       before && after ? "thickness" : "length", support.x1 - support.x0,
+                       support.x1 - support.x0 + left - right);
     bridge.supports.push_back(support);
   }
 }
 
-void read_block_sizes(Bridge& bridge, const GeneratorInput& in) {
-  const auto size = [&](const char* length, const char* width, const char* height) {
-    return Vec3(in("block_scale") * Vec3(in(length), in(width), in(height)));
-  };
-  bridge.block = size("block_length", "block_width", "block_height");
-  bridge.fill = size("fill_length", "fill_width", "fill_height");
-  bridge.leaf_piece = size("leaf_length", "leaf_length", "leaf_course_height");
-  bridge.infill = size("infill_length", "infill_width", "leaf_course_height");
-  bridge.infill.z() *= 0.5;
-}
-
 Bridge read_bridge(const GeneratorInput& in) {
+  const std::size_t spans = in.entries.at("span"), piers = in.entries.at("pier");
+  if (piers != 1 && piers + 1 != spans)
+    throw InputError("[[bridge.pier]] is there {} times for {} spans: give one, which holds for all, or {}", piers,
+                     spans, spans - 1);
   Bridge bridge;
   read_spans(bridge, in);
   read_supports(bridge, in);
   bridge.width = in("width");
-  bridge.backing_over_abutment = in("backing_over_abutment");
-  bridge.spandrel_bottom = in("spandrel_thickness_bottom");
-  bridge.spandrel_top = in("spandrel_thickness_top");
-  bridge.parapet_height = in("parapet_height");
-  bridge.parapet_thickness = in("parapet_thickness");
-  bridge.base_depth = in("base_depth");
-  bridge.restraint_depth = in("restraint_depth");
-  bridge.wing_wall_thickness = in("wing_wall_thickness");
-  bridge.leaf_thickness[0] = in("leaf_thickness_even");
-  bridge.leaf_thickness[1] = in("leaf_thickness_odd");
-  bridge.fill_bonded = in.choices.at("fill_bond") == "running";
-  bridge.rigid_backfill = in.choices.at("backfill") == "rigid";
-  bridge.deformable_backfill = in.choices.at("backfill") == "deformable";
-  bridge.fill_edge = in("fill_edge");
-  bridge.restrained = in.choices.at("abutments") == "restrained";
-  read_block_sizes(bridge, in);
+  const auto length = [](const Support& support) { return support.x1 - support.x0; };
+  bridge.backing_over_abutment[0] = length(bridge.supports.front());
+  bridge.backing_over_abutment[1] = length(bridge.supports.back());
+  bridge.spandrel_bottom = in("spandrel_thickness_bottom"), bridge.spandrel_top = in("spandrel_thickness_top");
+  bridge.parapet_height = in("parapet_height"), bridge.parapet_thickness = in("parapet_thickness");
+  bridge.base_depth = in("base_depth"), bridge.restraint_depth = in("restraint_depth");
+  bridge.wing_wall_thickness = in("spandrel_thickness_bottom");
+  bridge.leaf_thickness[0] = in("leaf_thickness_even"), bridge.leaf_thickness[1] = in("leaf_thickness_odd");
+  read_fill_and_blocks(bridge, in);
   return bridge;
 }
 
 /// Keys that contradict one another, by name.
-void check_bridge(const GeneratorInput& in) {
-  const auto at_most = [&](double low, const std::string& small, double high, const std::string& large) {
-    if (low > high + 1e-9) {
+void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
+  const auto at_most = [](double low, const std::string& small, double high, const std::string& large) {
+    if (low > high + 1e-9)
       throw InputError("[bridge] {} = {:g} m is more than {} = {:g} m: make the first smaller or the second larger",
                        small, low, large, high);
-    }
   };
-  const double deck = 0.5 * in("clear_span") + in("ring_thickness") + in("fill_over_crown");
-  at_most(in("backing_height"), "backing_height", deck, "clear_span / 2 + ring_thickness + fill_over_crown");
-  for (int i = 0; i < int(in("spans")); ++i) {
-    const std::string key = fmt::format("span_{}_clear", i);
-    at_most(in(key), key, in("clear_span") + 2.0 * in("fill_over_crown"), "clear_span + 2 fill_over_crown");
-  }
-  if (in("spans") > 1) at_most(2.0 * in("ring_thickness"), "2 ring_thickness", in("pier_thickness"), "pier_thickness");
-  at_most(in("ring_thickness"), "ring_thickness", in("abutment_length"), "abutment_length");
-  at_most(in("backing_over_abutment"), "backing_over_abutment", in("abutment_length"), "abutment_length");
-  at_most(in("ring_thickness"), "ring_thickness", in("backing_over_abutment"), "backing_over_abutment");
+  at_most(in("backing_height"), "backing_height", bridge.deck - bridge.springing, "springing to deck");
   const double inside = 0.9 * in("width");
   at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
   at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
   at_most(in("parapet_height") > 0.0 ? in("parapet_thickness") : 0.0, "parapet_thickness", in("spandrel_thickness_top"),
           "spandrel_thickness_top");
-  if (in("voussoirs") > 0.0 && in("voussoirs") < 4.0) {
-    throw InputError("[bridge] voussoirs = {:g}: a vault needs at least 4, or 0 for the number from voussoir_length",
-                     in("voussoirs"));
-  }
-  if (in.choices.at("makeup") != "leaf") return;
-  at_most(in("abutment_leaf_length"), "abutment_leaf_length", in("abutment_length"), "abutment_length");
-  at_most(2.0 * in("wing_wall_thickness"), "2 wing_wall_thickness", inside, "0.9 width");
-  const double least = std::min({in("pier_thickness"), in("abutment_leaf_length"), in("width")});
-  for (const char* key : {"leaf_thickness_even", "leaf_thickness_odd"}) {
-    at_most(2.0 * in(key), std::string("2 ") + key, 0.95 * least,
-            "0.95 times the least of pier_thickness, abutment_leaf_length and width");
-  }
-  if (in("batter_x") > 0.0 || in("batter_y") > 0.0) {
-    throw InputError(
-        "[bridge] batter_x = {:g} and batter_y = {:g}: piers with a leaf (makeup = \"leaf\") have upright "
-        "faces; set both to 0 or makeup = \"solid\"",
-        in("batter_x"), in("batter_y"));
+  for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
+    const Support& support = bridge.supports[i];
+    const std::string heading = support_key(i, bridge.vaults.size());
+    const double backing = bridge.backing_top - bridge.springing;
+    if (support.top > bridge.backing_top + 1e-9)
+      throw InputError(
+          "[bridge] backing_height = {:g} m ends below the feet of the vaults on {}: at least {:g} m are needed",
+          backing, heading, support.top - bridge.springing);
+    if (support.leaf)
+      for (const char* key : {"leaf_thickness_even", "leaf_thickness_odd"})
+        at_most(2.0 * in(key), std::string("2 ") + key, 0.95 * std::min(support.x1 - support.x0, bridge.width),
+                "0.95 times the least of width and what " + heading + " is long");
   }
 }
 
-/// The values of the table, for the scaled blocks. They belong to the default moduli: a case that changes a modulus
-/// changes them in proportion.
-std::map<Component, Stiffness> contact_table(const Bridge& bridge, const std::vector<Material>& defaults,
-                                             const std::vector<Material>& materials, const GeneratorInput& in) {
-  const auto row = [&](const char* name, std::int32_t material) {
-    const Material &now = materials[std::size_t(material)], &then = defaults[std::size_t(material)];
-    const double scale = in("block_scale");
-    return Stiffness{in(std::string("kn_") + name) / scale * (now.youngs_modulus / then.youngs_modulus),
-                     in(std::string("ks_") + name) / scale * (now.shear_modulus / then.shear_modulus)};
-  };
-  const Stiffness wall = row("wall", bridge.masonry), support = row("support", bridge.masonry);
-  return {{Component::arch, row("vault", bridge.vault)},
-          {Component::backing, wall},
-          {Component::spandrel, wall},
-          {Component::parapet, wall},
-          {Component::pier, support},
-          {Component::abutment, support},
-          {Component::infill, row("infill", bridge.infill_material)}};
-}
-
-JointRules joint_rules(const Bridge& bridge, const std::vector<Material>& defaults,
-                       const std::vector<Material>& materials, const GeneratorInput& in) {
-  JointRules rules;
-  rules.kind = in.choices.at("stiffness") == "table" ? JointRules::Kind::table : JointRules::Kind::moduli;
-  rules.table = contact_table(bridge, defaults, materials, in);
-  const Vec3 wing(bridge.block.x(), bridge.wing_wall_thickness, bridge.block.z());
-  rules.nominal = {{Component::arch, bridge.vaults.front().voussoir},
-                   {Component::backing, bridge.block},
-                   {Component::spandrel, bridge.block},
-                   {Component::parapet, bridge.block},
-                   {Component::pier, bridge.block},
-                   {Component::abutment, bridge.supports.front().leaf ? wing : bridge.block},
-                   {Component::infill, bridge.infill},
-                   {Component::backfill, bridge.fill}};
-  // There is one layer of interface however large the blocks, so its stiffness does not follow their size.
-  rules.interface_share = in("interface_share") * in("block_scale");
-  rules.interface_friction = radians(in("interface_friction"));
-  rules.restraint_share = in("restraint_share");
-  rules.smallest_half_length = 0.25 * in("sliver_thickness") * in("block_scale");
-  return rules;
-}
-
-std::int32_t index_of(const std::vector<Material>& materials, const std::string& name) {
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].name == name) return std::int32_t(i);
+/// What the interface's share refers to: moduli over the mean size of a block of each component.
+std::map<Component, Stiffness> masonry_stiffness(const Bridge& bridge, const std::vector<Material>& materials,
+                                                 const JointRules& rules) {
+  std::map<Component, Stiffness> table;
+  for (const auto& [component, size] : rules.nominal) {
+    const Material& m = materials[std::size_t(component == Component::arch     ? bridge.vault
+                                              : component == Component::infill ? bridge.infill_material
+                                                                               : bridge.masonry)];
+    table[component] = {m.youngs_modulus / size.mean(), m.shear_modulus / size.mean()};
   }
-  return 0;  // a bridge without a material of its own for this part uses "masonry"
+  return table;
 }
 
-/// The deformable fill and its patches. Their rules are those of rigid blocks of the unscaled size: tetrahedra do not
-/// follow the blocks.
-void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const GeneratorInput& in) {
-  FillSpace space;
-  for (const FillRegion& region : fill_regions(bridge)) space.boxes.push_back({region.low, region.high});
-  space.rings = bridge.limits().rings;
-  FillMeshing meshing;
-  meshing.edge = bridge.fill_edge;
-  assembly.fill = mesh_fill(space, meshing);
-  assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
-  check_fill(assembly.fill, "the mesh of the fill");
-  check_volume(assembly.fill, fill_space(bridge));
-  JointSearch search;
-  search.gap = in.gap_tolerance;
-  find_fill_joints(assembly, search);
-  rules.nominal.at(Component::backfill) /= in("block_scale");
-  assign_fill_stiffness(assembly, rules, in);
-}
-
-Assembly build_bridge(const std::vector<Material>& defaults, const GeneratorInput& in) {
-  check_bridge(in);
+Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
   Bridge bridge = read_bridge(in);
-  bridge.vault = index_of(defaults, "vault");
-  bridge.infill_material = index_of(defaults, "infill");
-  bridge.backfill = index_of(defaults, "backfill");
-
-  Layout layout;
-  lay_piers(layout, bridge);
-  lay_abutments(layout, bridge);
-  lay_vaults(layout, bridge);
-  lay_backing(layout, bridge);
-  lay_spandrels(layout, bridge);
-  lay_backfill(layout, bridge);
-  lay_parapets(layout, bridge);
-  lay_bases(layout, bridge);
-  lay_restraints(layout, bridge);
-
+  check_bridge(bridge, in);
   const std::vector<Material> materials = in_order(defaults, in);
-  const SliverRule slivers = {in("sliver_thickness") * in("block_scale"), in("sliver_share")};
-  Assembly assembly = assemble(std::move(layout), materials, slivers, in.gap_tolerance);
-  const JointRules rules = joint_rules(bridge, defaults, materials, in);
-  assign_stiffness(assembly, rules, in);
-  if (bridge.deformable_backfill) add_fill(assembly, bridge, rules, in);
-  return assembly;
+  find_materials(bridge, materials);
+  JointRules rules = joint_rules(bridge, in);
+  rules.table = masonry_stiffness(bridge, materials, rules);
+  return lay_bridge(bridge, materials, rules, in);
 }
 
-Generator bridge_generator(const std::string& name, const std::string& help, std::vector<Parameter> parameters,
-                           std::vector<Choice> choices, std::vector<Material> materials) {
-  Generator generator;
-  generator.name = name;
-  generator.help = help;
-  generator.parameters = std::move(parameters);
-  generator.choices = std::move(choices);
-  generator.materials = materials;
-  generator.build = [materials](const GeneratorInput& in) { return build_bridge(materials, in); };
-  return generator;
+std::vector<Parameter> own_keys() {
+  return {{"width", 8.0, 1.0, 40.0, "m", "from face to face of the spandrel walls"},
+          {"fill_over_crown", 0.5, 0.0, 20.0, "m", "from the highest crown of the extrados to the deck"},
+          {"backing_height", 1.0, 0.0, 60.0, "m", "top of the backing above the lowest springing"},
+          {"spandrel_thickness_bottom", 0.6, 0.1, 10.0, "m", "lowest course of the spandrel walls"},
+          {"spandrel_thickness_top", 0.6, 0.1, 10.0, "m", "topmost course; stepped by course in between"},
+          {"parapet_height", 1.0, 0.0, 5.0, "m", "above the deck; 0: no parapets"},
+          {"parapet_thickness", 0.35, 0.05, 5.0, "m", "flush with the outer faces"},
+          {"base_depth", 1.0, 0.1, 20.0, "m", "depth of the fixed block under each support"},
+          {"restraint_depth", 1.0, 0.1, 20.0, "m", "length of the fixed block at each end, if restrained"},
+          {"leaf_thickness_even", 0.3, 0.05, 5.0, "m", "leaf: thickness in courses 0, 2, … from the base"},
+          {"leaf_thickness_odd", 0.5, 0.05, 5.0, "m", "leaf: thickness in courses 1, 3, …"},
+          {"block_scale", 1.0, 0.25, 6.0, "-", "factor on all block sizes"},
+          {"voussoir_length", 0.4, 0.03, 10.0, "m", "voussoirs along the intrados, at most"},
+          {"voussoir_width", 0.6, 0.05, 10.0, "m", "voussoirs across"},
+          {"block_length", 0.8, 0.05, 10.0, "m", "masonry in courses: along the bridge"},
+          {"block_width", 0.6, 0.05, 10.0, "m", "the same, across"},
+          {"block_height", 0.4, 0.05, 10.0, "m", "the same, course height"},
+          {"leaf_course_height", 0.8, 0.05, 10.0, "m", "leaf: course height; the infill has two courses in one"},
+          {"leaf_length", 0.7, 0.05, 10.0, "m", "leaf: length of its pieces along the face"},
+          {"infill_length", 0.7, 0.05, 10.0, "m", "infill: along the bridge"},
+          {"infill_width", 0.7, 0.05, 10.0, "m", "infill: across"},
+          {"fill_length", 0.8, 0.05, 10.0, "m", "rigid backfill: along the bridge"},
+          {"fill_width", 0.8, 0.05, 10.0, "m", "rigid backfill: across"},
+          {"fill_height", 0.4, 0.05, 10.0, "m", "rigid backfill: course height"},
+          {"fill_edge", 0.5, 0.05, 5.0, "m", "deformable backfill: longest edge of its tetrahedra, at any block_scale"},
+          {"sliver_thickness", 0.15, 0.0, 1.0, "m", "a thinner cut block (times block_scale) joins its neighbour"},
+          {"sliver_share", 0.25, 0.0, 0.9, "-", "and so does one of a smaller share of its nominal volume"},
+          {"interface_share", 0.2, 1e-6, 10.0, "-", "masonry to backfill: share of the masonry's stiffness"},
+          {"interface_friction", 35.0, 0.0, 80.0, "deg", "masonry to backfill: friction, without cohesion or tension"},
+          {"restraint_share", 0.5, 1e-6, 10.0, "-", "restrained ends: share of the adjacent material's stiffness"}};
 }
 
-std::vector<Choice> bridge_choices(bool leaf, bool table) {
-  const std::vector<std::string> makeup =
-      leaf ? std::vector<std::string>{"leaf", "solid"} : std::vector<std::string>{"solid", "leaf"};
-  const std::vector<std::string> stiffness =
-      table ? std::vector<std::string>{"table", "moduli"} : std::vector<std::string>{"moduli", "table"};
+std::vector<Choice> own_choices() {
   return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
           {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
-          {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond *"},
-          {"makeup", makeup, "piers and abutments: outer leaf around infill (and wing walls), or solid"},
-          {"stiffness", stiffness, "joints from the table kn_, ks_ per component, or from E/dc and G/dc"}};
+          {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond"}};
+}
+
+KeyTable span_keys() {
+  KeyTable t;
+  t.name = "span", t.help = "the vaults from left to right; `repeat` = 3 stands for three alike";
+  t.least = 1, t.most = most_spans;
+  t.choices = {{"shape", vault_shapes(), "of the intrados"}};
+  t.parameters = {
+      {"clear_span", 8.0, 0.3, 100.0, "m", "between the springings; of a surveyed vault its intrados says it"},
+      {"rise", 0.0, 0.0, 60.0, "m",
+       "of the crown; 0: half the span, of a pointed vault 0.6, of other shapes a quarter"},
+      {"ring_thickness", 0.5, 0.03, 5.0, "m", "at the crown, of all rings together"},
+      {"springing_thickness", 0.0, 0.0, 5.0, "m", "at the springings, likewise; 0: as at the crown"},
+      {"rings", 1.0, 1.0, 8.0, "-", "rings of equal thickness, joint over joint", true},
+      {"voussoirs", 0.0, 0.0, 400.0, "-", "of each ring; 0: an even number from voussoir_length", true},
+      {"springing_left", 0.0, -20.0, 20.0, "m", "above the level that the heights of piers and abutments reach to"},
+      {"springing_right", 0.0, -20.0, 20.0, "m", "likewise"}};
+  t.profiles = {{"intrados", "surveyed, from springing to springing, x and z from any origin"}};
+  return t;
+}
+
+std::vector<Choice> makeup() {
+  return {{"makeup", {"solid", "leaf"}, "solid courses, or an outer leaf around infill"}};
+}
+
+KeyTable pier_keys() {
+  KeyTable t;
+  t.name = "pier", t.help = "the piers from left to right; one entry holds for all";
+  t.least = 1, t.most = most_spans;
+  t.choices = makeup();
+  t.parameters = {{"height", 5.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
+                  {"thickness", 1.5, 0.1, 20.0, "m", "along the bridge, at the springing"},
+                  {"batter_x", 0.0, 0.0, 0.3, "-", "slope of its faces along the bridge, widening downwards"},
+                  {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"}};
+  return t;
+}
+
+KeyTable abutment_keys(const std::string& side) {
+  KeyTable t;
+  t.name = "abutment." + side, t.help = "the " + side + " abutment";
+  t.choices = makeup();
+  t.parameters = {{"length", 4.0, 0.3, 60.0, "m", "from the end of the bridge to the springing"},
+                  {"height", 4.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
+                  {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"}};
+  return t;
 }
 
 }  // namespace
 
-double bridge_fill_space(const GeneratorInput& input) {
-  return input.choices.at("backfill") == "none" ? 0.0 : fill_space(read_bridge(input));
-}
-
-Generator cs1_generator() {
-  const double friction = radians(30.0), loose = radians(40.0);
-  return bridge_generator("cs1", "Four semicircular spans of 10 m, leaf-and-infill piers (S. Chiara)",
-                          bridge_parameters(true), bridge_choices(true, true),
-                          {{"masonry", 1722.0, 4.0e9, 1.6e9, 0.10e6, 0.18e6, friction},
-                           {"infill", 1524.0, 1.0e9, 0.4e9, 0.0, 0.02e6, loose},
-                           {"backfill", 1500.0, 0.4e9, 0.16e9, 0.0, 0.02e6, loose}});
-}
-
-Generator cs2_generator() {
-  const double friction = radians(30.0), loose = radians(40.0);
-  return bridge_generator("cs2", "Three semicircular spans of 15 m on tall solid piers (Gresal)",
-                          bridge_parameters(false), bridge_choices(false, false),
-                          {{"masonry", 1600.0, 1.41e9, 0.45e9, 0.10e6, 0.15e6, friction},
-                           {"vault", 1600.0, 1.692e9, 0.54e9, 0.10e6, 0.15e6, friction},
-                           {"backfill", 1600.0, 0.1e9, 0.042e9, 0.0, 0.02e6, loose}});
+Generator bridge_generator() {
+  const double friction = radians(30.0), loose = radians(35.0);
+  Generator generator;
+  generator.name = "bridge";
+  generator.help = "Any number of spans of any shape, on abutments and piers";
+  generator.parameters = own_keys();
+  generator.choices = own_choices();
+  generator.tables = {span_keys(), pier_keys(), abutment_keys("left"), abutment_keys("right")};
+  generator.materials = {{"masonry", 1900.0, 3.0e9, 1.2e9, 0.10e6, 0.15e6, friction},
+                         {"vault", 1900.0, 4.0e9, 1.6e9, 0.10e6, 0.15e6, friction},
+                         {"infill", 1700.0, 0.8e9, 0.32e9, 0.0, 0.02e6, loose},
+                         {"backfill", 1800.0, 0.1e9, 0.04e9, 0.0, 0.01e6, loose}};
+  generator.fill_space = [](const GeneratorInput& in) { return fill_space(read_bridge(in)); };
+  generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
+  return generator;
 }
 
 }  // namespace voussoir

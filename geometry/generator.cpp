@@ -122,9 +122,10 @@ std::vector<Material> in_order(const std::vector<Material>& defaults, const Gene
 }
 
 const std::vector<Generator>& generators() {
-  static const std::vector<Generator> all = {checked(cs1_generator()),    checked(cs2_generator()),
-                                             checked(arch_generator()),   checked(wall_generator()),
-                                             checked(column_generator()), checked(filled_arch_generator())};
+  static const std::vector<Generator> all = {checked(cs1_generator()),        checked(cs2_generator()),
+                                             checked(bridge_generator()),     checked(arch_generator()),
+                                             checked(wall_generator()),       checked(column_generator()),
+                                             checked(filled_arch_generator())};
   return all;
 }
 

@@ -71,7 +71,9 @@ struct Generator {
   std::vector<Parameter> parameters;
   std::vector<Choice> choices;
   std::vector<KeyTable> tables;
-  std::vector<Material> materials;                       // defaults
+  std::vector<Material> materials;  // defaults
+  /// Space that a deformable fill takes up, m3, from the keys alone; none: not known.
+  std::function<double(const GeneratorInput&)> fill_space;
   std::function<Assembly(const GeneratorInput&)> build;  // finished: blocks, joints, stiffness, laws, groups
 };
 

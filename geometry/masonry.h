@@ -42,7 +42,9 @@ std::vector<double> split(double from, double to, double size, bool half = false
 
 /// Lays the wedges of a ring across [y0, y1] in stretcher bond: alternate wedges are offset half a stone, with half
 /// stones at the edges. Returns the first index of each wedge's stones in the layout, and one past the last.
-std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, double y1, const Unit& unit);
+/// `bond`: number of the first wedge in the bond, for rings on one another.
+std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, double y1, const Unit& unit,
+                                   int bond = 0);
 
 /// Fills a box with horizontal courses in running bond: along x (a course is offset half a length against the ones
 /// above and below) and across y (a row is so against its neighbours in the course), unless the unit is stacked. Stones

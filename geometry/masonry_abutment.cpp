@@ -9,8 +9,8 @@ void lay_wings(Layout& layout, const Bridge& bridge, std::size_t support) {
   const auto [x0, x1] = wing_extent(bridge, support);
   if (x1 - x0 <= 1e-9) return;
   const int part = support == 0 ? 0 : 1;
-  const double z0 = bridge.base(support);
-  const double z1 = bridge.springing, half = bridge.half_width(), inner = half - bridge.wing_wall_thickness;
+  const double z0 = bridge.supports[support].base, z1 = bridge.supports[support].springing;
+  const double half = bridge.half_width(), inner = half - bridge.wing_wall_thickness;
   Unit wing = bridge.unit(Component::abutment, part);
   wing.size.y() = bridge.wing_wall_thickness;
   lay_courses(layout, {x0, -half, z0}, {x1, -inner, z1}, wing);
@@ -24,11 +24,11 @@ void lay_wings(Layout& layout, const Bridge& bridge, std::size_t support) {
 }  // namespace
 
 void lay_abutments(Layout& layout, const Bridge& bridge) {
-  const double z1 = bridge.springing, half = bridge.half_width();
+  const double half = bridge.half_width();
   for (const std::size_t i : {std::size_t(0), bridge.last_support()}) {
     const int part = i == 0 ? 0 : 1;
     const Support& support = bridge.supports[i];
-    const double z0 = bridge.base(i);
+    const double z0 = support.base, z1 = support.springing;
     if (!support.leaf) {
       lay_solid(layout, {support.x0, support.x1, half, z0, z1, 0.0, 0.0, support.slope_y},
                 bridge.unit(Component::abutment, part));

@@ -17,8 +17,8 @@ std::vector<FillRegion> fill_regions(const Bridge& bridge) {
   };
   for (const std::size_t support : {std::size_t(0), bridge.last_support()}) {
     const auto [x0, x1] = wing_extent(bridge, support);
-    add(x0, x1, bridge.half_width() - bridge.wing_wall_thickness, bridge.base(support), bridge.springing,
-        std::ptrdiff_t(support), 0);
+    add(x0, x1, bridge.half_width() - bridge.wing_wall_thickness, bridge.supports[support].base,
+        bridge.supports[support].springing, std::ptrdiff_t(support), 0);
   }
   const double top_of_backing = bridge.backing_top;
   int course = 0;
@@ -27,8 +27,8 @@ std::vector<FillRegion> fill_regions(const Bridge& bridge) {
     if (band.z0 >= top_of_backing) {
       add(0.0, bridge.length(), inner, band.z0, band.z1, -1, course);
     } else {  // beside the backing: behind the abutments only
-      add(0.0, bridge.supports.front().x1 - bridge.backing_over_abutment, inner, band.z0, band.z1, -1, course);
-      add(bridge.supports.back().x0 + bridge.backing_over_abutment, bridge.length(), inner, band.z0, band.z1, -1,
+      add(0.0, bridge.supports.front().x1 - bridge.backing_over_abutment[0], inner, band.z0, band.z1, -1, course);
+      add(bridge.supports.back().x0 + bridge.backing_over_abutment[1], bridge.length(), inner, band.z0, band.z1, -1,
           course);
     }
     course += int(split(band.z0, band.z1, bridge.fill.z()).size()) - 1;

@@ -10,9 +10,9 @@ void lay_backing(Layout& layout, const Bridge& bridge) {
   const auto crown = [&](std::size_t span) { return 0.5 * (bridge.vaults[span].left() + bridge.vaults[span].right()); };
   for (std::size_t support = 0; support < bridge.supports.size(); ++support) {
     // From crown to crown; what lies within the vaults is cut away.
-    const double x0 = support == 0 ? bridge.supports[0].x1 - bridge.backing_over_abutment : crown(support - 1);
-    const double x1 =
-        support == bridge.last_support() ? bridge.supports[support].x0 + bridge.backing_over_abutment : crown(support);
+    const double x0 = support == 0 ? bridge.supports[0].x1 - bridge.backing_over_abutment[0] : crown(support - 1);
+    const double x1 = support == bridge.last_support() ? bridge.supports[support].x0 + bridge.backing_over_abutment[1]
+                                                       : crown(support);
     int course = 0;
     for (const Band& band : interior_bands(bridge)) {
       if (band.z0 >= top) break;

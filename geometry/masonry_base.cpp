@@ -10,7 +10,7 @@ void lay_bases(Layout& layout, const Bridge& bridge) {
     const Support& support = bridge.supports[i];
     const double grow_x = support.slope_x * support.height;
     const double half = bridge.half_width() + support.slope_y * support.height;
-    const double z = bridge.base(i);
+    const double z = support.base;
     const Vec3 low(support.x0 - grow_x, -half, z - bridge.base_depth);
     const Vec3 high(support.x1 + grow_x, half, z);
     layout.groups[fmt::format("base {}", support_name(bridge, i))] = {std::int64_t(layout.stones.size())};
@@ -20,9 +20,10 @@ void lay_bases(Layout& layout, const Bridge& bridge) {
 
 void lay_restraints(Layout& layout, const Bridge& bridge) {
   if (!bridge.restrained) return;
-  const double z0 = bridge.base(0), z1 = bridge.springing, z2 = bridge.deck, top = bridge.half_width();
-  const double foot = top + bridge.supports[0].slope_y * bridge.supports[0].height;
+  const double z2 = bridge.deck, top = bridge.half_width();
   for (const int end : {0, 1}) {
+    const Support& support = end == 0 ? bridge.supports.front() : bridge.supports.back();
+    const double z0 = support.base, z1 = support.springing, foot = top + support.slope_y * support.height;
     const double x = end == 0 ? -bridge.restraint_depth : bridge.length();
     const Vec3 sweep(bridge.restraint_depth, 0.0, 0.0);
     const Polygon lower = {{x, -foot, z0}, {x, -top, z1}, {x, top, z1}, {x, foot, z0}};

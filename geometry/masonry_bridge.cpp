@@ -17,6 +17,9 @@ Unit Bridge::fill_unit() const {
 SectionLimits Bridge::limits() const {
   SectionLimits limits;
   for (const Vault& vault : vaults) limits.rings.push_back(whole_vault(vault.rings));
+  for (const Support& support : supports)
+    if (support.top > springing)
+      limits.taken.push_back({{support.x0, 0.0, support.springing}, {support.x1, 0.0, support.top}});
   return limits;
 }
 

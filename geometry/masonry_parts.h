@@ -19,8 +19,10 @@ struct Vault {
 
 /// What vaults spring from: an abutment or a pier.
 struct Support {
-  double x0 = 0.0, x1 = 0.0;            // m, at the top
-  double height = 0.0;                  // m, from the base to the top
+  double x0 = 0.0, x1 = 0.0;            // m, at the springing
+  double height = 0.0;                  // m, from the base to the springing
+  double base = 0.0, springing = 0.0;   // z
+  double top = 0.0;                     // z of the highest end of a vault's foot on it
   double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
   bool leaf = false;                    // an outer leaf and infill, or solid
   double leaf_beside_span = 0.0;        // m, of an abutment with a leaf: the rest has wing walls
@@ -32,10 +34,10 @@ struct Bridge {
   std::vector<Vault> vaults;      // from left to right
   std::vector<Support> supports;  // left abutment, piers, right abutment
   double width = 0.0;
-  double springing = 0.0;              // z of the supports' tops, where spandrel walls, backing and fill begin
-  double deck = 0.0;                   // z
-  double backing_top = 0.0;            // z
-  double backing_over_abutment = 0.0;  // length beside the span
+  double springing = 0.0;    // z of the lowest springing, where spandrel walls, backing and fill begin
+  double deck = 0.0;         // z
+  double backing_top = 0.0;  // z
+  double backing_over_abutment[2] = {0.0, 0.0};      // length beside the span, left and right
   double spandrel_bottom = 0.0, spandrel_top = 0.0;  // thickness
   double parapet_height = 0.0, parapet_thickness = 0.0;
   double base_depth = 1.0, restraint_depth = 1.0;
@@ -56,10 +58,9 @@ struct Bridge {
   double half_width() const { return 0.5 * width; }
   std::size_t last_support() const { return supports.size() - 1; }
   bool is_abutment(std::size_t support) const { return support == 0 || support == last_support(); }
-  double base(std::size_t support) const { return springing - supports[support].height; }  // z
   Unit unit(Component component, int part) const;  // masonry block of a component
   Unit fill_unit() const;                          // rigid backfill
-  SectionLimits limits() const;                    // what the vaults take up
+  SectionLimits limits() const;                    // what vaults and supports take up above the springing
 };
 
 /// A part of the height above the springing with spandrel walls of one thickness.
@@ -93,6 +94,7 @@ std::string support_name(const Bridge& bridge, std::size_t support);
 void lay_vaults(Layout& layout, const Bridge& bridge);  // sets the layout's rings; groups "keystone i"
 void lay_piers(Layout& layout, const Bridge& bridge);
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them
+void lay_skewbacks(Layout& layout, const Bridge& bridge);  // supports from the springing to the vaults' feet
 void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y- pier 0" …
 void lay_backing(Layout& layout, const Bridge& bridge);
 void lay_backfill(Layout& layout, const Bridge& bridge);

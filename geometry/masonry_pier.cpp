@@ -76,7 +76,7 @@ void lay_solid(Layout& layout, const Solid& solid, const Unit& unit) {
 void lay_piers(Layout& layout, const Bridge& bridge) {
   for (std::size_t i = 1; i < bridge.last_support(); ++i) {
     const Support& support = bridge.supports[i];
-    const double z0 = bridge.base(i), z1 = bridge.springing, half = bridge.half_width();
+    const double z0 = support.base, z1 = support.springing, half = bridge.half_width();
     if (support.leaf) {
       lay_leaf_and_infill(layout, bridge, {support.x0, -half, z0}, {support.x1, half, z1}, Component::pier, int(i) - 1,
                           int(i));
@@ -85,6 +85,17 @@ void lay_piers(Layout& layout, const Bridge& bridge) {
       lay_solid(layout, solid, bridge.unit(Component::pier, int(i) - 1));
     }
   }
+}
+
+void lay_skewbacks(Layout& layout, const Bridge& bridge) {
+  for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
+    const Support& support = bridge.supports[i];
+    const Unit unit = bridge.is_abutment(i) ? bridge.unit(Component::abutment, i == 0 ? 0 : 1)
+                                            : bridge.unit(Component::pier, int(i) - 1);
+    lay_courses(layout, {support.x0, -bridge.half_width(), support.springing},
+                {support.x1, bridge.half_width(), support.top}, unit);
+  }
+  layout.limits = bridge.limits();
 }
 
 }  // namespace voussoir

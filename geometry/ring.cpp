@@ -109,7 +109,8 @@ bool clear_of(const Polygon& polygon, const Ring& ring) {
 
 bool clear_of(const Polygon& polygon, const Box& taken) {
   const Box box = bounding_box(polygon);
-  return box.high.x() <= taken.low.x() || box.low.x() >= taken.high.x() || box.low.z() >= taken.high.z();
+  return box.high.x() <= taken.low.x() || box.low.x() >= taken.high.x() || box.low.z() >= taken.high.z() ||
+         box.high.z() <= taken.low.z();
 }
 
 bool clear_of(const Polygon& polygon, const Plane& top) {

@@ -35,7 +35,7 @@ std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring);
 /// What bounds the stones of a section, in the plane x-z.
 struct SectionLimits {
   std::vector<Ring> rings;  // nothing is laid in them or in the openings below them
-  std::vector<Box> taken;   // supports, upright boxes, of whatever depth below: nothing is laid in them
+  std::vector<Box> taken;   // supports, upright boxes: nothing is laid in them, and no polygon reaches below them
   std::vector<Plane> top;   // the deck: nothing is laid above them
 };
 /// The parts of a convex polygon that are left, as convex polygons.

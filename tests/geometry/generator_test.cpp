@@ -71,7 +71,7 @@ TEST(Generators, UnknownNameListsTheKnownOnes) {
     find_generator("cs3");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("cs1, cs2, arch, wall, column, filled-arch"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("cs1, cs2, bridge, arch, wall, column, filled-arch"), std::string::npos)
         << error.what();
   }
 }

@@ -354,6 +354,45 @@ TEST_F(CaseFile, DefaultsOfEveryGeneratorSurviveResolving) {
   }
 }
 
+TEST_F(CaseFile, ListsOfSpansAreReadAndWrittenOut) {
+  const std::string bridge =
+      "[bridge]\ngenerator = \"bridge\"\nwidth = 5.5\n[[bridge.span]]\nshape = \"segmental\"\nclear_span = 6.0\nrepeat "
+      "= 2\n"
+      "[[bridge.span]]\nshape = \"surveyed\"\nintrados = [[0.0, 0.0], [2.0, 1.1], [4.0, "
+      "0.1]]\n[[bridge.pier]]\nthickness = "
+      "1.3\n[bridge.abutment.left]\nlength = 2.5\n";
+  const std::string stage = "[[stage]]\nkind = \"gravity\"\n";
+  const Case c = parse_case(bridge + stage, folder / "case.toml");
+  const GeneratorInput& in = c.generator_input;
+  EXPECT_EQ(in.entries.at("span"), 3u);
+  EXPECT_EQ(in("span.2.clear_span"), 6.0);
+  EXPECT_EQ(in("span.3.clear_span"), 8.0) << "the default";
+  EXPECT_EQ(in.choices.at("span.3.shape"), "surveyed");
+  EXPECT_EQ(in.profiles.at("span.3.intrados"), (Polygon{{0, 0, 0}, {2, 0, 1.1}, {4, 0, 0.1}}));
+  EXPECT_EQ(in("abutment.left.length"), 2.5);
+  EXPECT_EQ(in("abutment.right.length"), 4.0);
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  EXPECT_EQ(copy.generator_input.values, in.values);
+  EXPECT_EQ(copy.generator_input.profiles, in.profiles);
+
+  const auto refused = [&](const std::string& more, const std::vector<std::string>& words) {
+    const std::string text = test::message_of<InputError>([&] { parse_case(more + stage, folder / "case.toml"); });
+    for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
+  };
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nshap = \"segmental\"\n",
+          {"case.toml:4", "'shap'", "[[span]] number 1", "did you mean 'shape'?"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nrise = -1.0\n", {"case.toml:4", "'rise'"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[bridge.abutment.midle]\nlength = 2.0\n",
+          {"'midle'", "[bridge.abutment]"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[bridge.span]\nrise = 1.0\n", {"'span'", "double brackets"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nrepeat = 100\n", {"'repeat'"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nintrados = [[0.0, 0.0], [2.0]]\n",
+          {"'intrados'", "point 2"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nintrados = [[0.0, 0.0], [-2.0, 1.0]]\n",
+          {"'intrados'", "left to right"});
+}
+
 TEST_F(CaseFile, BaselineCorrectionAndOneColumn) {
   folder.write("a.txt", "0.1\n0.2\n-0.1\n0.3\n0.1\n0.2\n-0.2\n");
   const std::string head =

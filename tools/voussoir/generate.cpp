@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 
-#include "geometry/generate_bridge.h"
 #include "geometry/joint_counts.h"
 #include "geometry/joints.h"
 #include "io/case/case.h"
@@ -62,8 +61,10 @@ namespace {
 FillAim fill_aim(const Case& c) {
   const auto edge = c.generator_input.values.find("fill_edge");
   if (c.generator.empty() || edge == c.generator_input.values.end()) return {};
-  const bool bridge = c.generator_input.choices.contains("backfill");
-  return {bridge ? bridge_fill_space(c.generator_input) : 0.0, edge->second};
+  const Generator& generator = find_generator(c.generator);
+  const auto backfill = c.generator_input.choices.find("backfill");
+  const bool filled = backfill == c.generator_input.choices.end() || backfill->second != "none";
+  return {generator.fill_space && filled ? generator.fill_space(c.generator_input) : 0.0, edge->second};
 }
 
 /// An assembly that another program wrote: what it leaves out is found, as when a case names it.

@@ -1,7 +1,7 @@
 // Names, defaults and ranges of the bridges' keys.
 #include <fmt/format.h>
 
-#include "geometry/generate_bridge.h"
+#include "geometry/generate_cs.h"
 
 namespace voussoir {
 

@@ -1,0 +1,98 @@
+#include "geometry/masonry_build.h"
+
+#include "geometry/fill_gmsh.h"
+#include "geometry/fill_joints.h"
+#include "geometry/fill_mesh.h"
+#include "solver/base/constants.h"
+
+namespace voussoir {
+
+namespace {
+
+/// The deformable fill and its patches. Their rules are those of rigid blocks of the unscaled size: tetrahedra do not
+/// follow the blocks.
+void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const GeneratorInput& in) {
+  FillSpace space;
+  for (const FillRegion& region : fill_regions(bridge)) space.boxes.push_back({region.low, region.high});
+  space.rings = bridge.limits().rings;
+  FillMeshing meshing;
+  meshing.edge = bridge.fill_edge;
+  assembly.fill = mesh_fill(space, meshing);
+  assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
+  check_fill(assembly.fill, "the mesh of the fill");
+  check_volume(assembly.fill, fill_space(bridge));
+  JointSearch search;
+  search.gap = in.gap_tolerance;
+  find_fill_joints(assembly, search);
+  rules.nominal.at(Component::backfill) /= in("block_scale");
+  assign_fill_stiffness(assembly, rules, in);
+}
+
+}  // namespace
+
+void read_fill_and_blocks(Bridge& bridge, const GeneratorInput& in) {
+  bridge.fill_bonded = in.choices.at("fill_bond") == "running";
+  bridge.rigid_backfill = in.choices.at("backfill") == "rigid";
+  bridge.deformable_backfill = in.choices.at("backfill") == "deformable";
+  bridge.fill_edge = in("fill_edge");
+  bridge.restrained = in.choices.at("abutments") == "restrained";
+  const auto size = [&](const char* length, const char* width, const char* height) {
+    return Vec3(in("block_scale") * Vec3(in(length), in(width), in(height)));
+  };
+  bridge.block = size("block_length", "block_width", "block_height");
+  bridge.fill = size("fill_length", "fill_width", "fill_height");
+  bridge.leaf_piece = size("leaf_length", "leaf_length", "leaf_course_height");
+  bridge.infill = size("infill_length", "infill_width", "leaf_course_height");
+  bridge.infill.z() *= 0.5;
+}
+
+void find_materials(Bridge& bridge, const std::vector<Material>& materials) {
+  const auto index = [&](const char* name) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (materials[i].name == name) return std::int32_t(i);
+    return std::int32_t(0);
+  };
+  bridge.vault = index("vault"), bridge.infill_material = index("infill"), bridge.backfill = index("backfill");
+}
+
+JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in) {
+  JointRules rules;
+  rules.kind = JointRules::Kind::moduli;
+  const Vec3 wing(bridge.block.x(), bridge.wing_wall_thickness, bridge.block.z());
+  rules.nominal = {{Component::arch, bridge.vaults.front().voussoir},
+                   {Component::backing, bridge.block},
+                   {Component::spandrel, bridge.block},
+                   {Component::parapet, bridge.block},
+                   {Component::pier, bridge.block},
+                   {Component::abutment, bridge.supports.front().leaf ? wing : bridge.block},
+                   {Component::infill, bridge.infill},
+                   {Component::backfill, bridge.fill}};
+  // There is one layer of interface however large the blocks, so its stiffness does not follow their size.
+  rules.interface_share = in("interface_share") * in("block_scale");
+  rules.interface_friction = radians(in("interface_friction"));
+  rules.restraint_share = in("restraint_share");
+  rules.smallest_half_length = 0.25 * in("sliver_thickness") * in("block_scale");
+  return rules;
+}
+
+Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials, const JointRules& rules,
+                    const GeneratorInput& in) {
+  Layout layout;
+  lay_piers(layout, bridge);
+  lay_abutments(layout, bridge);
+  lay_vaults(layout, bridge);
+  lay_skewbacks(layout, bridge);
+  lay_backing(layout, bridge);
+  lay_spandrels(layout, bridge);
+  lay_backfill(layout, bridge);
+  lay_parapets(layout, bridge);
+  lay_bases(layout, bridge);
+  lay_restraints(layout, bridge);
+  const SliverRule slivers = {in("sliver_thickness") * in("block_scale"), in("sliver_share")};
+  Assembly assembly = assemble(std::move(layout), materials, slivers, in.gap_tolerance);
+  assign_stiffness(assembly, rules, in);
+  if (bridge.deformable_backfill) add_fill(assembly, bridge, rules, in);
+  return assembly;
+}
+
+}  // namespace voussoir
