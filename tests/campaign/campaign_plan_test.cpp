@@ -131,6 +131,25 @@ TEST(CampaignPlan, ARunsCaseIsWhatThePlanSays) {
   EXPECT_EQ(resolved_text(copy), resolved_text(c));
 }
 
+/// Of three spans alike that a case gives as one.
+TEST(CampaignPlan, ReachesEachEntryOfAList) {
+  CampaignFolder folder;
+  folder.write(
+      "column.toml",
+      "[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nclear_span = 4.0\nrepeat = 3\n[[stage]]\nkind = "
+      "\"motion\"\nduration = 1.0\npulse = { kind = \"sine\", axis = \"x\", amplitude = 1.0, frequency = 1.0 }\n");
+  const Draft draft = make_draft(read_settings(folder.campaign(
+      "samples = 2\n[[campaign.sample]]\nkey = \"bridge.span.2.clear_span\"\ndistribution = \"normal\"\ncov = 0.1",
+      one_record)));
+  write_draft(draft, folder / "out");
+  const Plan plan = read_plan(folder / "out");
+  const Case c = case_of(plan, plan.runs[1], folder / "out");
+  EXPECT_EQ(c.generator_input("span.2.clear_span"), plan.runs[1].values[0]);
+  EXPECT_NE(plan.runs[1].values[0], 4.0);
+  EXPECT_EQ(c.generator_input("span.1.clear_span"), 4.0);
+  EXPECT_EQ(c.generator_input("span.3.clear_span"), 4.0);
+}
+
 TEST(CampaignPlan, GrowsButDoesNotChange) {
   CampaignFolder folder;
   const auto write = [&](const std::string& lines, const std::string& tables) {

@@ -131,7 +131,7 @@ toml::table changed(toml::table table, const Plan& plan, const std::vector<doubl
 /// That each case can be what the samples make of it.
 void check_samples(const Settings& s, const Plan& plan, const Case& c,
                    const std::vector<std::vector<double>>& samples) {
-  const toml::table file = parse_toml(c.text, c.path);
+  const toml::table file = written_out(c);
   for (std::size_t i = 0; i < samples.size(); ++i) try {
       parse_case(text_of(changed(file, plan, samples[i])), c.path, CaseUse::geometry);
     } catch (const InputError& error) {

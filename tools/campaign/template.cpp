@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "geometry/generator.h"
 #include "io/case/sections.h"
 #include "solver/base/error.h"
 
@@ -48,8 +49,15 @@ void collect_numbers(const toml::node& node, const std::string& key, std::vector
 
 }  // namespace
 
-toml::table portable(const Case& c) {
+toml::table written_out(const Case& c) {
   toml::table table = parse_toml(c.text, c.path);
+  if (!c.generator.empty() && !find_generator(c.generator).tables.empty())
+    table.insert_or_assign("bridge", *parse_toml(resolved_text(c), c.path)["bridge"].as_table());
+  return table;
+}
+
+toml::table portable(const Case& c) {
+  toml::table table = written_out(c);
   table.erase("check");
   if (!c.assembly_file.empty()) table["bridge"].as_table()->insert_or_assign("assembly", "assembly.h5");
   for (std::size_t i = 0; i < c.motions.size(); ++i) {

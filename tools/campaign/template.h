@@ -8,6 +8,9 @@
 
 namespace voussoir::campaign {
 
+/// The case's own text, with lists of a generator written out: what `repeat` stands for can be set one by one.
+toml::table written_out(const Case& c);
+
 /// The case's own text in a form that can be read in a folder where write_resolved_case() has been: without [[check]],
 /// and with the names of the copies there.
 toml::table portable(const Case& c);
