@@ -1,0 +1,229 @@
+// The generator "bridge": random bridges against volumes in closed form, and what cannot be built.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/generator.h"
+#include "geometry/joints.h"
+#include "geometry/vault_shape.h"
+#include "solver/base/error.h"
+#include "tests/folder.h"
+
+namespace voussoir::test {
+namespace VOUSSOIR_FILE {
+
+/// Keys drawn from ranges in which most bridges can be built, in blocks of more than twice the size.
+class Draw {
+ public:
+  explicit Draw(int seed) : random_(unsigned(seed)) {}
+  double between(double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random_); }
+  int whole(int low, int high) { return low + int(random_() % unsigned(high - low + 1)); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+GeneratorInput with_entries(std::size_t spans, std::size_t piers) {
+  const Generator& generator = find_generator("bridge");
+  GeneratorInput in = default_input(generator);
+  in.entries["span"] = spans, in.entries["pier"] = piers;
+  const Keys keys = keys_of(generator, in);
+  for (const Parameter& p : keys.parameters) in.values.try_emplace(p.name, p.value);
+  for (const Choice& c : keys.choices) in.choices.try_emplace(c.name, c.words.front());
+  return in;
+}
+
+GeneratorInput random_bridge(int seed) {
+  Draw draw(seed);
+  const int spans = draw.whole(1, 3);
+  const bool one_pier = draw.whole(0, 1) || spans == 1;
+  GeneratorInput in = with_entries(std::size_t(spans), one_pier ? 1 : std::size_t(spans) - 1);
+  auto& v = in.values;
+  v["block_scale"] = 2.5;
+  v["width"] = draw.between(3.0, 9.0);
+  v["fill_over_crown"] = draw.between(0.0, 1.5);
+  v["backing_height"] = draw.between(0.5, 3.0);
+  v["spandrel_thickness_bottom"] = draw.between(0.3, 0.9), v["spandrel_thickness_top"] = draw.between(0.35, 0.6);
+  v["parapet_height"] = draw.whole(0, 1) * draw.between(0.5, 1.2);
+  in.choices["backfill"] = draw.whole(0, 2) ? "rigid" : "none";
+  in.choices["abutments"] = draw.whole(0, 3) ? "free" : "restrained";
+  for (int i = 0; i < spans; ++i) {
+    const std::string key = "span." + std::to_string(i + 1) + ".";
+    const std::string shape = vault_shapes()[std::size_t(draw.whole(0, 6))];
+    const double clear = draw.between(2.0, 14.0);
+    in.choices[key + "shape"] = shape;
+    v[key + "clear_span"] = clear;
+    v[key + "rise"] = shape == "semicircular" ? 0.0
+                      : shape == "pointed"    ? draw.between(0.51, 0.8) * clear
+                                              : draw.between(0.16, 0.45) * clear;
+    v[key + "ring_thickness"] = draw.between(0.04, 0.1) * clear;
+    v[key + "springing_thickness"] = draw.whole(0, 1) ? draw.between(1.0, 1.5) * v[key + "ring_thickness"] : 0.0;
+    v[key + "rings"] = draw.whole(1, 3);
+    if (!draw.whole(0, 2)) v[key + "springing_left"] = draw.between(-0.5, 0.5);
+    if (!draw.whole(0, 2)) v[key + "springing_right"] = draw.between(-0.5, 0.5);
+    if (shape == "surveyed") {
+      Polygon& line = in.profiles[key + "intrados"];
+      for (int k = 0; k <= 6; ++k) {
+        const double x = k / 3.0 - 1.0;
+        line.emplace_back(7.0 + 0.5 * clear * x, 0.0,
+                          2.0 + 0.3 * clear * (1.0 - x * x) + 0.02 * draw.between(-1.0, 1.0));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < in.entries["pier"]; ++i) {
+    const std::string key = "pier." + std::to_string(i + 1) + ".";
+    v[key + "height"] = draw.between(1.0, 12.0), v[key + "thickness"] = draw.between(0.8, 3.0);
+    in.choices[key + "makeup"] = draw.whole(0, 2) ? "solid" : "leaf";
+    if (in.choices[key + "makeup"] == "solid")
+      v[key + "batter_x"] = draw.between(0.0, 0.05), v[key + "batter_y"] = draw.between(0.0, 0.05);
+  }
+  for (const std::string key : {"abutment.left.", "abutment.right."}) {
+    v[key + "length"] = draw.between(1.5, 6.0), v[key + "height"] = draw.between(1.0, 8.0);
+    v[key + "batter_y"] = draw.whole(0, 1) * draw.between(0.0, 0.05);
+  }
+  return in;
+}
+
+double area_under(const Polygon& line, double level) {
+  double area = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    area += (line[i + 1].x() - line[i].x()) * (0.5 * (line[i].z() + line[i + 1].z()) - level);
+  return area;
+}
+
+/// Σ of what stands above the lowest springing: the whole section but the openings, and the supports where they stand
+/// there, all over the width; supports below their springings; parapets.
+double expected_volume(const GeneratorInput& in) {
+  const auto spans = in.entries.at("span");
+  const auto pier = [&](std::size_t i) {
+    return "pier." + std::to_string(in.entries.at("pier") == 1 ? 1 : i + 1) + ".";
+  };
+  const double width = in("width");
+  struct Foot {
+    double x0, x1, height, level, slope_x, slope_y;
+  };
+  std::vector<Foot> feet(spans + 1);
+  double x = in("abutment.left.length"), openings = 0.0, floor = 1e300, crown = 0.0, level = 0.0;
+  std::vector<VaultShape> shapes;
+  for (std::size_t i = 0; i < spans; ++i) {
+    const std::string key = "span." + std::to_string(i + 1) + ".";
+    VaultShape s;
+    s.shape = in.choices.at(key + "shape");
+    s.left = {x, 0.0, in(key + "springing_left")},
+    s.right = {x + in(key + "clear_span"), 0.0, in(key + "springing_right")};
+    s.rise = in(key + "rise") > 0.0 ? in(key + "rise") : 0.5 * s.span();
+    if (s.shape == "surveyed") {
+      const Polygon& line = in.profiles.at(key + "intrados");
+      for (const Vec3& p : line) s.surveyed.push_back(s.left + p - line.front());
+      s.right = s.surveyed.back();
+    }
+    const double rings = in(key + "rings"), thickness = in(key + "ring_thickness"),
+                 own = in(key + "springing_thickness");
+    s.crown.assign(std::size_t(rings), thickness / rings),
+        s.springing.assign(std::size_t(rings), (own > 0.0 ? own : thickness) / rings);
+    s.voussoirs =
+        2 * std::max(2, int(std::ceil(0.5 * intrados_length(s) / (in("voussoir_length") * in("block_scale")) - 1e-9)));
+    floor = std::min({floor, s.left.z(), s.right.z()});
+    shapes.push_back(s);
+    x = s.right.x() + (i + 1 < spans ? in(pier(i) + "thickness") : 0.0);
+  }
+  for (std::size_t i = 0; i < spans; ++i) {
+    const std::vector<Ring> rings = vault_rings(shapes[i], "");
+    openings += area_under(rings.front().intrados, floor);
+    for (const Vec3& p : rings.back().extrados) crown = std::max(crown, p.z());
+  }
+  for (std::size_t i = 0; i <= spans; ++i) {
+    Foot& f = feet[i];
+    const std::string key = i == 0 ? "abutment.left." : i == spans ? "abutment.right." : pier(i - 1);
+    f.x0 = i == 0 ? 0.0 : shapes[i - 1].right.x();
+    f.x1 = i < spans ? shapes[i].left.x() : f.x0 + in("abutment.right.length");
+    f.level = std::min(i > 0 ? shapes[i - 1].right.z() : 1e300, i < spans ? shapes[i].left.z() : 1e300);
+    f.height = in(key + "height");
+    f.slope_x = i == 0 || i == spans ? 0.0 : in(key + "batter_x"), f.slope_y = in(key + "batter_y");
+    level = std::max(level, f.height);
+  }
+  const double deck = crown + in("fill_over_crown"), length = feet.back().x1;
+  double volume =
+      width * (length * (deck - floor) - openings) + 2.0 * in("parapet_height") * in("parapet_thickness") * length;
+  for (const Foot& f : feet) {
+    const double h = f.level + f.height, a = f.x1 - f.x0;  // springings are given above the level the heights reach to
+    const double sx = 2.0 * f.slope_x, sy = 2.0 * f.slope_y;
+    volume += a * width * h + 0.5 * (a * sy + width * sx) * h * h + sx * sy * h * h * h / 3.0;
+    volume -= a * width * (f.level - floor);
+  }
+  return volume;
+}
+
+double moving_volume(const Assembly& assembly) {
+  double sum = 0.0;
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed) sum += mass_properties(block.cells).volume;
+  return sum;
+}
+
+TEST(BridgeGenerator, RandomBridgesHaveTheirVolumesOrAreRefusedByName) {
+  const Generator& generator = find_generator("bridge");
+  int built = 0, refused = 0;
+  for (int seed = 1; seed <= 120; ++seed) {
+    const GeneratorInput in = random_bridge(seed);
+    try {
+      const Assembly assembly = generator.build(in);
+      ++built;
+      EXPECT_TRUE(find_overlaps(assembly, 1e-7).empty()) << "seed " << seed;
+      double missing = 0.0;  // of a bridge without fill: what the fill would take
+      if (in.choices.at("backfill") == "none") missing = generator.fill_space(in);
+      const double expected = expected_volume(in);
+      EXPECT_NEAR(moving_volume(assembly) + missing, expected, 1e-9 * expected) << "seed " << seed;
+      for (const char* group : {"keystone 0", "base abutment left", "spandrel y- abutment right"})
+        EXPECT_TRUE(assembly.groups.contains(group)) << group;
+    } catch (const InputError& error) {
+      ++refused;
+      const std::string text = error.what();
+      EXPECT_TRUE(text.find("[bridge]") != std::string::npos || text.find("[[bridge.") != std::string::npos ||
+                  text.find("[bridge.") != std::string::npos)
+          << "seed " << seed << ": " << text;
+    }
+  }
+  EXPECT_GT(built, 60) << refused;
+}
+
+TEST(BridgeGenerator, EachSpanHasItsOwnRingsAndKeystones) {
+  GeneratorInput in = with_entries(2, 1);
+  in.choices["span.1.shape"] = in.choices["span.2.shape"] = "segmental";
+  in.values["span.1.rings"] = 3.0;
+  const Assembly assembly = find_generator("bridge").build(in);
+  std::size_t stones[2] = {0, 0};
+  for (const Block& block : assembly.blocks)
+    if (block.component == Component::arch) ++stones[block.part];
+  EXPECT_NEAR(double(stones[0]), 3.0 * double(stones[1]), 0.1 * double(stones[0]));
+  EXPECT_EQ(assembly.groups.at("keystone 0").size() % 3, 0u);
+  EXPECT_EQ(assembly.groups.count("keystone 2"), 0u);
+}
+
+TEST(BridgeGenerator, WhatCannotBeNamesItsKeys) {
+  const auto refused = [](GeneratorInput in) {
+    return message_of<InputError>([&] { find_generator("bridge").build(in); });
+  };
+  GeneratorInput in = with_entries(2, 1);
+  in.values["pier.1.thickness"] = 0.4;
+  EXPECT_NE(refused(in).find("[[bridge.pier]] number 1: thickness = 0.4 m"), std::string::npos) << refused(in);
+  in = with_entries(3, 3);
+  EXPECT_NE(refused(in).find("is there 3 times for 3 spans"), std::string::npos) << refused(in);
+  in = with_entries(1, 1);
+  in.choices["span.1.shape"] = "surveyed";
+  EXPECT_NE(refused(in).find("needs intrados"), std::string::npos) << refused(in);
+  in.choices["span.1.shape"] = "elliptical";
+  in.profiles["span.1.intrados"] = {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}};
+  EXPECT_NE(refused(in).find("leave out intrados"), std::string::npos) << refused(in);
+  in = with_entries(1, 1);
+  in.choices["span.1.shape"] = "segmental";
+  in.values["backing_height"] = 0.0;
+  EXPECT_NE(refused(in).find("backing_height = 0 m ends below"), std::string::npos) << refused(in);
+  in = with_entries(1, 1);
+  in.values["abutment.left.height"] = 0.1, in.values["span.1.springing_left"] = -0.3,
+  in.values["abutment.right.height"] = 0.1;
+  EXPECT_NE(refused(in).find("[bridge.abutment.left]: height = 0.1 m"), std::string::npos) << refused(in);
+}
+
+}  // namespace VOUSSOIR_FILE
+}  // namespace voussoir::test
