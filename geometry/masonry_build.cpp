@@ -4,10 +4,24 @@
 #include "geometry/fill_joints.h"
 #include "geometry/fill_mesh.h"
 #include "solver/base/constants.h"
+#include "solver/base/error.h"
 
 namespace voussoir {
 
 namespace {
+
+/// Battered supports must not grow into one another.
+void check_feet(const Bridge& bridge) {
+  for (std::size_t i = 0; i + 1 < bridge.supports.size(); ++i) {
+    const Support &left = bridge.supports[i], &right = bridge.supports[i + 1];
+    const double grown = left.slope_x * left.height + right.slope_x * right.height, space = right.x0 - left.x1;
+    if (grown > space)
+      throw InputError(
+          "[bridge] the feet of {} and {} reach {:g} m into one another: batter_x times height may be {:g} m for both "
+          "together, the clear span, and is {:g} m",
+          support_name(bridge, i), support_name(bridge, i + 1), grown - space, space, grown);
+  }
+}
 
 /// The deformable fill and its patches. Their rules are those of rigid blocks of the unscaled size: tetrahedra do not
 /// follow the blocks.
@@ -77,6 +91,7 @@ JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in) {
 
 Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials, const JointRules& rules,
                     const GeneratorInput& in) {
+  check_feet(bridge);
   Layout layout;
   lay_piers(layout, bridge);
   lay_abutments(layout, bridge);

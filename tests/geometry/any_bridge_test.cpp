@@ -164,7 +164,7 @@ double moving_volume(const Assembly& assembly) {
 TEST(BridgeGenerator, RandomBridgesHaveTheirVolumesOrAreRefusedByName) {
   const Generator& generator = find_generator("bridge");
   int built = 0, refused = 0;
-  for (int seed = 1; seed <= 120; ++seed) {
+  for (int seed = 1; seed <= 500; ++seed) {
     const GeneratorInput in = random_bridge(seed);
     try {
       const Assembly assembly = generator.build(in);
@@ -184,7 +184,41 @@ TEST(BridgeGenerator, RandomBridgesHaveTheirVolumesOrAreRefusedByName) {
           << "seed " << seed << ": " << text;
     }
   }
-  EXPECT_GT(built, 60) << refused;
+  EXPECT_GT(built, 350) << refused;
+}
+
+/// All of each key's range, in blocks as large as there are: most cannot be built, and say why.
+TEST(BridgeGenerator, TheWholeKeySpaceIsBuiltOrRefusedByName) {
+  const Generator& generator = find_generator("bridge");
+  int built = 0;
+  for (int seed = 1; seed <= 1500; ++seed) {
+    Draw draw(1000 + seed);
+    GeneratorInput in = with_entries(std::size_t(draw.whole(1, 3)), std::size_t(draw.whole(1, 2)));
+    const Keys keys = keys_of(generator, in);
+    for (const Parameter& p : keys.parameters) {
+      if (draw.whole(0, 7)) continue;  // seven of eight keep their default
+      double& value = in.values.at(p.name);
+      value = draw.between(p.low, p.high);
+      if (p.integer) value = std::floor(value);
+    }
+    for (const Choice& c : keys.choices)
+      in.choices.at(c.name) = c.words[std::size_t(draw.whole(0, int(c.words.size()) - 1))];
+    in.choices.at("backfill") = draw.whole(0, 1) ? "rigid" : "none";
+    in.values["block_scale"] = 6.0;
+    for (const char* key :
+         {"block_length", "block_width", "block_height", "fill_length", "fill_width", "fill_height", "infill_length",
+          "infill_width", "leaf_length", "leaf_course_height", "voussoir_width", "voussoir_length"})
+      in.values[key] = 1.0;
+    try {
+      const Assembly assembly = generator.build(in);
+      ++built;
+      EXPECT_TRUE(find_overlaps(assembly, 1e-6).empty()) << "seed " << seed;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("[bridge"), std::string::npos)
+          << "seed " << seed << ": " << error.what();
+    }
+  }
+  EXPECT_GT(built, 100);
 }
 
 TEST(BridgeGenerator, EachSpanHasItsOwnRingsAndKeystones) {
@@ -207,6 +241,9 @@ TEST(BridgeGenerator, WhatCannotBeNamesItsKeys) {
   GeneratorInput in = with_entries(2, 1);
   in.values["pier.1.thickness"] = 0.4;
   EXPECT_NE(refused(in).find("[[bridge.pier]] number 1: thickness = 0.4 m"), std::string::npos) << refused(in);
+  in = with_entries(3, 1);
+  in.values["pier.1.height"] = 50.0, in.values["pier.1.batter_x"] = 0.1;
+  EXPECT_NE(refused(in).find("the feet of pier 0 and pier 1"), std::string::npos) << refused(in);
   in = with_entries(3, 3);
   EXPECT_NE(refused(in).find("is there 3 times for 3 spans"), std::string::npos) << refused(in);
   in = with_entries(1, 1);

@@ -110,6 +110,13 @@ TEST(Generators, BlocksWithoutEndAreRefusedWithTheirNumber) {
   EXPECT_NE(error_of("cs1", bridge).find("blocks, expected at most 2e+06"), std::string::npos);
 }
 
+TEST(Generators, FeetThatGrowIntoOneAnotherAreRefused) {
+  GeneratorInput bridge = default_input(find_generator("cs2"));
+  bridge.values["batter_x"] = 0.3, bridge.values["pier_height"] = 40.0;
+  EXPECT_NE(error_of("cs2", bridge).find("the feet of pier 0 and pier 1 reach"), std::string::npos)
+      << error_of("cs2", bridge);
+}
+
 TEST(Wall, CountsOfBlocksAndJoints) {
   const Assembly small = build("wall");
   EXPECT_EQ(moving(small), 105);
