@@ -48,6 +48,12 @@ VaultShape read_shape(const GeneratorInput& in, std::size_t i, double x, double 
   if (!given && v.shape == "surveyed")
     throw InputError("{}: shape = \"surveyed\" needs intrados = [[x, z], …], from springing to springing",
                      span_heading(i));
+  if (given && line->second.size() < 3)
+    throw InputError("{}: intrados has {} points, expected at least 3, from springing to springing", span_heading(i),
+                     line->second.size());
+  if (given && (in(key + "rise") != 0.0 || in(key + "springing_right") != 0.0))
+    throw InputError("{}: rise = {:g} m and springing_right = {:g} m follow from intrados: leave them out",
+                     span_heading(i), in(key + "rise"), in(key + "springing_right"));
   v.left = {x, 0.0, z + in(key + "springing_left")};
   v.right = {x + span_length(in, i), 0.0, z + in(key + "springing_right")};
   if (given) {
@@ -81,6 +87,13 @@ double support_height(const GeneratorInput& in, std::size_t support, std::size_t
   return in(pier_prefix(in, support - 1) + "height");
 }
 
+/// To which the heights of piers and abutments reach, above the lowest base, m.
+double springing_level(const GeneratorInput& in, std::size_t spans) {
+  double level = 0.0;
+  for (std::size_t i = 0; i <= spans; ++i) level = std::max(level, support_height(in, i, spans));
+  return level;
+}
+
 std::string support_key(std::size_t support, std::size_t spans) {
   if (support == 0) return "[bridge.abutment.left]";
   if (support == spans) return "[bridge.abutment.right]";
@@ -89,8 +102,7 @@ std::string support_key(std::size_t support, std::size_t spans) {
 
 void read_spans(Bridge& bridge, const GeneratorInput& in) {
   const std::size_t spans = in.entries.at("span");
-  double level = 0.0;  // of the springings, above the lowest base
-  for (std::size_t i = 0; i <= spans; ++i) level = std::max(level, support_height(in, i, spans));
+  const double level = springing_level(in, spans);
   double x = in("abutment.left.length");
   double crown = 0.0;
   bridge.springing = 1e300;
@@ -117,8 +129,7 @@ void read_makeup(Support& support, const GeneratorInput& in, const std::string& 
 
 void read_supports(Bridge& bridge, const GeneratorInput& in) {
   const std::size_t spans = bridge.vaults.size();
-  double level = 0.0;
-  for (std::size_t i = 0; i <= spans; ++i) level = std::max(level, support_height(in, i, spans));
+  const double level = springing_level(in, spans);
   for (std::size_t i = 0; i <= spans; ++i) {
     const std::string heading = support_key(i, spans);
     Support support;

@@ -86,8 +86,4 @@ template <class L>
     return Floats(x);
 }
 
-/// What a number of its precision is known to, of its size.
-template <class T>
-constexpr double rounding = std::is_same_v<T, Floats> ? 6e-8 : 1.1e-16;
-
 }  // namespace voussoir

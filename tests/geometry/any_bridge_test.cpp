@@ -62,6 +62,7 @@ GeneratorInput random_bridge(int seed) {
     if (!draw.whole(0, 2)) v[key + "springing_left"] = draw.between(-0.5, 0.5);
     if (!draw.whole(0, 2)) v[key + "springing_right"] = draw.between(-0.5, 0.5);
     if (shape == "surveyed") {
+      v[key + "rise"] = v[key + "springing_right"] = 0.0;
       Polygon& line = in.profiles[key + "intrados"];
       for (int k = 0; k <= 6; ++k) {
         const double x = k / 3.0 - 1.0;
@@ -249,6 +250,11 @@ TEST(BridgeGenerator, WhatCannotBeNamesItsKeys) {
   in = with_entries(1, 1);
   in.choices["span.1.shape"] = "surveyed";
   EXPECT_NE(refused(in).find("needs intrados"), std::string::npos) << refused(in);
+  in.profiles["span.1.intrados"] = {{0, 0, 0}, {2, 0, 0}};
+  EXPECT_NE(refused(in).find("has 2 points, expected at least 3"), std::string::npos) << refused(in);
+  in.profiles["span.1.intrados"] = {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}};
+  in.values["span.1.rise"] = 1.0;
+  EXPECT_NE(refused(in).find("follow from intrados"), std::string::npos) << refused(in);
   in.choices["span.1.shape"] = "elliptical";
   in.profiles["span.1.intrados"] = {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}};
   EXPECT_NE(refused(in).find("leave out intrados"), std::string::npos) << refused(in);

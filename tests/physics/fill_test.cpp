@@ -148,7 +148,7 @@ double apart(const FillRig& a, const FillRig& b) {
   return most;
 }
 
-/// In single precision strain is known to some 1e-7 of the displacement gradient: of a body that turns by right angles
+/// In single precision strain is known to some 1e-7 of the displacement gradient: of a body that turns by 120 degrees
 /// that makes a stress of so much of the moduli, of one that is strained by parts of a thousand far less.
 TEST(FillElement, SinglePrecisionKnowsStrainToItsRounding) {
   DampingSettings maxwell;
