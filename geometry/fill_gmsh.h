@@ -9,10 +9,11 @@
 namespace voussoir {
 
 /// The space of a fill: boxes that may touch and do not overlap in the plane x-z, less what lies below the extrados of
-/// rings that stand in their height.
+/// rings that stand in their height, and less other polygons.
 struct FillSpace {
   std::vector<Box> boxes;
   std::vector<Ring> rings;
+  std::vector<Polygon> beside;  // polygons in the plane x-z that are not part of it
 };
 
 /// How the space is meshed. The defaults are what gave the fewest tetrahedra: docs/theory/geometry.md.

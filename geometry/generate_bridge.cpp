@@ -77,8 +77,17 @@ VaultShape read_shape(const GeneratorInput& in, std::size_t i, double x, double 
 }
 
 Vault make_vault(const GeneratorInput& in, std::size_t i, const VaultShape& shape) {
-  return {vault_rings(shape, span_heading(i)),
-          {intrados_length(shape) / shape.voussoirs, in("voussoir_width") * in("block_scale"), shape.crown.front()}};
+  const std::vector<Ring> rings = vault_rings(shape, span_heading(i));
+  for (const Vec3& p : rings.front().intrados)
+    if (p.x() < shape.left.x() - no_masonry || p.x() > shape.right.x() + no_masonry)
+      throw InputError(
+          "{}: its intrados overhangs a springing by {:g} m: lessen the difference of springing_left = {:g} m and "
+          "springing_right = {:g} m, or choose another shape",
+          span_heading(i), std::max(shape.left.x() - p.x(), p.x() - shape.right.x()),
+          in(span_prefix(i) + "springing_left"), in(span_prefix(i) + "springing_right"));
+  return {rings,
+          {intrados_length(shape) / shape.voussoirs, in("voussoir_width") * in("block_scale"), shape.crown.front()},
+          std::size_t(in(span_prefix(i) + "headers_every"))};
 }
 
 double support_height(const GeneratorInput& in, std::size_t support, std::size_t spans) {
@@ -100,6 +109,41 @@ std::string support_key(std::size_t support, std::size_t spans) {
   return fmt::format("[[bridge.pier]] number {}", support);
 }
 
+/// The top of a backing that is not level; the bridge is `length` m long, square to the supports.
+void read_backing_line(Bridge& bridge, const GeneratorInput& in, double length) {
+  const auto given = in.profiles.find("backing.profile");
+  if (given == in.profiles.end()) return;
+  for (const Vec3& p : given->second) bridge.backing_line.push_back(p + Vec3(0.0, 0.0, bridge.springing));
+  const Polygon& line = bridge.backing_line;
+  if (line.size() < 2 || std::abs(line.front().x()) > 1e-6 || std::abs(line.back().x() - length) > 1e-6)
+    throw InputError(
+        "[bridge.backing] profile goes from x = {:g} to {:g} m, expected from 0 to {:g} m, the length of the bridge "
+        "square to its supports",
+        line.empty() ? 0.0 : line.front().x(), line.empty() ? 0.0 : line.back().x(), length);
+  bridge.backing_line.front().x() = 0.0, bridge.backing_line.back().x() = length;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    if (line[i + 1].x() - line[i].x() < 0.01)
+      throw InputError("[bridge.backing] profile: point {} has x = {:g} m, expected at least 0.01 m more than {:g} m",
+                       i + 2, line[i + 1].x(), line[i].x());
+  bridge.backing_top = bridge.springing;  // no course of the spandrel walls ends with it
+}
+
+double backing_at(const Bridge& bridge, double x) {
+  const Polygon& line = bridge.backing_line;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    if (x <= line[i + 1].x())
+      return line[i].z() + (line[i + 1].z() - line[i].z()) * (x - line[i].x()) / (line[i + 1].x() - line[i].x());
+  return bridge.backing_top;
+}
+
+/// The lowest point of the backing's top from x0 to x1.
+double least_backing(const Bridge& bridge, double x0, double x1) {
+  double least = std::min(backing_at(bridge, x0), backing_at(bridge, x1));
+  for (const Vec3& p : bridge.backing_line)
+    if (p.x() > x0 && p.x() < x1) least = std::min(least, p.z());
+  return least;
+}
+
 void read_spans(Bridge& bridge, const GeneratorInput& in) {
   const std::size_t spans = in.entries.at("span");
   const double level = springing_level(in, spans);
@@ -113,18 +157,79 @@ void read_spans(Bridge& bridge, const GeneratorInput& in) {
     for (const Vec3& p : bridge.vaults.back().rings.back().extrados) crown = std::max(crown, p.z());
     x = shape.right.x() + (i + 1 < spans ? in(pier_prefix(in, i) + "thickness") : 0.0);
   }
-  bridge.deck = crown + in("fill_over_crown");
+  // The gradient goes with the way square to the supports; the deck is level along them.
+  bridge.gradient = 0.01 * in("gradient") / std::cos(radians(in("skew")));
+  const double end = x + in("abutment.right.length");
+  double start = -1e300;  // of the deck, at x = 0
+  for (const Vault& vault : bridge.vaults)
+    for (const Vec3& p : vault.rings.back().extrados) start = std::max(start, p.z() - bridge.gradient * p.x());
+  bridge.deck_start = start + in("fill_over_crown");
+  bridge.deck =
+      bridge.gradient == 0.0 ? crown + in("fill_over_crown") : bridge.deck_start + std::max(0.0, bridge.gradient * end);
   bridge.backing_top = bridge.springing + in("backing_height");
+  read_backing_line(bridge, in, end);
 }
 
 /// What an abutment or a pier says beside its height.
 void read_makeup(Support& support, const GeneratorInput& in, const std::string& prefix, const std::string& heading,
                  bool pier) {
-  support.leaf = in.choices.at(prefix + "makeup") == "leaf";
+  const std::string& makeup = in.choices.at(prefix + "makeup");
+  support.makeup = makeup == "leaf" ? Makeup::leaf : makeup == "hollow" ? Makeup::hollow : Makeup::solid;
+  const double own = in(prefix + "width"), width = in("width");
+  support.width = own > 0.0 ? own : width;
+  if (support.width < width)
+    throw InputError("{}: width = {:g} m is less than [bridge] width = {:g} m: make it wider, or 0 for the same",
+                     heading, support.width, width);
   support.slope_x = pier ? in(prefix + "batter_x") : 0.0;
   support.slope_y = in(prefix + "batter_y");
-  if (support.leaf && (support.slope_x > 0.0 || support.slope_y > 0.0))
-    throw InputError("{}: makeup = \"leaf\" has upright faces: set its batter to 0, or makeup = \"solid\"", heading);
+  if (support.makeup != Makeup::solid && (support.slope_x > 0.0 || support.slope_y > 0.0))
+    throw InputError("{}: makeup = \"{}\" has upright faces: set its batter to 0, or makeup = \"solid\"", heading,
+                     makeup);
+}
+
+void read_cutwater(Support& support, const GeneratorInput& in, const std::string& prefix, const std::string& heading) {
+  const std::string& shape = in.choices.at(prefix + "cutwater");
+  if (shape == "none") return;
+  const double length = in(prefix + "cutwater_length"), height = in(prefix + "cutwater_height");
+  support.cutwater.round = shape == "round";
+  support.cutwater.length = length > 0.0 ? length : 0.5 * (support.x1 - support.x0);
+  support.cutwater.height = height > 0.0 ? height : support.height;
+  if (support.cutwater.height > support.height + 1e-9)
+    throw InputError("{}: cutwater_height = {:g} m is more than the height to the springing, {:g} m", heading, height,
+                     support.height);
+  if (support.slope_y * support.height > 0.8 * support.cutwater.length)
+    throw InputError(
+        "{}: batter_y = {:g} takes up {:g} m of cutwater_length = {:g} m: make the one less or the other more", heading,
+        support.slope_y, support.slope_y * support.height, support.cutwater.length);
+}
+
+void read_wings(Support& support, const Bridge& bridge, const GeneratorInput& in, const std::string& prefix,
+                const std::string& heading, double end) {
+  Wings& wings = support.wings;
+  const double deck = bridge.deck_at(end), height = in(prefix + "wing_height");
+  wings.length = in(prefix + "wing_length"), wings.thickness = in(prefix + "wing_thickness");
+  wings.slope = std::tan(radians(in(prefix + "wing_splay")));
+  wings.top = height > 0.0 ? support.base + height : deck;
+  wings.counterforts = int(in(prefix + "counterforts"));
+  wings.counterfort_length = in(prefix + "counterfort_length");
+  wings.counterfort_thickness = in(prefix + "counterfort_thickness");
+  const double own = in(prefix + "counterfort_height");
+  wings.counterfort_top = own > 0.0 ? support.base + own : support.springing;
+  if (wings.length <= 0.0 && wings.counterforts == 0) return;
+  if (in.choices.at("abutments") == "restrained")
+    throw InputError("{}: wing_length or counterforts and [bridge] abutments = \"restrained\" take up the same space",
+                     heading);
+  const double most =
+      std::max(wings.length > 0.0 ? wings.top : 0.0, wings.counterforts > 0 ? wings.counterfort_top : 0.0);
+  if (most > deck + 1e-9)
+    throw InputError(
+        "{}: wing_height or counterfort_height reaches {:g} m above the base, {:g} m more than the deck there", heading,
+        most - support.base, most - deck);
+  const double room = bridge.width - (wings.length > 0.0 ? 2.0 * wings.thickness : 0.0);
+  if (room < 0.1 || wings.counterforts * wings.counterfort_thickness > 0.9 * room)
+    throw InputError(
+        "{}: wing_thickness and counterforts times counterfort_thickness leave too little of [bridge] width = {:g} m",
+        heading, bridge.width);
 }
 
 void read_supports(Bridge& bridge, const GeneratorInput& in) {
@@ -140,6 +245,11 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
     support.base = level - support_height(in, i, spans);
     support.springing = 1e300, support.top = -1e300;
     const auto stands = [&](const Vec3& in_end, const Vec3& out_end) {
+      if (out_end.z() < in_end.z() - no_masonry)
+        throw InputError(
+            "{}: the foot of a vault there reaches {:g} m below its springing, into the support: lessen the difference "
+            "of springing_left and springing_right of its [[bridge.span]]",
+            heading, in_end.z() - out_end.z());
       support.springing = std::min(support.springing, in_end.z());
       support.top = std::max({support.top, in_end.z(), out_end.z()});
     };
@@ -151,6 +261,11 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
                        support_height(in, i, spans), support.height);
     const std::string prefix = i == 0 ? "abutment.left." : i == spans ? "abutment.right." : pier_prefix(in, i - 1);
     read_makeup(support, in, prefix, heading, before && after);
+    if (before && after) {
+      read_cutwater(support, in, prefix, heading);
+    } else {
+      read_wings(support, bridge, in, prefix, heading, before ? support.x1 : 0.0);
+    }
     support.leaf_beside_span = support.x1 - support.x0;
     const double left = before ? before->rings.back().extrados.back().x() : support.x0 + 0.05,
                  right = after ? after->rings.back().extrados.front().x() : support.x1 - 0.05;
@@ -168,9 +283,15 @@ Bridge read_bridge(const GeneratorInput& in) {
     throw InputError("[[bridge.pier]] is there {} times for {} spans: give one, which holds for all, or {}", piers,
                      spans, spans - 1);
   Bridge bridge;
+  bridge.width = in("width");
+  bridge.skew = radians(in("skew"));
+  bridge.skew_bond = in.choices.at("skew_bond") == "helicoidal"    ? SkewBond::helicoidal
+                     : in.choices.at("skew_bond") == "logarithmic" ? SkewBond::logarithmic
+                                                                   : SkewBond::parallel;
+  bridge.string_height = in("string_course_height"), bridge.string_projection = in("string_course_projection");
+  bridge.transverse_thickness = in("transverse_walls");
   read_spans(bridge, in);
   read_supports(bridge, in);
-  bridge.width = in("width");
   const auto length = [](const Support& support) { return support.x1 - support.x0; };
   bridge.backing_over_abutment[0] = length(bridge.supports.front());
   bridge.backing_over_abutment[1] = length(bridge.supports.back());
@@ -190,7 +311,15 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
       throw InputError("[bridge] {} = {:g} m is more than {} = {:g} m: make the first smaller or the second larger",
                        small, low, large, high);
   };
-  at_most(in("backing_height"), "backing_height", bridge.deck - bridge.springing, "springing to deck");
+  const double lowest = std::min(bridge.deck_at(0.0), bridge.deck_at(bridge.length()));
+  if (bridge.backing_line.empty())
+    at_most(in("backing_height"), "backing_height", lowest - bridge.springing, "springing to deck");
+  for (const Vec3& p : bridge.backing_line)
+    at_most(p.z() - bridge.springing, "z of [bridge.backing] profile", bridge.deck_at(p.x()) - bridge.springing,
+            "springing to deck there");
+  if (lowest < bridge.springing + 0.1)
+    throw InputError("[bridge] gradient = {:g} % takes the deck {:g} m below the springing: make it less",
+                     in("gradient"), bridge.springing - lowest);
   const double inside = 0.9 * in("width");
   at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
   at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
@@ -199,12 +328,14 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
     const Support& support = bridge.supports[i];
     const std::string heading = support_key(i, bridge.vaults.size());
-    const double backing = bridge.backing_top - bridge.springing;
-    if (support.top > bridge.backing_top + 1e-9)
-      throw InputError(
-          "[bridge] backing_height = {:g} m ends below the feet of the vaults on {}: at least {:g} m are needed",
-          backing, heading, support.top - bridge.springing);
-    if (support.leaf)
+    const double backing = least_backing(bridge, support.x0, support.x1);
+    if (support.top > backing + 1e-9)
+      throw InputError("{} = {:g} m ends below the feet of the vaults on {}: at least {:g} m are needed",
+                       bridge.backing_line.empty() ? "[bridge] backing_height" : "[bridge.backing] profile: z",
+                       backing - bridge.springing, heading, support.top - bridge.springing);
+    const double wall = bridge.transverse_thickness, least = support.x1 - support.x0;
+    if (!bridge.is_abutment(i)) at_most(wall, "transverse_walls", least, "what " + heading + " is long");
+    if (support.makeup != Makeup::solid)
       for (const char* key : {"leaf_thickness_even", "leaf_thickness_odd"})
         at_most(2.0 * in(key), std::string("2 ") + key, 0.95 * std::min(support.x1 - support.x0, bridge.width),
                 "0.95 times the least of width and what " + heading + " is long");
@@ -230,18 +361,25 @@ Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) 
   const std::vector<Material> materials = in_order(defaults, in);
   find_materials(bridge, materials);
   JointRules rules = joint_rules(bridge, in);
+  rules.rings_bonded = in.choices.at("ring_bond") == "mortar";
   rules.table = masonry_stiffness(bridge, materials, rules);
   return lay_bridge(bridge, materials, rules, in);
 }
 
 std::vector<Parameter> own_keys() {
   return {{"width", 8.0, 1.0, 40.0, "m", "from face to face of the spandrel walls"},
-          {"fill_over_crown", 0.5, 0.0, 20.0, "m", "from the highest crown of the extrados to the deck"},
+          {"skew", 0.0, -45.0, 45.0, "deg",
+           "of the supports against the square to the bridge; lengths along it are measured square to them"},
+          {"gradient", 0.0, -12.0, 12.0, "%", "rise of the deck over the way along the bridge, from left to right"},
+          {"fill_over_crown", 0.5, 0.0, 20.0, "m", "from the extrados to the deck, where it is least"},
           {"backing_height", 1.0, 0.0, 60.0, "m", "top of the backing above the lowest springing"},
           {"spandrel_thickness_bottom", 0.6, 0.1, 10.0, "m", "lowest course of the spandrel walls"},
           {"spandrel_thickness_top", 0.6, 0.1, 10.0, "m", "topmost course; stepped by course in between"},
           {"parapet_height", 1.0, 0.0, 5.0, "m", "above the deck; 0: no parapets"},
           {"parapet_thickness", 0.35, 0.05, 5.0, "m", "flush with the outer faces"},
+          {"string_course_height", 0.0, 0.0, 1.0, "m", "of a course between deck and parapets; 0: none"},
+          {"string_course_projection", 0.1, 0.0, 1.0, "m", "how far it stands out of the outer faces"},
+          {"transverse_walls", 0.0, 0.0, 5.0, "m", "thickness of walls across over the piers, to the deck; 0: none"},
           {"base_depth", 1.0, 0.1, 20.0, "m", "depth of the fixed block under each support"},
           {"restraint_depth", 1.0, 0.1, 20.0, "m", "length of the fixed block at each end, if restrained"},
           {"leaf_thickness_even", 0.3, 0.05, 5.0, "m", "leaf: thickness in courses 0, 2, … from the base"},
@@ -268,9 +406,17 @@ std::vector<Parameter> own_keys() {
 }
 
 std::vector<Choice> own_choices() {
-  return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
-          {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
-          {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond"}};
+  return {
+      {"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
+      {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
+      {"skew_bond",
+       {"parallel", "helicoidal", "logarithmic"},
+       "beds of the vaults of a skew bridge: parallel to the supports (false skew), or square to the faces at their "
+       "chord (English) or everywhere (French)"},
+      {"ring_bond",
+       {"mortar", "none"},
+       "joints between the rings of a vault: as strong as the vault's, or with friction only"},
+      {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond"}};
 }
 
 KeyTable span_keys() {
@@ -285,6 +431,8 @@ KeyTable span_keys() {
       {"ring_thickness", 0.5, 0.03, 5.0, "m", "at the crown, of all rings together"},
       {"springing_thickness", 0.0, 0.0, 5.0, "m", "at the springings, likewise; 0: as at the crown"},
       {"rings", 1.0, 1.0, 8.0, "-", "rings of equal thickness, joint over joint", true},
+      {"headers_every", 0.0, 0.0, 100.0, "-",
+       "courses from one of headers, stones through two rings, to the next; 0: none", true},
       {"voussoirs", 0.0, 0.0, 400.0, "-", "of each ring; 0: an even number from voussoir_length", true},
       {"springing_left", 0.0, -20.0, 20.0, "m", "above the level that the heights of piers and abutments reach to"},
       {"springing_right", 0.0, -20.0, 20.0, "m", "likewise"}};
@@ -293,7 +441,7 @@ KeyTable span_keys() {
 }
 
 std::vector<Choice> makeup() {
-  return {{"makeup", {"solid", "leaf"}, "solid courses, or an outer leaf around infill"}};
+  return {{"makeup", {"solid", "leaf", "hollow"}, "solid courses, or an outer leaf around infill or around nothing"}};
 }
 
 KeyTable pier_keys() {
@@ -301,10 +449,21 @@ KeyTable pier_keys() {
   t.name = "pier", t.help = "the piers from left to right; one entry holds for all";
   t.least = 1, t.most = most_spans;
   t.choices = makeup();
+  t.choices.push_back({"cutwater", {"none", "triangular", "round"}, "noses on both side faces"});
   t.parameters = {{"height", 5.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
                   {"thickness", 1.5, 0.1, 20.0, "m", "along the bridge, at the springing"},
                   {"batter_x", 0.0, 0.0, 0.3, "-", "slope of its faces along the bridge, widening downwards"},
-                  {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"}};
+                  {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"},
+                  {"width", 0.0, 0.0, 60.0, "m", "across, at the springing; 0: as the bridge"},
+                  {"cutwater_length", 0.0, 0.0, 20.0, "m", "out of the side face; 0: half the thickness"},
+                  {"cutwater_height", 0.0, 0.0, 100.0, "m", "above the base; 0: to the springing"}};
+  return t;
+}
+
+KeyTable backing_keys() {
+  KeyTable t;
+  t.name = "backing", t.help = "a backing whose top is not level, instead of backing_height";
+  t.profiles = {{"profile", "its top; x from the left end, square to the supports, z above the lowest springing"}};
   return t;
 }
 
@@ -314,7 +473,16 @@ KeyTable abutment_keys(const std::string& side) {
   t.choices = makeup();
   t.parameters = {{"length", 4.0, 0.3, 60.0, "m", "from the end of the bridge to the springing"},
                   {"height", 4.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
-                  {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"}};
+                  {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"},
+                  {"width", 0.0, 0.0, 60.0, "m", "across, at the springing; 0: as the bridge"},
+                  {"wing_length", 0.0, 0.0, 60.0, "m", "of walls beyond the end, along the bridge; 0: none"},
+                  {"wing_thickness", 0.6, 0.1, 10.0, "m", "across the bridge"},
+                  {"wing_splay", 0.0, 0.0, 60.0, "deg", "angle outwards against the bridge's axis; 0: straight on"},
+                  {"wing_height", 0.0, 0.0, 100.0, "m", "above the base; 0: to the deck at the end"},
+                  {"counterforts", 0.0, 0.0, 20.0, "-", "buttresses against the end face", true},
+                  {"counterfort_length", 1.0, 0.1, 20.0, "m", "along the bridge"},
+                  {"counterfort_thickness", 0.6, 0.1, 10.0, "m", "across"},
+                  {"counterfort_height", 0.0, 0.0, 100.0, "m", "above the base; 0: to the springing"}};
   return t;
 }
 
@@ -327,7 +495,7 @@ Generator bridge_generator() {
   generator.help = "Any number of spans of any shape, on abutments and piers";
   generator.parameters = own_keys();
   generator.choices = own_choices();
-  generator.tables = {span_keys(), pier_keys(), abutment_keys("left"), abutment_keys("right")};
+  generator.tables = {span_keys(), pier_keys(), abutment_keys("left"), abutment_keys("right"), backing_keys()};
   generator.materials = {{"masonry", 1900.0, 3.0e9, 1.2e9, 0.10e6, 0.15e6, friction},
                          {"vault", 1900.0, 4.0e9, 1.6e9, 0.10e6, 0.15e6, friction},
                          {"infill", 1700.0, 0.8e9, 0.32e9, 0.0, 0.02e6, loose},

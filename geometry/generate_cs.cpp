@@ -65,7 +65,8 @@ void read_cs_supports(Bridge& bridge, const GeneratorInput& in) {
     support.height = cs_support_height(in, i);
     support.base = bridge.springing - support.height;
     support.springing = support.top = bridge.springing;
-    support.leaf = leaf;
+    support.makeup = leaf ? Makeup::leaf : Makeup::solid;
+    support.width = in("width");
     support.leaf_beside_span = in("abutment_leaf_length");
     if (!leaf) {
       support.slope_x = i == 0 || i == spans ? 0.0 : in("batter_x");

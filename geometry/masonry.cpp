@@ -91,15 +91,21 @@ std::vector<double> split(double from, double to, double size, bool half) {
   return at;
 }
 
+void lay_across(Layout& layout, const std::vector<Polygon>& polygons, const std::vector<double>& y, const Unit& unit,
+                const Vec3& nominal) {
+  for (std::size_t j = 0; j + 1 < y.size(); ++j) {
+    std::vector<Polyhedron> cells;
+    for (const Polygon& polygon : polygons) cells.push_back(sweep_across(polygon, y[j], y[j + 1]));
+    lay_stone(layout, std::move(cells), unit, nominal, false);
+  }
+}
+
 std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, double y1, const Unit& unit, int bond) {
   std::vector<std::int64_t> first;
   for (std::size_t i = 0; i + 1 < ring.intrados.size(); ++i) {
     first.push_back(std::int64_t(layout.stones.size()));
-    const Polygon wedge = {ring.intrados[i], ring.intrados[i + 1], ring.extrados[i + 1], ring.extrados[i]};
-    const std::vector<double> y = split(y0, y1, unit.size.y(), (i + std::size_t(bond)) % 2 == 1);
-    for (std::size_t j = 0; j + 1 < y.size(); ++j) {
-      lay_stone(layout, {sweep_across(wedge, y[j], y[j + 1])}, unit, unit.size, false);
-    }
+    lay_across(layout, {ring.wedge(int(i))}, split(y0, y1, unit.size.y(), (i + std::size_t(bond)) % 2 == 1), unit,
+               unit.size);
   }
   first.push_back(std::int64_t(layout.stones.size()));
   return first;

@@ -17,6 +17,7 @@ struct Stone {
   std::int32_t material = 0;
   bool fixed = false;
   bool was_cut = false;         // only cut stones can be slivers
+  int layer = 0;                // slivers join stones of their own layer only, such as a ring of a vault
   Vec3 nominal = Vec3::Ones();  // m, size of the uncut stone (length, width, height)
 };
 
@@ -40,6 +41,11 @@ struct Layout {
 /// shifted by half of one, with half parts at both ends; a single part is never halved.
 std::vector<double> split(double from, double to, double size, bool half = false);
 
+/// Lays stones side by side across, between the given y (m, ascending); each has one cell for every polygon (in the
+/// plane x-z, counter-clockwise seen from -y).
+void lay_across(Layout& layout, const std::vector<Polygon>& polygons, const std::vector<double>& y, const Unit& unit,
+                const Vec3& nominal);
+
 /// Lays the wedges of a ring across [y0, y1] in stretcher bond: alternate wedges are offset half a stone, with half
 /// stones at the edges. Returns the first index of each wedge's stones in the layout, and one past the last.
 /// `bond`: number of the first wedge in the bond, for rings on one another.
@@ -59,6 +65,7 @@ void lay_stone(Layout& layout, std::vector<Polyhedron> cells, const Unit& unit, 
 struct SliverRule {
   double thickness = 0.15;  // m: thinner than this (or half its nominal size, if that is less) along a face normal
   double share = 0.25;      // of its nominal volume
+  double most = 2.0;        // times its nominal volume: a larger stone than this takes in none if another can
 };
 
 /// Turns the layout into an assembly: finds the joints, joins each sliver to the neighbour of the same component and

@@ -24,12 +24,13 @@ void lay_wings(Layout& layout, const Bridge& bridge, std::size_t support) {
 }  // namespace
 
 void lay_abutments(Layout& layout, const Bridge& bridge) {
-  const double half = bridge.half_width();
   for (const std::size_t i : {std::size_t(0), bridge.last_support()}) {
     const int part = i == 0 ? 0 : 1;
+    const double half = bridge.half_width(i);
     const Support& support = bridge.supports[i];
     const double z0 = support.base, z1 = support.springing;
-    if (!support.leaf) {
+    lay_wing_walls(layout, bridge, i);
+    if (support.makeup == Makeup::solid) {
       lay_solid(layout, {support.x0, support.x1, half, z0, z1, 0.0, 0.0, support.slope_y},
                 bridge.unit(Component::abutment, part));
       continue;

@@ -64,26 +64,46 @@ bool is_sliver(const std::vector<Stone>& stones, const std::vector<std::size_t>&
   return thinness(cells) < std::min(rule.thickness, 0.5 * nominal.minCoeff());
 }
 
+/// Volumes of the groups, and how large each may become, m3.
+class Sizes {
+ public:
+  Sizes(const std::vector<Stone>& stones, double most) {
+    for (const Stone& stone : stones) {
+      volume_.push_back(mass_properties(stone.cells).volume);
+      most_.push_back(most * stone.nominal.prod());
+    }
+  }
+  void join(std::size_t host, std::size_t guest) { volume_[host] += volume_[guest]; }
+  bool fit(std::size_t a, std::size_t b) const { return volume_[a] + volume_[b] <= most_[b]; }
+  double volume(std::size_t i) const { return volume_[i]; }
+
+ private:
+  std::vector<double> volume_, most_;
+};
+
 struct Contact {
   std::size_t stone = 0;
   double area = 0.0;
 };
 
-/// Joints of each stone with others of its own component and material.
+/// Joints of each stone with others of its own component, material and layer.
 std::vector<std::vector<Contact>> like_neighbours(const std::vector<Stone>& stones, const std::vector<Joint>& joints) {
   std::vector<std::vector<Contact>> contacts(stones.size());
   for (const Joint& joint : joints) {
     const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
-    if (stones[a].component != stones[b].component || stones[a].material != stones[b].material) continue;
+    if (stones[a].component != stones[b].component || stones[a].material != stones[b].material ||
+        stones[a].layer != stones[b].layer)
+      continue;
     contacts[a].push_back({b, joint.area});
     contacts[b].push_back({a, joint.area});
   }
   return contacts;
 }
 
-/// The group a sliver joins: the one it shares most area with, whole stones before other slivers; itself if none.
+/// The group a sliver joins: the one it shares most area with, whole stones before other slivers, and before all those
+/// that do not become larger than the rule allows; itself if none.
 std::size_t best_host(std::size_t sliver, const Groups& groups, const std::vector<std::vector<Contact>>& contacts,
-                      const std::vector<char>& slivers) {
+                      const std::vector<char>& slivers, const Sizes& sizes) {
   std::map<std::size_t, double> shared;
   for (const std::size_t i : groups.members(sliver)) {
     for (const Contact& contact : contacts[i]) {
@@ -93,7 +113,7 @@ std::size_t best_host(std::size_t sliver, const Groups& groups, const std::vecto
   }
   std::size_t best = sliver;
   for (const auto& [other, area] : shared) {
-    const auto rank = [&](std::size_t i) { return std::make_tuple(slivers[i] == 0, shared[i]); };
+    const auto rank = [&](std::size_t i) { return std::make_tuple(sizes.fit(sliver, i), slivers[i] == 0, shared[i]); };
     if (best == sliver || rank(other) > rank(best)) best = other;
   }
   return best;
@@ -103,18 +123,20 @@ Groups join_slivers(const std::vector<Stone>& stones, const std::vector<Joint>& 
   Groups groups(stones.size());
   const auto contacts = like_neighbours(stones, joints);
   std::vector<char> slivers(stones.size(), 0);
+  Sizes sizes(stones, rule.most);
   std::vector<std::pair<double, std::size_t>> queue;  // smallest first
   for (std::size_t i = 0; i < stones.size(); ++i) {
     slivers[i] = is_sliver(stones, {i}, rule);
-    if (slivers[i]) queue.emplace_back(mass_properties(stones[i].cells).volume, i);
+    if (slivers[i]) queue.emplace_back(sizes.volume(i), i);
   }
   std::sort(queue.begin(), queue.end());
   for (std::size_t q = 0; q < queue.size(); ++q) {
     const std::size_t sliver = groups.root(queue[q].second);
     if (!slivers[sliver]) continue;
-    const std::size_t host = best_host(sliver, groups, contacts, slivers);
+    const std::size_t host = best_host(sliver, groups, contacts, slivers, sizes);
     if (host == sliver) continue;  // alone of its kind: it stays
     groups.join(host, sliver);
+    sizes.join(host, sliver);
     if (slivers[host]) {
       slivers[host] = is_sliver(stones, groups.members(host), rule);
       if (slivers[host]) queue.emplace_back(0.0, host);  // two slivers that are still one: look again later

@@ -18,8 +18,11 @@ SectionLimits Bridge::limits() const {
   SectionLimits limits;
   for (const Vault& vault : vaults) limits.rings.push_back(whole_vault(vault.rings));
   for (const Support& support : supports)
-    if (support.top > springing)
-      limits.taken.push_back({{support.x0, 0.0, support.springing}, {support.x1, 0.0, support.top}});
+    if (support.top > springing) limits.taken.push_back({{support.x0, 0.0, springing}, {support.x1, 0.0, support.top}});
+  if (gradient != 0.0) {
+    const Vec3 up = Vec3(-gradient, 0.0, 1.0).normalized();
+    limits.past.push_back({up, up.dot(Vec3(0.0, 0.0, deck_at(0.0)))});
+  }
   return limits;
 }
 

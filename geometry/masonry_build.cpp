@@ -29,9 +29,12 @@ void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const 
   FillSpace space;
   for (const FillRegion& region : fill_regions(bridge)) space.boxes.push_back({region.low, region.high});
   space.rings = bridge.limits().rings;
+  space.beside = beside_fill(bridge);
   FillMeshing meshing;
   meshing.edge = bridge.fill_edge;
   assembly.fill = mesh_fill(space, meshing);
+  if (bridge.skew != 0.0)
+    for (Vec3& node : assembly.fill.nodes) node = at_skew(node, bridge.skew);
   assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
   check_fill(assembly.fill, "the mesh of the fill");
   check_volume(assembly.fill, fill_space(bridge));
@@ -78,7 +81,7 @@ JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in) {
                    {Component::spandrel, bridge.block},
                    {Component::parapet, bridge.block},
                    {Component::pier, bridge.block},
-                   {Component::abutment, bridge.supports.front().leaf ? wing : bridge.block},
+                   {Component::abutment, bridge.supports.front().makeup == Makeup::leaf ? wing : bridge.block},
                    {Component::infill, bridge.infill},
                    {Component::backfill, bridge.fill}};
   // There is one layer of interface however large the blocks, so its stiffness does not follow their size.
@@ -99,10 +102,12 @@ Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials
   lay_skewbacks(layout, bridge);
   lay_backing(layout, bridge);
   lay_spandrels(layout, bridge);
+  lay_transverse_walls(layout, bridge);
   lay_backfill(layout, bridge);
   lay_parapets(layout, bridge);
   lay_bases(layout, bridge);
   lay_restraints(layout, bridge);
+  turn_to_skew(layout, bridge.skew);
   const SliverRule slivers = {in("sliver_thickness") * in("block_scale"), in("sliver_share")};
   Assembly assembly = assemble(std::move(layout), materials, slivers, in.gap_tolerance);
   assign_stiffness(assembly, rules, in);

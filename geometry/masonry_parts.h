@@ -11,11 +11,32 @@ namespace voussoir {
 
 /// A vault over one span.
 struct Vault {
-  std::vector<Ring> rings;                                            // the lowest first
-  Vec3 voussoir = Vec3::Ones();                                       // m: along the arc, across, thickness of a ring
+  std::vector<Ring> rings;        // the lowest first
+  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of a ring
+  std::size_t headers_every = 0;  // courses, from one of headers (stones through two rings) to the next; 0: none
   double left() const { return rings.front().intrados.front().x(); }  // m, of the opening, at the springings
   double right() const { return rings.front().intrados.back().x(); }
 };
+
+/// A nose of stones on each side face of a pier, from its base on.
+struct Cutwater {
+  double length = 0.0;  // m, out of the side face; 0: none
+  double height = 0.0;  // m, above the base
+  bool round = false;   // half an ellipse in flat facets, or a triangle
+};
+
+/// Walls beyond the end of a bridge, on the base of its abutment: two wings that go on from the side faces and splay
+/// outwards, and counterforts against the end face between them.
+struct Wings {
+  double length = 0.0, thickness = 0.0;  // m, along the bridge and across it; length 0: none
+  double slope = 0.0;                    // way outwards over way along
+  double top = 0.0;                      // z
+  int counterforts = 0;
+  double counterfort_length = 0.0, counterfort_thickness = 0.0, counterfort_top = 0.0;  // m; z
+};
+
+/// What a support is made of: solid courses, or an outer leaf around loose infill or around nothing.
+enum class Makeup { solid, leaf, hollow };
 
 /// What vaults spring from: an abutment or a pier.
 struct Support {
@@ -24,22 +45,36 @@ struct Support {
   double base = 0.0, springing = 0.0;   // z
   double top = 0.0;                     // z of the highest end of a vault's foot on it
   double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
-  bool leaf = false;                    // an outer leaf and infill, or solid
-  double leaf_beside_span = 0.0;        // m, of an abutment with a leaf: the rest has wing walls
+  double width = 0.0;                   // m, across, at the springing
+  Makeup makeup = Makeup::solid;
+  Cutwater cutwater = {};         // of a pier
+  Wings wings = {};               // of an abutment
+  double leaf_beside_span = 0.0;  // m, of an abutment with a leaf: the rest has wing walls
 };
 
+/// How the beds of a skew vault run: along its axis, or square to the faces at the chord or everywhere.
+enum class SkewBond { parallel, helicoidal, logarithmic };
+
 /// Dimensions of a bridge in m (block sizes already scaled), in the axes of the whole program: x along, origin at the
-/// left end; y across, 0 at mid-width; z up, 0 at the top of the lowest base.
+/// left end; y across, 0 at mid-width; z up, 0 at the top of the lowest base. A skew bridge is laid out square, with x
+/// square to its supports, and turned by turn_to_skew() once all is laid.
 struct Bridge {
   std::vector<Vault> vaults;      // from left to right
   std::vector<Support> supports;  // left abutment, piers, right abutment
   double width = 0.0;
+  double skew = 0.0;  // rad, of the supports against the square to the axis
+  SkewBond skew_bond = SkewBond::parallel;
   double springing = 0.0;    // z of the lowest springing, where spandrel walls, backing and fill begin
-  double deck = 0.0;         // z
+  double deck = 0.0;         // z, where it is highest
+  double gradient = 0.0;     // rise of the deck over x
+  double deck_start = 0.0;   // z of a deck with a gradient at x = 0
   double backing_top = 0.0;  // z
+  Polygon backing_line;      // its top from end to end, where it is not level; otherwise empty
   double backing_over_abutment[2] = {0.0, 0.0};      // length beside the span, left and right
   double spandrel_bottom = 0.0, spandrel_top = 0.0;  // thickness
   double parapet_height = 0.0, parapet_thickness = 0.0;
+  double string_height = 0.0, string_projection = 0.0;  // of a string course between deck and parapet
+  double transverse_thickness = 0.0;                    // of walls across over the piers; 0: none
   double base_depth = 1.0, restraint_depth = 1.0;
   double wing_wall_thickness = 0.0;
   double leaf_thickness[2] = {0.0, 0.0};  // even and odd courses
@@ -56,6 +91,8 @@ struct Bridge {
 
   double length() const { return supports.back().x1; }
   double half_width() const { return 0.5 * width; }
+  double half_width(std::size_t support) const { return 0.5 * supports[support].width; }
+  double deck_at(double x) const { return gradient == 0.0 ? deck : deck_start + gradient * x; }
   std::size_t last_support() const { return supports.size() - 1; }
   bool is_abutment(std::size_t support) const { return support == 0 || support == last_support(); }
   Unit unit(Component component, int part) const;  // masonry block of a component
@@ -75,21 +112,48 @@ std::vector<Band> spandrel_courses(const Bridge& bridge);
 /// walls is laid in.
 std::vector<Band> interior_bands(const Bridge& bridge);
 
+/// Where walls stand across over the piers, and what they leave of the length, both from left to right: from and to, m.
+std::vector<std::pair<double, double>> transverse_walls(const Bridge& bridge);
+std::vector<std::pair<double, double>> between_transverse_walls(const Bridge& bridge);
+void lay_transverse_walls(Layout& layout, const Bridge& bridge);
+
+/// The half-plane under a straight piece of the backing's top, which goes from left to right, and the other one.
+Plane under_backing(const Vec3& from, const Vec3& to);
+Plane opposite(const Plane& plane);
+
 /// A box of the fill; what lies within a vault's extrados does not belong to it.
 struct FillRegion {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // m
-  std::ptrdiff_t support = -1;  // the abutment between whose wing walls it lies; -1: above the springing
-  int course = 0;               // number of its lowest course in the bond
+  std::ptrdiff_t support = -1;   // the abutment between whose wing walls it lies; -1: above the springing
+  int course = 0;                // number of its lowest course in the bond
+  std::vector<Plane> past = {};  // beside the bridge's limits: of the backing below it
 };
 /// The boxes of the fill, which do not overlap: between the wing walls, then those above the springing from below. The
-/// rigid fill is laid in them and the deformable one is meshed in them.
+/// rigid fill is laid in them and the deformable one is meshed in them. Over a backing that is not level they overlap
+/// it, and `past` says where the fill ends.
 std::vector<FillRegion> fill_regions(const Bridge& bridge);
+/// What is not fill in the boxes above the springing beside the vaults, as polygons: the backing, what is above the
+/// deck.
+std::vector<Polygon> beside_fill(const Bridge& bridge);
 double fill_space(const Bridge& bridge);  // m3, of the boxes less what lies within the vaults
 /// From where to where the wing walls of an abutment go, m; of equal ends when it has none.
 std::pair<double, double> wing_extent(const Bridge& bridge, std::size_t support);
 
 /// "abutment left", "pier 0", …, "abutment right".
 std::string support_name(const Bridge& bridge, std::size_t support);
+
+/// Over how many rings a stone of a course reaches that begins in `ring`; 0: the ring below has it as a header. With
+/// more than two rings the pairs that headers bind alternate.
+std::size_t rings_of_stone(const Vault& vault, std::size_t ring, std::int64_t course);
+/// Puts the stones from number `from` on into the groups of their rings.
+void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::size_t rings, std::size_t from);
+
+/// The barrel of one vault in helicoidal or logarithmic bond. Throws InputError for an intrados that is upright or
+/// overhangs.
+void lay_oblique(Layout& layout, const Bridge& bridge, std::size_t vault);
+/// From where things are laid out to where they are: x to x / cos + y tan, so that what was square to the supports is.
+void turn_to_skew(Layout& layout, double skew);
+Vec3 at_skew(const Vec3& p, double skew);
 
 void lay_vaults(Layout& layout, const Bridge& bridge);  // sets the layout's rings; groups "keystone i"
 void lay_piers(Layout& layout, const Bridge& bridge);
@@ -98,6 +162,8 @@ void lay_skewbacks(Layout& layout, const Bridge& bridge);  // supports from the 
 void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y- pier 0" …
 void lay_backing(Layout& layout, const Bridge& bridge);
 void lay_backfill(Layout& layout, const Bridge& bridge);
+/// One box of the rigid fill.
+void lay_region(Layout& layout, const Bridge& bridge, const FillRegion& region);
 void lay_parapets(Layout& layout, const Bridge& bridge);
 void lay_bases(Layout& layout, const Bridge& bridge);       // groups "base pier 0" …
 void lay_restraints(Layout& layout, const Bridge& bridge);  // groups "restraint left" and "restraint right"
@@ -111,8 +177,13 @@ struct Solid {
 void lay_solid(Layout& layout, const Solid& solid, const Unit& unit);
 
 /// A support of box shape: an outer leaf of pieces in courses whose thickness alternates, corners bonded by turns, and
-/// infill within in courses of half the height.
+/// infill within in courses of half the height. A hollow one has no infill, and slabs from face to face as its top
+/// course.
 void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, Component component,
                          int part, int support);
+void lay_cutwaters(Layout& layout, const Bridge& bridge, std::size_t support);
+/// Wings and counterforts of an abutment, and what its base has below them.
+void lay_wing_walls(Layout& layout, const Bridge& bridge, std::size_t support);
+std::vector<Polyhedron> base_of_wings(const Bridge& bridge, std::size_t support);
 
 }  // namespace voussoir

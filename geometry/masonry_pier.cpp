@@ -35,9 +35,16 @@ void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, 
                          int part, int support) {
   const Unit leaf = {component, part, bridge.masonry, bridge.leaf_piece};
   const std::vector<double> z = split(low.z(), high.z(), bridge.leaf_piece.z());
+  const bool hollow = bridge.supports[std::size_t(support)].makeup == Makeup::hollow;
   for (std::size_t k = 0; k + 1 < z.size(); ++k) {
+    if (hollow && k + 2 == z.size()) {
+      const Vec3 slab(high.x() - low.x(), bridge.leaf_piece.x(), z[k + 1] - z[k]);
+      lay_courses(layout, {low.x(), low.y(), z[k]}, high, {component, part, bridge.masonry, slab});
+      break;
+    }
     const double t = bridge.leaf_thickness[k % 2];
     lay_leaf_course(layout, {low.x(), low.y(), z[k]}, {high.x(), high.y(), z[k + 1]}, t, k % 2 == 0, leaf);
+    if (hollow) continue;
     const Unit infill = {Component::infill,
                          support,
                          bridge.infill_material,
@@ -76,14 +83,15 @@ void lay_solid(Layout& layout, const Solid& solid, const Unit& unit) {
 void lay_piers(Layout& layout, const Bridge& bridge) {
   for (std::size_t i = 1; i < bridge.last_support(); ++i) {
     const Support& support = bridge.supports[i];
-    const double z0 = support.base, z1 = support.springing, half = bridge.half_width();
-    if (support.leaf) {
+    const double z0 = support.base, z1 = support.springing, half = bridge.half_width(i);
+    if (support.makeup != Makeup::solid) {
       lay_leaf_and_infill(layout, bridge, {support.x0, -half, z0}, {support.x1, half, z1}, Component::pier, int(i) - 1,
                           int(i));
     } else {
       const Solid solid = {support.x0, support.x1, half, z0, z1, support.slope_x, support.slope_x, support.slope_y};
       lay_solid(layout, solid, bridge.unit(Component::pier, int(i) - 1));
     }
+    lay_cutwaters(layout, bridge, i);
   }
 }
 

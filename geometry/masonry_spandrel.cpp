@@ -20,18 +20,27 @@ double middle_of(const Stone& stone) {
   return 0.5 * (box.low.x() + box.high.x());
 }
 
-/// The stones of the top course nearest above each support's middle.
+bool reaches_deck(const Bridge& bridge, const Stone& stone) {
+  for (const Polyhedron& cell : stone.cells)
+    for (const Vec3& p : cell.vertices)
+      if (p.z() > bridge.deck_at(p.x()) - 1e-6) return true;
+  return false;
+}
+
+/// The stones under the deck nearest above each support's middle.
 void name_tops(Layout& layout, const Bridge& bridge, std::size_t first, const std::string& side) {
   for (std::size_t support = 0; support < bridge.supports.size(); ++support) {
     const double middle = 0.5 * (bridge.supports[support].x0 + bridge.supports[support].x1);
     double nearest = 1e300;
     for (std::size_t i = first; i < layout.stones.size(); ++i) {
+      if (!reaches_deck(bridge, layout.stones[i])) continue;
       nearest = std::min(nearest, std::abs(middle_of(layout.stones[i]) - middle));
     }
     auto& group = layout.groups[fmt::format("spandrel {} {}", side, support_name(bridge, support))];
     for (std::size_t i = first; i < layout.stones.size(); ++i) {
       // Stones that share a column across a thick wall go together; of two at equal distance both count.
-      if (std::abs(middle_of(layout.stones[i]) - middle) < nearest + 1e-6) group.push_back(std::int64_t(i));
+      if (reaches_deck(bridge, layout.stones[i]) && std::abs(middle_of(layout.stones[i]) - middle) < nearest + 1e-6)
+        group.push_back(std::int64_t(i));
     }
   }
 }
@@ -41,17 +50,16 @@ void name_tops(Layout& layout, const Bridge& bridge, std::size_t first, const st
 void lay_spandrels(Layout& layout, const Bridge& bridge) {
   const std::vector<Band> courses = spandrel_courses(bridge);
   for (const int side : {0, 1}) {
-    std::size_t top = 0;
+    const std::size_t first = layout.stones.size();
     for (std::size_t k = 0; k < courses.size(); ++k) {
       const Band& course = courses[k];
       const double outer = bridge.half_width(), inner = outer - course.thickness;
       Unit unit = bridge.unit(Component::spandrel, side);
       unit.size.z() = course.z1 - course.z0;
-      top = layout.stones.size();
       lay_courses(layout, {0.0, side == 0 ? -outer : inner, course.z0},
                   {bridge.length(), side == 0 ? -inner : outer, course.z1}, unit, int(k));
     }
-    name_tops(layout, bridge, top, side == 0 ? "y-" : "y+");
+    name_tops(layout, bridge, first, side == 0 ? "y-" : "y+");
   }
 }
 

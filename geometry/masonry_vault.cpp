@@ -2,20 +2,63 @@
 #include <fmt/format.h>
 
 #include "geometry/masonry_parts.h"
+#include "geometry/rings.h"
 
 namespace voussoir {
 
+std::size_t rings_of_stone(const Vault& vault, std::size_t ring, std::int64_t course) {
+  const auto every = std::int64_t(vault.headers_every);
+  if (every == 0 || ((course % every) + every) % every != 0) return 1;
+  const bool second = vault.rings.size() > 2 && (course / every) % 2 != 0;
+  const std::size_t start = second ? 1 : 0;
+  if (ring < start) return 1;
+  if ((ring - start) % 2 == 1) return 0;
+  return ring + 1 < vault.rings.size() ? 2 : 1;
+}
+
+void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::size_t rings, std::size_t from) {
+  for (std::size_t ring = first_ring; ring < first_ring + rings; ++ring) {
+    auto& group = layout.groups[ring_group(vault, ring)];
+    for (std::size_t s = from; s < layout.stones.size(); ++s) group.push_back(std::int64_t(s));
+  }
+}
+
+namespace {
+
+/// With an even number of wedges the crown is a joint, and the keystone the wedges on both its sides.
+bool at_crown(int wedge, int wedges) {
+  return wedge == (wedges - 1) / 2 || wedge == wedges / 2;
+}
+
+void lay_straight(Layout& layout, const Bridge& bridge, std::size_t i) {
+  const Vault& vault = bridge.vaults[i];
+  auto& keystone = layout.groups[fmt::format("keystone {}", i)];
+  const Unit unit = {Component::arch, int(i), bridge.vault, vault.voussoir};
+  for (std::size_t k = 0; k < vault.rings.size(); ++k) {
+    for (int wedge = 0; wedge < vault.rings[k].wedges(); ++wedge) {
+      const std::size_t rings = rings_of_stone(vault, k, wedge);
+      const std::size_t first = layout.stones.size();
+      std::vector<Polygon> polygons;
+      for (std::size_t r = k; r < k + rings; ++r) polygons.push_back(vault.rings[r].wedge(wedge));
+      const bool half = (std::size_t(wedge) + k) % 2 == 1;
+      if (rings > 0)
+        lay_across(layout, polygons, split(-bridge.half_width(), bridge.half_width(), unit.size.y(), half), unit,
+                   {unit.size.x(), unit.size.y(), double(rings) * unit.size.z()});
+      if (at_crown(wedge, vault.rings[k].wedges()))
+        for (std::size_t s = first; s < layout.stones.size(); ++s) keystone.push_back(std::int64_t(s));
+      if (vault.rings.size() > 1) name_rings(layout, i, k, rings, first);
+    }
+  }
+}
+
+}  // namespace
+
 void lay_vaults(Layout& layout, const Bridge& bridge) {
   for (std::size_t i = 0; i < bridge.vaults.size(); ++i) {
-    const Vault& vault = bridge.vaults[i];
-    auto& keystone = layout.groups[fmt::format("keystone {}", i)];
-    for (std::size_t k = 0; k < vault.rings.size(); ++k) {
-      const Ring& ring = vault.rings[k];
-      const Unit unit = {Component::arch, int(i), bridge.vault, vault.voussoir};
-      const auto first = lay_ring(layout, ring, -bridge.half_width(), bridge.half_width(), unit, int(k));
-      // With an even number of wedges the crown is a joint, and the keystone the wedges on both its sides.
-      const auto n = std::size_t(ring.wedges());
-      for (std::int64_t s = first[(n - 1) / 2]; s < first[n / 2 + 1]; ++s) keystone.push_back(s);
+    if (bridge.skew == 0.0 || bridge.skew_bond == SkewBond::parallel) {
+      lay_straight(layout, bridge, i);
+    } else {
+      lay_oblique(layout, bridge, i);
     }
   }
   layout.limits.rings = bridge.limits().rings;

@@ -113,9 +113,9 @@ bool clear_of(const Polygon& polygon, const Box& taken) {
          box.high.z() <= taken.low.z();
 }
 
-bool clear_of(const Polygon& polygon, const Plane& top) {
+bool clear_of(const Polygon& polygon, const Plane& side) {
   return std::all_of(polygon.begin(), polygon.end(),
-                     [&](const Vec3& p) { return top.normal.dot(p) <= top.offset + no_masonry; });
+                     [&](const Vec3& p) { return side.normal.dot(p) <= side.offset + no_masonry; });
 }
 
 /// Left of a support, right of it, above it.
@@ -129,8 +129,8 @@ std::vector<Polygon> outside(const Polygon& polygon, const Box& taken) {
   return pieces;
 }
 
-std::vector<Polygon> outside(const Polygon& polygon, const Plane& top) {
-  Polygon piece = cut(polygon, top, 1e-9);
+std::vector<Polygon> outside(const Polygon& polygon, const Plane& side) {
+  Polygon piece = cut(polygon, side, 1e-9);
   return is_nothing(piece) ? std::vector<Polygon>{} : std::vector<Polygon>{std::move(piece)};
 }
 
@@ -193,7 +193,7 @@ std::vector<Polygon> within(const Polygon& polygon, const SectionLimits& limits)
   std::vector<Polygon> pieces = {polygon};
   cut_all(pieces, polygon, limits.rings);
   cut_all(pieces, polygon, limits.taken);
-  cut_all(pieces, polygon, limits.top);
+  cut_all(pieces, polygon, limits.past);
   return pieces;
 }
 
@@ -201,7 +201,7 @@ bool reach(const SectionLimits& limits, const Polygon& polygon) {
   const auto into = [&](const auto& limit) { return !clear_of(polygon, limit); };
   return std::any_of(limits.rings.begin(), limits.rings.end(), into) ||
          std::any_of(limits.taken.begin(), limits.taken.end(), into) ||
-         std::any_of(limits.top.begin(), limits.top.end(), into);
+         std::any_of(limits.past.begin(), limits.past.end(), into);
 }
 
 }  // namespace voussoir

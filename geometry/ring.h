@@ -14,6 +14,10 @@ struct Ring {
   /// the one through its ends.
   std::optional<Vec3> centre = {};
   int wedges() const { return int(intrados.size()) - 1; }
+  Polygon wedge(int i) const {  // counter-clockwise seen from -y
+    const auto k = std::size_t(i);
+    return {intrados[k], intrados[k + 1], extrados[k + 1], extrados[k]};
+  }
 };
 
 /// A semicircular ring of `wedges` equal wedges. The feet lie exactly at the springing level and the two halves mirror
@@ -36,7 +40,7 @@ std::vector<Polygon> outside(const Polygon& polygon, const Ring& ring);
 struct SectionLimits {
   std::vector<Ring> rings;  // nothing is laid in them or in the openings below them
   std::vector<Box> taken;   // supports, upright boxes: nothing is laid in them, and no polygon reaches below them
-  std::vector<Plane> top;   // the deck: nothing is laid above them
+  std::vector<Plane> past;  // such as a sloping deck: nothing is laid past them
 };
 /// The parts of a convex polygon that are left, as convex polygons.
 std::vector<Polygon> within(const Polygon& polygon, const SectionLimits& limits);

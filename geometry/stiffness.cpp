@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/fill_mesh.h"
+#include "geometry/rings.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -119,6 +120,7 @@ using Overrides = std::map<std::pair<std::int32_t, std::int32_t>, GeneratorInput
 Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) {
   Overrides overrides;
   for (const auto& [key, value] : input.joints) {
+    if (key == ring_pair) continue;
     std::pair<std::int32_t, std::int32_t> pair = {-1, -1};
     const auto n = std::int32_t(assembly.materials.size());
     std::string names;
@@ -133,7 +135,7 @@ Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) 
     if (pair.first < 0) {
       throw InputError(
           "[joints] has \"{}\", which is not a pair of this bridge's materials; write two of ({}) with a "
-          "hyphen between them, such as \"{}-{}\"",
+          "hyphen between them, such as \"{}-{}\", or \"ring-ring\" for the joints between the rings of a vault",
           key, names, assembly.materials.front().name, assembly.materials.back().name);
     }
     overrides[pair] = value;
@@ -141,13 +143,26 @@ Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) 
   return overrides;
 }
 
-/// What the case sets for a pair of materials takes the place of what the rules give.
+/// What the case sets takes the place of what the rules give.
+void apply(const GeneratorInput::JointOverride& override, Stiffness& k, JointLaw& law) {
+  if (override.kn >= 0.0) k.kn = override.kn;
+  if (override.ks >= 0.0) k.ks = override.ks;
+  if (override.has_law) law = override.law;
+}
+
 void apply(const Overrides& overrides, std::int32_t a, std::int32_t b, Stiffness& k, JointLaw& law) {
   const auto found = overrides.find(std::minmax(a, b));
-  if (found == overrides.end()) return;
-  if (found->second.kn >= 0.0) k.kn = found->second.kn;
-  if (found->second.ks >= 0.0) k.ks = found->second.ks;
-  if (found->second.has_law) law = found->second.law;
+  if (found != overrides.end()) apply(found->second, k, law);
+}
+
+const GeneratorInput::JointOverride* override_between_rings(const GeneratorInput& input, const RingJoints& rings) {
+  const auto found = input.joints.find(ring_pair);
+  if (found == input.joints.end()) return nullptr;
+  if (rings.none())
+    throw InputError(
+        "[joints.ring-ring] is given, and no vault of this bridge has several rings: set rings = 2 or more in a "
+        "[[bridge.span]] of generator = \"bridge\", or leave it out");
+  return &found->second;
 }
 
 }  // namespace
@@ -170,12 +185,17 @@ JointLaw strength_of(const Material& material) {
 void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input) {
   const Assigner assigner(assembly, rules);
   const Overrides overrides = read_overrides(assembly, input);
+  const RingJoints rings(assembly);
+  const auto* of_rings = override_between_rings(input, rings);
   std::erase_if(assembly.joints, [&](const Joint& joint) { return assigner.both_fixed(joint); });
   for (Joint& joint : assembly.joints) {
     Stiffness k = assigner.stiffness(joint);
     JointLaw law = assigner.law(joint);
     const auto [a, b] = assigner.sides(joint);
+    const bool ring = rings(joint);
+    if (ring && !rules.rings_bonded) law.tension = law.cohesion = 0.0;
     apply(overrides, a.material, b.material, k, law);
+    if (ring && of_rings) apply(*of_rings, k, law);
     if (assigner.is_restraint(joint)) k = times(k, rules.restraint_share);
     joint.kn = k.kn;
     joint.ks = k.ks;

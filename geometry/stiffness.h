@@ -27,14 +27,15 @@ struct JointRules {
   double interface_share = 0.20;         // masonry-backfill: share of the masonry's value in the table
   double interface_friction = 0.0;       // rad
   double restraint_share = 0.50;         // joints with restraint blocks: share of the stiffness
+  bool rings_bonded = true;              // joints between the rings of a vault; otherwise friction only
   double smallest_half_length = 1e-3;    // m: nearer centroids count as this far from the joint
 };
 
 /// Sets kn, ks and law of every joint (blocks finished, joints found). In this order of precedence: the case's override
-/// for the pair of materials; the interface between masonry and backfill; the rules above. A fixed block takes the
-/// material of what it touches. Strength between unlike materials is the weaker of the two in each value; residual
-/// cohesion is 0 and residual friction the friction. Joints between two fixed blocks are removed.
-/// Throws InputError for an override that names an unknown material.
+/// for joints between rings ("ring-ring") or for the pair of materials; the interface between masonry and backfill; the
+/// rules above. A fixed block takes the material of what it touches. Strength between unlike materials is the weaker of
+/// the two in each value; residual cohesion is 0 and residual friction the friction. Joints between two fixed blocks
+/// are removed. Throws InputError for an override that names an unknown material.
 void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
 
 /// The same for the patches between stones and a deformable fill, with the rules of rigid backfill. A fixed block takes

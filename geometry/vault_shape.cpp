@@ -247,7 +247,10 @@ void check_convex(const Ring& ring, const std::string& key) {
   const Polygon& p = ring.extrados;
   for (std::size_t i = 0; i + 1 < p.size(); ++i) {
     const Vec3 step = p[i + 1] - p[i];
-    if (step.dot(ring.intrados[i + 1] - ring.intrados[i]) <= 0.0)
+    const Polygon w = ring.wedge(int(i));
+    const bool hollow = turns(w[0], w[1], w[2]) <= 0.0 || turns(w[1], w[2], w[3]) <= 0.0 ||
+                        turns(w[2], w[3], w[0]) <= 0.0 || turns(w[3], w[0], w[1]) <= 0.0;
+    if (hollow || step.dot(ring.intrados[i + 1] - ring.intrados[i]) <= 0.0)
       throw InputError(
           "{}: the joints {} and {} from the left cross within the ring: make it thinner, or the intrados rounder", key,
           i, i + 1);

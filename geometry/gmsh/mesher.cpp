@@ -62,7 +62,7 @@ double springing(const Ring& ring) {
 bool reaches(const Ring& ring, const Box& box) {
   double top = springing(ring);
   for (const Vec3& p : ring.extrados) top = std::max(top, p.z());
-  return box.low.z() > springing(ring) - 1e-9 && box.low.z() < top && box.high.x() > ring.extrados.front().x() &&
+  return box.high.z() > springing(ring) + 1e-9 && box.low.z() < top && box.high.x() > ring.extrados.front().x() &&
          box.low.x() < ring.extrados.back().x();
 }
 
@@ -86,12 +86,19 @@ std::pair<int, int> add_vault(const Ring& ring) {
   return add_face(outline);
 }
 
-DimTags add_box(const Box& box, const std::vector<Ring>& rings) {
+bool reaches(const Polygon& polygon, const Box& box) {
+  const Box own = bounding_box(polygon);
+  return own.low.x() < box.high.x() && own.high.x() > box.low.x() && own.low.z() < box.high.z() &&
+         own.high.z() > box.low.z();
+}
+
+DimTags add_box(const Box& box, const FillSpace& space) {
   const double x0 = box.low.x(), x1 = box.high.x(), z0 = box.low.z(), z1 = box.high.z();
   DimTags face = {add_face({{x0, 0.0, z0}, {x1, 0.0, z0}, {x1, 0.0, z1}, {x0, 0.0, z1}})}, vaults;
-  for (const Ring& ring : rings) {
+  for (const Ring& ring : space.rings)
     if (reaches(ring, box)) vaults.push_back(add_vault(ring));
-  }
+  for (const Polygon& polygon : space.beside)
+    if (reaches(polygon, box)) vaults.push_back(add_face(polygon));
   if (vaults.empty()) return face;
   DimTags rest;
   std::vector<DimTags> origins;
@@ -126,7 +133,7 @@ std::vector<Part> add_section(const FillSpace& space) {
     };
     auto part = std::find_if(parts.begin(), parts.end(), alike);
     if (part == parts.end()) part = parts.insert(parts.end(), {box.low.y(), box.high.y(), {}});
-    for (const auto& face : add_box(box, space.rings)) part->faces.push_back(face);
+    for (const auto& face : add_box(box, space)) part->faces.push_back(face);
   }
   for (Part& part : parts) part.faces = fused(part.faces);
   DimTags all;

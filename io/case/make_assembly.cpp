@@ -3,6 +3,7 @@
 #include "geometry/fill_mesh.h"
 #include "geometry/joints.h"
 #include "geometry/nearest_block.h"
+#include "geometry/rings.h"
 #include "geometry/stiffness.h"
 #include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
@@ -18,14 +19,23 @@ constexpr double reach = 0.05;  // m: how far off a block's surface a sensor may
 /// fixed stone takes the material of the fill that touches it.
 void override_joints(Assembly& assembly, const std::string& pair, const GeneratorInput::JointOverride& joint) {
   std::int64_t changed = 0;
-  const auto change = [&](auto& j, std::int32_t a, std::int32_t b) {
-    const std::string& p = assembly.materials[std::size_t(a)].name;
-    const std::string& q = assembly.materials[std::size_t(b)].name;
-    if (pair != p + "-" + q && pair != q + "-" + p) return;
+  const auto set = [&](auto& j) {
     ++changed;
     if (joint.kn > 0.0) j.kn = joint.kn;
     if (joint.ks > 0.0) j.ks = joint.ks;
     if (joint.has_law) j.law = law_index(assembly.laws, joint.law);
+  };
+  if (pair == ring_pair) {
+    const RingJoints between(assembly);
+    for (Joint& j : assembly.joints)
+      if (between(j)) set(j);
+    if (changed == 0) throw InputError("[joints.{}]: no vault of the assembly has several rings: leave it out", pair);
+    return;
+  }
+  const auto change = [&](auto& j, std::int32_t a, std::int32_t b) {
+    const std::string& p = assembly.materials[std::size_t(a)].name;
+    const std::string& q = assembly.materials[std::size_t(b)].name;
+    if (pair == p + "-" + q || pair == q + "-" + p) set(j);
   };
   const auto block = [&](std::int64_t i) -> const Block& { return assembly.blocks[std::size_t(i)]; };
   for (Joint& j : assembly.joints) change(j, block(j.a).material, block(j.b).material);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "geometry/rings.h"
 #include "io/case/case.h"
 #include "io/case/checks.h"
 #include "io/case/degrees.h"
@@ -114,9 +115,13 @@ void read_material(TableReader& table, Material& m) {
 
 namespace {
 
+/// Of which the rings of a vault are, where a generator makes several.
+constexpr const char* vault_material = "vault";
+
 /// Splits "masonry-infill" at the hyphen that leaves two known materials (names may hold hyphens themselves).
 std::array<std::string, 2> split_pair(const TableReader& joints, const std::string& key,
                                       const std::vector<std::string>& known) {
+  if (key == ring_pair) return {vault_material, vault_material};
   std::array<std::string, 2> any;
   for (std::size_t at = key.find('-'); at != std::string::npos; at = key.find('-', at + 1)) {
     const std::array<std::string, 2> pair = {key.substr(0, at), key.substr(at + 1)};
@@ -175,7 +180,7 @@ void read_joint(TableReader& table, const std::array<std::string, 2>& pair, Case
   table.finish();
   if (!joint.has_law) return;
   const auto& materials = c.generator_input.materials;
-  const bool known = !c.generator.empty();
+  const bool known = materials.contains(pair[0]) && materials.contains(pair[1]);
   joint.law = read_law(table, known ? &materials.at(pair[0]) : nullptr, known ? &materials.at(pair[1]) : nullptr);
 }
 

@@ -79,6 +79,7 @@ Effect stiffer_masonry();
 Effect fill_stiffness();
 Effect fill_interface();
 Effect spandrel_separation();
+Effect ring_separation();
 Effect tie_rods();
 Effect parapet_not_structural();
 Effect neighbouring_structure();

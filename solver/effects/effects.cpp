@@ -22,6 +22,7 @@ const std::vector<Effect>& effects() {
       fill_stiffness(),          //
       fill_interface(),          //
       spandrel_separation(),     //
+      ring_separation(),         //
       tie_rods(),                //
       parapet_not_structural(),  //
       neighbouring_structure(),  //

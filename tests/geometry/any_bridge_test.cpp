@@ -1,11 +1,15 @@
 // The generator "bridge": random bridges against volumes in closed form, and what cannot be built.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <random>
 
 #include "geometry/generator.h"
 #include "geometry/joints.h"
+#include "geometry/rings.h"
 #include "geometry/vault_shape.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "tests/folder.h"
 
@@ -31,6 +35,35 @@ GeneratorInput with_entries(std::size_t spans, std::size_t piers) {
   for (const Parameter& p : keys.parameters) in.values.try_emplace(p.name, p.value);
   for (const Choice& c : keys.choices) in.choices.try_emplace(c.name, c.words.front());
   return in;
+}
+
+/// Skew, gradient, headers, cutwaters, wings and walls.
+void draw_details(GeneratorInput& in, Draw& draw, int spans) {
+  auto& v = in.values;
+  if (draw.whole(0, 1)) {
+    v["skew"] = draw.between(-45.0, 45.0);
+    in.choices["skew_bond"] = std::array{"parallel", "helicoidal", "logarithmic"}[std::size_t(draw.whole(0, 2))];
+  }
+  if (!draw.whole(0, 2)) v["gradient"] = draw.between(-4.0, 4.0);
+  if (!draw.whole(0, 2)) v["string_course_height"] = 0.3, v["string_course_projection"] = draw.between(0.0, 0.2);
+  if (!draw.whole(0, 3)) v["transverse_walls"] = draw.between(0.4, 0.8);
+  in.choices["ring_bond"] = draw.whole(0, 1) ? "mortar" : "none";
+  for (int i = 0; i < spans; ++i) v["span." + std::to_string(i + 1) + ".headers_every"] = draw.whole(0, 5);
+  for (std::size_t i = 0; i < in.entries["pier"]; ++i) {
+    const std::string key = "pier." + std::to_string(i + 1) + ".";
+    if (!draw.whole(0, 2)) v[key + "width"] = v["width"] + draw.between(0.0, 1.0);
+    if (draw.whole(0, 1)) continue;
+    v[key + "batter_y"] = 0.0;
+    in.choices[key + "cutwater"] = draw.whole(0, 1) ? "triangular" : "round";
+    v[key + "cutwater_length"] = draw.between(0.3, 2.0), v[key + "cutwater_height"] = draw.between(0.5, 2.0);
+  }
+  if (in.choices["abutments"] == "restrained") return;
+  for (const std::string key : {"abutment.left.", "abutment.right."}) {
+    if (!draw.whole(0, 2))
+      v[key + "wing_length"] = draw.between(1.0, 5.0), v[key + "wing_splay"] = draw.between(0.0, 60.0);
+    if (!draw.whole(0, 2)) v[key + "counterforts"] = draw.whole(1, 2);
+    v[key + "wing_height"] = draw.between(0.5, 2.0), v[key + "counterfort_height"] = draw.between(0.5, 1.0);
+  }
 }
 
 GeneratorInput random_bridge(int seed) {
@@ -82,6 +115,7 @@ GeneratorInput random_bridge(int seed) {
     v[key + "length"] = draw.between(1.5, 6.0), v[key + "height"] = draw.between(1.0, 8.0);
     v[key + "batter_y"] = draw.whole(0, 1) * draw.between(0.0, 0.05);
   }
+  draw_details(in, draw, spans);
   return in;
 }
 
@@ -101,10 +135,11 @@ double expected_volume(const GeneratorInput& in) {
   };
   const double width = in("width");
   struct Foot {
-    double x0, x1, height, level, slope_x, slope_y;
+    double x0, x1, height, level, slope_x, slope_y, width;
   };
   std::vector<Foot> feet(spans + 1);
-  double x = in("abutment.left.length"), openings = 0.0, floor = 1e300, crown = 0.0, level = 0.0;
+  const double gradient = 0.01 * in("gradient") / std::cos(radians(in("skew")));
+  double x = in("abutment.left.length"), openings = 0.0, floor = 1e300, crown = -1e300, level = 0.0;
   std::vector<VaultShape> shapes;
   for (std::size_t i = 0; i < spans; ++i) {
     const std::string key = "span." + std::to_string(i + 1) + ".";
@@ -131,7 +166,7 @@ double expected_volume(const GeneratorInput& in) {
   for (std::size_t i = 0; i < spans; ++i) {
     const std::vector<Ring> rings = vault_rings(shapes[i], "");
     openings += area_under(rings.front().intrados, floor);
-    for (const Vec3& p : rings.back().extrados) crown = std::max(crown, p.z());
+    for (const Vec3& p : rings.back().extrados) crown = std::max(crown, p.z() - gradient * p.x());
   }
   for (std::size_t i = 0; i <= spans; ++i) {
     Foot& f = feet[i];
@@ -142,17 +177,34 @@ double expected_volume(const GeneratorInput& in) {
     f.height = in(key + "height");
     f.slope_x = i == 0 || i == spans ? 0.0 : in(key + "batter_x"), f.slope_y = in(key + "batter_y");
     level = std::max(level, f.height);
+    f.width = in(key + "width") > 0.0 ? in(key + "width") : width;
   }
-  const double deck = crown + in("fill_over_crown"), length = feet.back().x1;
+  const double length = feet.back().x1;
+  const double deck = crown + in("fill_over_crown") + 0.5 * gradient * length;  // in the mean
   double volume =
       width * (length * (deck - floor) - openings) + 2.0 * in("parapet_height") * in("parapet_thickness") * length;
   for (const Foot& f : feet) {
     const double h = f.level + f.height, a = f.x1 - f.x0;  // springings are given above the level the heights reach to
     const double sx = 2.0 * f.slope_x, sy = 2.0 * f.slope_y;
-    volume += a * width * h + 0.5 * (a * sy + width * sx) * h * h + sx * sy * h * h * h / 3.0;
+    volume += a * f.width * h + 0.5 * (a * sy + f.width * sx) * h * h + sx * sy * h * h * h / 3.0;
     volume -= a * width * (f.level - floor);
   }
-  return volume;
+  if (in("string_course_height") > 0.0)
+    volume += 2.0 * in("string_course_height") * (in("parapet_thickness") + in("string_course_projection")) * length;
+  for (std::size_t i = 1; i < spans; ++i) {  // half an ellipse in eight facets, or a triangle
+    const std::string key = pier(i - 1), &shape = in.choices.at(key + "cutwater");
+    const double area = 0.5 * (feet[i].x1 - feet[i].x0) * in(key + "cutwater_length") *
+                        (shape == "none"    ? 0.0
+                         : shape == "round" ? 8.0 * std::sin(pi / 8.0)
+                                            : 2.0);
+    volume += area * in(key + "cutwater_height");
+  }
+  for (const std::string key : {"abutment.left.", "abutment.right."}) {
+    volume += 2.0 * in(key + "wing_length") * in(key + "wing_thickness") * in(key + "wing_height");
+    volume += in(key + "counterforts") * in(key + "counterfort_length") * in(key + "counterfort_thickness") *
+              in(key + "counterfort_height");
+  }
+  return volume / std::cos(radians(in("skew")));
 }
 
 double moving_volume(const Assembly& assembly) {
@@ -197,7 +249,7 @@ TEST(BridgeGenerator, TheWholeKeySpaceIsBuiltOrRefusedByName) {
     GeneratorInput in = with_entries(std::size_t(draw.whole(1, 3)), std::size_t(draw.whole(1, 2)));
     const Keys keys = keys_of(generator, in);
     for (const Parameter& p : keys.parameters) {
-      if (draw.whole(0, 7)) continue;  // seven of eight keep their default
+      if (draw.whole(0, 11)) continue;  // eleven of twelve keep their default
       double& value = in.values.at(p.name);
       value = draw.between(p.low, p.high);
       if (p.integer) value = std::floor(value);
@@ -233,6 +285,146 @@ TEST(BridgeGenerator, EachSpanHasItsOwnRingsAndKeystones) {
   EXPECT_NEAR(double(stones[0]), 3.0 * double(stones[1]), 0.1 * double(stones[0]));
   EXPECT_EQ(assembly.groups.at("keystone 0").size() % 3, 0u);
   EXPECT_EQ(assembly.groups.count("keystone 2"), 0u);
+}
+
+/// One segmental span on two solid abutments, filled, without parapets.
+GeneratorInput plain_skew(double skew, const char* bond, double rings) {
+  GeneratorInput in = with_entries(1, 1);
+  in.values["skew"] = skew, in.values["width"] = 5.0, in.values["parapet_height"] = 0.0;
+  in.values["block_scale"] = 1.5;
+  in.choices["skew_bond"] = bond, in.choices["span.1.shape"] = "segmental";
+  in.values["span.1.rise"] = 2.0, in.values["span.1.rings"] = rings;
+  return in;
+}
+
+/// By Cavalieri: whatever is cut along the barrel is as long as the width over cos α, and the faces are the elevation
+/// stretched by 1 / cos α.
+TEST(BridgeGenerator, SkewBridgesHaveTheSurfaceOfTheirElevation) {
+  for (const double skew : {-40.0, 10.0, 30.0}) {
+    for (const char* bond : {"parallel", "helicoidal", "logarithmic"}) {
+      const GeneratorInput in = plain_skew(skew, bond, 2.0);
+      const Assembly assembly = find_generator("bridge").build(in);
+      VaultShape shape;
+      shape.shape = "segmental", shape.rise = 2.0, shape.right.x() = 8.0;
+      shape.crown = shape.springing = {0.25, 0.25};
+      shape.voussoirs = 2 * int(std::ceil(0.5 * intrados_length(shape) / 0.6 - 1e-9));
+      const std::vector<Ring> rings = vault_rings(shape, "");
+      double crown = 0.0, along = 0.0;
+      for (const Vec3& p : rings.back().extrados) crown = std::max(crown, p.z());
+      const Polygon& intrados = rings.front().intrados;
+      for (std::size_t i = 0; i + 1 < intrados.size(); ++i) along += (intrados[i + 1] - intrados[i]).norm();
+      const double deck = 4.0 + crown + 0.5, under = 5.0;  // above the abutments' feet, and the bases with them
+      const double area = 16.0 * (deck + 1.0) - 8.0 * under - area_under(intrados, 0.0);
+      const double outline = 16.0 + 2.0 * (deck + 1.0) + 8.0 + 2.0 * under + along;
+      const double expected = (2.0 * area + 5.0 * outline) / std::cos(radians(skew));
+      EXPECT_NEAR(uncovered_surface(assembly), expected, 1e-6 * expected) << skew << " " << bond;
+    }
+  }
+}
+
+TEST(BridgeGenerator, BedsOfSkewVaultsMeetTheFacesSquareAtTheCrown) {
+  for (const char* bond : {"helicoidal", "logarithmic"}) {
+    const GeneratorInput in = plain_skew(30.0, bond, 1.0);
+    const Assembly assembly = find_generator("bridge").build(in);
+    double beds = 0.0, square = 0.0;
+    for (const Joint& joint : assembly.joints) {
+      const Block &a = assembly.blocks[std::size_t(joint.a)], &b = assembly.blocks[std::size_t(joint.b)];
+      if (a.component != Component::arch || b.component != Component::arch || std::abs(joint.normal.y()) > 0.99)
+        continue;
+      const double x =
+          polygon_centroid(joint.polygon).x() - polygon_centroid(joint.polygon).y() * std::tan(radians(30.0));
+      if (std::abs(x - 8.0 / std::cos(radians(30.0))) > 0.5) continue;  // the crown, at u = 8 m
+      beds += joint.area;
+      square += joint.area * std::abs(joint.normal.x());
+    }
+    ASSERT_GT(beds, 0.5) << bond;
+    EXPECT_GT(square / beds, 0.98) << bond;  // of parallel beds: cos 30°
+  }
+}
+
+TEST(BridgeGenerator, HeadersBindTheRings) {
+  GeneratorInput in = plain_skew(0.0, "parallel", 2.0);
+  const auto area_between_rings = [&](double every) {
+    in.values["span.1.headers_every"] = every;
+    const Assembly assembly = find_generator("bridge").build(in);
+    const RingJoints between(assembly);
+    double area = 0.0;
+    for (const Joint& joint : assembly.joints) area += between(joint) ? joint.area : 0.0;
+    return area;
+  };
+  const double none = area_between_rings(0.0), third = area_between_rings(3.0), all = area_between_rings(1.0);
+  EXPECT_NEAR(third / none, 2.0 / 3.0, 0.05);
+  EXPECT_EQ(all, 0.0);
+}
+
+TEST(BridgeGenerator, RingsWithoutBondHaveFrictionOnlyAndTheirOwnJoints) {
+  GeneratorInput in = plain_skew(20.0, "helicoidal", 3.0);
+  in.choices["ring_bond"] = "none";
+  Assembly assembly = find_generator("bridge").build(in);
+  EXPECT_EQ(RingJoints(assembly).vaults(), std::vector<std::int32_t>{0});
+  for (const Joint& joint : assembly.joints) {
+    if (!RingJoints(assembly)(joint)) continue;
+    EXPECT_EQ(assembly.laws[std::size_t(joint.law)].tension, 0.0);
+    break;
+  }
+  GeneratorInput::JointOverride own;
+  own.kn = 1.2345e9, own.ks = 4e8;
+  in.joints["ring-ring"] = own;
+  assembly = find_generator("bridge").build(in);
+  std::size_t ring = 0, other = 0;
+  const RingJoints between(assembly);
+  for (const Joint& joint : assembly.joints) {
+    ring += between(joint);
+    other += joint.kn == 1.2345e9;
+    EXPECT_EQ(joint.kn == 1.2345e9, between(joint));
+  }
+  EXPECT_GT(ring, 100u);
+  EXPECT_EQ(ring, other);
+  in.values["span.1.rings"] = 1.0;
+  EXPECT_NE(message_of<InputError>([&] { find_generator("bridge").build(in); }).find("no vault of this bridge"),
+            std::string::npos);
+}
+
+TEST(BridgeGenerator, ABackingHasTheVolumeUnderItsLine) {
+  GeneratorInput in = plain_skew(15.0, "parallel", 1.0);
+  Polygon& line = in.profiles["backing.profile"];
+  line = {{0.0, 0.0, 2.6}, {4.0, 0.0, 1.0}, {9.0, 0.0, 2.0}, {16.0, 0.0, 0.7}};
+  double low = 0.0, volume[2] = {0.0, 0.0};
+  for (const double raised : {0.0, 0.2}) {
+    for (Vec3& p : line) p.z() += raised;
+    const Assembly assembly = find_generator("bridge").build(in);
+    EXPECT_TRUE(find_overlaps(assembly, 1e-7).empty());
+    for (const Block& block : assembly.blocks) {
+      const double v = mass_properties(block.cells).volume;
+      volume[0] += block.component == Component::backing ? (raised > 0.0 ? v : -v) : 0.0;
+      volume[1] += block.component == Component::backfill ? (raised > 0.0 ? v : -v) : 0.0;
+    }
+    low = uncovered_surface(assembly);
+  }
+  EXPECT_NEAR(volume[0], -volume[1], 1e-9);  // what one wins the other loses
+  EXPECT_GT(volume[0], 0.2 * 8.0 * 3.8);
+  EXPECT_GT(low, 0.0);
+  line[1].z() = 0.1;
+  EXPECT_NE(message_of<InputError>([&] { find_generator("bridge").build(in); }).find("[bridge.backing] profile"),
+            std::string::npos);
+}
+
+TEST(BridgeGenerator, AHollowPierLacksWhatItsLeafEncloses) {
+  GeneratorInput in = with_entries(2, 1);
+  in.values["pier.1.thickness"] = 2.4, in.values["pier.1.height"] = 6.4;
+  const auto pier = [&](const char* makeup) {
+    in.choices["pier.1.makeup"] = makeup;
+    double volume = 0.0;
+    for (const Block& block : find_generator("bridge").build(in).blocks)
+      if (block.component == Component::pier) volume += mass_properties(block.cells).volume;
+    return volume;
+  };
+  double enclosed = 0.0;  // eight courses of 0.8 m, the topmost of slabs
+  for (int k = 0; k < 7; ++k) {
+    const double t = k % 2 == 0 ? 0.3 : 0.5;
+    enclosed += 0.8 * (2.4 - 2.0 * t) * (8.0 - 2.0 * t);
+  }
+  EXPECT_NEAR(pier("solid") - pier("hollow"), enclosed, 1e-9);
 }
 
 TEST(BridgeGenerator, WhatCannotBeNamesItsKeys) {

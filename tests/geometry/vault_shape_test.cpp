@@ -200,7 +200,7 @@ TEST(SectionLimits, LeaveWhatIsOutsideVaultsSupportsAndDeck) {
     limits.rings = {ring};
     limits.taken = {{{-2.0, 0.0, 0.0}, {0.8, 0.0, 3.4}}};
     const Vec3 up = Vec3(0.05, 0.0, 1.0).normalized();
-    limits.top = {{up, up.dot(Vec3(0.0, 0.0, 8.0))}};
+    limits.past = {{up, up.dot(Vec3(0.0, 0.0, 8.0))}};
     for (int box = 0; box < 40; ++box) {
       const double x0 = -2.0 + 12.0 * uniform(random), z0 = 9.0 * uniform(random), w = 0.2 + 3.0 * uniform(random),
                    h = 0.2 + 2.0 * uniform(random);
@@ -213,7 +213,7 @@ TEST(SectionLimits, LeaveWhatIsOutsideVaultsSupportsAndDeck) {
         for (int j = 0; j < n; ++j) {
           const Vec3 p(x0 + (i + 0.5) / n * w, 0.0, z0 + (j + 0.5) / n * h);
           const bool support = p.x() > -2.0 && p.x() < 0.8 && p.z() < 3.4;
-          free += !support && !taken(ring, p.x(), p.z()) && up.dot(p) < limits.top[0].offset;
+          free += !support && !taken(ring, p.x(), p.z()) && up.dot(p) < limits.past[0].offset;
         }
       EXPECT_NEAR(area, w * h * free / (n * n), 0.012 * w * h) << shape << " box " << box;
       if (!reach(limits, whole)) {

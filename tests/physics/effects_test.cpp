@@ -49,11 +49,30 @@ Assembly with(Assembly assembly, const std::string& name, const std::string& whe
   return assembly;
 }
 
+/// A vault of two rings.
+Assembly ringed_bridge(bool fill) {
+  const Generator& generator = find_generator("bridge");
+  GeneratorInput input = default_input(generator);
+  input.values.at("block_scale") = 3.0, input.values.at("fill_edge") = 2.0;
+  input.values.at("span.1.rings") = 2.0;
+  if (fill) input.choices.at("backfill") = "deformable";
+  Assembly assembly = generator.build(input);
+  assembly.generator = "bridge";
+  assembly.sensors = {{"A01", assembly.blocks[0].centroid, Vec3::UnitY(), 0}};
+  return assembly;
+}
+
+/// A bridge on which the effect can act.
+Assembly bridge_for(const Effect& effect, bool fill) {
+  Assembly plain = fill ? filled_bridge() : bridge();
+  return effect.places(plain).empty() ? ringed_bridge(fill) : plain;
+}
+
 class EachEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(EachEffect, ActsAtEachOfItsPlacesAndLeavesABridge) {
   const Effect& effect = find_effect(GetParam());
-  const Assembly plain = bridge();
+  const Assembly plain = bridge_for(effect, false);
   const std::vector<std::string> places = effect.places(plain);
   ASSERT_FALSE(places.empty());
   if (!effect.apply) GTEST_SKIP() << "nothing of it is in the assembly";
@@ -80,8 +99,8 @@ TEST_P(EachEffect, ActsAtEachOfItsPlacesAndLeavesABridge) {
 
 TEST_P(EachEffect, ActsOnABridgeWithAFill) {
   const Effect& effect = find_effect(GetParam());
-  static const Assembly plain = filled_bridge();
-  static const double before = frequencies(plain, 1)[0];
+  const Assembly plain = bridge_for(effect, true);
+  const double before = frequencies(plain, 1)[0];
   ASSERT_FALSE(effect.places(plain).empty());
   if (!effect.apply) GTEST_SKIP() << "nothing of it is in the assembly";
   const std::string where = effect.places(plain).back();
@@ -126,7 +145,7 @@ void expect_same(const Assembly& a, const Assembly& b) {
 TEST_P(EachEffect, IsTakenBackWithoutATrace) {
   const Effect& effect = find_effect(GetParam());
   if (!effect.apply) GTEST_SKIP() << "nothing of it is in the assembly";
-  static const Assembly plain = bridge(), filled = filled_bridge();
+  const Assembly plain = bridge_for(effect, false), filled = bridge_for(effect, true);
   for (const Assembly* of : {&plain, &filled})
     for (const std::string& where : effect.places(*of)) {
       SCOPED_TRACE(where);
@@ -186,7 +205,7 @@ TEST(Effects, OnAFillActOnItsModuliDensityAndPatches) {
 TEST_P(EachEffect, LeavesABridgeThatRuns) {
   const Effect& effect = find_effect(GetParam());
   if (!effect.apply) GTEST_SKIP() << "nothing of it is in the assembly";
-  const Assembly plain = bridge();
+  const Assembly plain = bridge_for(effect, false);
   Bench bench(with(plain, effect.name, effect.places(plain).back()), undamped({0, 0, -9.81}));
   bench.begin();
   ASSERT_TRUE(bench.run(100));
@@ -196,7 +215,7 @@ TEST_P(EachEffect, LeavesABridgeThatRuns) {
 TEST_P(EachEffect, DoesNothingAtItsNeutralValue) {
   const Effect& effect = find_effect(GetParam());
   if (!effect.apply) GTEST_SKIP() << "nothing of it is in the assembly";
-  const Assembly plain = bridge();
+  const Assembly plain = bridge_for(effect, false);
   std::map<std::string, double> neutral;
   for (const EffectParameter& p : effect.parameters) neutral[p.name] = p.neutral;
   const std::vector<double> before = frequencies(plain),

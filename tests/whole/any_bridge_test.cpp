@@ -32,6 +32,75 @@ TEST(AnyBridge, ComesToRestBuiltInStages) {
   }
 }
 
+/// What an engineer would say of an ordinary bridge.
+const char* details = R"(
+[bridge]
+generator = "bridge"
+skew = 18
+skew_bond = "helicoidal"
+gradient = -2
+width = 5.0
+block_scale = 2.0
+fill_edge = 1.0
+fill_over_crown = 0.4
+backfill = "deformable"
+string_course_height = 0.25
+transverse_walls = 0.6
+[bridge.backing]
+profile = [[0, 2.0], [3.0, 1.2], [7.5, 1.0], [12.8, 1.6], [16.6, 1.0], [23.6, 1.6]]
+[[bridge.span]]
+shape = "segmental"
+clear_span = 9.0
+rise = 2.2
+ring_thickness = 0.34
+rings = 3
+headers_every = 4
+[[bridge.span]]
+shape = "segmental"
+clear_span = 6.0
+rise = 1.6
+ring_thickness = 0.34
+rings = 3
+springing_right = 0.3
+[[bridge.pier]]
+thickness = 1.6
+height = 3.5
+batter_x = 0.03
+cutwater = "triangular"
+cutwater_height = 2.5
+[bridge.abutment.left]
+length = 3.0
+height = 2.5
+wing_length = 4
+wing_splay = 30
+wing_height = 4
+[bridge.abutment.right]
+counterforts = 2
+[joints.ring-ring]
+tensile_strength = 0
+cohesion = 0
+[[effect]]
+name = "ring_separation"
+where = "arch 0"
+[[stage]]
+kind = "gravity"
+construction = "staged"
+[output]
+gravity_modes = 0
+)";
+
+TEST(AnyBridge, WithAllItsDetailsComesToRest) {
+  Folder folder;
+  folder.write("case.toml", details);
+  const Outcome run = voussoir({"run", "case.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_LT(summary(folder / "run")["equilibrium"]["out_of_balance"].get<double>(), 1e-6);
+  const std::string without = std::string(details).replace(std::string(details).find("rings = 3"), 9, "rings = 1");
+  folder.write("case.toml", without);
+  expect_error(voussoir({"generate", "case.toml", "-o", "a.h5"}, {.folder = folder.path()}), 2,
+               {"ring_separation", "arch 0", "arch 1"});
+}
+
 TEST(AnyBridge, IsReachedByEffectsModesAndHiddenTruths) {
   Folder folder;
   folder.write("case.toml",

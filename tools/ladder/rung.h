@@ -56,6 +56,7 @@ Rung maxwell_ring();
 Rung softening_joint();
 Rung falling_blocks();
 Rung colliding_blocks();
+Rung skew_arch();
 Rung fill_waves();
 Rung fill_triaxial();
 Rung fill_oedometer();

@@ -18,6 +18,7 @@ const std::vector<Rung>& rungs() {
       softening_joint(),     //
       falling_blocks(),      //
       colliding_blocks(),    //
+      skew_arch(),           //
       fill_waves(),          //
       fill_triaxial(),       //
       fill_oedometer(),      //

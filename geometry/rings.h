@@ -1,0 +1,33 @@
+// Rings of vaults that have several, by the groups "arch 0 ring 1" of an assembly.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+
+namespace voussoir {
+
+/// What a case calls the joints between the rings of a vault: [joints.ring-ring].
+inline constexpr const char* ring_pair = "ring-ring";
+
+/// "arch 0 ring 1": the group of the stones of one ring (0: the lowest) of a vault; headers are in two.
+std::string ring_group(std::size_t vault, std::size_t ring);
+
+/// Joints between the rings of one vault.
+class RingJoints {
+ public:
+  explicit RingJoints(const Assembly& assembly);
+  bool none() const { return vaults_.empty(); }
+  /// Vaults that have several rings, ascending.
+  const std::vector<std::int32_t>& vaults() const { return vaults_; }
+  /// Whether a joint lies between stones of one vault that have no ring in common.
+  bool operator()(const Joint& joint) const;
+
+ private:
+  const Assembly* assembly_;
+  std::vector<std::int32_t> vaults_;
+  std::vector<std::uint32_t> rings_;  // bit k: the block belongs to ring k of its vault
+};
+
+}  // namespace voussoir
