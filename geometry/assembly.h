@@ -32,7 +32,7 @@ const std::vector<std::string>& component_names();  // in the order of the enume
 struct Block {
   std::vector<Polyhedron> cells;
   Component component = Component::block;
-  std::int32_t part = 0;      // arch 0…, pier 0…; walls: 0 for y−, 1 for y+
+  std::int32_t part = 0;      // arch 0…, pier 0…; walls: 0 for y−, 1 for y+, 2 between
   std::int32_t material = 0;  // index into Assembly::materials
   bool fixed = false;         // moves with the ground
   // Filled by finish_blocks():

@@ -120,6 +120,17 @@ KeyTable backing_keys() {
   return t;
 }
 
+KeyTable internal_keys() {
+  KeyTable t;
+  t.name = "internal", t.help = "walls along the bridge between the spandrel walls, on the vaults and the backing";
+  t.choices = {{"between", {"fill", "void"}, "walls to the deck with fill between, or to slabs with nothing below"}};
+  t.parameters = {{"walls", 0.0, 0.0, 12.0, "-", "how many, equally spaced; 0: none", true},
+                  {"thickness", 0.4, 0.1, 5.0, "m", ""},
+                  {"slab_thickness", 0.2, 0.05, 2.0, "m", "void: of the slabs from wall to wall"},
+                  {"fill_over_slabs", 0.3, 0.0, 10.0, "m", "void: from the slabs to the deck, where it is lowest"}};
+  return t;
+}
+
 KeyTable abutment_keys(const std::string& side) {
   KeyTable t;
   t.name = "abutment." + side, t.help = "the " + side + " abutment";
@@ -144,7 +155,7 @@ KeyTable abutment_keys(const std::string& side) {
 }  // namespace
 
 std::vector<KeyTable> any_bridge_tables() {
-  return {span_keys(), pier_keys(), abutment_keys("left"), abutment_keys("right"), backing_keys()};
+  return {span_keys(), pier_keys(), abutment_keys("left"), abutment_keys("right"), backing_keys(), internal_keys()};
 }
 
 }  // namespace voussoir

@@ -295,6 +295,33 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
   }
 }
 
+void read_internal_walls(Bridge& bridge, const GeneratorInput& in) {
+  InternalWalls& walls = bridge.internal;
+  walls.number = int(in("internal.walls")), walls.thickness = in("internal.thickness");
+  walls.hollow = in.choices.at("internal.between") == "void";
+  if (walls.number == 0) return;
+  const double room = 2.0 * (bridge.half_width() - std::max(bridge.spandrel_bottom, bridge.spandrel_top));
+  if (walls.number * walls.thickness > 0.8 * room)
+    throw InputError(
+        "[bridge.internal] {} walls of {:g} m leave too little of the {:g} m between the spandrel walls: "
+        "fewer or thinner ones",
+        walls.number, walls.thickness, room);
+  const double lowest = std::min(bridge.deck_at(0.0), bridge.deck_at(bridge.length()));
+  walls.slab_thickness = in("internal.slab_thickness");
+  walls.slab_top = lowest - in("internal.fill_over_slabs");
+  walls.bearing = std::min(0.1, 0.3 * std::min(bridge.spandrel_bottom, bridge.spandrel_top));
+  if (walls.hollow && walls.slab_bottom() < std::max(bridge.backing_top, bridge.springing) + 0.05)
+    throw InputError(
+        "[bridge.internal] slab_thickness = {:g} m and fill_over_slabs = {:g} m take the slabs {:g} m above the "
+        "springing, into the backing: make them less, or backing_height",
+        walls.slab_thickness, in("internal.fill_over_slabs"), walls.slab_bottom() - bridge.springing);
+  const bool covered = in("backing_over_abutment") <= 0.0;
+  if (!walls.hollow && !covered && bridge.deformable_backfill)
+    throw InputError(
+        "[bridge.internal] between = \"fill\" with backfill = \"deformable\" needs backing over the whole "
+        "abutments: set backing_over_abutment to 0");
+}
+
 }  // namespace
 
 Bridge read_any_bridge(const GeneratorInput& in) {
@@ -325,6 +352,7 @@ Bridge read_any_bridge(const GeneratorInput& in) {
   bridge.wing_wall_thickness = wing > 0.0 ? wing : in("spandrel_thickness_bottom");
   bridge.leaf_thickness[0] = in("leaf_thickness_even"), bridge.leaf_thickness[1] = in("leaf_thickness_odd");
   read_fill_and_blocks(bridge, in);
+  read_internal_walls(bridge, in);
   return bridge;
 }
 

@@ -12,42 +12,63 @@ std::pair<double, double> wing_extent(const Bridge& bridge, std::size_t i) {
   return i == 0 ? std::pair(x0, x1 - leaf) : std::pair(x0 + leaf, x1);
 }
 
+namespace {
+
+/// Whether a band lies in the voids under slabs.
+bool is_void(const Bridge& bridge, const Band& band) {
+  return bridge.internal.number > 0 && bridge.internal.hollow && band.z0 < bridge.internal.slab_top - 1e-9;
+}
+
+/// Over a backing that is not level.
+void add_over_line(std::vector<FillRegion>& regions, const Bridge& bridge, const Band& band, int course) {
+  int lane = 0;
+  for (const auto& [y0, y1] : lanes(bridge, bridge.half_width() - band.thickness)) {
+    for (const auto& [x0, x1] : between_transverse_walls(bridge))
+      along_backing(bridge, x0, x1, [&](double from, double to, const Plane& under) {
+        regions.push_back({{from, y0, band.z0}, {to, y1, band.z1}, -1, course, {opposite(under)}, lane});
+      });
+    ++lane;
+  }
+}
+
+/// Over a level backing, or, in the bands beside it, behind the abutments only.
+void add_over_level(std::vector<FillRegion>& regions, const Bridge& bridge, const Band& band, int course) {
+  const double inner = bridge.half_width() - band.thickness;
+  const auto add = [&](double x0, double x1, double y0, double y1, int lane) {
+    if (x1 - x0 > 1e-9) regions.push_back({{x0, y0, band.z0}, {x1, y1, band.z1}, -1, course, {}, lane});
+  };
+  if (band.z0 < bridge.backing_top) {
+    add(0.0, bridge.supports.front().x1 - bridge.backing_over_abutment[0], -inner, inner, 0);
+    add(bridge.supports.back().x0 + bridge.backing_over_abutment[1], bridge.length(), -inner, inner, 0);
+    return;
+  }
+  int lane = 0;
+  for (const auto& [y0, y1] : lanes(bridge, inner)) {
+    for (const auto& [x0, x1] : between_transverse_walls(bridge)) add(x0, x1, y0, y1, lane);
+    ++lane;
+  }
+}
+
+}  // namespace
+
 std::vector<FillRegion> fill_regions(const Bridge& bridge) {
   std::vector<FillRegion> regions;
-  const auto add = [&](double x0, double x1, double inner, double z0, double z1, std::ptrdiff_t support, int course) {
-    if (x1 - x0 > 1e-9) regions.push_back({{x0, -inner, z0}, {x1, inner, z1}, support, course});
-  };
   for (const std::size_t support : {std::size_t(0), bridge.last_support()}) {
     const auto [x0, x1] = wing_extent(bridge, support);
-    add(x0, x1, bridge.half_width() - bridge.wing_wall_thickness, bridge.supports[support].base,
-        bridge.supports[support].springing, std::ptrdiff_t(support), 0);
+    const double inner = bridge.half_width() - bridge.wing_wall_thickness;
+    const Support& at = bridge.supports[support];
+    if (x1 - x0 > 1e-9)
+      regions.push_back({{x0, -inner, at.base}, {x1, inner, at.springing}, std::ptrdiff_t(support), 0});
   }
-  const double top_of_backing = bridge.backing_top;
   int course = 0;
-  if (!bridge.backing_line.empty()) {
-    for (const Band& band : interior_bands(bridge)) {
-      const double inner = bridge.half_width() - band.thickness;
-      const Polygon& line = bridge.backing_line;
-      for (const auto& [x0, x1] : between_transverse_walls(bridge)) {
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-          const double from = std::max(x0, line[i].x()), to = std::min(x1, line[i + 1].x());
-          if (to - from <= 1e-9) continue;
-          add(from, to, inner, band.z0, band.z1, -1, course);
-          regions.back().past.push_back(opposite(under_backing(line[i], line[i + 1])));
-        }
-      }
-      course += int(split(band.z0, band.z1, bridge.fill.z()).size()) - 1;
-    }
-    return regions;
-  }
   for (const Band& band : interior_bands(bridge)) {
-    const double inner = bridge.half_width() - band.thickness;
-    if (band.z0 >= top_of_backing) {
-      for (const auto& [x0, x1] : between_transverse_walls(bridge)) add(x0, x1, inner, band.z0, band.z1, -1, course);
-    } else {  // beside the backing: behind the abutments only
-      add(0.0, bridge.supports.front().x1 - bridge.backing_over_abutment[0], inner, band.z0, band.z1, -1, course);
-      add(bridge.supports.back().x0 + bridge.backing_over_abutment[1], bridge.length(), inner, band.z0, band.z1, -1,
-          course);
+    const bool beside = bridge.backing_line.empty() && band.z0 < bridge.backing_top;
+    if (beside || !is_void(bridge, band)) {
+      if (bridge.backing_line.empty()) {
+        add_over_level(regions, bridge, band, course);
+      } else {
+        add_over_line(regions, bridge, band, course);
+      }
     }
     course += int(split(band.z0, band.z1, bridge.fill.z()).size()) - 1;
   }

@@ -39,18 +39,19 @@ void lay_up_to(Layout& layout, const Bridge& bridge, std::size_t support, double
   }
 }
 
+double height(const Plane& under, double x) {
+  return (under.offset - under.normal.x() * x) / under.normal.z();
+}
+
 /// Under one straight piece of the line after the other; head joints go through where they meet.
 void lay_under_line(Layout& layout, const Bridge& bridge, std::size_t support) {
   const SectionLimits usual = layout.limits;
   const auto [x0, x1] = extent(bridge, support);
-  const Polygon& line = bridge.backing_line;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double from = std::max(x0, line[i].x()), to = std::min(x1, line[i + 1].x());
-    if (to - from < no_masonry) continue;
-    layout.limits.past.push_back(under_backing(line[i], line[i + 1]));
-    lay_up_to(layout, bridge, support, from, to, std::max(line[i].z(), line[i + 1].z()));
+  along_backing(bridge, x0, x1, [&](double from, double to, const Plane& under) {
+    layout.limits.past.push_back(under);
+    lay_up_to(layout, bridge, support, from, to, std::max(height(under, from), height(under, to)));
     layout.limits = usual;
-  }
+  });
 }
 
 }  // namespace

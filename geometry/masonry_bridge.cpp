@@ -28,8 +28,13 @@ SectionLimits Bridge::limits() const {
 
 std::vector<Band> spandrel_courses(const Bridge& bridge) {
   std::vector<double> z = {bridge.springing};
-  for (const double to : {std::min(bridge.backing_top, bridge.deck), bridge.deck}) {
-    if (to <= z.back()) continue;
+  std::vector<double> ends = {std::min(bridge.backing_top, bridge.deck), bridge.deck};
+  const InternalWalls& internal = bridge.internal;
+  const bool slabs = internal.number > 0 && internal.hollow;
+  if (slabs) ends.push_back(internal.slab_bottom()), ends.push_back(internal.slab_top);
+  std::sort(ends.begin(), ends.end());
+  for (const double to : ends) {
+    if (to <= z.back() + 1e-9) continue;
     const std::vector<double> more = split(z.back(), to, bridge.block.z());
     z.insert(z.end(), more.begin() + 1, more.end());
   }
@@ -37,8 +42,10 @@ std::vector<Band> spandrel_courses(const Bridge& bridge) {
   const double last = std::max(1.0, double(z.size()) - 2.0);
   for (std::size_t k = 0; k + 1 < z.size(); ++k) {
     const double share = double(k) / last;
-    courses.push_back(
-        {z[k], z[k + 1], bridge.spandrel_bottom + share * (bridge.spandrel_top - bridge.spandrel_bottom)});
+    const bool notched = slabs && z[k] > internal.slab_bottom() - 1e-9 && z[k + 1] < internal.slab_top + 1e-9;
+    courses.push_back({z[k], z[k + 1],
+                       bridge.spandrel_bottom + share * (bridge.spandrel_top - bridge.spandrel_bottom) -
+                           (notched ? internal.bearing : 0.0)});
   }
   return courses;
 }

@@ -23,16 +23,33 @@ void check_feet(const Bridge& bridge) {
   }
 }
 
+/// Adds a mesh that touches none of the others.
+void append(FillMesh& all, const FillMesh& more) {
+  const auto first = std::int32_t(all.nodes.size());
+  all.nodes.insert(all.nodes.end(), more.nodes.begin(), more.nodes.end());
+  for (auto tet : more.tets) {
+    for (std::int32_t& node : tet) node += first;
+    all.tets.push_back(tet);
+  }
+  find_surface(all);
+}
+
 /// The deformable fill and its patches. Their rules are those of rigid blocks of the unscaled size: tetrahedra do not
 /// follow the blocks.
 void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const GeneratorInput& in) {
-  FillSpace space;
-  for (const FillRegion& region : fill_regions(bridge)) space.boxes.push_back({region.low, region.high});
-  space.rings = bridge.limits().rings;
-  space.beside = beside_fill(bridge);
-  FillMeshing meshing;
-  meshing.edge = bridge.fill_edge;
-  assembly.fill = mesh_fill(space, meshing);
+  const std::vector<FillRegion> regions = fill_regions(bridge);
+  int last = 0;
+  for (const FillRegion& region : regions) last = std::max(last, region.lane);
+  for (int lane = 0; lane <= last; ++lane) {
+    FillSpace space;
+    for (const FillRegion& region : regions)
+      if (region.lane == lane) space.boxes.push_back({region.low, region.high});
+    space.rings = bridge.limits().rings;
+    space.beside = beside_fill(bridge);
+    FillMeshing meshing;
+    meshing.edge = bridge.fill_edge;
+    append(assembly.fill, mesh_fill(space, meshing));
+  }
   if (bridge.skew != 0.0)
     for (Vec3& node : assembly.fill.nodes) node = at_skew(node, bridge.skew);
   assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
@@ -103,6 +120,7 @@ Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials
   lay_backing(layout, bridge);
   lay_spandrels(layout, bridge);
   lay_transverse_walls(layout, bridge);
+  lay_internal_walls(layout, bridge);
   lay_backfill(layout, bridge);
   lay_parapets(layout, bridge);
   lay_bases(layout, bridge);

@@ -2,6 +2,7 @@
 // masonry_PART.cpp). All share one description of the bridge and take their coordinates from it, so that neighbours
 // meet at equal coordinates.
 #pragma once
+#include <algorithm>
 #include <utility>
 
 #include "geometry/masonry.h"
@@ -38,6 +39,17 @@ struct Wings {
 /// What a support is made of: solid courses, or an outer leaf around loose infill or around nothing.
 enum class Makeup { solid, leaf, hollow };
 
+/// Walls along the bridge between the spandrel walls, from the vaults and the backing to the deck with fill between
+/// them, or to slabs from wall to wall with nothing below.
+struct InternalWalls {
+  int number = 0;
+  double thickness = 0.0;  // m
+  bool hollow = false;
+  double slab_top = 0.0, slab_thickness = 0.0;  // z; m
+  double bearing = 0.1;                         // m, of the slabs on the spandrel walls
+  double slab_bottom() const { return slab_top - slab_thickness; }
+};
+
 /// What vaults spring from: an abutment or a pier.
 struct Support {
   double x0 = 0.0, x1 = 0.0;            // m, at the springing
@@ -61,6 +73,7 @@ enum class SkewBond { parallel, helicoidal, logarithmic };
 struct Bridge {
   std::vector<Vault> vaults;      // from left to right
   std::vector<Support> supports;  // left abutment, piers, right abutment
+  InternalWalls internal = {};
   double width = 0.0;
   double skew = 0.0;  // rad, of the supports against the square to the axis
   SkewBond skew_bond = SkewBond::parallel;
@@ -117,9 +130,30 @@ std::vector<std::pair<double, double>> transverse_walls(const Bridge& bridge);
 std::vector<std::pair<double, double>> between_transverse_walls(const Bridge& bridge);
 void lay_transverse_walls(Layout& layout, const Bridge& bridge);
 
+/// From where to where internal walls stand across, and what they leave between -inner and inner, m.
+std::vector<std::pair<double, double>> internal_walls(const Bridge& bridge);
+std::vector<std::pair<double, double>> lanes(const Bridge& bridge, double inner);
+void lay_internal_walls(Layout& layout, const Bridge& bridge);
+/// What of a box lies above the backing, in courses.
+void lay_above_backing(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, const Unit& unit,
+                       int course);
+
+/// Calls `piece` for each straight piece of the backing's top between x0 and x1, with the half-plane under it.
+template <class Piece>
+void along_backing(const Bridge& bridge, double x0, double x1, Piece&& piece);
+
 /// The half-plane under a straight piece of the backing's top, which goes from left to right, and the other one.
 Plane under_backing(const Vec3& from, const Vec3& to);
 Plane opposite(const Plane& plane);
+
+template <class Piece>
+void along_backing(const Bridge& bridge, double x0, double x1, Piece&& piece) {
+  const Polygon& line = bridge.backing_line;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double from = std::max(x0, line[i].x()), to = std::min(x1, line[i + 1].x());
+    if (to - from > no_masonry) piece(from, to, under_backing(line[i], line[i + 1]));
+  }
+}
 
 /// A box of the fill; what lies within a vault's extrados does not belong to it.
 struct FillRegion {
@@ -127,6 +161,7 @@ struct FillRegion {
   std::ptrdiff_t support = -1;   // the abutment between whose wing walls it lies; -1: above the springing
   int course = 0;                // number of its lowest course in the bond
   std::vector<Plane> past = {};  // beside the bridge's limits: of the backing below it
+  int lane = 0;                  // which of the spaces between internal walls it belongs to
 };
 /// The boxes of the fill, which do not overlap: between the wing walls, then those above the springing from below. The
 /// rigid fill is laid in them and the deformable one is meshed in them. Over a backing that is not level they overlap

@@ -25,34 +25,15 @@ std::vector<std::pair<double, double>> between_transverse_walls(const Bridge& br
   return free;
 }
 
-namespace {
-
-/// One wall in one band, above the backing.
-void lay_band(Layout& layout, const Bridge& bridge, std::size_t support, const Band& band, int course) {
-  const auto [x0, x1] = transverse_walls(bridge)[support - 1];
-  const double inner = bridge.half_width() - band.thickness;
-  const Unit unit = bridge.unit(Component::backing, int(support));
-  const Polygon& line = bridge.backing_line;
-  if (line.empty() && band.z0 >= bridge.backing_top)
-    lay_courses(layout, {x0, -inner, band.z0}, {x1, inner, band.z1}, unit, course);
-  const SectionLimits usual = layout.limits;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double from = std::max(x0, line[i].x()), to = std::min(x1, line[i + 1].x());
-    if (to - from < no_masonry) continue;
-    layout.limits.past.push_back(opposite(under_backing(line[i], line[i + 1])));
-    lay_courses(layout, {from, -inner, band.z0}, {to, inner, band.z1}, unit, course);
-    layout.limits = usual;
-  }
-}
-
-}  // namespace
-
 void lay_transverse_walls(Layout& layout, const Bridge& bridge) {
   if (transverse_walls(bridge).empty()) return;
   for (std::size_t support = 1; support < bridge.last_support(); ++support) {
+    const auto [x0, x1] = transverse_walls(bridge)[support - 1];
     int course = 0;
     for (const Band& band : interior_bands(bridge)) {
-      lay_band(layout, bridge, support, band, course);
+      const double inner = bridge.half_width() - band.thickness;
+      lay_above_backing(layout, bridge, {x0, -inner, band.z0}, {x1, inner, band.z1},
+                        bridge.unit(Component::backing, int(support)), course);
       course += int(split(band.z0, band.z1, bridge.block.z()).size()) - 1;
     }
   }

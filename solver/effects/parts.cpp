@@ -24,7 +24,7 @@ std::string plural(const std::string& family) {
 
 std::string part_name(Component component, const std::string& family, int part) {
   if (component == Component::abutment) return family + (part == 0 ? " left" : " right");
-  if (component == Component::spandrel) return family + (part == 0 ? " y-" : " y+");
+  if (component == Component::spandrel) return family + (part == 0 ? " y-" : part == 1 ? " y+" : " internal");
   return fmt::format("{} {}", family, part);
 }
 

@@ -47,6 +47,7 @@ void draw_details(GeneratorInput& in, Draw& draw, int spans) {
   if (!draw.whole(0, 2)) v["gradient"] = draw.between(-4.0, 4.0);
   if (!draw.whole(0, 2)) v["string_course_height"] = 0.3, v["string_course_projection"] = draw.between(0.0, 0.2);
   if (!draw.whole(0, 3)) v["transverse_walls"] = draw.between(0.4, 0.8);
+  if (!draw.whole(0, 3)) v["internal.walls"] = draw.whole(1, 3), v["internal.thickness"] = 0.3;
   in.choices["ring_bond"] = draw.whole(0, 1) ? "mortar" : "none";
   for (int i = 0; i < spans; ++i) v["span." + std::to_string(i + 1) + ".headers_every"] = draw.whole(0, 5);
   for (std::size_t i = 0; i < in.entries["pier"]; ++i) {
@@ -406,6 +407,31 @@ TEST(BridgeGenerator, ABackingHasTheVolumeUnderItsLine) {
   EXPECT_GT(low, 0.0);
   line[1].z() = 0.1;
   EXPECT_NE(message_of<InputError>([&] { find_generator("bridge").build(in); }).find("[bridge.backing] profile"),
+            std::string::npos);
+}
+
+/// Under slabs lacks what the space up to them is, less its walls; with fill between the walls nothing.
+TEST(BridgeGenerator, InternalWallsStandInVoidsOrInTheFill) {
+  GeneratorInput in = plain_skew(-20.0, "helicoidal", 1.0);
+  in.values["fill_over_crown"] = 1.2;
+  const Generator& generator = find_generator("bridge");
+  const auto volume = [&](const GeneratorInput& of) {
+    const Assembly assembly = generator.build(of);
+    EXPECT_TRUE(find_overlaps(assembly, 1e-7).empty());
+    return moving_volume(assembly);
+  };
+  const double filled = volume(in);
+  in.values["internal.walls"] = 2.0, in.values["internal.thickness"] = 0.3;
+  EXPECT_NEAR(volume(in), filled, 1e-9 * filled);
+  in.choices["internal.between"] = "void";
+  in.values["internal.slab_thickness"] = 0.2, in.values["internal.fill_over_slabs"] = 0.5;
+  const double hollow = volume(in);
+  GeneratorInput below = plain_skew(-20.0, "helicoidal", 1.0);  // the fill up to the slabs
+  below.values["fill_over_crown"] = 0.5;
+  const double space = generator.fill_space(below), between = 5.0 - 2.0 * 0.6;
+  EXPECT_NEAR(filled - hollow, space * (1.0 - 2.0 * 0.3 / between), 1e-9 * filled);
+  in.values["internal.walls"] = 12.0, in.values["internal.thickness"] = 1.0;
+  EXPECT_NE(message_of<InputError>([&] { generator.build(in); }).find("[bridge.internal] 12 walls of 1 m"),
             std::string::npos);
 }
 
