@@ -211,6 +211,8 @@ std::vector<Joint2> joints_of(const VaultShape& vault) {
     } else {
       const Vec3 t = curve.tangent(u);
       joint.outward = Vec3(-t.z(), 0.0, t.x()).normalized();
+      // An upright tangent is so up to rounding: a foot that is level is exactly so, or a sliver is laid under it.
+      if (std::abs(joint.outward.z()) < 1e-12) joint.outward = Vec3(std::copysign(1.0, joint.outward.x()), 0.0, 0.0);
     }
     joints.push_back(joint);
   }

@@ -65,5 +65,8 @@ Rung fill_bearing();
 Rung fill_patch();
 Rung fill_slide();
 Rung fill_rankine();
+// These need a solver for linear programs; where the program was built without one they are not listed.
+Rung limit_analysis();
+Rung rings();
 
 }  // namespace voussoir::ladder

@@ -1,33 +1,39 @@
 #include "tools/ladder/rung.h"
+#include "tools/limit/linear_program.h"
 
 namespace voussoir::ladder {
 
 const std::vector<Rung>& rungs() {
-  static const std::vector<Rung> list = {
-      contact_patch(),       //
-      joint_stiffness(),     //
-      intact_shortcut(),     //
-      rigid_rotation(),      //
-      free_spin(),           //
-      axial_chain(),         //
-      bending_cantilever(),  //
-      ring_down(),           //
-      bridge_ring(),         //
-      maxwell_fit(),         //
-      maxwell_ring(),        //
-      softening_joint(),     //
-      falling_blocks(),      //
-      colliding_blocks(),    //
-      skew_arch(),           //
-      fill_waves(),          //
-      fill_triaxial(),       //
-      fill_oedometer(),      //
-      fill_footing(),        //
-      fill_bearing(),        //
-      fill_patch(),          //
-      fill_slide(),          //
-      fill_rankine(),
-  };
+  static const std::vector<Rung> list = [] {
+    std::vector<Rung> all = {
+        contact_patch(),       //
+        joint_stiffness(),     //
+        intact_shortcut(),     //
+        rigid_rotation(),      //
+        free_spin(),           //
+        axial_chain(),         //
+        bending_cantilever(),  //
+        ring_down(),           //
+        bridge_ring(),         //
+        maxwell_fit(),         //
+        maxwell_ring(),        //
+        softening_joint(),     //
+        falling_blocks(),      //
+        colliding_blocks(),    //
+        skew_arch(),           //
+        fill_waves(),          //
+        fill_triaxial(),       //
+        fill_oedometer(),      //
+        fill_footing(),        //
+        fill_bearing(),        //
+        fill_patch(),          //
+        fill_slide(),          //
+        fill_rankine(),
+    };
+    if (limit::can_solve_linear_programs())
+      for (const Rung& rung : {limit_analysis(), rings()}) all.push_back(rung);
+    return all;
+  }();
   return list;
 }
 

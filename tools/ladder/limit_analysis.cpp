@@ -1,0 +1,110 @@
+// Limit analysis by linear programming, which the rung `rings` is held against, against values that come from
+// elsewhere: all four-hinge mechanisms of an arch, the least thickness of a semicircle, and a wall that slides.
+#include "tools/limit/limit_analysis.h"
+
+#include "tools/ladder/hinge_mechanisms.h"
+#include "tools/ladder/ring_strip.h"
+#include "tools/ladder/rung.h"
+
+namespace voussoir::ladder {
+
+namespace {
+
+Assembly rough_arch(double ratio, double embrace, int voussoirs) {
+  Assembly assembly = generated(
+      "arch",
+      {{"mean_radius", 10.0}, {"thickness_ratio", ratio}, {"embrace_angle", embrace}, {"voussoirs", voussoirs}});
+  set_law(assembly, dry_law(std::tan(radians(80.0))));
+  return assembly;
+}
+
+limit::LimitProblem sideways() {
+  limit::LimitProblem problem;
+  problem.acceleration = Vec3(9.81, 0.0, 0.0);
+  return problem;
+}
+
+double sideways_multiplier(const Assembly& assembly) {
+  return limit::limit_analysis(assembly, sideways()).multiplier;
+}
+
+Finding of_mechanisms(const std::string& what, const Assembly& assembly) {
+  const ArchLine line = arch_line(assembly, Vec3(9.81, 0.0, 0.0));
+  return near(what, four_hinge_multiplier(line.intrados, line.extrados, line.loads), sideways_multiplier(assembly),
+              1e-6, "-", "all four-hinge mechanisms, flat-faced voussoirs");
+}
+
+/// Thickness over mean radius at which a semicircle of so many voussoirs just bears its weight.
+double least_thickness(int voussoirs) {
+  double low = 0.1, high = 0.12;
+  while (high - low > 1e-6) {
+    const double middle = 0.5 * (low + high);
+    (limit::limit_analysis(rough_arch(middle, 180.0, voussoirs), {}).stands ? high : low) = middle;
+  }
+  return high;
+}
+
+/// The case point-load.
+double point_load() {
+  const Assembly assembly = rough_arch(0.15, 180.0, 27);
+  double weight = 0.0;
+  for (const Block& block : assembly.blocks) weight += block.fixed ? 0.0 : 9.81 * block.mass;
+  limit::LimitProblem problem;
+  problem.loads = {{assembly.groups.at("voussoir 9")[0], {0.0, 0.0, -weight}, {5.933571, 0.0, 9.590298}}};
+  return limit::limit_analysis(assembly, problem).multiplier;
+}
+
+/// The thick ring of the rung `rings` under its load, by linear program and by all four-hinge mechanisms.
+Finding thick_ring() {
+  const RingStrip strip;
+  const Assembly assembly = ring_strip(strip);
+  const StripLoad load = load_on(assembly, strip);
+  limit::LimitProblem problem;
+  problem.loads = {{load.block, load.force, load.at}};
+  ArchLine line = arch_line(assembly, Vec3::Zero());
+  line.loads.live[std::size_t(load.block)] = Vec3(0.0, -load.at.x() * load.force.z(), load.force.z());
+  return near("segmental ring, point load", four_hinge_multiplier(line.intrados, line.extrados, line.loads),
+              limit::limit_analysis(assembly, problem).multiplier, 1e-6, "-", "all four-hinge mechanisms");
+}
+
+/// The wall of the case tilting-wall.
+Assembly dry_wall() {
+  Assembly assembly = generated(
+      "wall",
+      {{"length_blocks", 5}, {"courses", 10}, {"block_length", 0.4}, {"block_height", 0.2}, {"thickness", 0.2}});
+  set_law(assembly, dry_law(0.6));
+  return assembly;
+}
+
+std::vector<Finding> climb_limit_analysis(int) {
+  std::vector<Finding> findings;
+  for (const double ratio : {0.12, 0.15, 0.20, 0.25})
+    findings.push_back(of_mechanisms(fmt::format("multiplier of gravity, semicircle, t/R = {:.2f}", ratio),
+                                     rough_arch(ratio, 180.0, 27)));
+  findings.push_back(of_mechanisms("multiplier of gravity, Oppenheim's arch", rough_arch(0.15, 157.5, 7)));
+  findings.push_back(near("least thickness of a semicircle, 200 voussoirs", 0.10746, least_thickness(200), 1e-3, "-",
+                          "Milankovitch 1907: 0.1075"));
+  findings.push_back(near("point load at the quarter span over weight", 0.2172, point_load(), 1e-3, "-",
+                          "limit analysis, four hinges"));
+  findings.push_back(thick_ring());
+  const Assembly column = generated("column", {{"blocks", 4}, {"block_height", 1.0}});
+  for (const auto& [friction, expected] : {std::pair(0.75, 0.25), std::pair(0.2, 0.2)}) {
+    Assembly stack = column;
+    set_law(stack, dry_law(friction));
+    findings.push_back(near(fmt::format("multiplier of gravity, four cubes, friction {:.2f}", friction), expected,
+                            sideways_multiplier(stack), 1e-6, "-", "statics"));
+  }
+  findings.push_back(near("slope of a dry wall on a table, associated friction", 0.524, sideways_multiplier(dry_wall()),
+                          2e-3, "-", "upper bound of the case tilting-wall"));
+  return findings;
+}
+
+}  // namespace
+
+Rung limit_analysis() {
+  return {.name = "limit-analysis",
+          .help = "limit analysis by linear programming against mechanisms, least thickness, friction",
+          .climb = climb_limit_analysis};
+}
+
+}  // namespace voussoir::ladder
