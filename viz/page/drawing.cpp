@@ -89,6 +89,10 @@ void Drawing::line(double x1, double y1, double x2, double y2, const std::string
   curve({{x1, y1}, {x2, y2}}, colour, width, dashes);
 }
 
+void Drawing::areas(const std::vector<Path>& outlines, const std::string& fill) {
+  for (const Path& outline : outlines) area(outline, fill);
+}
+
 void Drawing::error_bar(double x1, double y1, double x2, double y2, const std::string& colour, double half) {
   const double across = x1 == x2 ? half : 0.0, up = x1 == x2 ? 0.0 : half;
   line(x1, y1, x2, y2, colour, 1.6);

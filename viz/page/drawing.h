@@ -45,6 +45,8 @@ class Drawing {
   virtual void curve(const Path& points, const std::string& colour, double width = 1.0, const char* dashes = "") = 0;
   /// A filled outline.
   virtual void area(const Path& points, const std::string& fill) = 0;
+  /// Filled outlines that do not lie on one another, or all run round the same way.
+  virtual void areas(const std::vector<Path>& outlines, const std::string& fill);
   /// `hint` is shown under the mouse, where there is one.
   virtual void rectangle(double x, double y, double width, double height, const ShapeStyle& style,
                          std::string_view hint = {}) = 0;

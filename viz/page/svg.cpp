@@ -80,10 +80,18 @@ void SvgDrawing::curve(const std::vector<std::pair<double, double>>& points, con
 }
 
 void SvgDrawing::area(const std::vector<std::pair<double, double>>& points, const std::string& fill) {
-  std::string path;
-  for (const auto& [x, y] : points)
-    if (std::isfinite(x) && std::isfinite(y)) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
-  if (!path.empty()) text_ += fmt::format("<path d=\"{}z\" fill=\"{}\" stroke=\"none\"/>\n", path, fill);
+  areas({points}, fill);
+}
+
+void SvgDrawing::areas(const std::vector<Path>& outlines, const std::string& fill) {
+  std::string paths;
+  for (const Path& points : outlines) {
+    std::string path;
+    for (const auto& [x, y] : points)
+      if (std::isfinite(x) && std::isfinite(y)) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', x, y);
+    if (!path.empty()) paths += path + 'z';
+  }
+  if (!paths.empty()) text_ += fmt::format("<path d=\"{}\" fill=\"{}\" stroke=\"none\"/>\n", paths, fill);
 }
 
 void SvgDrawing::rectangle(double x, double y, double width, double height, const ShapeStyle& style,

@@ -13,6 +13,7 @@ class SvgDrawing : public Drawing {
   SvgDrawing(double width, double height, std::string_view description);
   void curve(const Path& points, const std::string& colour, double width = 1.0, const char* dashes = "") override;
   void area(const Path& points, const std::string& fill) override;
+  void areas(const std::vector<Path>& outlines, const std::string& fill) override;
   void rectangle(double x, double y, double width, double height, const ShapeStyle& style,
                  std::string_view hint = {}) override;
   void text(double x, double y, std::string_view text, const TextStyle& style = {}) override;
