@@ -67,18 +67,27 @@ class PictureDrawing : public Drawing {
   void curve(const Path& points, const std::string& colour, double width, const char* pattern) override {
     double on = 0.0, off = 0.0;
     std::istringstream(pattern) >> on >> off;
+    std::vector<Path> lines;
     for (const Path& part : unbroken(points)) {
       if (part.size() == 1) disc(part[0].first, part[0].second, std::max(2.0, width), colour);
       if (part.size() < 2) continue;
       for (const Path& piece : on > 0.0 ? dashes(part, on, off) : std::vector<Path>{part})
-        overlay_.polyline(placed(piece), scale_ * width, colour_of(colour));
+        lines.push_back(placed(piece));
     }
+    if (!lines.empty()) overlay_.polylines(lines, scale_ * width, colour_of(colour));
   }
 
   void area(const Path& points, const std::string& fill) override {
     Path outline;
     for (const Path& part : unbroken(points)) outline.insert(outline.end(), part.begin(), part.end());
     if (outline.size() > 2) overlay_.polygon(placed(outline), colour_of(fill));
+  }
+
+  void areas(const std::vector<Path>& outlines, const std::string& fill) override {
+    std::vector<Path> there;
+    for (const Path& outline : outlines)
+      if (outline.size() > 2) there.push_back(placed(outline));
+    if (!there.empty()) overlay_.polygons(there, colour_of(fill));
   }
 
   void rectangle(double x, double y, double width, double height, const ShapeStyle& style, std::string_view) override {
@@ -153,12 +162,17 @@ void check(const LineChart& chart) {
 
 void write_picture(const LineChart& chart, const std::string& png, int width) {
   check(chart);
+  write_picture([&](Drawing& drawing) { draw(drawing, chart); }, chart.width, height_of(chart), png, width);
+}
+
+void write_picture(const std::function<void(Drawing&)>& draw_on, double drawn_width, double height,
+                   const std::string& png, int width) {
   const Display display;
-  const double scale = width / chart.width, height = height_of(chart);
+  const double scale = width / drawn_width;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   PictureDrawing drawing(renderer, height, scale);
-  draw(drawing, chart);
+  draw_on(drawing);
   const auto window = offscreen_window(width, int(std::lround(scale * height)));
   window->AddRenderer(renderer);
   write_png(window, png);

@@ -12,6 +12,7 @@
 #include <vtkTextRenderer.h>
 #include <vtkTriangleFilter.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/base/constants.h"
@@ -29,15 +30,19 @@ vtkSmartPointer<vtkActor2D> flat_actor(vtkPolyData* shape, const Colour& colour)
   return actor;
 }
 
-/// Gives the shape these points and returns one cell through them.
-vtkSmartPointer<vtkCellArray> add_points(vtkPolyData* shape, const std::vector<std::pair<double, double>>& corners) {
+using FlatPoints = std::vector<std::pair<double, double>>;
+
+/// Gives the shape all these points and returns one cell through each list of them.
+vtkSmartPointer<vtkCellArray> add_points(vtkPolyData* shape, const std::vector<FlatPoints>& lists) {
   vtkNew<vtkPoints> points;
-  auto cell = vtkSmartPointer<vtkCellArray>::New();
-  cell->InsertNextCell(int(corners.size()));
-  for (const auto& [x, y] : corners)
-    cell->InsertCellPoint(points->InsertNextPoint(x * kOversampling, y * kOversampling, 0.0));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  for (const FlatPoints& corners : lists) {
+    cells->InsertNextCell(int(corners.size()));
+    for (const auto& [x, y] : corners)
+      cells->InsertCellPoint(points->InsertNextPoint(x * kOversampling, y * kOversampling, 0.0));
+  }
   shape->SetPoints(points);
-  return cell;
+  return cells;
 }
 
 void set_style(vtkTextProperty* style, double size, bool bold) {
@@ -102,8 +107,13 @@ void Overlay::rectangle(double x, double y, double width, double height, const C
 }
 
 void Overlay::polyline(const std::vector<std::pair<double, double>>& points, double width, const Colour& colour) {
+  polylines({points}, width, colour);
+}
+
+void Overlay::polylines(const std::vector<std::vector<std::pair<double, double>>>& lines, double width,
+                        const Colour& colour) {
   vtkNew<vtkPolyData> shape;
-  const auto cells = add_points(shape, points);
+  const auto cells = add_points(shape, lines);
   shape->SetLines(cells);
   const auto actor = flat_actor(shape, colour);
   actor->GetProperty()->SetLineWidth(float(width * kOversampling));
@@ -120,10 +130,14 @@ void Overlay::disc(double x, double y, double radius, const Colour& colour) {
 }
 
 void Overlay::polygon(const std::vector<std::pair<double, double>>& corners, const Colour& colour) {
+  polygons({corners}, colour);
+}
+
+void Overlay::polygons(const std::vector<std::vector<std::pair<double, double>>>& outlines, const Colour& colour) {
   vtkNew<vtkPolyData> shape;
-  const auto cells = add_points(shape, corners);
+  const auto cells = add_points(shape, outlines);
   shape->SetPolys(cells);
-  if (corners.size() <= 4) {
+  if (std::ranges::all_of(outlines, [](const FlatPoints& corners) { return corners.size() <= 4; })) {
     renderer_->AddActor2D(flat_actor(shape, colour));
     return;
   }

@@ -28,9 +28,12 @@ class Overlay {
   void rectangle(double x, double y, double width, double height, const Colour& colour);
   /// A line through (x, y) pairs.
   void polyline(const std::vector<std::pair<double, double>>& points, double width, const Colour& colour);
+  /// Many at once, one through each list of points.
+  void polylines(const std::vector<std::vector<std::pair<double, double>>>& lines, double width, const Colour& colour);
   void disc(double x, double y, double radius, const Colour& colour);
   /// A filled polygon, convex or not; (x, y) pairs.
   void polygon(const std::vector<std::pair<double, double>>& corners, const Colour& colour);
+  void polygons(const std::vector<std::vector<std::pair<double, double>>>& outlines, const Colour& colour);
 
  private:
   vtkRenderer* renderer_;
