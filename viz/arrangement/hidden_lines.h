@@ -1,0 +1,51 @@
+// What of a flat view is seen: areas from the back to the front, and the lines that nothing hides.
+#pragma once
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "viz/arrangement/flat_view.h"
+
+namespace voussoir {
+
+/// Widths of lines of a drawing: joints between stones; edges, and where one component ends; the outline of the whole,
+/// and wherever one sees past an edge.
+enum class LineKind { joint, edge, outline };
+constexpr std::size_t kLineKinds = 3;
+using FlatLine = std::pair<Vec3, Vec3>;  // (u, v, 0), m
+
+/// Answers what is in front at a place of a view.
+class InFront {
+ public:
+  explicit InFront(const FlatView& view);
+  /// The nearest face there; −1 for none.
+  std::ptrdiff_t at(const Vec3& place) const;
+  double depth(std::size_t face, const Vec3& place) const;
+  /// Calls `pair(i, j)`, i < j, once for each two faces whose boxes meet.
+  template <class Pair>
+  void near_pairs(Pair&& pair) const;
+  double size() const { return size_; }  // m, of the whole view
+
+ private:
+  std::size_t column(double u) const;
+  std::size_t row(double v) const;
+  const FlatView& view_;
+  std::vector<Box> boxes_;
+  Box all_;
+  std::size_t columns_ = 1, rows_ = 1;
+  double size_ = 0.0;
+  std::vector<std::vector<std::size_t>> cells_;
+};
+
+/// Faces in an order in which they can be painted over one another: of two that overlap on the sheet the farther one
+/// first (Newell, Newell & Sancha 1972, for convex faces that do not cross). Faces of one `colour` (a number for each
+/// face) follow one another where that is possible.
+std::vector<std::size_t> painting_order(const FlatView& view, const InFront& front, const std::vector<int>& colour);
+
+/// The parts that are seen of the edges of all faces, by kind; parts shorter than `resolution` (m) are not told apart.
+std::array<std::vector<FlatLine>, kLineKinds> visible_lines(const FlatView& view, const InFront& front,
+                                                            double resolution);
+/// The parts of a line on a face that are seen.
+std::vector<FlatLine> visible_parts(const InFront& front, std::size_t face, const FlatLine& line, double resolution);
+
+}  // namespace voussoir
