@@ -8,13 +8,16 @@
 #include "geometry/joint_counts.h"
 #include "geometry/joints.h"
 #include "io/case/case.h"
+#include "io/case/case_template.h"
 #include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 #include "tools/voussoir/assembly_table.h"
 #include "tools/voussoir/options.h"
 #include "tools/voussoir/say_remarks.h"
+#include "viz/arrangement_picture.h"
 
 namespace voussoir {
 
@@ -67,25 +70,80 @@ FillAim fill_aim(const Case& c) {
   return {generator.fill_space && filled ? generator.fill_space(c.generator_input) : 0.0, edge->second};
 }
 
+/// Draws the arrangement beside the assembly file, or where --picture says; says the names of both files.
+void draw(const Assembly& assembly, const ArrangementNotes& notes, const std::string& assembly_file,
+          const options::variables_map& values) {
+  if (!values.count("picture")) return;
+  std::filesystem::path stem = values["picture"].as<std::string>();
+  if (stem.empty()) stem = assembly_file;
+  if (const std::string ending = stem.extension().string();
+      ending == ".svg" || ending == ".png" || ending == ".h5" || ending == ".hdf5")
+    stem.replace_extension();
+  write_arrangement(assembly, notes, stem.string());
+  if (!values.count("quiet")) fmt::print("drawn in {0}.svg and {0}.png\n", stem.string());
+}
+
 /// An assembly that another program wrote: what it leaves out is found, as when a case names it.
 int complete(const std::string& file, const options::variables_map& values) {
-  if (!values.count("output"))
-    throw InputError("{} is an assembly: say with -o FILE where to write the whole one", file);
-  const std::string to = values["output"].as<std::string>();
+  if (!values.count("output") && !values.count("picture"))
+    throw InputError(
+        "{} is an assembly: say with -o FILE where to write the whole one, or with --picture that it is to be drawn",
+        file);
   const bool stated = states_joints(file);
   const Assembly assembly = read_assembly(file);
-  write_assembly(to, assembly);
-  if (values.count("quiet")) return 0;
-  print_assembly_table(assembly);
-  fmt::print("{}; written to {}\n", stated ? "its joints are as the file states them" : "its joints were found", to);
+  const std::string to = values.count("output") ? values["output"].as<std::string>() : "";
+  if (!to.empty()) write_assembly(to, assembly);
+  if (!values.count("quiet")) {
+    print_assembly_table(assembly);
+    fmt::print("{}{}\n", stated ? "its joints are as the file states them" : "its joints were found",
+               to.empty() ? "" : "; written to " + to);
+  }
+  const std::filesystem::path path = file;
+  draw(assembly, {path.stem().string(), "assembly " + path.filename().string()},
+       to.empty() ? path.filename().string() : to, values);
   return 0;
 }
 
+/// The words of a list with commas as lengths.
+std::vector<double> spans_in(const std::string& list) {
+  std::vector<double> spans;
+  for (const std::string& word : words_in(list)) {
+    std::size_t read = 0;
+    double span = 0.0;
+    try {
+      span = std::stod(word, &read);
+    } catch (const std::logic_error&) {
+      read = 0;
+    }
+    if (read == 0 || read != word.size())
+      throw InputError("--spans has '{}': give clear spans in m with commas between, such as 8,10,8", shown(word));
+    spans.push_back(span);
+  }
+  return spans;
+}
+
+CaseTemplate template_asked(const options::variables_map& values) {
+  CaseTemplate wanted;
+  if (values.count("spans")) wanted.clear_spans = spans_in(values["spans"].as<std::string>());
+  if (values.count("shape")) wanted.shape = values["shape"].as<std::string>();
+  if (values.count("width")) wanted.width = values["width"].as<double>();
+  return wanted;
+}
+
 int generate(const std::vector<std::string>& arguments) {
-  CommandLine line("generate", "generate CASE|ASSEMBLY [-o FILE]", "voussoir generate cases/cs1-f.toml -o cs1.h5");
+  CommandLine line("generate", "generate CASE|ASSEMBLY [-o FILE] [--picture[=FILE]]",
+                   "voussoir generate cases/cs1-f.toml -o cs1.h5 --picture");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"),
                                "assembly file (default: the case's name with .h5)")(
-      "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave");
+      "picture", options::value<std::string>()->implicit_value("")->value_name("FILE"),
+      "draw the general arrangement as FILE.svg and FILE.png (default: named as the assembly file)")(
+      "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave")(
+      "template", "print a case for a bridge, with all keys, to begin with, and leave")(
+      "spans", options::value<std::string>()->value_name("LIST"),
+      "of the template: clear spans, m, with commas between (default: 8,10,8)")(
+      "shape", options::value<std::string>()->value_name("NAME"),
+      "of the template: of the vaults (default: segmental)")("width", options::value<double>()->value_name("W"),
+                                                             "of the template: of the bridge, m");
   line.positional = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -93,6 +151,12 @@ int generate(const std::vector<std::string>& arguments) {
     fmt::print("{}\n", describe(find_generator(values["keys"].as<std::string>(), "--keys")));
     return 0;
   }
+  if (values.count("template")) {
+    fmt::print("{}", case_template(template_asked(values)));
+    return 0;
+  }
+  for (const char* key : {"spans", "shape", "width"})
+    if (values.count(key)) throw InputError("--{} is an option of the template: give --template with it", key);
   if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
   const std::string file = values["CASE"].as<std::string>();
   if (values.count("output")) check_ending(values["output"].as<std::string>(), {".h5", ".hdf5"}, "an HDF5 assembly");
@@ -105,9 +169,14 @@ int generate(const std::vector<std::string>& arguments) {
       values.count("output") ? values["output"].as<std::string>() : std::filesystem::path(file).stem().string() + ".h5";
   say_remarks(remarks(c, assembly), values.count("quiet") > 0);
   write_assembly(to, assembly);
-  if (values.count("quiet")) return 0;
-  print_assembly_table(assembly, fill_aim(c));
-  fmt::print("generated in {:.2f} s, written to {}\n", seconds, to);
+  if (!values.count("quiet")) {
+    print_assembly_table(assembly, fill_aim(c));
+    fmt::print("generated in {:.2f} s, written to {}\n", seconds, to);
+  }
+  const std::string source = c.generator.empty()
+                                 ? "assembly " + std::filesystem::path(c.assembly_file).filename().string()
+                                 : "generator " + c.generator;
+  draw(assembly, {std::filesystem::path(file).stem().string(), source}, to, values);
   return 0;
 }
 
