@@ -83,6 +83,13 @@ void draw(const Assembly& assembly, const ArrangementNotes& notes, const std::st
   if (!values.count("quiet")) fmt::print("drawn in {0}.svg and {0}.png\n", stem.string());
 }
 
+/// What a drawing is called: the file, or its folder where the file is just a case.
+std::string drawn_name(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
+  return stem == "case" && !folder.empty() ? folder : stem;
+}
+
 /// An assembly that another program wrote: what it leaves out is found, as when a case names it.
 int complete(const std::string& file, const options::variables_map& values) {
   if (!values.count("output") && !values.count("picture"))
@@ -99,8 +106,8 @@ int complete(const std::string& file, const options::variables_map& values) {
                to.empty() ? "" : "; written to " + to);
   }
   const std::filesystem::path path = file;
-  draw(assembly, {path.stem().string(), "assembly " + path.filename().string()},
-       to.empty() ? path.filename().string() : to, values);
+  draw(assembly, {drawn_name(path), "assembly " + path.filename().string()}, to.empty() ? path.filename().string() : to,
+       values);
   return 0;
 }
 
@@ -176,7 +183,7 @@ int generate(const std::vector<std::string>& arguments) {
   const std::string source = c.generator.empty()
                                  ? "assembly " + std::filesystem::path(c.assembly_file).filename().string()
                                  : "generator " + c.generator;
-  draw(assembly, {std::filesystem::path(file).stem().string(), source}, to, values);
+  draw(assembly, {drawn_name(file), source}, to, values);
   return 0;
 }
 

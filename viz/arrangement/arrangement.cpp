@@ -109,9 +109,10 @@ struct Arrangement::Parts {
   void draw_heights(DrawingSheet& sheet, const SheetPlace& place, double left, double right) const;
   void draw_section_marks(DrawingSheet& sheet, const SheetPlace& place, double top) const;
   void draw_supports_below(DrawingSheet& sheet, const SheetPlace& place) const;
-  double top_of(Component component) const;
-  double deck_at(double x) const { return m.spans.empty() ? kNotKnown : top_over(along, x); }
+  double parapet_at(double x) const;  // z of its top at an end, x
+
   bool bridges_over() const;  // something lies on the vaults
+  double deck_at(double x) const { return bridges_over() ? top_over(along, x) : kNotKnown; }
 };
 
 namespace {
@@ -134,7 +135,7 @@ ViewSize elevation_size(const FlatView& view) {
   return size_of(view, 24.0, 24.0, kViewTitle + kMark + 3.0, 2.0 * kDimensionRow + 7.0);
 }
 ViewSize lengthwise_size(const FlatView& view) {
-  return size_of(view, 6.0, 26.0, kViewTitle + 2.0, 3.0);
+  return size_of(view, 6.0, 26.0, kViewTitle + 4.5, 3.0);
 }
 ViewSize plan_size(const FlatView& view) {
   return size_of(view, 6.0, 24.0, kViewTitle + kMark + 3.0, 6.0);
@@ -199,7 +200,8 @@ void Arrangement::Parts::find_sections() {
     if (m.supports[i].height() > m.supports[which].height() + 1e-6) which = i;
   const MeasuredSupport& support = m.supports[which];
   const bool pier = m.supports.size() > 2;
-  const std::string of = pier ? fmt::format("pier {}", which) : support.name;
+  const bool named = support.name.find(' ') != std::string::npos;
+  const std::string of = pier ? fmt::format("pier {}", which) : named ? support.name : "support " + support.name;
   add(0.5 * (support.x0 + support.x1), support.base_x1, of).support = &support;
 }
 
@@ -232,11 +234,14 @@ bool Arrangement::Parts::bridges_over() const {
   return std::ranges::any_of(m.spans, [](const MeasuredSpan& s) { return s.deck > s.extrados + 1e-6; });
 }
 
-double Arrangement::Parts::top_of(Component component) const {
+double Arrangement::Parts::parapet_at(double x) const {
+  const double near = 1e-3 * (m.moving.high.x() - m.moving.low.x());
   double top = kNotKnown;
   for (const Block& block : assembly.blocks)
-    if (block.component == component && !block.fixed && !(block_box(block).high.z() <= top))
-      top = block_box(block).high.z();
+    if (block.component == Component::parapet && !block.fixed)
+      for (const Polyhedron& cell : block.cells)
+        for (const Vec3& p : cell.vertices)
+          if (std::abs(p.x() - x) < near && !(p.z() <= top)) top = p.z();
   return top;
 }
 
@@ -286,19 +291,16 @@ void Arrangement::Parts::draw_heights(DrawingSheet& sheet, const SheetPlace& pla
     chain_of_levels(sheet, place, near_left, left, {m.moving.low.z(), top}, true);
     return;
   }
-  const double inset = 1e-3 * (m.moving.high.x() - m.moving.low.x());
-  const double parapet = top_of(Component::parapet);
-  const auto levels = [&](const MeasuredSupport& s, double x) {
-    std::vector<double> at = {s.base, s.springing, deck_at(x)};
-    if (std::isfinite(parapet)) at.push_back(parapet);
-    return at;
+  const double inset = 1e-3 * (m.ends.second - m.ends.first);
+  const auto levels = [&](const MeasuredSupport& s, double x, double end) {
+    return std::vector<double>{s.base, s.springing, deck_at(x), parapet_at(end)};
   };
-  const std::vector<double> first = levels(m.supports.front(), m.moving.low.x() + inset);
-  const std::vector<double> last = levels(m.supports.back(), m.moving.high.x() - inset);
+  const std::vector<double> first = levels(m.supports.front(), m.ends.first + inset, m.moving.low.x());
+  const std::vector<double> last = levels(m.supports.back(), m.ends.second - inset, m.moving.high.x());
   chain_of_levels(sheet, place, near_left, left, first, true);
   chain_of_levels(sheet, place, near_right, right, last, false);
   // Deck over the lowest base on the left, the top over it on the right.
-  if (const double deck = deck_at(m.moving.low.x() + inset); deck > low)
+  if (const double deck = deck_at(m.ends.first + inset); deck > low)
     sheet.chain_along_y(near_left - kDimensionRow - 2.0,
                         {{place.y(low), near_left + 1.5}, {place.y(deck), near_left + 1.5}},
                         {"deck " + length_text(deck - low)}, true);
@@ -325,21 +327,27 @@ void Arrangement::Parts::draw_elevation(DrawingSheet& sheet, const SheetBox& box
   const double left = place.x(content.low.x()), right = place.x(content.high.x());
   const double foot = place.y(content.low.y());
   std::vector<double> places;
-  if (!m.supports.empty()) places.push_back(m.moving.low.x());
+  if (!m.supports.empty()) places.push_back(m.ends.first);
   for (const MeasuredSpan& s : m.spans) places.push_back(s.left.x()), places.push_back(s.right.x());
-  if (!m.supports.empty()) places.push_back(m.moving.high.x());
+  if (!m.supports.empty()) places.push_back(m.ends.second);
   chain_of_places(sheet, place, foot + 5.5, foot, places);
   const double whole = m.spans.empty() ? foot + 5.5 : foot + 5.5 + kDimensionRow + 1.5;
   chain_of_places(sheet, place, whole, foot, {m.moving.low.x(), m.moving.high.x()});
   draw_heights(sheet, place, left, right);
   draw_spans(sheet, place);
   // The slope of the deck, from end to end.
-  const double inset = 1e-3 * (m.moving.high.x() - m.moving.low.x());
-  const double x0 = m.moving.low.x() + inset, x1 = m.moving.high.x() - inset;
+  const double inset = 1e-3 * (m.ends.second - m.ends.first);
+  const double x0 = m.ends.first + inset, x1 = m.ends.second - inset;
   const double rise = deck_at(x1) - deck_at(x0);
   if (bridges_over() && std::abs(rise) > 1e-3 * (x1 - x0)) {
-    const double y = place.y(content.high.y()) - 3.0, middle = 0.5 * (left + right) + 12.0,
-                 down = rise > 0.0 ? -1.0 : 1.0;
+    const double y = place.y(content.high.y()) - 3.0, down = rise > 0.0 ? -1.0 : 1.0;
+    double middle = 0.5 * (left + right);
+    for (const double share : {0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2}) {  // away from the marks of the sections
+      middle = left + share * (right - left);
+      if (std::ranges::all_of(sections,
+                              [&](const SectionAt& s) { return std::abs(place.x(s.x) + 1.0 - middle) > 13.0; }))
+        break;
+    }
     sheet.arrow(middle - 7.0 * down, y, middle + 7.0 * down, y);
     sheet.try_text(middle, y - 0.8, fmt::format("{:.2g} %", 100.0 * std::abs(rise) / (x1 - x0)));
   }
@@ -376,13 +384,17 @@ void Arrangement::Parts::draw_supports_below(DrawingSheet& sheet, const SheetPla
     if (!levels.contains(s.springing))
       levels[s.springing] = cut_faces(assembly, seen_from_above(), 0.01 * s.height() - s.springing);
   for (const MeasuredSupport& s : m.supports) {
+    // Which support it is: what stands over its base in the section along the middle.
+    const auto own = std::ranges::find_if(along, [&](const FlatFace& face) {
+      const Vec3 middle = polygon_centroid(face.corners);
+      return (face.component == Component::pier || face.component == Component::abutment) && !face.fixed &&
+             middle.x() > s.x0 && middle.x() < s.x1 && middle.y() < s.springing;
+    });
+    if (own == along.end()) continue;
     Polygon points;
-    for (const FlatFace& face : levels[s.springing]) {
-      const double middle = polygon_centroid(face.corners).x();
-      const bool own = face.component == Component::pier || face.component == Component::abutment;
-      if (own && middle > s.base_x0 && middle < s.base_x1)
+    for (const FlatFace& face : levels[s.springing])
+      if (face.component == own->component && face.part == own->part)
         points.insert(points.end(), face.corners.begin(), face.corners.end());
-    }
     const Polygon outline = convex_outline(points);
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Vec3 a = place.at(outline[i]), b = place.at(outline[(i + 1) % outline.size()]);
@@ -401,7 +413,16 @@ void Arrangement::Parts::draw_plan(DrawingSheet& sheet, const SheetBox& box) con
   const double right = place.x(content.high.x());
   const std::vector<FlatFace>& across = sections.front().pieces;
   const auto first = extent_of(across, Component::parapet, 0), second = extent_of(across, Component::parapet, 1);
-  const double low = m.moving.low.y(), high = m.moving.high.y();
+  double low = m.moving.low.y(), high = m.moving.high.y();
+  if (!m.spans.empty()) {  // what stands out farther below, as battered piers, is in their sections
+    Box there;
+    for (const FlatFace& face : across)
+      if (!face.fixed) {
+        const Box own = bounding_box(face.corners);
+        there.low = there.low.cwiseMin(own.low), there.high = there.high.cwiseMax(own.high);
+      }
+    if (there.low.x() < there.high.x()) low = -there.high.x(), high = -there.low.x();
+  }
   // u of a cross section is −y.
   if (first && second) {
     const double lower = -first->low.x(), upper = -second->high.x();
@@ -509,6 +530,7 @@ void Arrangement::draw(Drawing& drawing) const {
   if (p.placement.notes.size() > 1) draw_schedule(sheet, p.placement.notes.front(), p.m);
   std::vector<std::string> remarks;
   if (!p.left_out.empty()) remarks.push_back("Elevation without the fixed blocks at its faces.");
+  if (std::abs(p.m.skew) > 0.002) remarks.push_back("Spans and supports along the middle.");
   if (sheet.left_out() > 0) remarks.push_back(fmt::format("{} dimensions had no room.", sheet.left_out()));
   draw_title_block(sheet, p.placement.notes.back(), p.assembly, p.notes, p.placement, remarks);
 }

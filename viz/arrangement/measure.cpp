@@ -127,26 +127,27 @@ std::optional<MeasuredSpan> measure_span(const std::vector<FlatFace>& section, s
   return span;
 }
 
-std::vector<MeasuredSupport> measure_supports(const Assembly& assembly, const Measures& m) {
+std::vector<MeasuredSupport> measure_supports(const Assembly& assembly, const Measures& m,
+                                              const std::vector<FlatFace>& section) {
   std::vector<MeasuredSupport> supports;
   for (const auto& [name, blocks] : assembly.groups) {
     if (!name.starts_with("base ") || blocks.empty()) continue;
-    Box box;
-    for (const std::int64_t b : blocks) {
-      const Box own = block_box(assembly.blocks[std::size_t(b)]);
-      box.low = box.low.cwiseMin(own.low), box.high = box.high.cwiseMax(own.high);
-    }
+    std::vector<FlatFace> base;
+    for (const FlatFace& face : section)
+      if (std::ranges::find(blocks, face.block) != blocks.end()) base.push_back(face);
+    if (base.empty()) continue;
+    const Box box = extent_of(base);
     MeasuredSupport support;
     support.name = name.substr(5);
-    support.base = box.high.z(), support.base_x0 = box.low.x(), support.base_x1 = box.high.x();
+    support.base = box.high.y(), support.base_x0 = box.low.x(), support.base_x1 = box.high.x();
     supports.push_back(support);
   }
   if (m.spans.empty() || supports.size() != m.spans.size() + 1) return {};
   std::ranges::sort(supports, {}, [](const MeasuredSupport& s) { return s.base_x0 + s.base_x1; });
   for (std::size_t i = 0; i < supports.size(); ++i) {
     MeasuredSupport& s = supports[i];
-    s.x0 = i == 0 ? m.moving.low.x() : m.spans[i - 1].right.x();
-    s.x1 = i == m.spans.size() ? m.moving.high.x() : m.spans[i].left.x();
+    s.x0 = i == 0 ? m.ends.first : m.spans[i - 1].right.x();
+    s.x1 = i == m.spans.size() ? m.ends.second : m.spans[i].left.x();
     s.springing =
         std::min(i == 0 ? 1e300 : m.spans[i - 1].right.y(), i == m.spans.size() ? 1e300 : m.spans[i].left.y());
   }
@@ -213,7 +214,12 @@ Measures measure(const Assembly& assembly) {
   for (const std::int32_t part : parts)
     if (auto span = measure_span(section, part)) m.spans.push_back(*span);
   std::ranges::sort(m.spans, {}, [](const MeasuredSpan& s) { return s.crown.x(); });
-  m.supports = measure_supports(assembly, m);
+  m.ends = {m.moving.low.x(), m.moving.high.x()};
+  std::vector<FlatFace> moving;
+  for (const FlatFace& face : section)
+    if (!face.fixed) moving.push_back(face);
+  if (!moving.empty()) m.ends = {extent_of(moving).low.x(), extent_of(moving).high.x()};
+  m.supports = measure_supports(assembly, m, section);
   if (!m.spans.empty()) m.skew = measure_skew(assembly, m);
   return m;
 }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viz/arrangement/flat_view.h"
@@ -39,6 +40,7 @@ struct Measures {
   Box moving;                             // m, of all that can move, stones and fill; of all where nothing can
   Box whole;                              // m, with what is fixed
   double middle = 0.0;                    // y of the plane along the middle
+  std::pair<double, double> ends;         // x, of all that can move, in that plane
   double skew = 0.0;                      // rad, of the first springing, from y towards x
   std::vector<MeasuredSpan> spans;        // from left to right
   std::vector<MeasuredSupport> supports;  // likewise; one more than spans, or none
