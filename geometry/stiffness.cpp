@@ -5,6 +5,7 @@
 
 #include "geometry/fill_mesh.h"
 #include "geometry/rings.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -39,7 +40,7 @@ class Assigner {
     if (rules_.kind == JointRules::Kind::given) return rules_.uniform;
     const auto [a, b] = sides(joint);
     const bool fill_a = a.component == Component::backfill, fill_b = b.component == Component::backfill;
-    if (fill_a != fill_b) return times(rules_.table.at(fill_a ? b.component : a.component), rules_.interface_share);
+    if (fill_a != fill_b) return times(of_masonry(fill_a ? b : a), rules_.interface_share);
     const bool from_table = rules_.kind == JointRules::Kind::table && !fill_a;
     // The table's row of the loose filling is that of its contacts, whatever stands on their other side.
     const bool infill = a.component == Component::infill || b.component == Component::infill;
@@ -105,6 +106,11 @@ class Assigner {
     return s;
   }
 
+  /// A joint between two like halves; without a table from the moduli.
+  Stiffness of_masonry(const Side& s) const {
+    const auto row = rules_.table.find(s.component);
+    return row != rules_.table.end() ? row->second : times(moduli_half(s), 0.5);
+  }
   Stiffness table_half(const Side& s) const { return times(rules_.table.at(s.component), 2.0); }
   Stiffness moduli_half(const Side& s) const {
     return {material(s).youngs_modulus / s.half_length, material(s).shear_modulus / s.half_length};
@@ -250,6 +256,7 @@ JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stif
   JointRules rules;
   rules.kind = uniform.kn > 0.0 ? JointRules::Kind::given : JointRules::Kind::moduli;
   rules.uniform = uniform;
+  rules.interface_friction = radians(35.0);  // of blocks of backfill on masonry, as generated bridges have it
   if (rules.kind == JointRules::Kind::moduli) check_moduli(assembly);
   const JointReport report = find_joints(assembly, search);
   assembly.laws.clear();

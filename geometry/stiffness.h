@@ -24,7 +24,7 @@ struct JointRules {
   Stiffness uniform;                     // given only
   std::map<Component, Stiffness> table;  // also what `interface_share` refers to
   std::map<Component, Vec3> nominal;     // m, block size: half of it stands for the fixed block below or beside
-  double interface_share = 0.20;         // masonry-backfill: share of the masonry's value in the table
+  double interface_share = 0.20;         // masonry-backfill: share of the masonry's value (table or moduli)
   double interface_friction = 0.0;       // rad
   double restraint_share = 0.50;         // joints with restraint blocks: share of the stiffness
   bool rings_bonded = true;              // joints between the rings of a vault; otherwise friction only
@@ -45,7 +45,8 @@ void assign_stiffness(Assembly& assembly, const JointRules& rules, const Generat
 void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
 
 /// Finds the joints of an assembly that has none and gives each its stiffness and strength (blocks finished): `uniform`
-/// for all, or, where it is zero, from the moduli. Throws InputError naming the first blocks without moduli, for
+/// for all, or, where it is zero, from the moduli; blocks of backfill meet masonry with a fifth of that and a friction
+/// of 35 degrees alone. Throws InputError naming the first blocks without moduli, for
 /// overlaps, and when only one of kn and ks is given.
 JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform = {});
 
