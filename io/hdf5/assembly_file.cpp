@@ -211,9 +211,30 @@ void write_names(h5::File& file, const Assembly& assembly) {
   file.set_texts("materials", "names", names);
 }
 
+bool has_objects(const Assembly& assembly) {
+  const auto next = assembly.groups.lower_bound(object_group_prefix);
+  return next != assembly.groups.end() && next->first.starts_with(object_group_prefix);
+}
+
+void write_objects(h5::File& file, const Assembly& assembly) {
+  std::vector<std::string> names;
+  std::vector<std::int64_t> offset = {0}, blocks;
+  for (const auto& [name, members] : assembly.groups) {
+    if (!name.starts_with(object_group_prefix)) continue;
+    names.push_back(name.substr(std::string_view(object_group_prefix).size()));
+    blocks.insert(blocks.end(), members.begin(), members.end());
+    offset.push_back(std::int64_t(blocks.size()));
+  }
+  file.write_texts("objects/names", names);
+  file.write("objects/offset", offset);
+  file.write("objects/blocks", blocks);
+}
+
 void write_groups(h5::File& file, const Assembly& assembly) {
   file.make_group("groups");
+  if (has_objects(assembly)) write_objects(file, assembly);
   for (const auto& [name, members] : assembly.groups) {
+    if (name.starts_with(object_group_prefix)) continue;
     if (name.empty() || name.find('/') != std::string::npos)
       throw InputError("cannot write {}: group \"{}\": a group's name must not be empty nor hold a '/'", file.path(),
                        name);
@@ -243,7 +264,7 @@ void write_sensors(h5::File& file, const Assembly& assembly) {
 void write_assembly(const std::string& path, const Assembly& assembly) {
   h5::File file = h5::File::create(path);
   file.set_text("/", "format", "voussoir-assembly");
-  file.set_integer("/", "format_version", assembly_format_version);
+  file.set_integer("/", "format_version", has_objects(assembly) ? assembly_format_version : 2);
   file.set_text("/", "units", "SI");
   file.set_text("/", "generator", assembly.generator);
   file.set_text("/", "program_version", VOUSSOIR_VERSION);

@@ -7,7 +7,10 @@
 
 namespace voussoir {
 
-inline constexpr std::int64_t assembly_format_version = 2;
+inline constexpr std::int64_t assembly_format_version = 3;
+/// Groups of this beginning are the objects of a drawing. There may be thousands: they stand in one table, objects/*,
+/// which version 3 brought; files without any are written as version 2.
+inline constexpr const char* object_group_prefix = "object ";
 
 /// Writes the assembly (finished: masses, joints) atomically. blocks/* hold the outer boundary of each block; the
 /// convex cells of blocks that have several are in cells/*. Throws RunError when it cannot be written.

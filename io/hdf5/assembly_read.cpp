@@ -11,6 +11,7 @@
 #include "io/hdf5/read_fill.h"
 #include "io/hdf5/shape_arrays.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 
 namespace voussoir {
 
@@ -41,6 +42,7 @@ class AssemblyReader {
   void sort_joints();
   void find_joints(const JointSearch& search);
   void read_groups();
+  void read_objects();
   void read_sensors();
 
   std::vector<std::int32_t> read_words(const std::string& name, std::size_t size,
@@ -364,6 +366,23 @@ void AssemblyReader::sort_joints() {
 void AssemblyReader::read_groups() {
   for (const std::string& name : file_.names("groups"))
     assembly_.groups[name] = read_indices<std::int64_t>("groups/" + name, {h5::any}, std::int64_t(blocks()));
+  if (file_.has("objects/names")) read_objects();
+}
+
+void AssemblyReader::read_objects() {
+  const std::vector<std::string> names = file_.read_texts("objects/names");
+  const auto members = read_indices<std::int64_t>("objects/blocks", {h5::any}, std::int64_t(blocks()));
+  const auto offset =
+      read_indices<std::int64_t>("objects/offset", {names.size() + 1}, std::int64_t(members.size()) + 1);
+  if (!std::is_sorted(offset.begin(), offset.end()) || offset.front() != 0 ||
+      offset.back() != std::int64_t(members.size()))
+    file_.fail("objects/offset",
+               fmt::format("it must rise from 0 to {}, the number of objects/blocks", members.size()));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!assembly_.groups
+             .try_emplace(object_group_prefix + names[i], members.begin() + offset[i], members.begin() + offset[i + 1])
+             .second)
+      file_.fail("objects/names", fmt::format("\"{}\" stands there twice, or as a group too", shown(names[i])));
 }
 
 void AssemblyReader::read_sensors() {

@@ -130,7 +130,14 @@ std::string describe_assembly(const std::string& path) {
   out.add("  {}", joints_text(assembly));
   if (!assembly.blocks.empty() && !states_joints(path)) out.add("  the file states no joints: these were found");
   for (const std::string& line : fill_lines(assembly)) out.add("  {}", line);
-  for (const auto& [name, members] : assembly.groups) out.add("  group \"{}\": {} blocks", name, members.size());
+  std::size_t objects = 0;
+  for (const auto& [name, members] : assembly.groups) objects += name.starts_with(object_group_prefix);
+  constexpr std::size_t most = 20;  // of an imported bridge there are thousands
+  for (const auto& [name, members] : assembly.groups)
+    if (objects <= most || !name.starts_with(object_group_prefix))
+      out.add("  group \"{}\": {} blocks", name, members.size());
+  if (objects > most)
+    out.add("  {} groups \"{}NAME\", one for each object of the drawing", objects, object_group_prefix);
   for (const Sensor& sensor : assembly.sensors) out.add("  sensor \"{}\" on block {}", sensor.id, sensor.block);
   for (const std::string& remark : remarks(assembly, path)) out.add("  remark: {}", remark);
   return out.text;

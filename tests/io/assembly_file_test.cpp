@@ -301,9 +301,9 @@ TEST(AssemblyFile, RefusesOtherFiles) {
   EXPECT_TRUE(holds(message(folder / "foreign.h5"), "without the attribute 'format'"));
   h5::File newer = h5::File::create(folder / "newer.h5");
   newer.set_text("/", "format", "voussoir-assembly");
-  newer.set_integer("/", "format_version", 3);
+  newer.set_integer("/", "format_version", 4);
   newer.save();
-  EXPECT_TRUE(holds(message(folder / "newer.h5"), "format_version 3, this program reads 1 to 2"));
+  EXPECT_TRUE(holds(message(folder / "newer.h5"), "format_version 4, this program reads 1 to 3"));
   write_assembly(folder / "a.h5", small_assembly());
   const std::string bytes = test::bytes_of(folder / "a.h5");
   test::set_bytes(folder / "cut.h5", bytes.substr(0, bytes.size() / 2));
