@@ -57,7 +57,7 @@ class ObjReader {
     else if (words[0] == "o")
       object_ = rest(text), group_.clear(), has_objects_ = true, ++part_;
     else if (words[0] == "g")
-      group_ = rest(text), ++part_of_group_;
+      group_ = layer_ = rest(text), ++part_of_group_;
   }
 
   static std::string rest(std::string_view text) {
@@ -96,7 +96,7 @@ class ObjReader {
       throw InputError("{}:{}: a face needs three corners or more, found {}", path_, line, loop.size());
     surface_.faces.push_back(loop);
     surface_.face_lines.push_back(line);
-    face_owner_.push_back({object_, group_, part_, part_of_group_});
+    face_owner_.push_back({object_, group_, layer_, part_, part_of_group_});
   }
 
   /// Faces of one object need not stand together; two objects of one name stay two.
@@ -106,19 +106,22 @@ class ObjReader {
       const Owner& owner = face_owner_[f];
       const int part = has_objects_ ? owner.part : owner.part_of_group;
       const auto [entry, fresh] = known.try_emplace(part, surface_.objects.size());
-      if (fresh) surface_.objects.push_back({has_objects_ ? owner.object : owner.group, surface_.face_lines[f], {}});
+      if (fresh)
+        surface_.objects.push_back(
+            {has_objects_ ? owner.object : owner.group, surface_.face_lines[f], {}, has_objects_ ? owner.layer : ""});
       surface_.objects[entry->second].faces.push_back(int(f));
     }
   }
 
   struct Owner {
-    std::string object, group;
+    std::string object, group, layer;
     int part = 0, part_of_group = 0;
   };
   std::string path_;
   Surface surface_;
   std::size_t line_ = 0;
   std::string object_, group_;
+  std::string layer_;  // a group goes on over objects
   bool has_objects_ = false;
   int part_ = 0, part_of_group_ = 0;
   std::vector<Owner> face_owner_;

@@ -242,6 +242,8 @@ std::vector<Shell> split_shells(const Surface& surface, const std::string& path,
       const std::string number = k > 0 ? fmt::format("#{}", k + 1) : "";
       shells.push_back(make_shell(parts[k], surface, object.name.empty() ? "" : object.name + number, path));
       shells.back().object = object.name;
+      shells.back().layer = object.layer;
+      shells.back().support = object.support;
     }
   }
   return shells;

@@ -15,6 +15,8 @@ struct Shell {
   std::size_t line = 0;  // of its first face; 0: unknown
   bool flipped = false;  // the file had it inside-out
   std::string object{};  // its name, without number
+  std::string layer{};   // of its object
+  bool support = false;  // as the file says of its object
 };
 
 /// Splits every object of the surface into closed shells: first by shared vertices; what is not closed that way has its

@@ -10,21 +10,26 @@
 
 namespace voussoir {
 
+const std::vector<SurfaceFormat>& surface_formats() {
+  static const std::vector<SurfaceFormat> formats = {{".obj", parse_obj},   {".ply", parse_ply},
+                                                     {".stl", parse_stl},   {".json", parse_compas},
+                                                     {".gltf", parse_gltf}, {".glb", parse_gltf}};
+  return formats;
+}
+
 Surface read_surface(const std::string& path) {
+  std::vector<std::string> endings;
+  for (const SurfaceFormat& format : surface_formats()) endings.push_back(format.ending);
+  const auto known = [&] { return fmt::format("{}", fmt::join(endings, ", ")); };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw InputError("{}: no such file; give an .obj, .ply or .stl file", path);
+    throw InputError("{}: no such file; give a file that ends in one of: {}", path, known());
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  Surface surface;
-  if (ending == ".obj")
-    surface = parse_obj(read_text(path), path);
-  else if (ending == ".ply")
-    surface = parse_ply(read_text(path), path);
-  else if (ending == ".stl")
-    surface = parse_stl(read_text(path), path);
-  else
-    throw InputError("{}: '{}' files are not read; give .obj, .ply or .stl", path, shown(ending));
+  const auto format = std::find(endings.begin(), endings.end(), ending);
+  if (format == endings.end())
+    throw InputError("{}: '{}' files are not read; give one of: {}", path, shown(ending), known());
+  const Surface surface = surface_formats()[std::size_t(format - endings.begin())].parse(read_text(path), path);
   if (surface.faces.empty()) throw InputError("{}: holds no faces; export closed surfaces, one per stone", path);
   return surface;
 }
