@@ -19,6 +19,21 @@ std::string number_text(double value) {
   return text;
 }
 
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
 std::string degrees_text(double radians) {
   const double degrees = radians * (180.0 / pi);
   for (int digits = 6; digits <= 17; ++digits) {

@@ -1,4 +1,5 @@
-// Angles: degrees in case files, radians inside, and back without losing a bit. Private to io/case.
+// Values as TOML texts, read back without losing a bit; angles are degrees in files and radians inside. Private to
+// io/case.
 #pragma once
 #include <string>
 
@@ -11,5 +12,7 @@ std::string degrees_text(double radians);
 double writable_angle(double radians);
 /// The shortest text of a TOML float that is read back to the same bits.
 std::string number_text(double value);
+/// A TOML basic string.
+std::string quoted(const std::string& text);
 
 }  // namespace voussoir

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/decompose.h"
 #include "geometry/extent.h"
 #include "geometry/flatten.h"
+#include "geometry/hull.h"
 #include "geometry/repair.h"
 #include "geometry/stiffness.h"
+#include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
 #include "io/vtk/import_steps.h"
 #include "io/vtk/shells.h"
@@ -27,12 +30,16 @@ double size_of(const Polyhedron& shape) {
   return (box.high - box.low).norm();
 }
 
-/// What has been done to make faces plane.
+/// What has been done to make shapes convex.
 struct Repairs {
-  std::int64_t stones = 0;
-  double moved = 0.0;  // m
-  double tilt = 0.0;   // rad
-  std::string where;   // of the farthest move
+  std::int64_t stones = 0;  // whose faces were made plane
+  double moved = 0.0;       // m
+  double tilt = 0.0;        // rad
+  std::string where;        // of the farthest move
+  std::int64_t hulls = 0;
+  double growth = 0.0;  // the largest, share of the volume
+  std::string grown;    // where
+  std::int64_t cut = 0, cells = 0;
 };
 
 /// The remedy depends on how far the shape is from a convex one.
@@ -45,35 +52,73 @@ struct Repairs {
         throw InputError(
             "{} is not a convex stone: {}; to make its faces plane, corners would move by up to {:.3g} m, more than "
             "--flatten {:g} of its size ({:.3g} m) lets them: give --flatten {:g} if that is no matter, draw it plane, "
-            "or "
-            "cut it into convex pieces (--cells)",
+            "take its convex hull (--not-convex hull), or cut it into convex pieces (--cells)",
             where, trouble, flat->moved, options.flatten, size, share);
   throw InputError(
-      "{} is not a convex stone: {}; cut it into convex pieces, leave these in one object and give --cells objects (or "
-      "name them NAME.1, NAME.2 and give --cells names): as objects of their own they would be stones of their own, "
-      "with a joint between them",
+      "{} is not a convex stone: {}; have it cut (--not-convex cut), or draw it as convex pieces, leave these in one "
+      "object and give --cells objects (or name them NAME.1, NAME.2 and give --cells names): as objects of their own "
+      "they would be stones of their own, with a joint between them",
       where, trouble);
 }
 
-Polyhedron cell_of(const Shell& shell, const std::string& where, const ImportOptions& options, Repairs& repairs) {
+Polyhedron hull_of(const Polyhedron& shape, const std::string& where, const ImportOptions& options, Repairs& repairs) {
+  Polyhedron hull = merge_coplanar_faces(convex_hull(shape.vertices), options.merge_angle);
+  if (const std::string trouble = convexity_error(hull); !trouble.empty()) {
+    const auto flat = flatten(hull, std::max(options.flatten * size_of(hull), options.search.gap));
+    if (!flat) throw InputError("{}: its convex hull is no sound stone: {}; draw it convex", where, trouble);
+    hull = flat->shape;
+  }
+  const double before = mass_properties(shape).volume;
+  const double growth = mass_properties(hull).volume / before - 1.0;
+  if (repairs.hulls++ == 0 || growth > repairs.growth) repairs.growth = growth, repairs.grown = where;
+  return hull;
+}
+
+/// Cells keep the faces of the whole; where these are not quite plane, neither are theirs.
+std::vector<Polyhedron> pieces_of(const Polyhedron& shape, const std::string& where, const ImportOptions& options,
+                                  Repairs& repairs) {
+  std::vector<Polyhedron> cells;
+  try {
+    cells = decompose(shape);
+  } catch (const InputError& error) {
+    throw InputError("{} is not convex, and cannot be cut: {}", where, error.what());
+  }
+  ++repairs.cut;
+  repairs.cells += std::ssize(cells);
+  for (Polyhedron& cell : cells) {
+    cell = merge_coplanar_faces(cell, options.merge_angle);
+    const std::string trouble = convexity_error(cell);
+    if (trouble.empty()) continue;
+    const auto flat = flatten(cell, std::max(options.flatten * size_of(shape), options.search.gap));
+    if (!flat) throw InputError("{}: one of its {} pieces is no sound cell: {}", where, cells.size(), trouble);
+    cell = flat->shape;
+  }
+  return cells;
+}
+
+/// One cell, or, of a shape that is cut, several.
+std::vector<Polyhedron> cells_of(const Shell& shell, const std::string& where, const Mat3& turn, NotConvex not_convex,
+                                 const ImportOptions& options, Repairs& repairs) {
   Polyhedron shape = shell.shape;
-  const Mat3 turn = options.scale * turn_of(options.up);
   for (Vec3& vertex : shape.vertices) {
     vertex = turn * vertex;
     if (!within_reach(vertex))
       throw InputError(
-          "{}: a corner at ({:g}, {:g}, {:g}) m, expected coordinates up to {:g} m: look at --scale ({:g})", where,
-          vertex.x(), vertex.y(), vertex.z(), farthest, options.scale);
+          "{}: a corner at ({:g}, {:g}, {:g}) m, expected coordinates up to {:g} m: look at --units or --scale ({:g})",
+          where, vertex.x(), vertex.y(), vertex.z(), farthest, options.scale);
   }
   shape = merge_coplanar_faces(shape, options.merge_angle);
   const std::string trouble = convexity_error(shape);
-  if (trouble.empty()) return shape;
-  const auto flat = flatten(shape, std::max(options.flatten * size_of(shape), options.search.gap));
-  if (!flat) refuse(shape, where, trouble, options);
-  ++repairs.stones;
-  repairs.tilt = std::max(repairs.tilt, flat->tilt);
-  if (flat->moved > repairs.moved) repairs.moved = flat->moved, repairs.where = where;
-  return flat->shape;
+  if (trouble.empty()) return {shape};
+  if (const auto flat = flatten(shape, std::max(options.flatten * size_of(shape), options.search.gap))) {
+    ++repairs.stones;
+    repairs.tilt = std::max(repairs.tilt, flat->tilt);
+    if (flat->moved > repairs.moved) repairs.moved = flat->moved, repairs.where = where;
+    return {flat->shape};
+  }
+  if (not_convex == NotConvex::refuse) refuse(shape, where, trouble, options);
+  if (not_convex == NotConvex::hull) return {hull_of(shape, where, options, repairs)};
+  return pieces_of(shape, where, options, repairs);
 }
 
 /// Stones that meet may have been made plane in different ways: both sides of a joint may have moved.
@@ -84,6 +129,13 @@ JointSearch widened(JointSearch search, const Repairs& repairs) {
 }
 
 void note_repairs(Import& import, const Repairs& repairs, const std::string& path, const ImportOptions& options) {
+  if (repairs.hulls > 0)
+    import.notes.push_back(
+        fmt::format("{}: {} shapes were replaced by their convex hulls, which hold up to {:.3g} % more, the most {}",
+                    path, repairs.hulls, 100.0 * repairs.growth, repairs.grown));
+  if (repairs.cut > 0)
+    import.notes.push_back(
+        fmt::format("{}: {} shapes were cut into {} convex cells", path, repairs.cut, repairs.cells));
   if (repairs.stones == 0) return;
   std::string note = fmt::format(
       "{}: {} stones had faces that are not plane; corners were moved by up to {:.3g} m to make them so, the "
@@ -94,12 +146,14 @@ void note_repairs(Import& import, const Repairs& repairs, const std::string& pat
   import.notes.push_back(note);
 }
 
-void add_groups(Import& import) {
+void add_groups(Import& import, bool of_objects) {
   for (std::size_t i = 0; i < import.objects.size(); ++i) {
+    for (const std::string& group : import.meant[i].groups) import.assembly.groups[group].push_back(std::int64_t(i));
+    if (!of_objects) continue;
     std::string name = import.objects[i];
     if (name.empty()) continue;
     std::replace(name.begin(), name.end(), '/', '_');  // a path separator in the assembly file
-    import.assembly.groups["object " + name].push_back(std::int64_t(i));
+    import.assembly.groups[object_group_prefix + name].push_back(std::int64_t(i));
   }
 }
 
@@ -123,6 +177,17 @@ void check(const ImportOptions& options) {
     throw InputError("import: the density is {} kg/m3; give a value above 0", options.material.density);
 }
 
+/// Objects by their names; stones without one by none.
+std::vector<NameRow> meanings(const std::vector<Shell>& shells, const ImportOptions& options, Import& import) {
+  std::vector<NameRow> meant(shells.size());
+  if (options.map.empty()) return meant;
+  std::vector<bool> used(options.map.rows.size());
+  for (std::size_t i = 0; i < shells.size(); ++i)
+    meant[i] = meaning_of(options.map, shells[i].object, shells[i].layer, used);
+  note_strangers(shells, meant, used, options.map, import.notes);
+  return meant;
+}
+
 }  // namespace
 
 Import import_blocks(const std::string& path, const ImportOptions& options) {
@@ -133,24 +198,30 @@ Import import_blocks(const std::string& path, const ImportOptions& options) {
   import.notes = surface.notes;
   const auto shells = split_shells(surface, path, import.notes);
   import.assembly.generator = "import";
+  import.meant = meanings(shells, options, import);
+  const Mat3 turn = options.scale * turn_of(options.up.empty() ? surface.up : options.up);
   Repairs repairs;
   for (std::size_t i = 0; i < shells.size(); ++i) {
     const std::string where = stone(path, shells[i], i);
-    import.assembly.blocks.emplace_back().cells = {cell_of(shells[i], where, options, repairs)};
+    const NotConvex how = import.meant[i].not_convex.value_or(options.not_convex);
+    import.assembly.blocks.emplace_back().cells = cells_of(shells[i], where, turn, how, options, repairs);
     import.names.push_back(shells[i].name);
     import.objects.push_back(shells[i].object);
+    import.supports.push_back(shells[i].support);
     if (shells[i].flipped) import.notes.push_back(where + " was inside-out and has been turned");
   }
   note_repairs(import, repairs, path, options);
   const JointSearch search = widened(options.search, repairs);
   check_overlaps(import, path, search.gap);
   join_cells(import, options.cells, search, path);
+  give_places(import);
   give_materials(import, options, path);
   finish_blocks(import.assembly);
-  fix_stones(import, options);
+  ImportOptions meant = options;
+  if (!fix_stones(import, options, path)) meant.fixed = "as stated";
   import.joints = lay_joints(import.assembly, search, {options.kn, options.ks});
-  add_groups(import);
-  note_what_surprises(import, options, path);
+  add_groups(import, options.map.object_groups);
+  note_what_surprises(import, meant, path);
   return import;
 }
 

@@ -59,8 +59,9 @@ void turn(Assembly& assembly, const Mat3& by) {
 std::vector<std::string> names_of_stones(const Assembly& assembly) {
   std::vector<std::string> names(assembly.blocks.size());
   for (const auto& [group, members] : assembly.groups)
-    if (group.starts_with("object "))
-      for (const std::int64_t i : members) names[std::size_t(i)] = group.substr(7);
+    if (group.starts_with(object_group_prefix))
+      for (const std::int64_t i : members)
+        names[std::size_t(i)] = group.substr(std::string_view(object_group_prefix).size());
   return names;
 }
 
@@ -69,19 +70,23 @@ std::vector<std::string> names_of_stones(const Assembly& assembly) {
 Import import_assembly(const std::string& path, const ImportOptions& options) {
   if (options.scale != 1.0)
     throw InputError("{}: --scale is {}, but assembly files are in metres: leave it out", path, options.scale);
-  if (options.cells != CellRule::none || !options.materials.empty())
-    throw InputError("{}: --cells and --materials are for surfaces; an assembly file states cells and materials itself",
-                     path);
+  if (options.cells != CellRule::none || !options.materials.empty() || !options.map.empty())
+    throw InputError(
+        "{}: --cells, --materials and --map are for surfaces; an assembly file states cells, materials, components and "
+        "groups itself",
+        path);
   Import import;
   Assembly& assembly = import.assembly = read_stated_assembly(path);
-  turn(assembly, turn_of(options.up));
+  turn(assembly, turn_of(options.up.empty() ? "z" : options.up));
   check_joints(assembly, path);
   change_materials(import, options, path);
   finish_blocks(assembly);
   import.names = import.objects = names_of_stones(assembly);
+  import.meant.resize(import.names.size());
+  import.supports.resize(import.names.size());
   if (!options.keep_fixed) {
     for (Block& block : assembly.blocks) block.fixed = false;
-    fix_stones(import, options);
+    fix_stones(import, options, path);
   }
   const std::size_t stated = assembly.joints.size();
   assembly.joints.clear();

@@ -16,19 +16,50 @@ std::string without_number(const std::string& name) {
   return numbered ? name.substr(0, last) : name;
 }
 
-/// Numbers of the pieces of each stone, in the order of the first pieces. Pieces without a name stay alone.
-std::vector<std::vector<std::size_t>> stones_of(const std::vector<std::string>& objects, CellRule rule) {
+/// The stone that a piece belongs to by the map or the rule; empty where it is a stone of its own.
+std::string stone_of(const Import& import, std::size_t piece, CellRule rule) {
+  if (import.meant[piece].block) return *import.meant[piece].block;
+  if (rule == CellRule::none) return "";
+  return rule == CellRule::names ? without_number(import.objects[piece]) : import.objects[piece];
+}
+
+/// Numbers of the pieces of each stone, in the order of the first pieces. Pieces without a name stay alone. A name of
+/// the map is another than the same one of the rule.
+std::vector<std::vector<std::size_t>> stones_of(const Import& import, CellRule rule) {
   std::vector<std::vector<std::size_t>> stones;
-  std::map<std::string, std::size_t> known;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const std::string name = rule == CellRule::names ? without_number(objects[i]) : objects[i];
-    const auto [entry, fresh] = known.try_emplace(name, stones.size());
+  std::map<std::pair<bool, std::string>, std::size_t> known;
+  for (std::size_t i = 0; i < import.objects.size(); ++i) {
+    const std::string name = stone_of(import, i, rule);
+    const auto [entry, fresh] = known.try_emplace({import.meant[i].block.has_value(), name}, stones.size());
     if (fresh || name.empty())
       stones.push_back({i});
     else
       stones[entry->second].push_back(i);
   }
   return stones;
+}
+
+template <class T>
+void add_member(std::optional<T>& to, const std::optional<T>& from, const std::string& where, const char* what) {
+  if (to && from && *to != *from)
+    throw InputError("{} do not agree on their {}: give all pieces of a stone the same", where, what);
+  if (from) to = from;
+}
+
+/// What the map says of all pieces of a stone.
+NameRow together(const Import& import, const std::vector<std::size_t>& pieces, const std::string& where) {
+  NameRow whole = import.meant[pieces[0]];
+  for (const std::size_t i : pieces) {
+    const NameRow& piece = import.meant[i];
+    add_member(whole.component, piece.component, where, "component");
+    add_member(whole.part, piece.part, where, "part");
+    add_member(whole.material, piece.material, where, "material");
+    add_member(whole.fixed, piece.fixed, where, "being fixed");
+    for (const std::string& group : piece.groups)
+      if (std::find(whole.groups.begin(), whole.groups.end(), group) == whole.groups.end())
+        whole.groups.push_back(group);
+  }
+  return whole;
 }
 
 /// The first piece that cannot be reached from the stone's first one over pieces that touch; none: −1.
@@ -61,17 +92,21 @@ std::map<std::size_t, std::vector<std::size_t>> touching_pieces(Assembly pieces,
 }  // namespace
 
 void join_cells(Import& import, CellRule rule, const JointSearch& search, const std::string& path) {
-  if (rule == CellRule::none) return;
-  const auto stones = stones_of(import.objects, rule);
+  const bool by_map =
+      std::any_of(import.meant.begin(), import.meant.end(), [](const NameRow& row) { return row.block; });
+  if (rule == CellRule::none && !by_map) return;
+  const auto stones = stones_of(import, rule);
   const auto touching = touching_pieces(import.assembly, search);
   Assembly joined;
   joined.generator = import.assembly.generator;
   std::vector<std::string> names, objects;
-  std::size_t of_several = 0;
+  std::vector<NameRow> meant;
+  std::vector<bool> supports;
+  std::size_t of_several = 0, cells = 0;
   for (const std::vector<std::size_t>& pieces : stones) {
     const bool several = pieces.size() > 1;
     const std::string& object = import.objects[pieces[0]];
-    const std::string name = rule == CellRule::names && several ? without_number(object) : object;
+    const std::string name = several ? stone_of(import, pieces[0], rule) : object;
     if (const std::int64_t apart = piece_apart(pieces, touching); apart >= 0)
       throw InputError(
           "{}: the pieces of '{}' do not make one stone: piece {} of the file ('{}') does not touch the others by a "
@@ -82,16 +117,21 @@ void join_cells(Import& import, CellRule rule, const JointSearch& search, const 
       block.cells.insert(block.cells.end(), import.assembly.blocks[i].cells.begin(),
                          import.assembly.blocks[i].cells.end());
     of_several += several;
+    if (several) cells += block.cells.size();
     names.push_back(several ? name : import.names[pieces[0]]);
     objects.push_back(several ? name : object);
+    meant.push_back(together(import, pieces, fmt::format("{}: the pieces of '{}'", path, name)));
+    supports.push_back(std::any_of(pieces.begin(), pieces.end(), [&](std::size_t i) { return import.supports[i]; }));
   }
   import.notes.push_back(
-      of_several == 0 ? path + ": no stone is made of several cells: --cells found no pieces that belong together"
-                      : fmt::format("{}: {} stones are made of several cells, {} cells in all", path, of_several,
-                                    import.objects.size() - (stones.size() - of_several)));
+      of_several == 0
+          ? path + ": no stone is made of several cells: --cells and --map found no pieces that belong together"
+          : fmt::format("{}: {} stones are made of several cells, {} cells in all", path, of_several, cells));
   import.assembly = std::move(joined);
   import.names = std::move(names);
   import.objects = std::move(objects);
+  import.meant = std::move(meant);
+  import.supports = std::move(supports);
 }
 
 }  // namespace voussoir

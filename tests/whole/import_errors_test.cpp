@@ -116,6 +116,47 @@ TEST(ImportErrors, OptionsThatSayNothing) {
   expect_error(import(folder, "stones.obj", {"--materials", "none.toml"}), 2, {"none.toml"});
 }
 
+TEST(ImportErrors, UnitsMapsAndShapes) {
+  Folder folder;
+  folder.write("stones.obj", lower + cube("upper", 0, 0, 1, 9));
+  const Outcome small = import(folder, "stones.obj", {"--units", "ft"});
+  EXPECT_NE(small.out.find("0.06 t that can move"), std::string::npos) << small.out;  // 2000 × 0.3048³ kg
+  expect_error(import(folder, "stones.obj", {"--units", "yd"}), 2, {"--units is 'yd'", "mm, in, ft"});
+  expect_error(import(folder, "stones.obj", {"--units", "mm", "--scale", "0.001"}), 2, {"--units and --scale"});
+  expect_error(import(folder, "stones.obj", {"--not-convex", "melt"}), 2, {"--not-convex is 'melt'", "hull, cut"});
+  expect_error(import(folder, "stones.obj", {"--map", "none.toml"}), 2, {"none.toml"});
+  folder.write("names.toml", "[names]\n\"lower\" = {component = \"bas\"}\n");
+  expect_error(import(folder, "stones.obj", {"--map", "names.toml"}), 2, {"names.toml:2", "bas", "base"});
+  folder.write("names.toml", "[names]\n\"upper\" = {component = \"base\", fixed = true}\n\"x*\" = {part = 1}\n");
+  const Outcome mapped = import(folder, "stones.obj", {"--map", "names.toml"});
+  for (const char* piece : {"no object fits 'x*'", "nothing of the objects 'lower'", "base                1        1"})
+    EXPECT_NE(mapped.out.find(piece), std::string::npos) << mapped.out << mapped.err;
+  expect_error(import(folder, "out.h5", {"--map", "names.toml"}), 2, {"--map"});
+}
+
+TEST(ImportErrors, ExportAndBack) {
+  Folder folder;
+  folder.write("case.toml", "[bridge]\ngenerator = \"arch\"\n");
+  const auto run = [&](const std::vector<std::string>& words) { return voussoir(words, {.folder = folder.path()}); };
+  for (const char* file : {"arch.obj", "arch.json"}) {
+    const Outcome out = run({"export", "case.toml", "-o", file});
+    ASSERT_EQ(out.status, 0) << out.err;
+    EXPECT_NE(out.out.find("joints are not written"), std::string::npos) << out.out;
+    EXPECT_TRUE(exists(folder / "arch.names.toml"));
+    const Outcome back = run({"import", file, "--map", "arch.names.toml", "-o", "back.h5"});
+    ASSERT_EQ(back.status, 0) << back.err;
+    const Outcome generated = run({"generate", "case.toml", "-o", "arch.h5"});
+    const auto counts = [](const std::string& text) {
+      return text.substr(text.find("component"), text.find("smallest") - text.find("component"));
+    };
+    EXPECT_EQ(counts(back.out).substr(0, counts(back.out).find(" joints")),
+              counts(generated.out).substr(0, counts(generated.out).find(" joints")));
+  }
+  expect_error(run({"export", "case.toml"}), 2, {"-o FILE is missing"});
+  expect_error(run({"export", "case.toml", "-o", "arch.stl"}), 2, {"arch.stl", ".obj or .json"});
+  expect_error(run({"export", "none.toml", "-o", "arch.obj"}), 2, {"none.toml"});
+}
+
 /// Joints are counted where a run begins, and those of an assembly file are found anew by import.
 TEST(ImportErrors, JointsAreCountedFromImportToRun) {
   Folder folder;
@@ -145,8 +186,11 @@ TEST(ImportErrors, GarbageOfEveryKind) {
       "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 900\n",
       "ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 6\nproperty list uchar int vertex_indices\nend_header\n",
-      std::string(80, ' ') + "\xff\xff\xff\x7f"};
-  for (const char* ending : {"obj", "stl", "ply"})
+      std::string(80, ' ') + "\xff\xff\xff\x7f",
+      "{\"dtype\": \"x\", \"data\": {\"graph\": {\"node\": {\"0\": {\"block\": 7}}}}}",
+      "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 0}]}",
+      std::string("glTF\2\0\0\0\xff\xff\0\0\xff\0\0\0JSON", 20)};
+  for (const char* ending : {"obj", "stl", "ply", "json", "gltf", "glb"})
     for (const std::string& head : heads) {
       std::string bytes = head;
       for (int i = 0; i < 600; ++i) bytes += char(random());

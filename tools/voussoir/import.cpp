@@ -21,9 +21,16 @@ CellRule cell_rule(const std::string& word) {
   throw InputError("--cells is '{}'; it must be none, objects or names", word);
 }
 
+NotConvex not_convex(const std::string& word) {
+  const auto& words = not_convex_words();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) throw InputError("--not-convex is '{}'; it must be {}", word, fmt::join(words, ", "));
+  return NotConvex(found - words.begin());
+}
+
 ImportOptions import_options(const options::variables_map& values) {
   ImportOptions o;
-  o.scale = values["scale"].as<double>();
+  o.scale = scale_asked(values);
   o.fixed = values["fixed"].as<std::string>();
   o.material.density = values["density"].as<double>();
   o.material.youngs_modulus = values["youngs-modulus"].as<double>();
@@ -34,6 +41,8 @@ ImportOptions import_options(const options::variables_map& values) {
   o.up = values["up"].as<std::string>();
   o.cells = cell_rule(values["cells"].as<std::string>());
   o.flatten = values["flatten"].as<double>();
+  o.not_convex = not_convex(values["not-convex"].as<std::string>());
+  if (values.count("map")) o.map = read_name_map(values["map"].as<std::string>(), o.material);
   if (values.count("materials")) o.materials = read_material_table(values["materials"].as<std::string>(), o.material);
   o.kn = values["kn"].as<double>();
   o.ks = values["ks"].as<double>();
@@ -56,7 +65,7 @@ void check_kind(const options::variables_map& values, bool fill) {
   for (const char* name : {"into", "material", "interface-share", "interface-friction", "dilation"})
     if (!fill && given(name))
       throw InputError("--{} is for a fill (.msh), and this file holds stones: leave it out", name);
-  for (const char* name : {"fixed", "up", "cells", "flatten", "materials"})
+  for (const char* name : {"fixed", "up", "cells", "flatten", "not-convex", "map", "materials"})
     if (fill && given(name))
       throw InputError("--{} is for stones, and a .msh file holds a fill, which stands on them: leave it out", name);
 }
@@ -65,19 +74,29 @@ int import(const std::vector<std::string>& arguments) {
   CommandLine line("import", "import FILE -o ASSEMBLY",
                    "voussoir import vault.obj -o vault.h5 --density 2200 --fixed lowest");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"), "assembly file to write")(
-      "scale", real_option("scale", 1e-9, 1e6)->default_value(1.0), "metres per unit of the file")(
-      "up", options::value<std::string>()->default_value("z"), "the file's axis that points up: x, y, z, -x, -y, -z")(
+      "units", options::value<std::string>()->value_name("UNIT"), "the file's unit of length: m, cm, mm, in, ft")(
+      "scale", real_option("scale", 1e-9, 1e6)->default_value(1.0), "the same as a number: metres per unit")(
+      "up", options::value<std::string>()->default_value(""),
+      "the file's axis that points up: x, y, z, -x, -y, -z (default: z; of glTF y)")(
+      "map", options::value<std::string>()->value_name("FILE"),
+      "TOML: what objects are by their names: [names] \"arch*\" = {component = \"arch\", part = 0, material = ..., "
+      "group "
+      "= ..., fixed = ..., block = ..., not_convex = ...}; the same by [layers]; [materials.NAME] as in a case")(
       "cells", options::value<std::string>()->default_value("none"),
       "convex pieces that are one stone: none; objects: the closed shapes of one object; names: also of objects whose "
       "names differ in a number behind the last point (corbel.1, corbel.2)")(
       "flatten", real_option("flatten", 0.0, 0.1)->default_value(1e-3),
       "share of a stone's size up to which faces that are not plane are made so (at least --gap)")(
+      "not-convex", options::value<std::string>()->default_value("refuse"),
+      "a shape that is not convex beyond that: refuse; hull: its convex hull takes its place; cut: into convex cells "
+      "of "
+      "one stone")(
       "materials", options::value<std::string>()->value_name("FILE"),
       "TOML: tables [materials.NAME] with the keys of a case and objects = [\"corbel*\", ...]; what they leave out is "
       "as the options say")(
       "fixed", options::value<std::string>()->default_value("lowest"),
-      "what moves with the ground: lowest, none, or names or numbers; of an assembly file, unless given: as it says")(
-      "density", real_option("density", 1e-6, 1e5)->default_value(2000.0), "kg/m3")(
+      "what moves with the ground: lowest, none, or names or numbers; unless given, as an assembly file, supports of a "
+      "COMPAS file or the map say")("density", real_option("density", 1e-6, 1e5)->default_value(2000.0), "kg/m3")(
       "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9), "Pa")(
       "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9), "Pa")(
       "tension", real_option("tension", 0.0, 1e10)->default_value(0.0), "tensile strength of the joints, Pa")(
@@ -117,7 +136,8 @@ int import(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb import_verb() {
-  return {"import", "blocks (OBJ, PLY, STL, HDF5) or a fill (Gmsh) made elsewhere to an assembly", import};
+  return {"import", "blocks (OBJ, PLY, STL, glTF, COMPAS, HDF5) or a fill (Gmsh) made elsewhere to an assembly",
+          import};
 }
 
 }  // namespace voussoir

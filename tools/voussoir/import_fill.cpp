@@ -10,6 +10,7 @@
 #include "io/msh/msh_file.h"
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
+#include "solver/base/shown.h"
 #include "tools/voussoir/assembly_table.h"
 
 namespace voussoir {
@@ -70,6 +71,20 @@ double angle(const options::variables_map& values, const char* name) {
   return values[name].as<double>() * pi / 180.0;
 }
 
+double scale_asked(const options::variables_map& values) {
+  if (!values.count("units")) return values["scale"].as<double>();
+  const std::string unit = values["units"].as<std::string>();
+  if (given(values, "scale")) throw InputError("--units and --scale are both given; give one of them");
+  static const std::vector<std::pair<std::string, double>> units = {
+      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+  std::vector<std::string> known;
+  for (const auto& [name, metres] : units) {
+    if (name == unit) return metres;
+    known.push_back(name);
+  }
+  throw InputError("--units is '{}'; it must be one of {}", shown(unit), fmt::join(known, ", "));
+}
+
 bool is_fill_file(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -86,7 +101,7 @@ int import_fill(const options::variables_map& values) {
   const std::size_t known = assembly.materials.size();
   const std::int32_t material = find_material(values, assembly);
   const FillInterface interface = interface_of(values);
-  FillMesh mesh = read_msh(file, values["scale"].as<double>());
+  FillMesh mesh = read_msh(file, scale_asked(values));
   FillJointReport report;
   try {
     report = put_fill(assembly, std::move(mesh), material, interface);
