@@ -17,6 +17,7 @@ const std::vector<Verb>& verbs();
 
 Verb generate_verb();
 Verb import_verb();
+Verb export_verb();
 Verb info_verb();
 Verb run_verb();
 Verb resume_verb();

@@ -1,0 +1,55 @@
+// voussoir export.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/case/case.h"
+#include "io/hdf5/assembly_file.h"
+#include "io/hdf5/h5.h"
+#include "io/vtk/export_blocks.h"
+#include "solver/base/atomic_file.h"
+#include "solver/base/error.h"
+#include "solver/base/shown.h"
+#include "tools/voussoir/options.h"
+
+namespace voussoir {
+
+namespace {
+
+int export_shapes(const std::vector<std::string>& arguments) {
+  CommandLine line("export", "export CASE|ASSEMBLY -o FILE.obj|FILE.json",
+                   "voussoir export cases/cs2-f.toml -o bridge.obj");
+  line.described.add_options()(
+      "output,o", options::value<std::string>()->value_name("FILE"),
+      "file to write: .obj, or .json of COMPAS; FILE.names.toml beside it is the map for import");
+  line.positional = line.required = {"CASE"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  if (!values.count("output")) throw InputError("-o FILE is missing; usage: voussoir {}", line.usage);
+  const std::string file = values["CASE"].as<std::string>(), to = values["output"].as<std::string>();
+  const std::string ending = std::filesystem::path(to).extension().string();
+  if (ending != ".obj" && ending != ".json")
+    throw InputError("-o {}: the ending says what is written; let it end in .obj or .json", shown(to, 300));
+  const std::string names = std::filesystem::path(to).replace_extension(".names.toml").string();
+  const Assembly assembly =
+      h5::File::is_hdf5(file) ? read_assembly(file) : make_assembly(read_case(file, CaseUse::geometry));
+  if (assembly.blocks.empty()) throw InputError("{}: it holds no blocks, and nothing else is exported", file);
+  const ExportedBlocks out = ending == ".obj" ? export_obj(assembly) : export_compas(assembly);
+  write_atomically(to, out.text);
+  write_atomically(names, text_of(out.map));
+  if (values.count("quiet")) return 0;
+  std::size_t cells = 0;
+  for (const Block& block : assembly.blocks) cells += block.cells.size();
+  for (const std::string& note : out.notes) fmt::print("{}\n", note);
+  fmt::print("{} blocks of {} cells written to {}, what they are to {}\n", assembly.blocks.size(), cells, to, names);
+  fmt::print("they come back with: voussoir import {} --map {} -o ASSEMBLY.h5\n", to, names);
+  return 0;
+}
+
+}  // namespace
+
+Verb export_verb() {
+  return {"export", "blocks to OBJ or COMPAS, with a map of what they are", export_shapes};
+}
+
+}  // namespace voussoir
