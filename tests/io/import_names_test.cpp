@@ -149,6 +149,24 @@ TEST(ImportNames, AShapeThatIsNotConvexIsCutOrItsHullTaken) {
   EXPECT_NE(message_of<InputError>([&] { import_with(text, ""); }).find("--not-convex cut"), std::string::npos);
 }
 
+/// A warp beyond --flatten: the message says how far corners stand off and what can be done; the hull is one of it.
+TEST(ImportNames, AWarpedStoneMayBeReplacedByItsHull) {
+  Polyhedron warped = make_box({0, 0, 1}, {1, 1, 2});
+  for (Vec3& p : warped.vertices)
+    if (p.z() > 1.5) p.z() += (p.x() > 0.5) == (p.y() > 0.5) ? 0.1 : -0.1;
+  const std::string text = obj_of({{"flat", make_box({0, 0, 0}, {1, 1, 1})}, {"warped", warped}});
+  const std::string said = message_of<InputError>([&] { import_with(text, ""); });
+  for (const char* piece : {"'warped'", "its corners lie up to 0.1 m off a plane"})
+    EXPECT_NE(said.find(piece), std::string::npos) << said;
+  ImportOptions options;
+  options.not_convex = NotConvex::hull;
+  const Import import = import_with(text, "", options);
+  // Corners of the top at 2.1, 1.9, 2.1, 1.9: the two triangles of the hull stand 1/30 above the mean on average.
+  EXPECT_NEAR(import.assembly.blocks[1].mass, 2000.0 * (1.0 + 0.1 / 3.0), 1e-6);
+  EXPECT_EQ(import.assembly.joints.size(), 1u);
+  EXPECT_TRUE(has_note(import, "hold up to 3.33 % more"));
+}
+
 TEST(ImportNames, ADrawingInAnotherUnitIsSaid) {
   const std::string text =
       obj_of({{"low", make_box({0, 0, 0}, {3000, 900, 600})}, {"high", make_box({0, 0, 600}, {3000, 900, 1200})}});

@@ -42,7 +42,7 @@ int export_shapes(const std::vector<std::string>& arguments) {
   for (const Block& block : assembly.blocks) cells += block.cells.size();
   for (const std::string& note : out.notes) fmt::print("{}\n", note);
   fmt::print("{} blocks of {} cells written to {}, what they are to {}\n", assembly.blocks.size(), cells, to, names);
-  fmt::print("they come back with: voussoir import {} --map {} -o ASSEMBLY.h5\n", to, names);
+  fmt::print("they come back with: voussoir import {} --map {} --gap 1e-6 -o ASSEMBLY.h5\n", to, names);
   return 0;
 }
 

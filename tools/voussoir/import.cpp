@@ -38,7 +38,7 @@ ImportOptions import_options(const options::variables_map& values) {
   o.material.tensile_strength = values["tension"].as<double>();
   o.material.cohesion = values["cohesion"].as<double>();
   o.material.friction_angle = angle(values, "friction");
-  o.up = values["up"].as<std::string>();
+  if (values.count("up")) o.up = values["up"].as<std::string>();
   o.cells = cell_rule(values["cells"].as<std::string>());
   o.flatten = values["flatten"].as<double>();
   o.not_convex = not_convex(values["not-convex"].as<std::string>());
@@ -76,7 +76,7 @@ int import(const std::vector<std::string>& arguments) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"), "assembly file to write")(
       "units", options::value<std::string>()->value_name("UNIT"), "the file's unit of length: m, cm, mm, in, ft")(
       "scale", real_option("scale", 1e-9, 1e6)->default_value(1.0), "the same as a number: metres per unit")(
-      "up", options::value<std::string>()->default_value(""),
+      "up", options::value<std::string>()->value_name("AXIS"),
       "the file's axis that points up: x, y, z, -x, -y, -z (default: z; of glTF y)")(
       "map", options::value<std::string>()->value_name("FILE"),
       "TOML: what objects are by their names: [names] \"arch*\" = {component = \"arch\", part = 0, material = ..., "
