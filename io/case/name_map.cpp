@@ -1,5 +1,9 @@
 #include "io/case/name_map.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "io/case/degrees.h"
 #include "io/case/material_table.h"
 #include "io/case/table_reader.h"

@@ -7,6 +7,8 @@
 // A mesh has vertex / N / {x, y, z} and face / N / [N, …].
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <map>
 
 #include "io/vtk/surface_file.h"
 #include "solver/base/error.h"

@@ -1,5 +1,8 @@
 #include "io/vtk/export_blocks.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <map>
 #include <set>

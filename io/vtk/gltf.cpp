@@ -4,6 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include "io/vtk/surface_file.h"
 #include "solver/base/atomic_file.h"

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/case/material_table.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
