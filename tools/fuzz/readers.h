@@ -6,10 +6,11 @@
 
 namespace voussoir::fuzz {
 
-void read_case(const std::string& bytes);      // TOML cases: parsed, resolved, written and parsed again
-void read_record(const std::string& bytes);    // records of ground motion in every format, measured curves
-void read_surface(const std::string& bytes);   // OBJ, STL, PLY, COMPAS and glTF, by the first byte (0 to 4), down to shells
-void read_mesh(const std::string& bytes);      // Gmsh files
+void read_case(const std::string& bytes);    // TOML cases: parsed, resolved, written and parsed again
+void read_record(const std::string& bytes);  // records of ground motion in every format, measured curves
+void read_surface(
+    const std::string& bytes);             // OBJ, STL, PLY, COMPAS and glTF, by the first byte (0 to 4), down to shells
+void read_mesh(const std::string& bytes);  // Gmsh files
 void read_table(const std::string& bytes);     // folders of measurements: parts apart at lines "%% name"
 void read_json(const std::string& bytes);      // JSON
 void read_assembly(const std::string& bytes);  // HDF5 assemblies

@@ -1,9 +1,9 @@
 // The thinnest skew barrel that bears its weight, for three ways to lay its beds. Forgács, Sarhosis & Bagi (2017) found
 // by the distinct element method that the least thickness of semicircular barrels rises with the angle when the beds
 // run along the barrel (false skew) and falls with it for helicoidal and logarithmic beds. At 0° all three are one
-// arch, whose least thickness is 0.1075 of the mean radius (Milankovitch 1907). With beds along the barrel the thrust goes
-// square to them, and its two ends lie u tan α apart along the barrel: friction has to carry tan α of it, so that the
-// least thickness stays that of the square barrel until the skew comes near the angle of friction.
+// arch, whose least thickness is 0.1075 of the mean radius (Milankovitch 1907). With beds along the barrel the thrust
+// goes square to them, and its two ends lie u tan α apart along the barrel: friction has to carry tan α of it, so that
+// the least thickness stays that of the square barrel until the skew comes near the angle of friction.
 #include <fmt/format.h>
 
 #include "geometry/masonry_parts.h"
