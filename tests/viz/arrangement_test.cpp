@@ -99,6 +99,12 @@ void expect_readable(const Arrangement& arrangement, const Noted& drawn, const s
   }
 }
 
+Block box_at(const Vec3& low, const Vec3& high) {
+  Block block;
+  block.cells = {make_box(low, high)};
+  return block;
+}
+
 /// Moves every point.
 template <class Move>
 Assembly moved(Assembly assembly, Move&& move) {
@@ -189,17 +195,24 @@ TEST(Arrangement, NoTextLiesOnAnother) {
   }
 }
 
+TEST(Arrangement, StonesApartFromOneAnother) {
+  Assembly assembly;
+  assembly.materials = {{"stone", 2000.0, 4e9, 1.6e9, 0.0, 0.0, 0.5}};
+  assembly.blocks = {box_at({0, 0, 0}, {1, 1, 1}), box_at({3, 0, 0}, {4, 1, 2})};
+  finish_blocks(assembly);
+  const Arrangement arrangement(assembly, {"apart", "a test"});  // nothing is cut in the middle
+  Noted drawn;
+  arrangement.draw(drawn);
+  EXPECT_TRUE(drawn.says("4.00")) << drawn.all();
+  EXPECT_TRUE(drawn.says("2.00")) << drawn.all();
+  expect_readable(arrangement, drawn, "apart");
+}
+
 TEST(Arrangement, LengthsAreWrittenToTheCentimetre) {
   EXPECT_EQ(length_text(9.0), "9.00");
   EXPECT_EQ(length_text(12.3456), "12.35");
   EXPECT_EQ(length_text(0.34), "0.34");
   EXPECT_EQ(length_text(0.165), "0.165");
-}
-
-Block box_at(const Vec3& low, const Vec3& high) {
-  Block block;
-  block.cells = {make_box(low, high)};
-  return block;
 }
 
 double length_of(const std::vector<FlatLine>& lines) {

@@ -121,7 +121,7 @@ namespace {
 SheetPlace place_in(const SheetBox& box, const ViewSize& size, const Box& content, double scale) {
   SheetPlace place;
   place.mm = 1000.0 / scale;
-  place.x0 = box.x + size.left - place.mm * content.low.x();
+  place.x0 = box.x + size.left_at(scale) - place.mm * content.low.x();
   place.y0 = box.y + size.above + place.mm * content.high.y();
   return place;
 }
@@ -140,8 +140,13 @@ ViewSize lengthwise_size(const FlatView& view) {
 ViewSize plan_size(const FlatView& view) {
   return size_of(view, 6.0, 24.0, kViewTitle + kMark + 3.0, 6.0);
 }
-ViewSize section_size(const FlatView& view) {
-  return size_of(view, 7.0, 17.0, kViewTitle + kDimensionRow + 4.0, 2.0 * kDimensionRow + 6.0);
+std::string section_title(char letter, const std::string& of) {
+  return fmt::format("{0}–{0} {1}", letter, of);
+}
+ViewSize section_size(const FlatView& view, const std::string& title) {
+  ViewSize size = size_of(view, 7.0, 17.0, kViewTitle + kDimensionRow + 4.0, 2.0 * kDimensionRow + 6.0);
+  size.title = DrawingSheet::width_of(title, kHeadText) + 4.0;
+  return size;
 }
 
 void draw_title(DrawingSheet& sheet, const SheetBox& box, double middle, const std::string& title) {
@@ -210,7 +215,7 @@ Content Arrangement::Parts::content(bool lengthwise_too) const {
   c.stack.push_back(elevation_size(elevation));
   if (lengthwise_too) c.stack.push_back(lengthwise_size(lengthwise));
   c.stack.push_back(plan_size(plan));
-  for (const SectionAt& s : sections) c.across.push_back(section_size(s.view));
+  for (const SectionAt& s : sections) c.across.push_back(section_size(s.view, section_title(s.letter, s.of)));
   if (const SheetBox schedule = schedule_size(m); schedule.height > 0.0) c.notes.push_back(schedule);
   c.notes.push_back(title_block_size(assembly));
   return c;
@@ -452,10 +457,10 @@ void Arrangement::Parts::draw_plan(DrawingSheet& sheet, const SheetBox& box) con
 
 void Arrangement::Parts::draw_section(DrawingSheet& sheet, const SheetBox& box, const SectionAt& section) const {
   const Box content = extent_of(section.view.faces);
-  const SheetPlace place = place_in(box, section_size(section.view), content, placement.across_scale);
+  const std::string title = section_title(section.letter, section.of);
+  const SheetPlace place = place_in(box, section_size(section.view, title), content, placement.across_scale);
   paint_view(sheet, section.view, place);
-  draw_title(sheet, box, place.x(0.5 * (content.low.x() + content.high.x())),
-             fmt::format("{0}–{0} {1}", section.letter, section.of));
+  draw_title(sheet, box, place.x(0.5 * (content.low.x() + content.high.x())), title);
   const double right = place.x(content.high.x());
   const double top = place.y(content.high.y()), foot = place.y(content.low.y());
   const auto& pieces = section.pieces;

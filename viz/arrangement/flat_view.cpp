@@ -179,6 +179,7 @@ FlatView flat_view(const Assembly& assembly, const SheetAxes& axes, const std::o
 }
 
 Box extent_of(const std::vector<FlatFace>& faces) {
+  if (faces.empty()) return {Vec3::Zero(), Vec3::Zero()};
   Box box;
   for (const FlatFace& face : faces) {
     const Box own = bounding_box(face.corners);

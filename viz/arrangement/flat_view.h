@@ -49,7 +49,7 @@ struct ViewCut {
 FlatView flat_view(const Assembly& assembly, const SheetAxes& axes,
                    const std::optional<ViewCut>& section = std::nullopt, const std::vector<std::int64_t>& without = {});
 
-/// u and v of all corners.
+/// u and v of all corners; zero where there are no faces.
 Box extent_of(const std::vector<FlatFace>& faces);
 /// Whether a point (u, v) lies in the face, its rim included.
 bool holds(const FlatFace& face, const Vec3& at);

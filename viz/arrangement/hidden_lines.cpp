@@ -16,7 +16,6 @@ constexpr std::size_t most_cells = 250;  // of the grid, each way
 }  // namespace
 
 InFront::InFront(const FlatView& view) : view_(view), all_(extent_of(view.faces)) {
-  if (view.faces.empty()) all_ = {Vec3::Zero(), Vec3::Zero()};
   const Vec3 extent = all_.high - all_.low;
   size_ = std::max(extent.norm(), 1e-9);
   const double cells = std::clamp(double(view.faces.size()), 1.0, double(most_cells * most_cells));

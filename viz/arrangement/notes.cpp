@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kNoteWidth = 104.0, kLine = 4.2, kIndent = 2.5;  // mm
 constexpr double kTitleHeight = 36.5;                             // mm: name, source, counts, scale
-constexpr std::size_t most_rows = 12;                             // of each table
+constexpr std::size_t most_materials = 12;
+constexpr std::size_t most_rows = 12;  // of each table
 
 struct LegendRow {
   Component component = Component::block;
@@ -225,7 +226,8 @@ std::string scale_text(double scale) {
 }
 
 SheetBox title_block_size(const Assembly& assembly) {
-  const auto rows = double((legend_rows(assembly).size() + 1) / 2 + materials_used(assembly).size());
+  const std::size_t materials = std::min(materials_used(assembly).size(), most_materials + 1);
+  const auto rows = double((legend_rows(assembly).size() + 1) / 2 + materials);
   return {0.0, 0.0, kNoteWidth, kTitleHeight + kLine * (rows + 2.0) + 6.0};
 }
 
@@ -245,7 +247,10 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
   }
   y += kLine * double((legend.size() + 1) / 2) + 3.2;
   sheet.text(x, y, "Materials", kSmallText, DrawingSheet::Align::start, true);
-  for (const std::int32_t m : materials_used(assembly)) {
+  std::vector<std::int32_t> used = materials_used(assembly);
+  const std::size_t others = used.size() > most_materials ? used.size() - most_materials : 0;
+  used.resize(used.size() - others);
+  for (const std::int32_t m : used) {
     const Material& material = assembly.materials[std::size_t(m)];
     y += kLine;
     sheet.text(
@@ -255,6 +260,7 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
                             material.cohesion / 1e6, material.friction_angle * 180.0 / pi),
                 room, kSmallText));
   }
+  if (others > 0) sheet.text(x, y + kLine, fmt::format("and {} more", others));
   const double head = inner.y + inner.height - kTitleHeight;
   sheet.line(inner.x, head, inner.x + inner.width, head, 0.35);
   sheet.text(x, head + 5.2, fitting(notes.name, room - 22.0, kHeadText), kHeadText, DrawingSheet::Align::start, true);

@@ -54,12 +54,12 @@ Cluster stacked(const std::vector<ViewSize>& views, double scale) {
   Cluster cluster;
   double left = 0.0, right = 0.0;
   for (const ViewSize& v : views) {
-    left = std::max(left, v.left);
-    right = std::max(right, v.wide(scale) - v.left);
+    left = std::max(left, v.left_at(scale));
+    right = std::max(right, v.wide(scale) - v.left_at(scale));
   }
   cluster.width = left + right;
   for (const ViewSize& v : views) {
-    cluster.boxes.push_back({left - v.left, cluster.height, v.wide(scale), v.high(scale)});
+    cluster.boxes.push_back({left - v.left_at(scale), cluster.height, v.wide(scale), v.high(scale)});
     cluster.height += v.high(scale);
   }
   return cluster;

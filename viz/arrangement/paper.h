@@ -1,5 +1,6 @@
 // Where the views of a drawing go: sizes of sheets, scales, and how views are placed beside one another.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,10 @@ struct PaperSize {
 struct ViewSize {
   double width = 0.0, height = 0.0;                          // m
   double left = 0.0, right = 0.0, above = 0.0, below = 0.0;  // mm
-  double wide(double scale) const { return left + 1000.0 * width / scale + right; }
+  double title = 0.0;                                        // mm, width of the words above the middle of the content
+  double side(double own, double scale) const { return std::max(own, 0.5 * (title - 1000.0 * width / scale)); }
+  double left_at(double scale) const { return side(left, scale); }
+  double wide(double scale) const { return left_at(scale) + 1000.0 * width / scale + side(right, scale); }
   double high(double scale) const { return above + 1000.0 * height / scale + below; }
 };
 
