@@ -1,6 +1,7 @@
 // Limit analysis by linear programming: closed forms, what it refuses, and its linear programs.
 #include "tools/limit/limit_analysis.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -116,32 +117,40 @@ TEST(LimitAnalysis, TellsWhatDoesNotStandAndWhatNothingLimits) {
   EXPECT_FALSE(a.limited);
 }
 
+/// Prints the table of docs/theory/limit-analysis.md.
 TEST(LimitAnalysis, OfRingsDependsOnWhatJoinsThem) {
   NEEDS_SOLVER();
-  const auto multiplier = [](const RingStrip& strip) {
+  const auto multiplier = [](const char* what, const RingStrip& strip) {
     const Assembly assembly = ring_strip(strip);
     const StripLoad load = load_on(assembly, strip);
     LimitProblem problem;
     problem.loads = {{load.block, load.force, load.at}};
-    const LimitAnalysis a = limit_analysis(assembly, problem);
-    EXPECT_LT(a.excess, 1e-7);
-    return a.multiplier;
+    const LimitAnalysis lifts = limit_analysis(assembly, problem);
+    const LimitAnalysis plain = limit_analysis_without_lift(assembly, problem);
+    EXPECT_LT(lifts.excess, 1e-7);
+    EXPECT_LT(plain.excess, 0.05);
+    EXPECT_LT(plain.multiplier, 1.002 * lifts.multiplier);
+    fmt::print("{} courses, {}: {:.4f} ({}); without lift {:.4f} ({}), {} programs, excess {:.1e}\n", strip.voussoirs,
+               what, lifts.multiplier, mechanism_text(lifts), plain.multiplier, mechanism_text(plain), plain.iterations,
+               plain.excess);
+    return lifts.multiplier;
   };
-  RingStrip strip = {.rings = {0.165, 0.165}, .voussoirs = 20};
-  const double two = multiplier(strip);
-  strip.headers_every = 10;
-  const double few = multiplier(strip);
-  strip.headers_every = 4;
-  const double many = multiplier(strip);
-  const double one = multiplier({.rings = {0.33}, .voussoirs = 20});
-  const double three = multiplier({.rings = {0.11, 0.11, 0.11}, .voussoirs = 20});
-  EXPECT_LT(three, 0.8 * two);
-  EXPECT_LT(two, 0.8 * few);
-  EXPECT_LT(few, many);
-  EXPECT_LT(many, one);
-  // Rings that hardly rub bear what they bear one by one, and not less.
-  strip.headers_every = 0, strip.ring_friction = 1e-3;
-  EXPECT_LT(multiplier(strip), two);
+  for (const int courses : {20, 40}) {
+    RingStrip strip = {.rings = {0.33}, .voussoirs = courses};
+    const double one = multiplier("one ring", strip);
+    strip.rings = {0.11, 0.11, 0.11};
+    const double three = multiplier("three rings", strip);
+    strip.rings = {0.165, 0.165};
+    const double two = multiplier("two rings", strip);
+    strip.headers_every = 10;
+    const double tied = multiplier("two rings, headers every 10 courses", strip);
+    strip.headers_every = 0, strip.ring_friction = 0.02;
+    const double slippery = multiplier("two rings, friction 0.02 between", strip);
+    EXPECT_LT(three, 0.8 * two);
+    EXPECT_LT(slippery, two);
+    EXPECT_LT(two, 0.8 * tied);
+    EXPECT_LT(tied, one);
+  }
 }
 
 TEST(LimitAnalysis, WithoutLiftBearsAtMostWhatFlowThatLiftsDoes) {
