@@ -60,11 +60,11 @@ struct LimitAnalysis {
 /// elastic or ties; RunError as solve() does.
 LimitAnalysis limit_analysis(const Assembly& assembly, const LimitProblem& problem);
 
-/// The same for friction that does not lift, by a sequence of linear programs after Gilbert, Casapulla & Ahmed (2006):
-/// each limits shear by friction under the normal force of the solutions before, nearly without dependence on its own,
-/// so that its mechanism slips nearly without lifting. There is no theorem behind it: what it converges to is one
-/// equilibrium with a mechanism that is possible, and others may exist. Its own `excess` says how far the last
-/// solution is from the friction asked for. Throws RunError when multipliers do not settle.
+/// The same for friction that does not lift, by a sequence of linear programs in the manner of Gilbert, Casapulla &
+/// Ahmed (2006): each limits shear by friction under the normal force of the solutions before, nearly without
+/// dependence on its own, so that its mechanism slips nearly without lifting. There is no theorem behind it: what it
+/// converges to is one equilibrium with a mechanism that is possible, and others may exist. Its own `excess` says how
+/// far the last solution is from the friction asked for. Throws RunError when multipliers do not settle.
 LimitAnalysis limit_analysis_without_lift(const Assembly& assembly, const LimitProblem& problem);
 
 /// "3 joints hinge, 2 slide".
