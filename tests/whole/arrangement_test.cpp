@@ -15,22 +15,26 @@ struct Arrangements : testing::Test {
   Surroundings there{.folder = folder.path(), .environment = {{"DISPLAY", ""}}};
 };
 
-TEST_F(Arrangements, OfEachGenerator) {
-  for (const std::string name : {"bridge", "cs1", "cs2", "arch", "wall", "column", "filled-arch"}) {
-    std::string text = "[bridge]\ngenerator = \"" + name + "\"\n";
-    if (name == "bridge" || name.starts_with("cs")) text += "block_scale = 3.0\n";
-    folder.write(name + ".toml", text);
-    const Outcome outcome = voussoir({"generate", name + ".toml", "--picture"}, there);
-    ASSERT_EQ(outcome.status, 0) << name << ": " << outcome.err;
-    EXPECT_NE(outcome.out.find("drawn in " + name + ".svg and " + name + ".png"), std::string::npos) << outcome.out;
-    const std::string svg = bytes_of(folder / (name + ".svg"));
-    EXPECT_TRUE(svg.starts_with("<svg ")) << name;
-    EXPECT_NE(svg.find("generator " + name), std::string::npos);
-    EXPECT_NE(svg.find("Scale 1:"), std::string::npos);
-    EXPECT_TRUE(is_png(folder / (name + ".png"))) << name;
-    EXPECT_TRUE(exists(folder / (name + ".h5")));
-  }
+struct ArrangementsOf : Arrangements, testing::WithParamInterface<const char*> {};
+
+TEST_P(ArrangementsOf, AGenerator) {
+  const std::string name = GetParam();
+  std::string text = "[bridge]\ngenerator = \"" + name + "\"\n";
+  if (name == "bridge" || name.starts_with("cs")) text += "block_scale = 3.0\n";
+  folder.write(name + ".toml", text);
+  const Outcome outcome = voussoir({"generate", name + ".toml", "--picture"}, there);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("drawn in " + name + ".svg and " + name + ".png"), std::string::npos) << outcome.out;
+  const std::string svg = bytes_of(folder / (name + ".svg"));
+  EXPECT_TRUE(svg.starts_with("<svg "));
+  EXPECT_NE(svg.find("generator " + name), std::string::npos);
+  EXPECT_NE(svg.find("Scale 1:"), std::string::npos);
+  EXPECT_TRUE(is_png(folder / (name + ".png")));
+  EXPECT_TRUE(exists(folder / (name + ".h5")));
 }
+
+INSTANTIATE_TEST_SUITE_P(All, ArrangementsOf,
+                         testing::Values("bridge", "cs1", "cs2", "arch", "wall", "column", "filled-arch"));
 
 TEST_F(Arrangements, OfImportedStonesWhereAsked) {
   folder.write("stones.obj", cube("low", 0, 0, 0, 1) + cube("high", 0.2, 0, 1, 9));
