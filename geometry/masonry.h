@@ -1,6 +1,7 @@
 // Laying stones: courses of boxes in running bond, cut by the vaults, collected in a Layout. Parts of a bridge (vault,
 // pier, spandrel …) are functions that add stones to a Layout; see masonry_parts.h.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Stone {
   std::int32_t material = 0;
   bool fixed = false;
   bool was_cut = false;         // only cut stones can be slivers
-  int layer = 0;                // slivers join stones of their own layer only, such as a ring of a vault
+  std::uint32_t layers = 1;     // bits; slivers join stones that have one in common, such as a ring of a vault
   Vec3 nominal = Vec3::Ones();  // m, size of the uncut stone (length, width, height)
 };
 

@@ -92,7 +92,7 @@ std::vector<std::vector<Contact>> like_neighbours(const std::vector<Stone>& ston
   for (const Joint& joint : joints) {
     const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
     if (stones[a].component != stones[b].component || stones[a].material != stones[b].material ||
-        stones[a].layer != stones[b].layer)
+        (stones[a].layers & stones[b].layers) == 0)
       continue;
     contacts[a].push_back({b, joint.area});
     contacts[b].push_back({a, joint.area});

@@ -83,7 +83,7 @@ void lay_internal_walls(Layout& layout, const Bridge& bridge) {
     course += int(split(band.z0, band.z1, bridge.block.z()).size()) - 1;
   }
   for (std::size_t s = first; s < layout.stones.size(); ++s)
-    layout.stones[s].layer = 1;  // not that of the walls outside
+    layout.stones[s].layers = 2;  // not that of the walls outside
 }
 
 }  // namespace voussoir

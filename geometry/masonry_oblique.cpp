@@ -136,7 +136,7 @@ void lay_course(Layout& layout, const Bridge& bridge, std::size_t i, const Beds&
     if (cells.empty()) continue;
     if (crown) keystone.push_back(std::int64_t(layout.stones.size()));
     lay_stone(layout, std::move(cells), unit, nominal, true);
-    layout.stones.back().layer = int(ring);
+    layout.stones.back().layers = ((1u << rings) - 1u) << ring;
   }
 }
 

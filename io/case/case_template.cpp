@@ -132,7 +132,8 @@ std::string case_template(const CaseTemplate& wanted) {
   text += "\n# How it is cut into blocks, and what its joints are made of.\n" + key_lines(others, {}, {}, {});
   text += fmt::format("\n# {}.\n", span.help) + span_tables(wanted, span);
   if (spans > 1) text += fmt::format("\n# {}.\n", table("pier").help) + table_text(table("pier"), {});
-  text += table_text(table("abutment.left"), {}) + table_text(table("abutment.right"), {});
+  for (const KeyTable& t : bridge.tables)
+    if (!t.is_list()) text += fmt::format("\n# {}.", t.help) + table_text(t, {});
   text += "\n# What mass, stiffness and strength come from.\n" + material_tables(bridge);
   text +=
       "\n[[stage]]\nkind = \"gravity\"\nconstruction = \"staged\"\n\n"

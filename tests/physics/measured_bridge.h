@@ -19,6 +19,19 @@ inline Assembly bridge(double block_scale = 4.0) {
   return assembly;
 }
 
+/// Four semicircular spans of 8 m, each of two rings, in large blocks.
+inline Assembly bridge_of_two_rings() {
+  const Generator& generator = find_generator("bridge");
+  GeneratorInput input = default_input(generator);
+  input.entries["span"] = 4;
+  const Keys keys = keys_of(generator, input);
+  for (const Parameter& p : keys.parameters) input.values.try_emplace(p.name, p.value);
+  for (const Choice& c : keys.choices) input.choices.try_emplace(c.name, c.words.front());
+  input.values.at("block_scale") = 4.0;
+  for (const char* span : {"span.1.rings", "span.2.rings", "span.3.rings", "span.4.rings"}) input.values.at(span) = 2.0;
+  return generator.build(input);
+}
+
 /// CS1 or CS2 in large blocks; `edge` (m): its fill one continuum of tetrahedra no longer than that.
 /// `spans`: 0: as many as it has.
 inline Assembly small_bridge(const std::string& name, double block_scale, double edge = 0.0, int spans = 0) {

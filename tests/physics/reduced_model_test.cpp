@@ -82,13 +82,6 @@ INSTANTIATE_TEST_SUITE_P(All, InABasis,
                          words_of_case);
 
 /// Every effect acts somewhere on one of them.
-Assembly bridge_of_two_rings() {
-  const Generator& generator = find_generator("bridge");
-  GeneratorInput input = default_input(generator);
-  input.values.at("block_scale") = 4.0, input.values.at("span.1.rings") = 2.0;
-  return generator.build(input);
-}
-
 TEST(ReducedModel, EveryEffectIsTried) {
   std::set<std::string> acting;
   for (const Assembly& base : {small_bridge("cs1", 5.0), small_bridge("cs2", 3.0, 2.5), bridge_of_two_rings()})
