@@ -388,6 +388,12 @@ void Arrangement::Parts::draw_supports_below(DrawingSheet& sheet, const SheetPla
   for (const MeasuredSupport& s : m.supports)
     if (!levels.contains(s.springing))
       levels[s.springing] = cut_faces(assembly, seen_from_above(), 0.01 * s.height() - s.springing);
+  // Without walls that go on beyond the ends, which nothing hides.
+  const auto under_deck = [&](const FlatFace& face, const MeasuredSupport& s) {
+    const Vec3 middle = polygon_centroid(face.corners);
+    const double x = middle.x() - (middle.y() - m.middle) * std::tan(m.skew);
+    return x > s.x0 - 1e-6 && x < s.x1 + 1e-6;
+  };
   for (const MeasuredSupport& s : m.supports) {
     // Which support it is: what stands over its base in the section along the middle.
     const auto own = std::ranges::find_if(along, [&](const FlatFace& face) {
@@ -398,7 +404,7 @@ void Arrangement::Parts::draw_supports_below(DrawingSheet& sheet, const SheetPla
     if (own == along.end()) continue;
     Polygon points;
     for (const FlatFace& face : levels[s.springing])
-      if (face.component == own->component && face.part == own->part)
+      if (face.component == own->component && face.part == own->part && under_deck(face, s))
         points.insert(points.end(), face.corners.begin(), face.corners.end());
     const Polygon outline = convex_outline(points);
     for (std::size_t i = 0; i < outline.size(); ++i) {

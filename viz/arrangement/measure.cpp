@@ -156,7 +156,13 @@ std::vector<MeasuredSupport> measure_supports(const Assembly& assembly, const Me
 
 /// Of the line through the first springing at two places across the bridge.
 double measure_skew(const Assembly& assembly, const Measures& m) {
-  const double aside = 0.3 * (m.moving.high.y() - m.moving.low.y());
+  Box arches;  // wing walls and cutwaters may stand farther out
+  for (const Block& block : assembly.blocks) {
+    if (block.component != Component::arch) continue;
+    const Box own = block_box(block);
+    arches.low = arches.low.cwiseMin(own.low), arches.high = arches.high.cwiseMax(own.high);
+  }
+  const double aside = 0.3 * (arches.high.y() - arches.low.y());
   const std::int32_t part = m.spans.front().part;
   const auto before = measure_span(cut_faces(assembly, seen_from_front(), m.middle - aside), part);
   const auto after = measure_span(cut_faces(assembly, seen_from_front(), m.middle + aside), part);
