@@ -118,7 +118,10 @@ std::string case_template(const CaseTemplate& wanted) {
   check(wanted, bridge, span);
   const std::size_t spans = wanted.clear_spans.size();
   std::vector<Parameter> dimensions, others;
-  for (const Parameter& p : bridge.parameters) (is_dimension(p) ? dimensions : others).push_back(p);
+  for (const Parameter& p : bridge.parameters) {
+    const bool layout = is_dimension(p) || p.name == "skew" || p.name == "gradient";
+    (layout ? dimensions : others).push_back(p);
+  }
   Given given;
   if (wanted.width != 0.0) given["width"] = number_text(wanted.width);
   std::string text = fmt::format(

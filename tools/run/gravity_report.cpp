@@ -167,6 +167,9 @@ std::string share_text(const json& share) {
 std::string period_text(const json& period) {
   return period.is_number() ? fmt::format("{:.4f}", period.get<double>()) : "none";
 }
+std::string in_seconds(const json& period) {
+  return period.is_number() ? period_text(period) + " s" : "no such mode";
+}
 
 }  // namespace
 
@@ -195,8 +198,8 @@ std::string gravity_text(const json& report) {
                         share_text(family["lost"]), mm(family["opening"]), mm(family["slip"]),
                         1e-6 * family["compression"].get<double>());
   for (const json& mode : report["periods"])
-    text += fmt::format("\n  {}: {} s intact, {} s now", mode["motion"].get<std::string>(), period_text(mode["intact"]),
-                        period_text(mode["now"]));
+    text += fmt::format("\n  {}: {} intact, {} now", mode["motion"].get<std::string>(), in_seconds(mode["intact"]),
+                        in_seconds(mode["now"]));
   if (report.contains("no_periods")) text += "\n  no periods: " + report["no_periods"].get<std::string>();
   if (const std::string warning = report["warning"]; !warning.empty()) text += "\nwarning: " + warning;
   return text;
