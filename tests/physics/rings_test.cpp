@@ -2,7 +2,6 @@
 // stiffer joints and the cases that take longer.
 #include <gtest/gtest.h>
 
-#include "solver/run/simulation.h"
 #include "tools/ladder/ring_strip.h"
 #include "tools/limit/limit_analysis.h"
 #include "tools/limit/linear_program.h"
@@ -17,20 +16,7 @@ double share_of_limit(const ladder::RingStrip& strip) {
   limit::LimitProblem problem;
   problem.loads = {{load.block, load.force, load.at}};
   const double expected = limit::limit_analysis(assembly, problem).multiplier;
-  StageSettings stage;
-  stage.kind = StageSettings::Kind::collapse;
-  stage.loads = Loads();
-  stage.loads->forces = {{load.group, load.force, load.at}};
-  stage.collapse.to = 2.0 * expected;
-  stage.collapse.tolerance = 0.01 * expected;
-  stage.collapse.confirm = 0.0;
-  SolverSettings settings;
-  settings.step.equilibrium_tolerance = 1e-5;
-  settings.stages = {StageSettings{}, stage};
-  Simulation run(assembly, settings, 1, {});
-  EXPECT_EQ(run.run(), RunEnd::finished) << run.failure();
-  EXPECT_TRUE(run.collapse().found);
-  return 0.5 * (run.collapse().multiplier + run.collapse().above) / expected;
+  return ladder::collapse_multiplier(assembly, load, expected, 1) / expected;
 }
 
 /// No equilibrium can bear more than the static theorem allows; elastic joints and friction that does not lift bear

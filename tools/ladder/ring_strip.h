@@ -1,6 +1,8 @@
 // A strip of a vault of one ring or of several, in blocks: what the rung `rings` and the tests of limit analysis share.
 #pragma once
 #include "geometry/vault_shape.h"
+#include "solver/base/error.h"
+#include "solver/run/simulation.h"
 #include "tools/ladder/models.h"
 
 namespace voussoir::ladder {
@@ -36,15 +38,19 @@ inline void add_springing(Assembly& assembly, const Ring& ring, bool left, doubl
   add_block(assembly, strip_prism(section, width), true);
 }
 
-/// Blocks ring by ring, the springings last; group "course I" of the uppermost ring's block number I from the left.
-inline Assembly ring_strip(const RingStrip& strip) {
+inline std::vector<Ring> rings_of(const RingStrip& strip) {
   VaultShape shape;
   shape.shape = "segmental";
   shape.right = Vec3(strip.span, 0.0, 0.0);
   shape.rise = strip.rise;
   shape.crown = shape.springing = strip.rings;
   shape.voussoirs = strip.voussoirs;
-  const std::vector<Ring> rings = vault_rings(shape, "ring strip");
+  return vault_rings(shape, "ring strip");
+}
+
+/// Blocks ring by ring, the springings last; group "course I" of the uppermost ring's block number I from the left.
+inline Assembly ring_strip(const RingStrip& strip) {
+  const std::vector<Ring> rings = rings_of(strip);
   Assembly assembly = stone(strip.density, 1e9, strip.friction);
   const auto section = [](const Ring& ring, std::size_t i) {
     return Polygon{ring.intrados[i], ring.intrados[i + 1], ring.extrados[i + 1], ring.extrados[i]};
@@ -96,13 +102,7 @@ struct StripLoad {
   Vec3 at = Vec3::Zero();     // m
 };
 inline StripLoad load_on(const Assembly& assembly, const RingStrip& strip, double share = 0.25) {
-  VaultShape shape;
-  shape.shape = "segmental";
-  shape.right = Vec3(strip.span, 0.0, 0.0);
-  shape.rise = strip.rise;
-  shape.crown = shape.springing = strip.rings;
-  shape.voussoirs = strip.voussoirs;
-  const Polygon extrados = vault_rings(shape, "ring strip").back().extrados;
+  const Polygon extrados = rings_of(strip).back().extrados;
   StripLoad load;
   double nearest = 1e300;
   for (std::size_t i = 0; i + 1 < extrados.size(); ++i) {
@@ -115,6 +115,24 @@ inline StripLoad load_on(const Assembly& assembly, const RingStrip& strip, doubl
   for (const Block& block : assembly.blocks)
     if (!block.fixed) load.force.z() -= 9.81 * block.mass;
   return load;
+}
+
+/// The program's own collapse load as a multiplier of the load, to a hundredth of what is expected. Throws RunError
+/// when it finds none.
+inline double collapse_multiplier(const Assembly& assembly, const StripLoad& load, double expected, int threads) {
+  StageSettings stage;
+  stage.kind = StageSettings::Kind::collapse;
+  stage.loads = Loads();
+  stage.loads->forces = {{load.group, load.force, load.at}};
+  stage.collapse.to = 2.0 * expected;
+  stage.collapse.tolerance = 0.01 * expected;
+  stage.collapse.confirm = 0.0;
+  SolverSettings settings;
+  settings.step.equilibrium_tolerance = 1e-5;
+  settings.stages = {StageSettings{}, stage};
+  Simulation run(assembly, settings, threads, {});
+  if (run.run() != RunEnd::finished || !run.collapse().found) throw RunError("no collapse load: {}", run.failure());
+  return 0.5 * (run.collapse().multiplier + run.collapse().above);
 }
 
 }  // namespace voussoir::ladder

@@ -1,7 +1,5 @@
 // A strip of a segmental arch of one thick ring, of two rings that only rub, and of two rings with headers, under a
 // load near the quarter span: collapse loads of the program against limit analysis of the same blocks.
-#include "solver/base/error.h"
-#include "solver/run/simulation.h"
 #include "tools/ladder/ring_strip.h"
 #include "tools/ladder/rung.h"
 #include "tools/limit/limit_analysis.h"
@@ -9,23 +7,6 @@
 namespace voussoir::ladder {
 
 namespace {
-
-/// Largest multiplier of a load of the strip's weight, to a hundredth of what is expected.
-double collapse_multiplier(const Assembly& assembly, const StripLoad& load, double expected, int threads) {
-  StageSettings stage;
-  stage.kind = StageSettings::Kind::collapse;
-  stage.loads = Loads();
-  stage.loads->forces = {{load.group, load.force, load.at}};
-  stage.collapse.to = 2.0 * expected;
-  stage.collapse.tolerance = 0.01 * expected;
-  stage.collapse.confirm = 0.0;
-  SolverSettings settings;
-  settings.step.equilibrium_tolerance = 1e-5;
-  settings.stages = {StageSettings{}, stage};
-  Simulation run(assembly, settings, threads, {});
-  if (run.run() != RunEnd::finished || !run.collapse().found) throw RunError("no collapse load: {}", run.failure());
-  return 0.5 * (run.collapse().multiplier + run.collapse().above);
-}
 
 /// With headers the load at which sliding stones collapse depends more on how it was brought on: a wider `share`.
 Finding compared(const std::string& what, const RingStrip& strip, double share, int threads) {
