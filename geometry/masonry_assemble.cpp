@@ -100,6 +100,8 @@ std::vector<std::vector<Contact>> like_neighbours(const std::vector<Stone>& ston
   return contacts;
 }
 
+constexpr double enough_of_a_joint = 0.05;
+
 /// The group a sliver joins: the one it shares most area with, whole stones before other slivers, and before all those
 /// that do not become larger than the rule allows; itself if none.
 std::size_t best_host(std::size_t sliver, const Groups& groups, const std::vector<std::vector<Contact>>& contacts,
@@ -111,8 +113,11 @@ std::size_t best_host(std::size_t sliver, const Groups& groups, const std::vecto
       if (other != sliver) shared[other] += contact.area;
     }
   }
+  double most = 0.0;
+  for (const auto& [other, area] : shared) most = std::max(most, area);
   std::size_t best = sliver;
   for (const auto& [other, area] : shared) {
+    if (area < enough_of_a_joint * most) continue;  // it would hang by a corner
     const auto rank = [&](std::size_t i) { return std::make_tuple(sizes.fit(sliver, i), slivers[i] == 0, shared[i]); };
     if (best == sliver || rank(other) > rank(best)) best = other;
   }

@@ -92,13 +92,18 @@ std::vector<Polyhedron> between_beds(const Vault& vault, const Beds& beds, std::
   return {make_prism(first, sweep), make_prism(second, sweep)};
 }
 
+/// Of the volume of a stone: less of a prism is a corner of a millimetre, not masonry.
+constexpr double no_share = 1e-7;
+
 /// Adds what of a prism lies between y0 and y1.
-void add_between(std::vector<Polyhedron>& cells, const Polyhedron& prism, double y0, double y1) {
+void add_between(std::vector<Polyhedron>& cells, const Polyhedron& prism, double y0, double y1, double stone) {
   const Box box = bounding_box(prism);
   if (box.high.y() <= y0 + no_masonry || box.low.y() >= y1 - no_masonry) return;
   Polyhedron piece = cut(prism, {-Vec3::UnitY(), -y0});
   if (!piece.faces.empty()) piece = cut(piece, {Vec3::UnitY(), y1});
-  if (piece.faces.empty() || mass_properties(piece).volume < no_masonry * surface_area(piece)) return;
+  if (piece.faces.empty()) return;
+  const double volume = mass_properties(piece).volume;
+  if (volume < no_masonry * surface_area(piece) || volume < no_share * stone) return;
   cells.push_back(std::move(piece));
 }
 
@@ -130,7 +135,7 @@ void lay_course(Layout& layout, const Bridge& bridge, std::size_t i, const Beds&
     bool crown = false;
     for (const CourseWedge& part : row) {
       const std::size_t before = cells.size();
-      for (const Polyhedron& prism : part.prisms) add_between(cells, prism, y[k], y[k + 1]);
+      for (const Polyhedron& prism : part.prisms) add_between(cells, prism, y[k], y[k + 1], nominal.prod());
       if (cells.size() > before && (part.wedge == (wedges - 1) / 2 || part.wedge == wedges / 2)) crown = true;
     }
     if (cells.empty()) continue;
