@@ -36,6 +36,21 @@ double fill_mass(const Assembly& assembly) {
   return mass;
 }
 
+/// By how much the turn to a skew lengthens an edge at most: the greatest singular value of at_skew().
+double lengthening(double skew) {
+  const double c = 1.0 / std::cos(skew), t = std::tan(skew), trace = c * c + t * t + 1.0;
+  return std::sqrt(0.5 * (trace + std::sqrt(trace * trace - 4.0 * c * c)));
+}
+
+std::string bound_text(const FillAim& aim, double longest) {
+  if (aim.edge <= 0.0) return "";
+  std::string text = fmt::format(", asked for {:g} m", aim.edge);
+  const double most = lengthening(aim.skew);
+  if (aim.skew != 0.0)
+    text += fmt::format(" before the turn to the skew, which lengthens edges by up to {:.0f} %", 100.0 * (most - 1.0));
+  return longest > most * aim.edge + 1e-9 ? text + ", which was not reached" : text;
+}
+
 }  // namespace
 
 std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim) {
@@ -55,9 +70,7 @@ std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim
       fmt::format("{}, which cover {:.3f} of {:.3f} m2", assembly.fill_joints.size(), areas.covered, areas.surface));
   const std::string space = aim.volume > 0.0 ? fmt::format(", its space {:.4f} m3", aim.volume) : "";
   add("  volume", fmt::format("{:.4f} m3{}, {:.2f} t", q.volume, space, fill_mass(assembly) / 1000.0));
-  std::string bound = aim.edge > 0.0 ? fmt::format(", asked for {:g} m", aim.edge) : "";
-  if (aim.edge > 0.0 && q.longest_edge > aim.edge + 1e-9) bound += ", which was not reached";
-  add("  longest edge", fmt::format("{:.4f} m{}", q.longest_edge, bound));
+  add("  longest edge", fmt::format("{:.4f} m{}", q.longest_edge, bound_text(aim, q.longest_edge)));
   add("  shortest edge", fmt::format("{:.4f} m", q.shortest_edge));
   add("  edge ratio", fmt::format("{:.2f}, the worst of a tetrahedron", q.edge_ratio));
   add("  smallest angle", fmt::format("{:.2f} degrees between two faces", q.smallest_angle * 180.0 / pi));

@@ -10,7 +10,8 @@ namespace voussoir {
 /// What is known of how the mesh should be; zero where it is not.
 struct FillAim {
   double volume = 0.0;  // m3, of the space to be filled
-  double edge = 0.0;    // m, bound of the longest edge
+  double edge = 0.0;    // m, bound of the longest edge as it is meshed
+  double skew = 0.0;    // rad, to which the mesh was turned then
 };
 
 /// Aligned lines: sizes, volume, edges, angle and height. None for an assembly without a deformable fill.

@@ -27,19 +27,25 @@ struct Beds {
   double pitch = 0.0;
 };
 
+/// The intrados laid flat.
+struct Flat {
+  double length = 0.0, chord = 0.0;  // m
+  explicit Flat(const Polygon& intrados) : chord(intrados.back().x() - intrados.front().x()) {
+    for (std::size_t i = 0; i + 1 < intrados.size(); ++i) length += (intrados[i + 1] - intrados[i]).norm();
+  }
+};
+
 /// v along a bed from joint to joint, 0 in the middle of the intrados.
 std::vector<double> along_axis(const Polygon& intrados, double skew, SkewBond bond) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < intrados.size(); ++i) length += (intrados[i + 1] - intrados[i]).norm();
-  const double chord = intrados.back().x() - intrados.front().x();
+  const Flat flat(intrados);
   std::vector<double> v = {0.0};
   double middle = 0.0, way = 0.0;
   for (std::size_t i = 0; i + 1 < intrados.size(); ++i) {
     const double ds = (intrados[i + 1] - intrados[i]).norm(), du = intrados[i + 1].x() - intrados[i].x();
-    const double slope = bond == SkewBond::helicoidal ? length / chord : ds / du;
+    const double slope = bond == SkewBond::helicoidal ? flat.length / flat.chord : ds / du;
     const double dv = -ds * slope / std::tan(skew);
-    const double reach = std::clamp((0.5 * length - way) / ds, 0.0, 1.0);
-    middle += reach * dv, way += ds;
+    middle += std::clamp((0.5 * flat.length - way) / ds, 0.0, 1.0) * dv;
+    way += ds;
     v.push_back(v.back() + dv);
   }
   for (double& at : v) at -= middle;
@@ -48,10 +54,9 @@ std::vector<double> along_axis(const Polygon& intrados, double skew, SkewBond bo
 
 /// Spacing of the beds along the axis that gives courses of `width` m at the crown.
 double spacing_at_crown(const Polygon& intrados, double skew, SkewBond bond, double width) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < intrados.size(); ++i) length += (intrados[i + 1] - intrados[i]).norm();
-  const double chord = intrados.back().x() - intrados.front().x();
-  const double share = bond == SkewBond::helicoidal ? chord / length : 1.0;  // of the mean or the greatest tan
+  const Flat flat(intrados);
+  const double share =
+      bond == SkewBond::helicoidal ? flat.chord / flat.length : 1.0;  // of the mean or the greatest tan
   return width / std::sin(std::atan(share * std::tan(std::abs(skew))));
 }
 
@@ -136,7 +141,7 @@ void lay_course(Layout& layout, const Bridge& bridge, std::size_t i, const Beds&
     for (const CourseWedge& part : row) {
       const std::size_t before = cells.size();
       for (const Polyhedron& prism : part.prisms) add_between(cells, prism, y[k], y[k + 1], nominal.prod());
-      if (cells.size() > before && (part.wedge == (wedges - 1) / 2 || part.wedge == wedges / 2)) crown = true;
+      if (cells.size() > before && at_crown(part.wedge, wedges)) crown = true;
     }
     if (cells.empty()) continue;
     if (crown) keystone.push_back(std::int64_t(layout.stones.size()));

@@ -180,6 +180,8 @@ std::string support_name(const Bridge& bridge, std::size_t support);
 /// Over how many rings a stone of a course reaches that begins in `ring`; 0: the ring below has it as a header. With
 /// more than two rings the pairs that headers bind alternate.
 std::size_t rings_of_stone(const Vault& vault, std::size_t ring, std::int64_t course);
+/// Whether a wedge is of the keystone: the middle one, or those on both sides of a joint at the crown.
+bool at_crown(int wedge, int wedges);
 /// Puts the stones from number `from` on into the groups of their rings.
 void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::size_t rings, std::size_t from);
 

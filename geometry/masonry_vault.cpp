@@ -16,6 +16,10 @@ std::size_t rings_of_stone(const Vault& vault, std::size_t ring, std::int64_t co
   return ring + 1 < vault.rings.size() ? 2 : 1;
 }
 
+bool at_crown(int wedge, int wedges) {
+  return wedge == (wedges - 1) / 2 || wedge == wedges / 2;
+}
+
 void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::size_t rings, std::size_t from) {
   for (std::size_t ring = first_ring; ring < first_ring + rings; ++ring) {
     auto& group = layout.groups[ring_group(vault, ring)];
@@ -24,11 +28,6 @@ void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::
 }
 
 namespace {
-
-/// With an even number of wedges the crown is a joint, and the keystone the wedges on both its sides.
-bool at_crown(int wedge, int wedges) {
-  return wedge == (wedges - 1) / 2 || wedge == wedges / 2;
-}
 
 void lay_straight(Layout& layout, const Bridge& bridge, std::size_t i) {
   const Vault& vault = bridge.vaults[i];

@@ -15,9 +15,9 @@ namespace voussoir::ladder {
 
 namespace {
 
-constexpr double barrel_radius = 5.0, barrel_width = 5.0;  // m; barrel_width along the axis of a square bridge
+constexpr double barrel_radius = 5.0, barrel_width = 5.0;  // m: of the ring's middle; from face to face
 constexpr int barrel_wedges = 20;                          // of the semicircle
-constexpr double joint_stiffness_of_all = 1e11;            // Pa/m: near rigid
+constexpr double stiff_joint = 1e11;                       // Pa/m: near rigid
 constexpr double joint_friction = 30.0;                    // degrees
 
 /// A barrel on two fixed blocks, in dry joints.
@@ -41,7 +41,7 @@ Assembly barrel(double skew, SkewBond bond, double ratio) {
     return assembly.blocks[std::size_t(j.a)].fixed && assembly.blocks[std::size_t(j.b)].fixed;
   });
   assembly.laws = {dry_law(std::tan(radians(joint_friction)))};
-  for (Joint& joint : assembly.joints) joint.kn = joint.ks = joint_stiffness_of_all, joint.law = 0;
+  for (Joint& joint : assembly.joints) joint.kn = joint.ks = stiff_joint, joint.law = 0;
   return assembly;
 }
 
@@ -53,7 +53,7 @@ bool stands(double skew, SkewBond bond, double ratio) {
   return relax(bench.stepper, 1e-5, limits, nullptr, nullptr).converged;
 }
 
-/// To half a per cent, m over m.
+/// Over the mean radius, to half a per cent of it.
 double least_thickness(double skew, SkewBond bond) {
   double low = 0.05, high = 0.25;
   if (!stands(skew, bond, high)) throw RunError("a skew barrel of thickness {:g} R does not stand", high);

@@ -12,6 +12,7 @@
 #include "io/case/remarks.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
+#include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "tools/voussoir/assembly_table.h"
@@ -67,7 +68,9 @@ FillAim fill_aim(const Case& c) {
   const Generator& generator = find_generator(c.generator);
   const auto backfill = c.generator_input.choices.find("backfill");
   const bool filled = backfill == c.generator_input.choices.end() || backfill->second != "none";
-  return {generator.fill_space && filled ? generator.fill_space(c.generator_input) : 0.0, edge->second};
+  const auto skew = c.generator_input.values.find("skew");
+  return {generator.fill_space && filled ? generator.fill_space(c.generator_input) : 0.0, edge->second,
+          skew == c.generator_input.values.end() ? 0.0 : radians(skew->second)};
 }
 
 /// Draws the arrangement beside the assembly file, or where --picture says; says the names of both files.

@@ -9,6 +9,8 @@
 
 namespace voussoir {
 
+struct ArrangementParts;
+
 struct ArrangementNotes {
   std::string name;    // of what is drawn: "two-spans"
   std::string source;  // where it is from: "generator bridge"
@@ -27,8 +29,7 @@ class Arrangement {
   std::string svg() const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<ArrangementParts> parts_;
 };
 
 }  // namespace voussoir
