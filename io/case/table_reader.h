@@ -1,4 +1,4 @@
-// Reading TOML tables with errors a person can act on. Private to io/case.
+// Reading TOML tables with errors a person can act on. For the rooms of io that read TOML.
 #pragma once
 #include <toml++/toml.h>
 
