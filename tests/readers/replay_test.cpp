@@ -25,7 +25,8 @@ struct Reader {
 
 const std::vector<Reader> text_readers = {{"case", fuzz::read_case, 150},        {"record", fuzz::read_record, 1000},
                                           {"surface", fuzz::read_surface, 1000}, {"mesh", fuzz::read_mesh, 1000},
-                                          {"table", fuzz::read_table, 400},      {"json", fuzz::read_json, 2000}};
+                                          {"table", fuzz::read_table, 400},      {"vehicle", fuzz::read_vehicle, 300},
+                                          {"json", fuzz::read_json, 2000}};
 
 std::vector<std::string> corpus(const std::string& name) {
   std::vector<std::string> paths, files;

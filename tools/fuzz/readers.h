@@ -12,6 +12,7 @@ void read_surface(
     const std::string& bytes);             // OBJ, STL, PLY, COMPAS and glTF, by the first byte (0 to 4), down to shells
 void read_mesh(const std::string& bytes);  // Gmsh files
 void read_table(const std::string& bytes);     // folders of measurements: parts apart at lines "%% name"
+void read_vehicle(const std::string& bytes);   // TOML vehicles
 void read_json(const std::string& bytes);      // JSON
 void read_assembly(const std::string& bytes);  // HDF5 assemblies
 
