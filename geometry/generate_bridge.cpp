@@ -31,11 +31,13 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   if (lowest < bridge.springing + 0.1)
     throw InputError("[bridge] gradient = {:g} % takes the deck {:g} m below the springing: make it less",
                      in("gradient"), bridge.springing - lowest);
-  const double inside = 0.9 * in("width");
-  at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
-  at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
-  at_most(in("parapet_height") > 0.0 ? in("parapet_thickness") : 0.0, "parapet_thickness", in("spandrel_thickness_top"),
-          "spandrel_thickness_top");
+  if (!bridge.strip) {
+    const double inside = 0.9 * in("width");
+    at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
+    at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
+    at_most(in("parapet_height") > 0.0 ? in("parapet_thickness") : 0.0, "parapet_thickness",
+            in("spandrel_thickness_top"), "spandrel_thickness_top");
+  }
   for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
     const Support& support = bridge.supports[i];
     const std::string heading = support_heading(i, bridge.vaults.size());

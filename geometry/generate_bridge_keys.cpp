@@ -5,7 +5,7 @@ namespace voussoir {
 
 std::vector<Parameter> any_bridge_keys() {
   return {
-      {"width", 8.0, 1.0, 40.0, "m", "from face to face of the spandrel walls"},
+      {"width", 8.0, 0.1, 40.0, "m", "from face to face of the spandrel walls, or of the strip"},
       {"skew", 0.0, -45.0, 45.0, "deg",
        "of the supports against the square to the bridge; lengths along it are measured square to them"},
       {"gradient", 0.0, -12.0, 12.0, "%", "rise of the deck over the way along the bridge, from left to right"},
@@ -63,6 +63,9 @@ std::vector<Choice> any_bridge_choices() {
        {"parallel", "helicoidal", "logarithmic"},
        "beds of the vaults of a skew bridge: parallel to the supports (false skew), or square to the faces at their "
        "chord (English) or everywhere (French)"},
+      {"extent",
+       {"whole", "strip"},
+       "strip: in plane strain, without walls along the faces and parapets, between fixed smooth walls"},
       {"stiffness", {"moduli", "table"}, "joints from E/dc and G/dc, or from the table kn_, ks_ per component"},
       {"ring_bond",
        {"mortar", "none"},
@@ -131,6 +134,17 @@ KeyTable internal_keys() {
   return t;
 }
 
+KeyTable beam_keys() {
+  KeyTable t;
+  t.name = "beam",
+  t.help = "a fixed beam on the fill from wall to wall, group `load`, for a stage to drive down as in a test";
+  t.parameters = {{"length", 0.0, 0.0, 10.0, "m", "along the bridge, square to the supports; 0: no beam"},
+                  {"height", 0.3, 0.05, 5.0, "m", ""},
+                  {"span", 1.0, 1.0, double(most_spans), "-", "over which span, counted from the left", true},
+                  {"at", 0.25, 0.0, 1.0, "-", "its middle, over the clear span from the left"}};
+  return t;
+}
+
 KeyTable abutment_keys(const std::string& side) {
   KeyTable t;
   t.name = "abutment." + side, t.help = "the " + side + " abutment";
@@ -155,7 +169,8 @@ KeyTable abutment_keys(const std::string& side) {
 }  // namespace
 
 std::vector<KeyTable> any_bridge_tables() {
-  return {span_keys(), pier_keys(), abutment_keys("left"), abutment_keys("right"), backing_keys(), internal_keys()};
+  return {span_keys(),     pier_keys(), abutment_keys("left"), abutment_keys("right"), backing_keys(),
+          internal_keys(), beam_keys()};
 }
 
 }  // namespace voussoir

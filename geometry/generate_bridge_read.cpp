@@ -322,6 +322,47 @@ void read_internal_walls(Bridge& bridge, const GeneratorInput& in) {
         "abutments: set backing_over_abutment to 0");
 }
 
+/// A strip has neither what stands along the faces nor what is turned or splayed.
+void make_strip(Bridge& bridge, const GeneratorInput& in) {
+  if (bridge.skew != 0.0)
+    throw InputError(
+        "[bridge] extent = \"strip\" is square to the supports, and skew = {:g} degrees: set skew to 0, or extent to "
+        "\"whole\"",
+        in("skew"));
+  bridge.strip = true;
+  bridge.spandrel_bottom = bridge.spandrel_top = bridge.wing_wall_thickness = 0.0;
+  bridge.parapet_height = bridge.string_height = 0.0;
+  bridge.internal.number = 0;
+  for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
+    Support& support = bridge.supports[i];
+    if (support.makeup != Makeup::solid)
+      throw InputError("{}: makeup of a strip is \"solid\": a leaf around it has no place in plane strain",
+                       support_heading(i, bridge.vaults.size()));
+    support.width = bridge.width, support.slope_y = 0.0;
+    support.cutwater = {}, support.wings = {};
+  }
+}
+
+void read_load_beam(Bridge& bridge, const GeneratorInput& in) {
+  LoadBeam& beam = bridge.beam;
+  beam.length = in("beam.length"), beam.height = in("beam.height");
+  if (beam.length <= 0.0) return;
+  const auto span = std::size_t(in("beam.span"));
+  if (span > bridge.vaults.size())
+    throw InputError("[bridge.beam] span = {} is more than the {} spans of the bridge", span, bridge.vaults.size());
+  const Vault& vault = bridge.vaults[span - 1];
+  beam.middle = vault.left() + in("beam.at") * (vault.right() - vault.left());
+  const double room = 2.0 * std::min(beam.middle, bridge.length() - beam.middle);
+  if (beam.length > room)
+    throw InputError("[bridge.beam] length = {:g} m reaches beyond the end of the bridge: at most {:g} m about there",
+                     beam.length, room);
+  if (in.choices.at("backfill") == "none")
+    throw InputError(
+        "[bridge.beam] length = {:g} m: there is no fill to load with backfill = \"none\": set it to \"rigid\" or "
+        "\"deformable\"",
+        beam.length);
+}
+
 }  // namespace
 
 Bridge read_any_bridge(const GeneratorInput& in) {
@@ -352,7 +393,12 @@ Bridge read_any_bridge(const GeneratorInput& in) {
   bridge.wing_wall_thickness = wing > 0.0 ? wing : in("spandrel_thickness_bottom");
   bridge.leaf_thickness[0] = in("leaf_thickness_even"), bridge.leaf_thickness[1] = in("leaf_thickness_odd");
   read_fill_and_blocks(bridge, in);
-  read_internal_walls(bridge, in);
+  if (in.choices.at("extent") == "strip") {
+    make_strip(bridge, in);
+  } else {
+    read_internal_walls(bridge, in);
+  }
+  read_load_beam(bridge, in);
   return bridge;
 }
 

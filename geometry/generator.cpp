@@ -171,7 +171,9 @@ bool is_dimension(const Parameter& p) {
                                                 "fill_height", "fill_edge", "infill_",     "leaf_",
                                                 "sliver_",     "base_",     "restraint_"};
   const std::string key = p.name.substr(p.name.rfind('.') + 1);
-  return p.unit == "m" && std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return key.starts_with(c); });
+  const bool of_a_test = p.name.starts_with("beam.");
+  return p.unit == "m" && !of_a_test &&
+         std::none_of(cuts.begin(), cuts.end(), [&](auto& c) { return key.starts_with(c); });
 }
 
 GeneratorInput default_input(const Generator& generator) {

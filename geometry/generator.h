@@ -88,7 +88,7 @@ struct Keys {
 };
 Keys keys_of(const Generator& generator, const GeneratorInput& input);
 /// Keys that are dimensions of the bridge, which a survey can have wrong; not those that only say how it is cut into
-/// blocks.
+/// blocks or loaded.
 bool is_dimension(const Parameter& parameter);
 /// The defaults of a generator as an input to build().
 GeneratorInput default_input(const Generator& generator);

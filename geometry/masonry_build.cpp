@@ -118,18 +118,21 @@ Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials
   lay_vaults(layout, bridge);
   lay_skewbacks(layout, bridge);
   lay_backing(layout, bridge);
-  lay_spandrels(layout, bridge);
+  if (!bridge.strip) lay_spandrels(layout, bridge);
   lay_transverse_walls(layout, bridge);
   lay_internal_walls(layout, bridge);
   lay_backfill(layout, bridge);
-  lay_parapets(layout, bridge);
+  if (!bridge.strip) lay_parapets(layout, bridge);
   lay_bases(layout, bridge);
   lay_restraints(layout, bridge);
+  lay_load_beam(layout, bridge);
+  lay_strip_walls(layout, bridge);
   turn_to_skew(layout, bridge.skew);
   const SliverRule slivers = {in("sliver_thickness") * in("block_scale"), in("sliver_share")};
   Assembly assembly = assemble(std::move(layout), materials, slivers, in.gap_tolerance);
   assign_stiffness(assembly, rules, in);
   if (bridge.deformable_backfill) add_fill(assembly, bridge, rules, in);
+  smooth_strip_walls(assembly);
   return assembly;
 }
 

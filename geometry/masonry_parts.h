@@ -50,6 +50,12 @@ struct InternalWalls {
   double slab_bottom() const { return slab_top - slab_thickness; }
 };
 
+/// The beam of a loading test, across the fill from wall to wall.
+struct LoadBeam {
+  double length = 0.0, height = 0.0;  // m, along the bridge, and its depth; length 0: none
+  double middle = 0.0;                // x
+};
+
 /// What vaults spring from: an abutment or a pier.
 struct Support {
   double x0 = 0.0, x1 = 0.0;            // m, at the springing
@@ -74,6 +80,8 @@ struct Bridge {
   std::vector<Vault> vaults;      // from left to right
   std::vector<Support> supports;  // left abutment, piers, right abutment
   InternalWalls internal = {};
+  LoadBeam beam = {};
+  bool strip = false;  // in plane strain: no walls along the faces, no parapets
   double width = 0.0;
   double skew = 0.0;  // rad, of the supports against the square to the axis
   SkewBond skew_bond = SkewBond::parallel;
@@ -202,8 +210,11 @@ void lay_backfill(Layout& layout, const Bridge& bridge);
 /// One box of the rigid fill.
 void lay_region(Layout& layout, const Bridge& bridge, const FillRegion& region);
 void lay_parapets(Layout& layout, const Bridge& bridge);
-void lay_bases(Layout& layout, const Bridge& bridge);       // groups "base pier 0" …
-void lay_restraints(Layout& layout, const Bridge& bridge);  // groups "restraint left" and "restraint right"
+void lay_load_beam(Layout& layout, const Bridge& bridge);    // group "load"
+void lay_strip_walls(Layout& layout, const Bridge& bridge);  // group "walls"
+void smooth_strip_walls(Assembly& assembly);                 // neither friction nor bond on them
+void lay_bases(Layout& layout, const Bridge& bridge);        // groups "base pier 0" …
+void lay_restraints(Layout& layout, const Bridge& bridge);   // groups "restraint left" and "restraint right"
 
 /// A support in solid courses. Its plan at the top is [x0, x1] x [-half_width, half_width]; faces are battered outwards
 /// going down by the given slopes (left, right, and both sides across).

@@ -19,9 +19,9 @@ forbid "solver" "io/|viz/|tools/" "solver never includes io, viz or tools"
 forbid "io" "viz/|tools/" "io is up-river of viz and tools"
 forbid "viz" "tools/" "viz is up-river of tools"
 forbid "tools/ladder" "viz/|io/vtk/|tools/(voussoir|bench)/" "tools/ladder is up-river of the programs and knows no pictures"
-forbid "tools/run tools/modal tools/diagnosis tools/hide tools/campaign tools/fragility" "tools/(voussoir|bench|blind|convergence|ladder)/" "what verbs report is up-river of the programs"
+forbid "tools/run tools/modal tools/diagnosis tools/hide tools/campaign tools/fragility tools/rate" "tools/(voussoir|bench|blind|convergence|ladder)/" "what verbs report is up-river of the programs"
 forbid "geometry solver io viz tools" "tests/" "nothing but tests includes tests"
-forbid "geometry solver io/case io/hdf5 io/info io/msh io/records io/measured io/traffic tools" "vtk" "VTK belongs in io/vtk and viz"
+forbid "geometry solver io/toml io/case io/hdf5 io/info io/msh io/records io/measured io/traffic tools" "vtk" "VTK belongs in io/vtk and viz"
 forbid "geometry solver/[!b]* io viz tools" "omp\.h" "OpenMP belongs in solver/base"
 if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^geometry/gmsh/mesher\.cpp:'; then
   echo "Gmsh belongs in geometry/gmsh/mesher.cpp"; bad=1

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 

@@ -1,7 +1,7 @@
 // Limit states of cases and campaigns.
 #pragma once
 #include "io/case/case.h"
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 
 namespace voussoir {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/case/case.h"
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 
 namespace voussoir {
 

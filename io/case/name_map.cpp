@@ -6,7 +6,7 @@
 
 #include "io/case/degrees.h"
 #include "io/case/material_table.h"
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"

@@ -4,6 +4,7 @@
 #include "io/case/degrees.h"
 #include "io/case/motion_source.h"
 #include "io/case/sections.h"
+#include "io/traffic/place_vehicle.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -113,26 +114,91 @@ void read_placements(TableReader& table, StageSettings& stage) {
   }
 }
 
-void read_loads(TableReader& table, StageSettings& stage) {
-  if (!table.has("load")) return;
-  Loads loads;
-  for (TableReader& sub : table.tables("load")) {
-    if (sub.has("acceleration") == sub.has("group"))
-      sub.fail("needs either 'acceleration' (m/s2, of all free blocks) or 'group' and 'force' (N)");
-    if (sub.has("acceleration")) {
-      loads.acceleration += sub.vector("acceleration", Vec3::Zero());
-    } else {
-      ForceLoad load;
-      load.group = sub.required_text("group");
-      if (!sub.has("force")) sub.missing("force", "[x, y, z] in N, on the whole group");
-      load.force = sub.vector("force", Vec3::Zero());
-      if (sub.has("at")) load.at = sub.place_in_m("at", Vec3::Zero());
-      loads.forces.push_back(load);
+ForceLoad read_force(TableReader& sub) {
+  ForceLoad load;
+  load.group = sub.required_text("group");
+  if (!sub.has("force")) sub.missing("force", "[x, y, z] in N, on the whole group");
+  load.force = sub.vector("force", Vec3::Zero());
+  if (sub.has("at")) load.at = sub.place_in_m("at", Vec3::Zero());
+  return load;
+}
+
+RoadLoad read_road_load(TableReader& sub) {
+  RoadLoad load;
+  const std::vector<double> r = sub.numbers("road", 4, {-1e7, 1e7, "m"});
+  load.area = {r[0], r[1], r[2], r[3]};
+  if (!(r[0] < r[1] && r[2] < r[3]))
+    sub.fail("road", "must be [x from, x to, y from, y to] in m, each from the smaller to the larger");
+  load.pressure = sub.required_number("pressure", {0.0, 1e9, "N/m2"});
+  load.of = sub.text("of", "a load");
+  return load;
+}
+
+/// What stands still goes to `loads`, what has a speed moves.
+void add_road_load(TableReader& sub, StageSettings& stage, Loads& loads, const RoadLoad& load, double speed) {
+  if (speed == 0.0) {
+    loads.road.push_back(load);
+    return;
+  }
+  if (!stage.timed())
+    sub.fail("speed", "is for stages that take time: kind = \"free\" or \"motion\"; leave it out here");
+  stage.moving.push_back({load, speed});
+}
+
+constexpr Limits speeds = {-100.0, 100.0, "m/s"};
+
+/// A vehicle of the library or of a file beside the case, where its front is.
+void read_vehicles(TableReader& table, const std::string& beside, StageSettings& stage, Loads& loads) {
+  if (!table.has("vehicle")) return;
+  for (TableReader& sub : table.tables("vehicle")) {
+    const std::string name = sub.required_text("name");
+    Vehicle vehicle;
+    try {
+      vehicle = read_vehicle(name.ends_with(".toml") ? relative_to(beside, name) : name);
+      if (sub.has("variant")) vehicle = variant_named(vehicle, sub.text("variant", ""));
+    } catch (const InputError& error) {
+      sub.fail("name", fmt::format("is no vehicle: {}", error.what()));
     }
+    VehiclePlace place;
+    place.x = sub.required_number("x", {-1e6, 1e6, "m"});
+    place.y = sub.number("y", 0.0, {-1e3, 1e3, "m"});
+    place.towards_right = sub.word("towards", {"right", "left"}, 0) == 0;
+    vehicle = amplified(vehicle, sub.number("factor", 1.0, {0.0, 1e6, ""}));
+    const double speed = sub.number("speed", 0.0, {0.0, 100.0, "m/s"});
+    for (const RoadLoad& load : loads_of(vehicle, place))
+      add_road_load(sub, stage, loads, load, place.towards_right ? speed : -speed);
     sub.finish();
   }
+}
+
+void read_load_tables(TableReader& table, StageSettings& stage, Loads& loads) {
+  if (!table.has("load")) return;
+  for (TableReader& sub : table.tables("load")) {
+    if (int(sub.has("acceleration")) + int(sub.has("group")) + int(sub.has("road")) != 1)
+      sub.fail(
+          "needs one of 'acceleration' (m/s2, of all free blocks), 'group' with 'force' (N) and 'road' with 'pressure' "
+          "(N/m2)");
+    if (sub.has("acceleration"))
+      loads.acceleration += sub.vector("acceleration", Vec3::Zero());
+    else if (sub.has("group"))
+      loads.forces.push_back(read_force(sub));
+    else
+      add_road_load(sub, stage, loads, read_road_load(sub), sub.number("speed", 0.0, speeds));
+    sub.finish();
+  }
+}
+
+void read_loads(TableReader& table, const std::string& beside, StageSettings& stage) {
+  if (!table.has("load") && !table.has("vehicle")) return;
+  Loads loads;
+  read_load_tables(table, stage, loads);
+  read_vehicles(table, beside, stage, loads);
   if (!(loads.acceleration.norm() <= largest_peak)) table.fail("load", "is above 1e4 m/s2: look at its unit");
-  stage.loads = loads;
+  const bool still = !loads.acceleration.isZero(0.0) || !loads.forces.empty() || !loads.road.empty();
+  if (still && !stage.moving.empty())
+    table.fail("load",
+               "has loads with a speed and loads without: put those without into a stage before, from which they stay");
+  if (stage.moving.empty()) stage.loads = loads;
 }
 
 void read_collapse(TableReader& table, StageSettings& stage) {
@@ -250,7 +316,7 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
     if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, use, stage, source);
     if (stage.timed()) read_drives(table, stage), read_placements(table, stage);
-    read_loads(table, stage);
+    read_loads(table, c.path, stage);
     if (stage.kind == StageSettings::Kind::collapse) {
       read_collapse(table, stage);
       if (&table != &tables.back()) table.fail("kind", "is \"collapse\": such a stage must be the last");

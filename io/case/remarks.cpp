@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/case/table_reader.h"
 #include "io/case/usual.h"
+#include "io/toml/table_reader.h"
 #include "solver/base/constants.h"
 
 namespace voussoir {

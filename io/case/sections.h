@@ -1,7 +1,7 @@
 // The sections of a case file, one function each. Private to io/case.
 #pragma once
 #include "io/case/case.h"
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 
 namespace voussoir {
 

@@ -205,13 +205,22 @@ void write_placements(TomlText& out, const std::vector<Placement>& placements) {
   if (!texts.empty()) out.raw("place", fmt::format("[{}]", fmt::join(texts, ", ")));
 }
 
-void write_loads(TomlText& out, const Loads& loads) {
+std::string road_text(const RoadLoad& load, double speed) {
+  const RoadArea& a = load.area;
+  return fmt::format("{{ road = [{}, {}, {}, {}], pressure = {}, of = {}{} }}", number_text(a.x0), number_text(a.x1),
+                     number_text(a.y0), number_text(a.y1), number_text(load.pressure), quoted(load.of),
+                     speed == 0.0 ? "" : ", speed = " + number_text(speed));
+}
+
+void write_loads(TomlText& out, const Loads& loads, const std::vector<MovingLoad>& moving) {
   std::vector<std::string> texts;
   if (!loads.acceleration.isZero(0.0))
     texts.push_back(fmt::format("{{ acceleration = {} }}", list_text(loads.acceleration)));
   for (const ForceLoad& load : loads.forces)
     texts.push_back(fmt::format("{{ group = {}, force = {}{} }}", quoted(load.group), list_text(load.force),
                                 load.at ? ", at = " + list_text(*load.at) : ""));
+  for (const RoadLoad& load : loads.road) texts.push_back(road_text(load, 0.0));
+  for (const MovingLoad& load : moving) texts.push_back(road_text(load.start, load.speed));
   out.raw("load", fmt::format("[{}]", fmt::join(texts, ", ")));
 }
 
@@ -250,7 +259,7 @@ void write_stages(TomlText& out, const Case& c) {
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
     write_drives(out, stage.drives);
     write_placements(out, stage.placements);
-    if (stage.loads) write_loads(out, *stage.loads);
+    if (stage.loads || !stage.moving.empty()) write_loads(out, stage.loads.value_or(Loads{}), stage.moving);
     if (stage.kind == StageSettings::Kind::collapse) write_collapse(out, stage.collapse);
   }
 }

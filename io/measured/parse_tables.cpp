@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "io/case/case.h"
-#include "io/case/table_reader.h"
 #include "io/measured/parts.h"
 #include "io/measured/units.h"
+#include "io/toml/table_reader.h"
 #include "solver/base/error.h"
 
 namespace voussoir {

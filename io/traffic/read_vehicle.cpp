@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 #include "io/traffic/vehicle.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"

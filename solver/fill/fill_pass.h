@@ -42,11 +42,15 @@ struct FillPass {
   // Forces from outside, N: node_width a slot, and the slots of each node; none.
   const double* outside = nullptr;
   const std::vector<std::int32_t>*first_of_node = nullptr, *of_node = nullptr;
-  FillEnergy* energies = nullptr;  // of each tile, or not wanted
-  Vec3 gravity = Vec3::Zero();     // m/s2
-  double dt = 0.0;                 // s
-  double mass_rate = 0.0;          // 1/s, Rayleigh
-  double local = 0.0;              // Cundall
+  FillEnergy* energies = nullptr;                           // of each tile, or not wanted
+  Vec3 gravity = Vec3::Zero();                              // m/s2
+  double dt = 0.0;                                          // s
+  double mass_rate = 0.0;                                   // 1/s, Rayleigh
+  double local = 0.0;                                       // Cundall
+  bool loaded = false;                                      // beside gravity: these
+  const double *loads_from = nullptr, *loads_to = nullptr;  // N, node_width a node, beside gravity; none
+  Vec3 load_acceleration = Vec3::Zero();                    // m/s2, of all nodes, beside gravity; at this step
+  double load_share = 1.0;                                  // of the way from the one to the other, at this step
   double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched calls for a search
   Vec3 base_displacement = Vec3::Zero();  // m, at the end of the step
   bool averaged = true;                   // false: plain tetrahedra, which lock; for comparison
@@ -58,6 +62,10 @@ struct FillPass {
   FillReport nodes(std::size_t tile) const;
 
   NodeUpdate update(std::size_t node) const;
+  /// What acts beside gravity at this step, N.
+  Quad load(std::size_t node) const;
+  /// Work of that over half a step at this velocity (m/s), J.
+  double load_work(std::size_t node, const Quad& velocity) const;
 
  private:
   void fetch_forces(std::size_t node) const;

@@ -32,6 +32,19 @@ double sign(double x) {
 
 }  // namespace
 
+Quad FillPass::load(std::size_t node) const {
+  const Vec3& a = load_acceleration;
+  Quad force = fill->mass[node] * Quad{a.x(), a.y(), a.z(), 0.0};
+  if (loads_from)
+    force += (1.0 - load_share) * load_quad(loads_from + node_width * node) +
+             load_share * load_quad(loads_to + node_width * node);
+  return force;
+}
+
+double FillPass::load_work(std::size_t node, const Quad& velocity) const {
+  return 0.5 * dt * dot3(load(node), velocity);
+}
+
 NodeUpdate FillPass::update(std::size_t node) const {
   NodeUpdate next;
   Quad force = fill->mass[node] * Quad{gravity.x(), gravity.y(), gravity.z(), 0.0};
@@ -40,6 +53,7 @@ NodeUpdate FillPass::update(std::size_t node) const {
   if (outside)
     for (std::int32_t i = (*first_of_node)[node]; i < (*first_of_node)[node + 1]; ++i)
       force += load_quad(outside + node_width * std::size_t((*of_node)[std::size_t(i)]));
+  if (loaded) force += load(node);
   next.force = force;
   const Quad before = load_quad(&memory->motion[node_width * node]);
   if (local > 0.0)  // Cundall: a share of the force, against the velocity
@@ -91,6 +105,8 @@ FillReport FillPass::nodes(std::size_t tile) const {
     fetch_forces(node + 4);
     const NodeUpdate next = update(node);
     if (damped || fill->held[node]) count_losses(*this, node, next, &memory->lost[4 * tile]);
+    if (loaded)
+      memory->lost[4 * tile + 2] += load_work(node, load_quad(&memory->motion[node_width * node]) + next.velocity);
     double* u = &memory->pose[node_width * node];
     const Quad moved = load_quad(u) + dt * next.velocity;
     put(next.velocity, &memory->motion[node_width * node]);

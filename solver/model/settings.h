@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/polyhedron.h"
+#include "geometry/road_area.h"
 
 namespace voussoir {
 
@@ -48,10 +49,19 @@ struct ForceLoad {
   std::optional<Vec3> at;     // m, in the reference placement; moves with the block
 };
 
-/// What acts on the free blocks beside gravity.
+/// A pressure on a rectangle of the road: a wheel, a sleeper, a crowd. What of it lies beyond the ends of the road does
+/// not act.
+struct RoadLoad {
+  RoadArea area;          // m, in plan
+  double pressure = 0.0;  // N/m2 in plan, downwards
+  std::string of;         // what stands there, for errors
+};
+
+/// What acts on the free blocks and the fill beside gravity.
 struct Loads {
   Vec3 acceleration = Vec3::Zero();  // m/s2, added to gravity
   std::vector<ForceLoad> forces;
+  std::vector<RoadLoad> road;
 };
 
 /// Fixed blocks that are free to move along some axes, or to turn about their centroids: a loading beam that is kept
@@ -96,6 +106,12 @@ struct ConstructionSettings {
   double lift = 2.0;  // m, of the masons' order
 };
 
+/// A load that moves along the road.
+struct MovingLoad {
+  RoadLoad start;      // where it is when the stage begins
+  double speed = 0.0;  // m/s along x
+};
+
 struct StageSettings {
   enum class Kind { gravity, motion, free, collapse };
   enum class Method { automatic, newton, relaxation };  // gravity only
@@ -110,8 +126,9 @@ struct StageSettings {
   /// At the end of the stage and until another stage has some; none: as the stages before have left them. Of a collapse
   /// stage: the pattern that the multiplier multiplies.
   std::optional<Loads> loads;
-  CollapseSettings collapse;  // collapse only
-  std::string label;          // for logs: "gravity", "motion (pulse sine y)", …
+  std::vector<MovingLoad> moving;  // motion and free, beside what acted before; instead of loads
+  CollapseSettings collapse;       // collapse only
+  std::string label;               // for logs: "gravity", "motion (pulse sine y)", …
   bool timed() const { return kind == Kind::motion || kind == Kind::free; }
 };
 

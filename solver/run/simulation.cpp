@@ -44,12 +44,16 @@ Simulation::Simulation(const Assembly& assembly, const SolverSettings& settings,
       observers_(std::move(observers)),
       model_(build_model(assembly, settings)),
       state_(initial_state(model_)),
+      places_(assembly, model_),
       lost_bonds_(assembly, model_) {
   apply_guides(assembly, settings_.guides, model_);
   check_drives(assembly, settings_.stages, settings_.guides);
   check_placements(assembly, settings_.stages);
-  for (std::size_t i = 0; i < settings_.stages.size(); ++i)
-    loads_at_work(assembly, model_, {}, loads_at({}, settings_.stages[i], model_.gravity, 1.0));
+  for (const StageSettings& stage : settings_.stages) {
+    places_.at_work({}, loads_at({}, stage, model_.gravity, 1.0));
+    for (std::int64_t k = 0, n = parts_of_way(stage.moving, stage.duration); k <= n && !stage.moving.empty(); ++k)
+      places_.at_work({}, with_moving({}, stage.moving, stage.duration * double(k) / double(n)));
+  }
   held_groups_ = names_held(assembly);
   stepper_.model = &model_;
   stepper_.state = &state_;
@@ -207,7 +211,8 @@ void Simulation::start_from_rest() {
       if (!body.held(3 + c)) motion[3 + c] = -0.5 * next.momentum[c];
     }
   }
-  const FillPass fill = stepper_.fill_pass();
+  FillPass fill = stepper_.fill_pass();
+  stepper_.load_fill(fill, 0.0);
   for (std::size_t i = 0; i < model_.fill.nodes.size(); ++i) {
     const NodeUpdate next = fill.update(i);
     for (int c = 0; c < 3; ++c)
@@ -322,7 +327,13 @@ double next_multiple(double time, double every) {
 void Simulation::impose(const StageSettings& stage) {
   const auto at = std::size_t(position_.stage);
   const Loads before = at > 0 ? loads_after(settings_.stages, at - 1) : Loads{};
-  stepper_.loads = loads_at_work(*assembly_, model_, before, loads_after(settings_.stages, at));
+  part_of_way_ = -1;
+  if (stage.moving.empty()) {
+    stepper_.loads = places_.at_work(before, loads_after(settings_.stages, at));
+    stepper_.loads_since = -1.0;
+  } else {
+    follow_loads(stage);
+  }
   stepper_.stage_duration = stage.duration;
   stepper_.drives = stage.drives;
   const bool departs =
@@ -334,6 +345,25 @@ void Simulation::impose(const StageSettings& stage) {
   for (std::size_t i = 0; i < stage.drives.size(); ++i)
     for (std::int64_t block : assembly_->groups.at(stage.drives[i].group))
       stepper_.drive[std::size_t(model_.body_of_block[block])] = std::int32_t(i);
+}
+
+/// Loads that move: those of the part of their way in which the present time lies. Returns the time (s) of its end.
+double Simulation::follow_loads(const StageSettings& stage) {
+  if (stage.moving.empty()) return 1e300;
+  const double begun = position_.stage_begun == 0.0 ? state_.time() : position_.stage_start;
+  const std::int64_t parts = parts_of_way(stage.moving, stage.duration);
+  const double duration = stage.duration / double(parts);
+  const double since = state_.time() - begun + 1e-6 * stepper_.dt;
+  const std::int64_t part = std::clamp<std::int64_t>(std::int64_t(since / duration), 0, parts - 1);
+  if (part != part_of_way_) {
+    const auto at = std::size_t(position_.stage);
+    const Loads before = at > 0 ? loads_after(settings_.stages, at - 1) : Loads{};
+    const auto moved = [&](std::int64_t k) { return with_moving(before, stage.moving, duration * double(k)); };
+    stepper_.loads = places_.at_work(moved(part), moved(part + 1));
+    stepper_.loads_since = begun + duration * double(part), stepper_.loads_duration = duration;
+    part_of_way_ = part;
+  }
+  return begun + duration * double(part + 1);
 }
 
 RunEnd Simulation::timed(const StageSettings& stage, double until) {
@@ -349,7 +379,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     const auto every = std::max<std::int64_t>(1, std::llround(output.history_every / stepper_.dt));
     const double fields_at = next_multiple(state_.time(), output.fields_every);
     const double save_at = next_multiple(state_.time(), output.checkpoint_every);
-    const double next = std::min({stop_at, fields_at, save_at});
+    const double next = std::min({stop_at, fields_at, save_at, follow_loads(stage)});
     // In pieces short enough for the progress line and the checkpoint by wall time.
     const auto left = std::max<std::int64_t>(1, std::int64_t(std::ceil((next - state_.time()) / stepper_.dt - 1e-6)));
     const std::int64_t piece =

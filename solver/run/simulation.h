@@ -111,6 +111,7 @@ class Simulation {
   bool stayed(const StageSettings& stage, const Standing& before);
   bool collapse(const StageSettings& stage);
   void impose(const StageSettings& stage);
+  double follow_loads(const StageSettings& stage);
   void place(const StageSettings& stage);
   void start_from_rest();
   Vec3 reaction(const BodyPass& pass, const std::string& group) const;
@@ -146,6 +147,8 @@ class Simulation {
   Advance last_;
   RunCosts costs_;
   ContactBound bound_;
+  LoadPlaces places_;
+  std::int64_t part_of_way_ = -1;  // of loads that move
   LostBonds lost_bonds_;
   double worst_balance_ = 0.0;
   std::string exploded_;  // why the ledger is not to be believed; empty while it is

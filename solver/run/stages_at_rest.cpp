@@ -143,7 +143,7 @@ bool Simulation::collapse(const StageSettings& stage) {
   const auto loads = [&](double multiplier) { return loads_at(base, stage, model_.gravity, multiplier); };
   collapse_ = find_collapse(
       stepper_, stage.collapse, settings_.step.equilibrium_tolerance,
-      [&](double multiplier) { return loads_at_work(*assembly_, model_, {}, loads(multiplier)); }, observers_.stop,
+      [&](double multiplier) { return places_.at_work({}, loads(multiplier)); }, observers_.stop,
       [&](const CollapseTry& one, double residual) {
         report_progress(false, fmt::format("multiplier {:.5g}, step {}: out-of-balance {:.1e}", one.multiplier,
                                            one.steps, residual));

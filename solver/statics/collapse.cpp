@@ -89,7 +89,7 @@ namespace {
 
 /// Of each body whether the pattern's forces act on it; empty where the pattern acts on all.
 std::vector<char> bodies_loaded(const Model& model, const LoadsAtWork& none, const LoadsAtWork& full) {
-  if (none.acceleration_to != full.acceleration_to || full.points.empty()) return {};
+  if (none.acceleration_to != full.acceleration_to || (full.points.empty() && full.nodes_to.empty())) return {};
   std::vector<char> loaded(model.bodies.size(), 0);
   for (const PointLoad& p : full.points)
     if (!p.to.isZero(0.0)) loaded[std::size_t(p.body)] = 1;
@@ -118,6 +118,14 @@ double along_pattern(const Model& model, const State& from, const State& to, con
     }
   };
   add(full, 1.0), add(none, -1.0);
+  for (std::size_t i = 0; i < full.nodes_to.size(); i += node_width) {
+    const auto force = [i](const LoadsAtWork& loads) {
+      return loads.nodes_to.empty() ? Vec3(Vec3::Zero()) : Vec3(&loads.nodes_to[i]);
+    };
+    const Vec3 p = force(full) - force(none);
+    work += p.dot(Vec3(&to.fill.pose[i]) - Vec3(&from.fill.pose[i]));
+    weight += p.norm();
+  }
   return weight > 0.0 ? work / weight : 0.0;
 }
 
@@ -158,6 +166,7 @@ bool rest_stands(Stepper stepper, State state, const CollapseLoss& loss, double 
   }
   for (PointLoad& p : stepper.loads.points)
     if (held.bodies[std::size_t(p.body)].still()) p.from = p.to = Vec3::Zero();
+  if (loss.fill) stepper.loads.nodes_from.clear(), stepper.loads.nodes_to.clear();
   stepper.model = &held;
   stepper.state = &state;
   stepper.prepare();

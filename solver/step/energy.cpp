@@ -96,6 +96,7 @@ Energies energies_of_fill(const FillPass& pass, std::size_t tile) {
   for (auto node = std::size_t(t.first_node); node < std::size_t(t.end_node); ++node) {
     const NodeUpdate next = pass.update(node);
     const double *v = &pass.memory->motion[node_width * node], *u = &pass.memory->pose[node_width * node];
+    if (pass.loaded) e.external_work += pass.load_work(node, load_quad(v));
     for (int c = 0; c < 3; ++c) {
       // As for bodies: ½ v⁻ M v⁺, and of what is held the half step that leads up to now.
       if (pass.fill->held[node] >> c & 1)
@@ -117,6 +118,7 @@ Energies compute_energies(const Stepper& stepper, const BodyPass& pass) {
   } else {
     FillPass fill = stepper.fill_pass();
     fill.energies = stepper.fill_energies.data();
+    stepper.load_fill(fill, pass.load_share);
     for (std::size_t tile = 0; tile < tiles; ++tile) e.add(energies_of_tile(stepper, pass, tile));
     for (std::size_t tile = tiles; tile < all; ++tile) e.add(energies_of_fill(fill, tile - tiles));
   }

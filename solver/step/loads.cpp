@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/road.h"
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
 #include "solver/step/drive.h"
@@ -29,9 +30,28 @@ void LoadsAtWork::act(const Model& model, const State& state, std::size_t body, 
   moment = {m.x(), m.y(), m.z()};
 }
 
+Loads with_moving(Loads loads, const std::vector<MovingLoad>& moving, double time) {
+  for (const MovingLoad& load : moving) {
+    RoadLoad now = load.start;
+    now.area.x0 += load.speed * time, now.area.x1 += load.speed * time;
+    loads.road.push_back(now);
+  }
+  return loads;
+}
+
+std::int64_t parts_of_way(const std::vector<MovingLoad>& moving, double duration) {
+  constexpr double part = 0.1;  // m: less than a wheel is long
+  double way = 0.0;
+  for (const MovingLoad& load : moving) way = std::max(way, std::abs(load.speed) * duration);
+  return std::max<std::int64_t>(1, std::int64_t(std::ceil(way / part - 1e-9)));
+}
+
 Loads loads_after(const std::vector<StageSettings>& stages, std::size_t stage) {
-  for (std::size_t i = std::min(stage + 1, stages.size()); i-- > 0;)
+  for (std::size_t i = std::min(stage + 1, stages.size()); i-- > 0;) {
+    if (!stages[i].moving.empty())
+      return with_moving(i > 0 ? loads_after(stages, i - 1) : Loads{}, stages[i].moving, stages[i].duration);
     if (stages[i].loads && stages[i].kind != StageSettings::Kind::collapse) return *stages[i].loads;
+  }
   return {};
 }
 
@@ -63,16 +83,65 @@ void add_points(const Assembly& assembly, const Model& model, const ForceLoad& l
 
 }  // namespace
 
-LoadsAtWork loads_at_work(const Assembly& assembly, const Model& model, const Loads& from, const Loads& to) {
+namespace {
+
+constexpr double part_of_gaps = 0.02;  // of a rectangle: joints that a drawn deck leaves open
+
+/// What of a rectangle lies between the ends of the road.
+RoadArea on_the_way(const RoadArea& area, const RoadArea& road) {
+  return {std::max(area.x0, road.x0), std::min(area.x1, road.x1), area.y0, area.y1};
+}
+
+/// Forces per pressure are those of the whole rectangle, also where joints are open.
+double evened(const RoadShare& share, const RoadArea& wanted, const RoadLoad& load, const RoadArea& road) {
+  const double whole = wanted.area();
+  if (std::abs(share.area - whole) > part_of_gaps * whole)
+    throw InputError(
+        "{} stands on x = {:.3f} to {:.3f} m, y = {:.3f} to {:.3f} m, and {:.3g} m2 of that are no road, which lies "
+        "within y = {:.3f} to {:.3f} m between what stands on it: move it across, or choose a narrower vehicle",
+        load.of, wanted.x0, wanted.x1, wanted.y0, wanted.y1, whole - share.area, road.y0, road.y1);
+  return whole / share.area;
+}
+
+}  // namespace
+
+const Road& LoadPlaces::road() const {
+  if (!road_) road_ = std::make_shared<const Road>(*assembly_);
+  return *road_;
+}
+
+void LoadPlaces::add_road(const RoadLoad& load, bool end, LoadsAtWork& work) const {
+  const RoadArea wanted = on_the_way(load.area, road().extent());
+  if (wanted.x1 <= wanted.x0) return;
+  const RoadShare share = road().under(wanted);
+  const double pressure = load.pressure * evened(share, wanted, load, road().extent());
+  for (const RoadShare::OfBlock& of : share.blocks) {
+    PointLoad point;
+    point.body = model_->body_of_block[of.block];
+    point.arm = of.centre - assembly_->blocks[std::size_t(of.block)].centroid;
+    (end ? point.to : point.from) = Vec3(0.0, 0.0, -pressure * of.area);
+    work.points.push_back(point);
+  }
+  if (share.nodes.empty()) return;
+  Array<double>& nodes = end ? work.nodes_to : work.nodes_from;
+  for (Array<double>* both : {&work.nodes_from, &work.nodes_to})
+    both->resize(node_width * model_->fill.nodes.size(), 0.0);
+  for (const RoadShare::OfNode& of : share.nodes)
+    nodes[node_width * std::size_t(model_->fill.node_of[std::size_t(of.node)]) + 2] -= pressure * of.area;
+}
+
+LoadsAtWork LoadPlaces::at_work(const Loads& from, const Loads& to) const {
   LoadsAtWork work;
   work.acceleration_from = from.acceleration;
   work.acceleration_to = to.acceleration;
-  for (const ForceLoad& load : from.forces) add_points(assembly, model, load, false, work.points);
-  for (const ForceLoad& load : to.forces) add_points(assembly, model, load, true, work.points);
+  for (const ForceLoad& load : from.forces) add_points(*assembly_, *model_, load, false, work.points);
+  for (const ForceLoad& load : to.forces) add_points(*assembly_, *model_, load, true, work.points);
+  for (const RoadLoad& load : from.road) add_road(load, false, work);
+  for (const RoadLoad& load : to.road) add_road(load, true, work);
   if (work.points.empty()) return work;
   std::stable_sort(work.points.begin(), work.points.end(),
                    [](const PointLoad& a, const PointLoad& b) { return a.body < b.body; });
-  work.first.assign(model.bodies.size() + 1, 0);
+  work.first.assign(model_->bodies.size() + 1, 0);
   for (const PointLoad& p : work.points) ++work.first[std::size_t(p.body) + 1];
   for (std::size_t i = 1; i < work.first.size(); ++i) work.first[i] += work.first[i - 1];
   return work;
@@ -87,6 +156,10 @@ Loads loads_at(const Loads& base, const StageSettings& stage, const Vec3& gravit
   for (ForceLoad load : stage.loads->forces) {
     load.force *= multiplier;
     sum.forces.push_back(load);
+  }
+  for (RoadLoad load : stage.loads->road) {
+    load.pressure *= multiplier;
+    sum.road.push_back(load);
   }
   return sum;
 }

@@ -1,9 +1,14 @@
 // Dead loads of a stage: an acceleration of all free blocks and forces on groups of them.
 #pragma once
+#include <memory>
+
+#include "geometry/assembly.h"
 #include "solver/model/settings.h"
 #include "solver/model/state.h"
 
 namespace voussoir {
+
+class Road;
 
 /// A force that keeps its direction, on a point that moves with its body.
 struct PointLoad {
@@ -16,9 +21,11 @@ struct PointLoad {
 struct LoadsAtWork {
   Vec3 acceleration_from = Vec3::Zero(), acceleration_to = Vec3::Zero();  // m/s2, on all free bodies
   std::vector<PointLoad> points;                                          // by body
-  Array<std::int32_t> first;  // point load of each body, and one past the end; empty: no point loads
+  Array<std::int32_t> first;           // point load of each body, and one past the end; empty: no point loads
+  Array<double> nodes_from, nodes_to;  // N, node_width a node of the fill; empty: none
 
-  bool none() const { return first.empty() && acceleration_from.isZero(0.0) && acceleration_to.isZero(0.0); }
+  bool accelerates() const { return !acceleration_from.isZero(0.0) || !acceleration_to.isZero(0.0); }
+  bool none() const { return first.empty() && nodes_to.empty() && !accelerates(); }
   /// On one body at its present placement: force (N) and moment about its centroid (N m), world axes.
   void act(const Model& model, const State& state, std::size_t body, double share, Triple<double>& force,
            Triple<double>& moment) const;
@@ -27,12 +34,32 @@ struct LoadsAtWork {
 /// Share of the way from rest to rest: the cycloid τ − sin 2πτ / 2π, τ = time / duration held between 0 and 1.
 double eased(double time, double duration);
 
+/// These and loads that move, `time` (s) after the beginning of their stage.
+Loads with_moving(Loads loads, const std::vector<MovingLoad>& moving, double time);
+/// In how many parts of equal time a stage of this duration (s) takes what moves in it: it is where it has to be at the
+/// ends of each, and between them shares of both places add up to it. Their sum and moment are then exact at any time.
+std::int64_t parts_of_way(const std::vector<MovingLoad>& moving, double duration);
+
 /// What acts at the end of a stage: its own loads, or those that an earlier one has left.
 Loads loads_after(const std::vector<StageSettings>& stages, std::size_t stage);
 
-/// Throws InputError for a group that the assembly does not have, that holds a fixed block, or that has more than one
-/// block where the force has a point. Forces on a group are shared in proportion to mass.
-LoadsAtWork loads_at_work(const Assembly& assembly, const Model& model, const Loads& from, const Loads& to);
+/// Where loads of an assembly act. Its road is found when the first load lies on it.
+class LoadPlaces {
+ public:
+  LoadPlaces(const Assembly& assembly, const Model& model) : assembly_(&assembly), model_(&model) {}
+  /// Throws InputError for a group that the assembly does not have, that holds a fixed block, or that has more than one
+  /// block where the force has a point, and for a load on the road beside it. Forces on a group are shared in
+  /// proportion to mass, pressures on the road by where they lie (RoadShare).
+  LoadsAtWork at_work(const Loads& from, const Loads& to) const;
+
+ private:
+  const Road& road() const;
+  void add_road(const RoadLoad& load, bool end, LoadsAtWork& work) const;
+
+  const Assembly* assembly_;
+  const Model* model_;
+  mutable std::shared_ptr<const Road> road_;
+};
 
 /// What acts in a collapse stage at a multiplier: `base` and the multiplied pattern, or gravity turned about the
 /// stage's axis by the arc tangent of the multiplier.

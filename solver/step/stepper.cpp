@@ -108,6 +108,19 @@ PatchPass Stepper::patch_pass() {
   return pass;
 }
 
+double Stepper::load_share(double time) const {
+  if (loads_since >= 0.0) return std::clamp((time - loads_since) / loads_duration, 0.0, 1.0);
+  return stage_duration > 0.0 ? eased(time - stage_start, stage_duration) : 1.0;
+}
+
+void Stepper::load_fill(FillPass& pass, double share) const {
+  const bool nodes = !loads.nodes_to.empty();
+  pass.loaded = nodes || loads.accelerates();
+  pass.load_share = share;
+  pass.load_acceleration = (1.0 - share) * loads.acceleration_from + share * loads.acceleration_to;
+  if (nodes) pass.loads_from = loads.nodes_from.data(), pass.loads_to = loads.nodes_to.data();
+}
+
 FillPass Stepper::fill_pass() const {
   FillPass pass;
   pass.fill = &model->fill;
@@ -126,6 +139,7 @@ FillPass Stepper::fill_pass() const {
   pass.mass_rate = damping.mass_rate;
   pass.local = damping.local;
   pass.search_distance = search_distance;
+  load_fill(pass, 1.0);
   return pass;
 }
 
@@ -146,7 +160,7 @@ void move_base(const Stepper& s, double time, BodyPass& pass) {
   const Vec3 a = base_acceleration(s.motion, since);
   pass.base_velocity_next = pass.base_velocity_now + s.dt * a;
   pass.base_displacement_next += s.dt * pass.base_velocity_next;
-  if (pass.loads && s.stage_duration > 0.0) pass.load_share = eased(since, s.stage_duration);
+  if (pass.loads) pass.load_share = s.load_share(time);
   for (std::size_t i = 0; i < s.drives.size(); ++i) {
     const Drive& d = s.drives[i];
     const auto path = [&](double at) { return drive_path(d, s.ground, at, s.stage_duration); };
@@ -293,6 +307,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
       move_still(pass, still[i], still[i + 1]);
     }
     fill.base_displacement = bodies.front().base_displacement_next;
+    load_fill(fill, bodies.front().load_share);
     patches.front().energies = samples ? tile_energies.data() : nullptr;
     fill.energies = samples ? fill_energies.data() : nullptr;
     step_kind = samples ? RoundKind::first_only : RoundKind::both;
@@ -431,7 +446,8 @@ void serial_step(Stepper& s) {
   for (std::size_t tile = 0; tile < support_work.size(); ++tile) state.support_work[tile] += support_work[tile];
   bodies.looks = state.look_at() <= state.step() + 1;
   const BodyReport report = bodies.bodies(0, model.bodies.size());
-  const FillPass fill = s.fill_pass();
+  FillPass fill = s.fill_pass();
+  s.load_fill(fill, bodies.load_share);
   for (std::size_t tile = 0; tile < model.fill.tiles.size(); ++tile) fill.nodes(tile);
   finish_step(state, s.dt, bodies);
   if (bodies.looks) state.look_at() = look(report, state.step(), s.search_distance, s.dt).next;

@@ -55,6 +55,8 @@ struct Stepper {
   Array<std::int32_t> drive;             // of each body, see BodyPass
   GroundPath ground;                     // of the motion, for drives that depart from it; else empty
   LoadsAtWork loads;                     // of the stage, eased over its duration; at once in equilibrium
+  double loads_since = -1.0;  // s: when they began to change, evenly, of loads that move; below 0: of the stage, eased
+  double loads_duration = 0.0;     // s
   double search_distance = 1e300;  // m: a body that has moved farther since its place was noted calls for a search
   // Called for each tile of bodies, by any thread, before a sample is; none: nothing.
   std::function<void(std::size_t tile)> before_sample;
@@ -81,7 +83,10 @@ struct Stepper {
   /// Where still bodies are now, and where a pass will have taken them from there.
   StillPlaces still_places() const;
   void move_still(const BodyPass& pass, const StillPlaces& now, StillPlaces& next) const;
-  FillPass fill_pass() const;
+  FillPass fill_pass() const;  // under the whole load
+  /// Share of the way of the loads at this time, s.
+  double load_share(double time) const;
+  void load_fill(FillPass& pass, double share) const;
 
   // Scratch memory that prepare() lays out.
   Incidence incidence;

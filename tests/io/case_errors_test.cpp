@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/case/case.h"
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 #include "solver/base/error.h"
 #include "tests/folder.h"
 

@@ -68,5 +68,6 @@ Rung fill_rankine();
 // These need a solver for linear programs; where the program was built without one they are not listed.
 Rung limit_analysis();
 Rung rings();
+Rung axle_strip();
 
 }  // namespace voussoir::ladder

@@ -31,7 +31,7 @@ const std::vector<Rung>& rungs() {
         fill_rankine(),
     };
     if (limit::can_solve_linear_programs())
-      for (const Rung& rung : {limit_analysis(), rings()}) all.push_back(rung);
+      for (const Rung& rung : {limit_analysis(), rings(), axle_strip()}) all.push_back(rung);
     return all;
   }();
   return list;

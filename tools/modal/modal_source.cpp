@@ -142,7 +142,7 @@ ModalSource modal_source(const std::string& from, const std::function<void(Modal
   stepper.state = &source.state;
   stepper.threads = threads;
   stepper.search_distance = search_distance(source.model);
-  stepper.loads = loads_at_work(source.assembly, source.model, source.loads, source.loads);
+  stepper.loads = LoadPlaces(source.assembly, source.model).at_work(source.loads, source.loads);
   stepper.prepare();
   if (source.damaged && !as_stored) settle_down(source, stepper, quiet);
   stepper.patches_only();  // the tangent is that of the last pass

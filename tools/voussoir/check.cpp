@@ -25,25 +25,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the rungs of the ladder are.
+/// Where the rungs of the ladder are, and the bridges of the literature, some of which are rungs too.
 std::string ladder_folder() {
   return shipped("cases/validation");
 }
+constexpr const char* bridges = "bridges";
 
-/// A rung's name is its file's; case.toml stands for its folder.
+/// A rung's name is its file's; case.toml stands for its folder, and a bridge of the literature is called one.
 std::string rung_name(const std::string& file) {
   const fs::path path(file);
-  if (path.filename() != "case.toml") return path.stem().string();
   std::error_code ignored;
-  return fs::weakly_canonical(path, ignored).parent_path().filename().string();
+  const std::string folder = fs::weakly_canonical(path, ignored).parent_path().filename().string();
+  if (path.filename() == "case.toml") return folder;
+  return (folder == bridges ? "bridge-" : "") + path.stem().string();
 }
 
-/// The rungs that are cases, in alphabetical order.
+/// The rungs that are cases, in alphabetical order of their files.
 std::vector<std::string> ladder_files() {
   std::vector<std::string> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(ladder_folder(), ignored))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  for (const auto& entry : fs::directory_iterator(fs::path(ladder_folder()).parent_path() / bridges, ignored))
+    if (entry.path().extension() == ".toml" &&
+        read_text(entry.path().string()).find("\n[[check]]") != std::string::npos)
+      files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
 }

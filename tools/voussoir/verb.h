@@ -33,6 +33,7 @@ Verb report_verb();
 Verb campaign_verb();
 Verb campaign_run_verb();
 Verb fragility_verb();
+Verb rate_verb();
 Verb vehicles_verb();
 
 namespace options = boost::program_options;

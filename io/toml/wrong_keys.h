@@ -1,4 +1,4 @@
-// Keys of a TOML file that nobody knows, gathered so that one message names them all. Private to io/case.
+// Keys of a TOML file that nobody knows, gathered so that one message names them all. Of table_reader.h alone.
 #pragma once
 #include <string>
 #include <utility>

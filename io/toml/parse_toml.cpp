@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "geometry/polyhedron.h"
-#include "io/case/wrong_keys.h"
+#include "io/toml/wrong_keys.h"
 #include "solver/base/suggestion.h"
 
 namespace voussoir {

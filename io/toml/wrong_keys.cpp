@@ -1,4 +1,4 @@
-#include "io/case/wrong_keys.h"
+#include "io/toml/wrong_keys.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "io/case/table_reader.h"
+#include "io/toml/table_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,55 @@
+// The road of a bridge: what lies uppermost between the parapets, and what bears a pressure on it.
+#pragma once
+#include "geometry/assembly.h"
+#include "geometry/road_area.h"
+
+namespace voussoir {
+
+/// What of a rectangle lies on which blocks and nodes. A pressure p in plan, which acts downwards, is a force p A on a
+/// block at `centre`, and p times `area` on a node (∫ N dA, consistent with linear tetrahedra): the sum and the moment
+/// of the forces are those of the pressure, for any mesh.
+struct RoadShare {
+  struct OfBlock {
+    std::int64_t block = 0;
+    double area = 0.0;           // m2 in plan
+    Vec3 centre = Vec3::Zero();  // m
+  };
+  struct OfNode {
+    std::int32_t node = 0;  // of FillMesh::nodes
+    double area = 0.0;      // m2 in plan
+  };
+  std::vector<OfBlock> blocks;  // ascending
+  std::vector<OfNode> nodes;    // ascending
+  double area = 0.0;            // m2 in plan, of both
+};
+
+class Road {
+ public:
+  /// The fill's open upper faces, those of its blocks, and those of walls that reach as high; where there is no fill,
+  /// the upper faces of the group "deck". Throws InputError when there is neither.
+  explicit Road(const Assembly& assembly);
+
+  RoadArea extent() const { return extent_; }
+  RoadShare under(const RoadArea& area) const;
+
+ private:
+  /// A part of the road, or what covers one (with a negative sign).
+  struct Piece {
+    Polygon polygon;
+    Box box;
+    std::int64_t block = -1;  // or a triangle of the fill's surface
+    std::int32_t triangle = -1;
+    double sign = 1.0;
+  };
+  void add(Polygon polygon, std::int64_t block, std::int32_t triangle, double sign);
+  void add_fill(const Assembly& assembly);
+  void add_blocks(const Assembly& assembly, const std::vector<char>& wanted);
+  void add_walls(const Assembly& assembly);
+  double height_at(const Vec3& point) const;
+
+  const Assembly* assembly_;
+  std::vector<Piece> pieces_;
+  RoadArea extent_;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,136 @@
+// voussoir rate, as a user calls it: a strip of a small bridge under an axle, and what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "solver/base/json_file.h"
+#include "tests/whole/cases.h"
+
+namespace voussoir::test {
+namespace VOUSSOIR_FILE {
+
+const std::string small_bridge = R"([bridge]
+generator = "bridge"
+width = 3.0
+block_scale = 2.0
+fill_edge = 0.6
+backfill = "deformable"
+abutments = "restrained"
+
+[[bridge.span]]
+shape = "segmental"
+clear_span = 3.0
+rise = 0.75
+ring_thickness = 0.25
+
+[bridge.abutment.left]
+length = 1.5
+height = 0.8
+
+[bridge.abutment.right]
+length = 1.5
+height = 0.8
+
+[materials.vault]
+tensile_strength = 0.0
+cohesion = 0.0
+
+[[stage]]
+kind = "gravity"
+)";
+
+const std::string axle = R"([vehicle]
+title = "One axle"
+source = "a test"
+kind = "road"
+
+[[axle]]
+x = 0.0
+load = 50e3
+track = 1.8
+wheel = [0.3, 0.3]
+)";
+
+Outcome rate(const Folder& folder, std::vector<std::string> more) {
+  std::vector<std::string> words = {"rate", "bridge.toml", "--vehicle", "axle.toml", "-o", "rated"};
+  words.insert(words.end(), more.begin(), more.end());
+  return voussoir(words, {.folder = folder.path()});
+}
+
+struct Bridge : Folder {
+  Bridge() {
+    write("bridge.toml", small_bridge);
+    write("axle.toml", axle);
+  }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Rate, SweepsAStripAndSaysWhereItIsWorst) {
+  const Bridge folder;
+  const Outcome outcome =
+      rate(folder, {"--strip", "0.3", "--step", "0.75", "--refine", "1", "--tolerance", "0.25", "--no-runs"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("adequacy factor"), std::string::npos) << outcome.out;
+  const nlohmann::json json = read_json(folder / "rated/rate.json");
+  ASSERT_EQ(json["vehicles"].size(), 1u);
+  const nlohmann::json& worst = json["vehicles"][0];
+  EXPECT_TRUE(worst["found"].get<bool>());
+  EXPECT_NEAR(json["effective_width"].get<double>(), 3.0, 1e-9);  // wheels + 1.5 m + cover are more than the bridge
+  const std::vector<std::string> lines = lines_of(bytes_of(folder / "rated/rate.csv"));
+  ASSERT_GE(lines.size(), 5u);
+  double least = 1e300;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::istringstream cells(lines[i]);
+    std::string cell;
+    for (int k = 0; k < 6; ++k) std::getline(cells, cell, ',');
+    least = std::min(least, std::stod(cell));
+  }
+  EXPECT_NEAR(worst["adequacy_factor"].get<double>(), least, 1e-6 * least);
+  const std::string page = bytes_of(folder / "rated/report.html");
+  EXPECT_NE(page.find("adequacy factor"), std::string::npos);
+  EXPECT_NE(page.find("plane strain"), std::string::npos);
+}
+
+TEST(Rate, SaysWhatItNeeds) {
+  const Bridge folder;
+  EXPECT_NE(voussoir({"rate", "bridge.toml"}, {.folder = folder.path()}).err.find("--vehicle"), std::string::npos);
+  const Outcome wide = rate(folder, {"--lane", "1.2"});
+  EXPECT_EQ(wide.status, 2);
+  EXPECT_NE(wide.err.find("no road"), std::string::npos) << wide.err;
+  const Outcome named = voussoir({"rate", "bridge.toml", "--vehicle", "cs454-normal-singl"}, {.folder = folder.path()});
+  EXPECT_EQ(named.status, 2);
+  EXPECT_NE(named.err.find("cs454-normal-single"), std::string::npos) << named.err;
+  folder.write("bare.toml", small_bridge + "\n");
+  std::string bare = small_bridge;
+  bare.replace(bare.find("\"deformable\""), 12, "\"none\"");
+  folder.write("bridge.toml", bare);
+  const Outcome none = rate(folder, {});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("no road"), std::string::npos) << none.err;
+}
+
+/// A vehicle that stands on the bridge, named in the case: its weight arrives at the bases.
+TEST(Rate, AVehicleInACaseStandsOnItsBases) {
+  const Bridge folder;
+  folder.write("case.toml",
+               small_bridge + "\n[[stage]]\nkind = \"gravity\"\nvehicle = [{ name = \"axle.toml\", x = 2.4 }]\n");
+  const Outcome outcome = voussoir({"run", "case.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string text = bytes_of(folder / "run/case.toml");
+  EXPECT_NE(text.find("road = ["), std::string::npos) << text;
+  folder.write("two.toml",
+               small_bridge + "\n[[stage]]\nkind = \"gravity\"\nvehicle = [{ name = \"none-such\", x = 2.4 }]\n");
+  const Outcome none = voussoir({"run", "two.toml"}, {.folder = folder.path()});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("none-such"), std::string::npos) << none.err;
+}
+
+}  // namespace VOUSSOIR_FILE
+}  // namespace voussoir::test

@@ -1,0 +1,263 @@
+#include "tools/rate/rate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "solver/base/error.h"
+#include "solver/base/parallel.h"
+#include "solver/run/simulation.h"
+
+namespace voussoir {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Of its loads in its own frame, m.
+std::pair<double, double> reach(const Vehicle& vehicle) {
+  std::pair<double, double> reach = {1e300, -1e300};
+  const auto take = [&](double from, double to) {
+    if (std::isfinite(from)) reach.first = std::min(reach.first, from);
+    if (std::isfinite(to)) reach.second = std::max(reach.second, to);
+  };
+  for (const LoadPatch& p : vehicle.patches) take(p.x, p.x);
+  if (vehicle.patches.empty())
+    for (const LoadStrip& s : vehicle.strips) take(s.from, s.to);
+  return reach.first > reach.second ? std::pair(0.0, 0.0) : reach;
+}
+
+bool same_both_ways(const Vehicle& vehicle) {
+  const Vehicle other = turned(vehicle);
+  for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
+    if (std::abs(vehicle.axles[i].x - other.axles[i].x) > 1e-9 ||
+        std::abs(vehicle.axles[i].load - other.axles[i].load) > 1e-6)
+      return false;
+  return vehicle.strips.empty() || !vehicle.axles.empty();
+}
+
+std::vector<RoadLoad> road_loads(const RateRequest& request, const Case& c, const RatedPlace& at) {
+  const Vehicle& vehicle = request.vehicles[at.vehicle];
+  if (!request.effective_width) return loads_of(vehicle, at.place);
+  return loads_on_strip(vehicle, at.place, c.generator_input("width"), *request.effective_width);
+}
+
+StageSettings collapse_stage(const RateRequest& request, const Case& c, const RatedPlace& at) {
+  StageSettings stage;
+  stage.kind = StageSettings::Kind::collapse;
+  stage.label = "collapse";
+  stage.loads = Loads{};
+  stage.loads->road = road_loads(request, c, at);
+  stage.collapse.to = request.most;
+  stage.collapse.tolerance = request.tolerance;
+  stage.collapse.confirm = 0.0;
+  return stage;
+}
+
+/// The bridge as its stages leave it.
+struct AtRest {
+  SolverSettings settings;
+  State state;
+  RunPosition position;
+};
+
+AtRest bring_to_rest(const Case& c, const Assembly& assembly, int threads) {
+  AtRest rest;
+  rest.settings = c.settings;
+  std::vector<StageSettings>& stages = rest.settings.stages;
+  if (!stages.empty() && stages.back().kind == StageSettings::Kind::collapse) stages.pop_back();
+  if (stages.empty())
+    throw InputError("{} has no stage that brings the bridge to rest: begin with a gravity stage", c.path);
+  rest.settings.output.fields_every = 0.0;
+  Simulation run(assembly, rest.settings, threads, {});
+  if (run.run() != RunEnd::finished) throw RunError("{}: {}", c.path, run.failure());
+  rest.state = run.state(), rest.position = run.position();
+  return rest;
+}
+
+void note_loss(const Assembly& assembly, const Collapse& collapse, RatedPlace& at) {
+  at.found = collapse.found;
+  at.factor = collapse.multiplier, at.above = collapse.above;
+  at.tries = collapse.tries.size();
+  if (!collapse.found) return;
+  at.local = collapse.loss.local;
+  at.share = collapse.loss.share;
+  at.fill_alone = collapse.loss.fill && collapse.loss.blocks.empty();
+  at.moving = moving_part(assembly, collapse.loss);
+  for (const std::int64_t block : collapse.loss.blocks) {
+    const Block& b = assembly.blocks[std::size_t(block)];
+    if (b.component == Component::arch) at.spans.push_back(b.part);
+  }
+  std::sort(at.spans.begin(), at.spans.end());
+  at.spans.erase(std::unique(at.spans.begin(), at.spans.end()), at.spans.end());
+}
+
+bool is_worse(const RatedPlace& a, const RatedPlace& b) {
+  if (a.found != b.found) return a.found;
+  return a.factor < b.factor;
+}
+
+/// Index of the worst place of a vehicle; of equals the first.
+std::size_t worst_of(const std::vector<RatedPlace>& places, std::size_t vehicle) {
+  std::size_t worst = places.size();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].vehicle == vehicle && (worst == places.size() || is_worse(places[i], places[worst]))) worst = i;
+  return worst;
+}
+
+class Sweep {
+ public:
+  Sweep(const Case& c, const Assembly& assembly, const RateRequest& request, const AtRest& rest,
+        std::function<void(const RatedPlace&, std::size_t, std::size_t)> progress)
+      : case_(c), assembly_(assembly), request_(request), rest_(rest), progress_(std::move(progress)) {}
+
+  void run(std::vector<RatedPlace> places) {
+    const std::size_t first = all.size();
+    all.insert(all.end(), places.begin(), places.end());
+    for_all(places.size(), request_.threads, [&](std::size_t i) {
+      RatedPlace& at = all[first + i];
+      one(at);
+      const std::lock_guard<std::mutex> lock(heard_);
+      progress_(at, ++done_, all.size());
+    });
+  }
+
+  std::vector<RatedPlace> all;
+
+ private:
+  void one(RatedPlace& at) const {
+    const Clock::time_point begin = Clock::now();
+    SolverSettings settings = rest_.settings;
+    settings.stages.push_back(collapse_stage(request_, case_, at));
+    Simulation run(assembly_, settings, 1, {});
+    run.state() = rest_.state;
+    run.restore(rest_.position);
+    if (run.run() != RunEnd::finished) throw RunError("{}", run.failure());
+    note_loss(assembly_, run.collapse(), at);
+    at.seconds = seconds_since(begin);
+  }
+
+  const Case& case_;
+  const Assembly& assembly_;
+  const RateRequest& request_;
+  const AtRest& rest_;
+  std::function<void(const RatedPlace&, std::size_t, std::size_t)> progress_;
+  std::mutex heard_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+std::vector<SpanExtent> span_extents(const Assembly& assembly) {
+  std::map<std::int32_t, SpanExtent> found;
+  for (const Block& block : assembly.blocks) {
+    if (block.component != Component::arch) continue;
+    const Box box = block_box(block);
+    SpanExtent& span = found.try_emplace(block.part, SpanExtent{block.part, 1e300, -1e300}).first->second;
+    span.x0 = std::min(span.x0, box.low.x()), span.x1 = std::max(span.x1, box.high.x());
+  }
+  std::vector<SpanExtent> spans;
+  for (const auto& [part, span] : found) spans.push_back(span);
+  if (spans.empty())
+    throw InputError(
+        "there is no vault to load: no block of the assembly is of the component arch; name them so when they are "
+        "imported");
+  std::sort(spans.begin(), spans.end(), [](const SpanExtent& a, const SpanExtent& b) { return a.x0 < b.x0; });
+  return spans;
+}
+
+std::vector<double> fronts(const Vehicle& vehicle, const std::vector<SpanExtent>& spans, bool towards_right,
+                           double step) {
+  const auto [first, last] = reach(vehicle);
+  const double low = spans.front().x0 + (towards_right ? first : -last);
+  const double high = spans.back().x1 + (towards_right ? last : -first);
+  const auto count = std::max<std::int64_t>(1, std::llround((high - low) / step));
+  std::vector<double> at;
+  for (std::int64_t i = 1; i < count; ++i) at.push_back(low + (high - low) * double(i) / double(count));
+  if (at.empty()) at.push_back(0.5 * (low + high));
+  return at;
+}
+
+Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
+            const std::function<void(const RatedPlace&, std::size_t, std::size_t)>& progress) {
+  Rating rating;
+  rating.spans = span_extents(assembly);
+  double step = request.step;
+  if (step <= 0.0) {
+    step = 1e300;
+    for (const SpanExtent& span : rating.spans) step = std::min(step, 0.1 * (span.x1 - span.x0));
+  }
+  const Clock::time_point begin = Clock::now();
+  const AtRest rest = bring_to_rest(c, assembly, request.threads);
+  rating.gravity_seconds = seconds_since(begin);
+  std::vector<RatedPlace> places;
+  for (std::size_t v = 0; v < request.vehicles.size(); ++v)
+    for (const double lane : request.lanes)
+      for (const bool right : {true, false}) {
+        if (!right && (!request.both_ways || same_both_ways(request.vehicles[v]))) continue;
+        for (const double x : fronts(request.vehicles[v], rating.spans, right, step)) {
+          RatedPlace at;
+          at.vehicle = v;
+          at.place = {x, lane, right};
+          places.push_back(at);
+        }
+      }
+  Sweep sweep(c, assembly, request, rest, progress);
+  sweep.run(places);
+  for (int round = 1; round <= request.refinements; ++round) {
+    std::vector<RatedPlace> nearer;
+    for (std::size_t v = 0; v < request.vehicles.size(); ++v)
+      for (const double side : {-1.0, 1.0}) {
+        const RatedPlace& worst = sweep.all[worst_of(sweep.all, v)];
+        RatedPlace at;
+        at.vehicle = v, at.place = worst.place;
+        at.place.x += side * step * std::pow(0.5, round);
+        nearer.push_back(at);
+      }
+    sweep.run(nearer);
+  }
+  rating.places = std::move(sweep.all);
+  std::stable_sort(rating.places.begin(), rating.places.end(), [](const RatedPlace& a, const RatedPlace& b) {
+    return std::tuple(a.vehicle, a.place.y, !a.place.towards_right, a.place.x) <
+           std::tuple(b.vehicle, b.place.y, !b.place.towards_right, b.place.x);
+  });
+  for (std::size_t v = 0; v < request.vehicles.size(); ++v) rating.worst.push_back(worst_of(rating.places, v));
+  return rating;
+}
+
+Case with_vehicle(const Case& c, const RateRequest& request, const RatedPlace& at, bool to_collapse) {
+  Case more = c;
+  std::vector<StageSettings>& stages = more.settings.stages;
+  if (!stages.empty() && stages.back().kind == StageSettings::Kind::collapse) {
+    stages.pop_back();
+    more.motions.pop_back();
+  }
+  StageSettings stage = collapse_stage(request, c, at);
+  if (to_collapse) {
+    stage.collapse.confirm = CollapseSettings{}.confirm;
+    if (at.found) stage.collapse.to = std::min(request.most, 1.3 * at.above);
+    stage.collapse.tolerance = std::min(request.tolerance, 0.25 * stage.collapse.to);
+  } else {
+    stage.kind = StageSettings::Kind::gravity;
+    stage.label = "vehicle";
+    const Loads before = loads_after(stages, stages.size());
+    stage.loads->acceleration = before.acceleration;
+    stage.loads->forces = before.forces;
+    stage.loads->road.insert(stage.loads->road.begin(), before.road.begin(), before.road.end());
+    stage.collapse = {};
+  }
+  stages.push_back(stage);
+  more.motions.emplace_back();
+  more.text = resolved_text(more);
+  return more;
+}
+
+}  // namespace voussoir

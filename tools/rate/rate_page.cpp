@@ -1,0 +1,117 @@
+#include "tools/rate/rate_page.h"
+
+#include <fmt/format.h>
+
+#include "tools/rate/rate_report.h"
+#include "viz/page/line_chart.h"
+
+namespace voussoir {
+
+namespace {
+
+/// Places of one vehicle, lane and direction follow one another.
+bool same_sweep(const RatedPlace& a, const RatedPlace& b) {
+  return a.vehicle == b.vehicle && a.place.y == b.place.y && a.place.towards_right == b.place.towards_right;
+}
+
+std::string sweep_name(const RatedPlace& at, const RateRequest& request) {
+  std::string name = request.vehicles[at.vehicle].name;
+  if (request.lanes.size() > 1) name += fmt::format(", y = {:g} m", at.place.y);
+  return name + (at.place.towards_right ? "" : ", to the left");
+}
+
+/// Grey lines where the spans begin and end.
+void mark_spans(LineChart& chart, const Rating& rating, double high) {
+  for (std::size_t i = 0; i < rating.spans.size(); ++i) {
+    ChartBand band;
+    if (i == 0) band.name = "spans";
+    band.x = {rating.spans[i].x0, rating.spans[i].x1};
+    band.low = {0.0, 0.0};
+    band.high = {high, high};
+    band.colour = i % 2 == 0 ? "#eef2f5" : "#e2e9ee";
+    chart.bands.push_back(band);
+  }
+}
+
+std::string table(const Rating& rating, const RateRequest& request) {
+  std::string text = "<table>\n" + table_row({{"vehicle"},
+                                              {"axles, t", true},
+                                              {"adequacy factor", true},
+                                              {"lost at", true},
+                                              {"front at x, m", true},
+                                              {"y, m", true},
+                                              {"drives to"},
+                                              {"middle of the axles"},
+                                              {"what moves"}},
+                                             "th");
+  for (const std::size_t index : rating.worst) {
+    const RatedPlace& at = rating.places[index];
+    const Vehicle& vehicle = request.vehicles[at.vehicle];
+    const nlohmann::json row = rating_json({rating.spans, rating.places, {index}, 0.0}, request)["vehicles"][0];
+    text += table_row({words_cell(vehicle.name),
+                       {fmt::format("{:.1f}", axle_weight(vehicle) / 9810.0), true},
+                       {factor_text(at, request), true},
+                       {at.found ? fmt::format("{:.3g}", at.above) : "–", true},
+                       {fmt::format("{:.2f}", at.place.x), true},
+                       {fmt::format("{:.2f}", at.place.y), true},
+                       words_cell(row["towards"].get<std::string>()),
+                       words_cell(row["where"].get<std::string>()),
+                       words_cell(row["moving"].get<std::string>())},
+                      "td");
+  }
+  return text + "</table>\n";
+}
+
+std::string first_sentence(const Rating& rating, const RateRequest& request) {
+  std::size_t least = rating.worst.front();
+  for (const std::size_t index : rating.worst)
+    if (rating.places[index].found &&
+        (!rating.places[least].found || rating.places[index].factor < rating.places[least].factor))
+      least = index;
+  const RatedPlace& at = rating.places[least];
+  const Vehicle& vehicle = request.vehicles[at.vehicle];
+  if (!at.found)
+    return fmt::format("The bridge bears {:g} times every vehicle at every place that was looked at.", request.most);
+  return fmt::format("The least adequacy factor is {}: of {}, with the middle of its axles over {}.",
+                     factor_text(at, request), vehicle.name, where_on(rating, vehicle, at.place));
+}
+
+}  // namespace
+
+std::string influence_chart(const Rating& rating, const RateRequest& request) {
+  LineChart chart;
+  chart.title = "Adequacy factor";
+  chart.x_label = "middle of the axles, x (m)";
+  chart.y_label = "factor (-)";
+  chart.y_low = 0.0;
+  double high = 0.0;
+  for (std::size_t i = 0; i < rating.places.size(); ++i) {
+    const RatedPlace& at = rating.places[i];
+    if (i == 0 || !same_sweep(rating.places[i - 1], at)) {
+      ChartCurve curve;
+      curve.name = sweep_name(at, request), curve.dots = true;
+      chart.curves.push_back(curve);
+    }
+    chart.curves.back().x.push_back(middle_of(request.vehicles[at.vehicle], at.place));
+    chart.curves.back().y.push_back(at.factor);
+    high = std::max(high, at.factor);
+  }
+  number_curves(chart);
+  mark_spans(chart, rating, 1.05 * high);
+  return line_chart(chart);
+}
+
+std::string rate_page(const Rating& rating, const RateRequest& request, const RatePageWords& words) {
+  std::string body = paragraph(first_sentence(rating, request));
+  body += paragraph(
+      "The factor multiplies all loads of a vehicle, with the dynamic factors named below, at one place; the bridge's "
+      "own "
+      "weight acts as it is. It is the largest at which equilibrium was found.");
+  body += figure(influence_chart(rating, request));
+  body += heading("Worst places") + table(rating, request);
+  if (!words.remarks.empty()) body += heading("Assumptions") + list(words.remarks);
+  body += pictures_section(words.pictures, "The worst place");
+  return html_page(words.title, body);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,208 @@
+// voussoir rate.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "solver/base/atomic_file.h"
+#include "solver/base/error.h"
+#include "solver/base/folder.h"
+#include "solver/base/json_file.h"
+#include "solver/base/suggestion.h"
+#include "tools/rate/rate_page.h"
+#include "tools/rate/rate_report.h"
+#include "tools/rate/strip.h"
+#include "tools/run/run_directory.h"
+#include "tools/run/run_session.h"
+#include "tools/voussoir/options.h"
+
+namespace voussoir {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words list_of(const options::variables_map& values, const char* name) {
+  return values.count(name) ? values[name].as<Words>() : Words{};
+}
+
+/// The vehicle itself, one of its variants, or, of "all", each and itself.
+std::vector<Vehicle> with_variants(const Vehicle& vehicle, const std::string& variant) {
+  if (variant.empty()) return {vehicle};
+  if (variant != "all") return {variant_named(vehicle, variant)};
+  std::vector<Vehicle> all = {vehicle};
+  for (const VehicleVariant& v : vehicle.variants) all.push_back(variant_named(vehicle, v.name));
+  return all;
+}
+
+struct Amplification {
+  std::string name;  // of a factor of the vehicle's; empty: none
+  double span = 0.0, cover = -1.0;
+};
+
+/// A factor of the critical axle alone is tried on each.
+std::vector<Vehicle> with_factor(const Vehicle& vehicle, const Amplification& by) {
+  if (by.name.empty()) return {vehicle};
+  const DynamicFactor& factor = factor_named(vehicle, by.name);
+  if (factor.formula != DynamicFactor::Formula::value && (by.span <= 0.0 || by.cover < 0.0))
+    throw InputError("--factor {} follows from span and cover: give --span and --cover, in m", by.name);
+  const double value = dynamic_factor(factor, by.span, by.cover);
+  std::vector<Vehicle> all;
+  if (!factor.critical_axle_only) {
+    all.push_back(amplified(vehicle, value));
+    all.back().name += fmt::format(" x {:g}", value);
+    return all;
+  }
+  for (std::size_t i = 0; i < vehicle.axles.size(); ++i) {
+    all.push_back(amplified(vehicle, value, i));
+    all.back().name += fmt::format(", axle {} x {:g}", i + 1, value);
+  }
+  return all;
+}
+
+std::vector<Vehicle> vehicles_asked(const options::variables_map& values) {
+  Amplification by;
+  if (values.count("factor")) by.name = values["factor"].as<std::string>();
+  if (values.count("span")) by.span = values["span"].as<double>();
+  if (values.count("cover")) by.cover = values["cover"].as<double>();
+  const std::string variant = values.count("variant") ? values["variant"].as<std::string>() : std::string();
+  const Words names = list_of(values, "vehicle");
+  if (names.empty()) throw InputError("--vehicle NAME is missing: 'voussoir vehicles' lists them");
+  std::vector<Vehicle> all;
+  for (const std::string& name : names)
+    for (const Vehicle& v : with_variants(read_vehicle(name), variant))
+      for (Vehicle& loaded : with_factor(v, by)) all.push_back(std::move(loaded));
+  return all;
+}
+
+std::vector<std::string> factor_remarks(const options::variables_map& values) {
+  if (!values.count("factor")) return {"no dynamic factor acts: --factor NAME applies one"};
+  return {fmt::format("dynamic factor {}", values["factor"].as<std::string>())};
+}
+
+double widest(const std::vector<Vehicle>& vehicles) {
+  double width = 0.0;
+  for (const Vehicle& v : vehicles) width = std::max(width, vehicle_width(v));
+  return width;
+}
+
+/// The case as it is loaded, and what was assumed for it.
+Case loaded_case(const Case& c, const options::variables_map& values, RateRequest& request,
+                 std::vector<std::string>& remarks) {
+  if (!values.count("strip")) return c;
+  const double cover =
+      c.generator_input.values.contains("fill_over_crown") ? c.generator_input("fill_over_crown") : 0.0;
+  remarks = strip_remarks(c);
+  Case strip = strip_case(c, values["strip"].as<double>());
+  request.effective_width = values.count("effective-width")
+                                ? values["effective-width"].as<double>()
+                                : effective_width(widest(request.vehicles), cover, c.generator_input("width"));
+  remarks.push_back(fmt::format("a strip in plane strain; a vehicle's load is spread over {:.3g} m across{}",
+                                *request.effective_width,
+                                values.count("effective-width") ? "" : " (wheels + 1.5 m + cover, CS 454)"));
+  return strip;
+}
+
+std::string now_text(const RatedPlace& at, const RateRequest& request, std::size_t done, std::size_t all) {
+  return fmt::format("{:3} of {:3}  {}  front at x = {:.2f} m, y = {:.2f} m: {}", done, all,
+                     request.vehicles[at.vehicle].name, at.place.x, at.place.y, factor_text(at, request));
+}
+
+/// The worst place of all once more, as a run with its pictures and its page. Returns the pictures.
+std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, const Rating& rating,
+                                   const std::string& out, bool quiet) {
+  std::size_t least = rating.worst.front();
+  for (const std::size_t index : rating.worst)
+    if (rating.places[index].found &&
+        (!rating.places[least].found || rating.places[index].factor < rating.places[least].factor))
+      least = index;
+  const RatedPlace& at = rating.places[least];
+  std::vector<PagePicture> pictures;
+  for (const bool to_collapse : {true, false}) {
+    const Case more = with_vehicle(c, request, at, to_collapse);
+    const std::string folder = out + (to_collapse ? "/worst" : "/working");
+    RunRequest run;
+    run.directory = folder, run.threads = request.threads, run.quiet = true;
+    const DirectoryLock lock = prepare_directory(more, folder, true);
+    if (!quiet)
+      fmt::print("{}: {}\n", folder, to_collapse ? "to collapse at the worst place" : "under the vehicle as it is");
+    RunSession(run).run();
+    for (const char* name : {"end.png", "deformed.png", "damage.png"}) {
+      std::error_code ignored;
+      const std::string file = folder + "/images/" + name;
+      if (fs::exists(file, ignored))
+        pictures.push_back({to_collapse ? "Beyond the collapse load" : "Under the vehicle", name, read_text(file)});
+    }
+  }
+  return pictures;
+}
+
+int rate_bridge(const std::vector<std::string>& arguments) {
+  CommandLine line("rate", "rate CASE --vehicle NAME [--vehicle …] [-o DIR] [--strip W]",
+                   "voussoir rate cases/bridges/prestwood.toml --vehicle cs454-normal-single --strip 0.3 -o rated");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
+                               "folder to write to (default: rate-CASE)")(
+      "vehicle", options::value<Words>()->value_name("NAME"),
+      "a vehicle of 'voussoir vehicles', or the file of one; may be repeated")(
+      "variant", options::value<std::string>()->value_name("NAME"),
+      "a variant of the vehicles, such as lift-off; all: each of them and the vehicle itself")(
+      "factor", options::value<std::string>()->value_name("NAME"), "a dynamic factor of the vehicles")(
+      "span", real_option("span", 0.1, 1000.0)->value_name("L"), "m, for factors that follow from it")(
+      "cover", real_option("cover", 0.0, 100.0)->value_name("H"), "m, over the crown, likewise")(
+      "lane", options::value<std::vector<double>>()->value_name("Y"),
+      "m, y of the vehicle's middle line; may be repeated (default: 0)")(
+      "step", real_option("step", 0.01, 100.0)->value_name("M"),
+      "m from place to place (default: a tenth of the shortest span)")(
+      "refine", whole_option("refine", 0, 10)->value_name("N")->default_value(2),
+      "halvings of the step about the worst place")("one-way", "only towards the right")(
+      "strip", real_option("strip", 0.05, 5.0)->value_name("W"),
+      "a strip of this width (m) in plane strain instead of the whole bridge")(
+      "effective-width", real_option("effective-width", 0.1, 100.0)->value_name("B"),
+      "m across that bear a vehicle, with --strip (default: wheels + 1.5 m + cover)")(
+      "most", real_option("most", 0.01, 1e6)->value_name("F")->default_value(30.0),
+      "largest factor that is looked for")(
+      "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05), "of the factor")(
+      "no-runs", "leave out the runs of the worst place and their pictures");
+  line.positional = line.required = {"CASE"};
+  options::variables_map values;
+  if (!line.parse(arguments, values)) return 0;
+  const std::string file = values["CASE"].as<std::string>();
+  const bool quiet = values.count("quiet") > 0;
+  RateRequest request;
+  request.vehicles = vehicles_asked(values);
+  if (values.count("lane")) request.lanes = values["lane"].as<std::vector<double>>();
+  if (values.count("step")) request.step = values["step"].as<double>();
+  request.refinements = values["refine"].as<int>();
+  request.both_ways = values.count("one-way") == 0;
+  request.most = values["most"].as<double>(), request.tolerance = values["tolerance"].as<double>();
+  request.threads = threads_asked(values);
+  RatePageWords words;
+  const Case given = read_case(file);
+  const Case c = loaded_case(given, values, request, words.remarks);
+  for (const std::string& remark : factor_remarks(values)) words.remarks.push_back(remark);
+  const std::string name = fs::path(file).stem().string();
+  const std::string out = values.count("output") ? values["output"].as<std::string>() : "rate-" + name;
+  words.title = "Rating: " + name;
+  const Rating rating =
+      rate(c, make_assembly(c), request, [&](const RatedPlace& at, std::size_t done, std::size_t all) {
+        if (!quiet) fmt::print(stderr, "{}\n", now_text(at, request, done, all));
+      });
+  make_folder_of(out + "/rate.json");
+  write_json(out + "/rate.json", rating_json(rating, request));
+  write_atomically(out + "/rate.csv", rating_csv(rating, request));
+  make_folder_of(out + "/images/rate.svg");
+  write_atomically(out + "/images/rate.svg", influence_chart(rating, request));
+  if (!values.count("no-runs")) words.pictures = run_worst(c, request, rating, out, quiet);
+  write_atomically(out + "/report.html", rate_page(rating, request, words));
+  if (!quiet) fmt::print("{}\n{}/report.html, rate.csv, rate.json\n", rating_text(rating, request), out);
+  return 0;
+}
+
+}  // namespace
+
+Verb rate_verb() {
+  return {"rate", "which vehicles a bridge bears: adequacy factors at their worst places", rate_bridge};
+}
+
+}  // namespace voussoir
