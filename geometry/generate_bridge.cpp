@@ -53,16 +53,10 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   }
 }
 
-/// One pair of values for each component, to which the interface's share refers: of its keys, or from the moduli over
-/// the mean size of a block.
-std::map<Component, Stiffness> masonry_stiffness(const Bridge& bridge, const std::vector<Material>& materials,
-                                                 const JointRules& rules, const GeneratorInput& in) {
+/// One pair of values for each component whose keys are given.
+std::map<Component, Stiffness> given_table(const JointRules& rules, const GeneratorInput& in) {
   std::map<Component, Stiffness> table;
   for (const auto& [component, size] : rules.nominal) {
-    const Material& m = materials[std::size_t(component == Component::arch     ? bridge.vault
-                                              : component == Component::infill ? bridge.infill_material
-                                                                               : bridge.masonry)];
-    table[component] = {m.youngs_modulus / size.mean(), m.shear_modulus / size.mean()};
     const std::string row = component == Component::arch                                       ? "vault"
                             : component == Component::infill                                   ? "infill"
                             : component == Component::pier || component == Component::abutment ? "support"
@@ -77,14 +71,29 @@ std::map<Component, Stiffness> masonry_stiffness(const Bridge& bridge, const std
   return table;
 }
 
+/// The materials that vaults and supports name.
+void find_named_materials(Bridge& bridge, const std::vector<Material>& materials, const GeneratorInput& in) {
+  const auto named = [&](const std::string& prefix) {
+    const std::string& name = in.choices.at(prefix + "material");
+    const auto found =
+        std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
+    return std::int32_t(found - materials.begin());
+  };
+  for (std::size_t i = 0; i < bridge.vaults.size(); ++i) bridge.vaults[i].material = named(span_prefix(i));
+  for (std::size_t i = 0; i < bridge.supports.size(); ++i)
+    bridge.supports[i].material = named(support_prefix(in, i, bridge.vaults.size()));
+}
+
 Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
   Bridge bridge = read_any_bridge(in);
   check_bridge(bridge, in);
   const std::vector<Material> materials = in_order(defaults, in);
   find_materials(bridge, materials);
+  find_named_materials(bridge, materials, in);
   JointRules rules = joint_rules(bridge, in);
   rules.rings_bonded = in.choices.at("ring_bond") == "mortar";
-  rules.table = masonry_stiffness(bridge, materials, rules, in);
+  rules.table = given_table(rules, in);
+  rules.rows_from_moduli = true;
   if (in.choices.at("stiffness") == "table") rules.kind = JointRules::Kind::table;
   return lay_bridge(bridge, materials, rules, in);
 }

@@ -72,11 +72,15 @@ std::vector<Choice> any_bridge_choices() {
 
 namespace {
 
+Choice material_key(const char* usual, const char* help) {
+  return {"material", {usual}, std::string(help) + "; one that only this case has needs its [materials.NAME]", true};
+}
+
 KeyTable span_keys() {
   KeyTable t;
   t.name = "span", t.help = "the vaults from left to right; `repeat` = 3 stands for three alike";
   t.least = 1, t.most = most_spans;
-  t.choices = {{"shape", vault_shapes(), "of the intrados"}};
+  t.choices = {{"shape", vault_shapes(), "of the intrados"}, material_key("vault", "of the vault's stones")};
   t.parameters = {
       {"clear_span", 8.0, 0.3, 100.0, "m", "between the springings; of a surveyed vault its intrados says it"},
       {"rise", 0.0, 0.0, 60.0, "m",
@@ -89,7 +93,12 @@ KeyTable span_keys() {
       {"voussoirs", 0.0, 0.0, 400.0, "-", "of each ring; 0: an even number from voussoir_length", true},
       {"springing_left", 0.0, -20.0, 20.0, "m", "above the level that the heights of piers and abutments reach to"},
       {"springing_right", 0.0, -20.0, 20.0, "m", "likewise"}};
-  t.profiles = {{"intrados", "surveyed, from springing to springing, x and z from any origin"}};
+  t.profiles = {{"intrados", "surveyed, from springing to springing, x and z from any origin"},
+                {"ring_thicknesses",
+                 "of every ring, the lowest first, instead of rings, ring_thickness and springing_thickness",
+                 "[crown, springing]",
+                 false,
+                 {"rings", "ring_thickness", "springing_thickness"}}};
   return t;
 }
 
@@ -102,6 +111,7 @@ KeyTable pier_keys() {
   t.name = "pier", t.help = "the piers from left to right; one entry holds for all";
   t.least = 1, t.most = most_spans;
   t.choices = makeup();
+  t.choices.push_back(material_key("masonry", "of its stones, with those of cutwaters"));
   t.choices.push_back({"cutwater", {"none", "triangular", "round"}, "noses on both side faces"});
   t.parameters = {{"height", 5.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
                   {"thickness", 1.5, 0.1, 20.0, "m", "along the bridge, at the springing"},
@@ -135,6 +145,7 @@ KeyTable abutment_keys(const std::string& side) {
   KeyTable t;
   t.name = "abutment." + side, t.help = "the " + side + " abutment";
   t.choices = makeup();
+  t.choices.push_back(material_key("masonry", "of its stones, with those of its wing walls and counterforts"));
   t.parameters = {{"length", 4.0, 0.3, 60.0, "m", "from the end of the bridge to the springing"},
                   {"height", 4.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
                   {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"},

@@ -87,6 +87,8 @@ void find_materials(Bridge& bridge, const std::vector<Material>& materials) {
     return std::int32_t(0);
   };
   bridge.vault = index("vault"), bridge.infill_material = index("infill"), bridge.backfill = index("backfill");
+  for (Vault& vault : bridge.vaults) vault.material = bridge.vault;
+  for (Support& support : bridge.supports) support.material = bridge.masonry;
 }
 
 JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in) {

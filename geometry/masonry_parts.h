@@ -3,6 +3,7 @@
 // meet at equal coordinates.
 #pragma once
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "geometry/masonry.h"
@@ -13,8 +14,15 @@ namespace voussoir {
 /// A vault over one span.
 struct Vault {
   std::vector<Ring> rings;        // the lowest first
-  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of a ring
+  std::vector<double> thickness;  // m, of each ring at the crown
+  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of the highest ring, which the fill lies on
+  std::int32_t material = 0;
   std::size_t headers_every = 0;  // courses, from one of headers (stones through two rings) to the next; 0: none
+  /// Nominal size of a stone through some rings from one on.
+  Vec3 stone(std::size_t ring, std::size_t through) const {
+    const auto from = thickness.begin() + std::ptrdiff_t(ring);
+    return {voussoir.x(), voussoir.y(), std::accumulate(from, from + std::ptrdiff_t(through), 0.0)};
+  }
   double left() const { return rings.front().intrados.front().x(); }  // m, of the opening, at the springings
   double right() const { return rings.front().intrados.back().x(); }
 };
@@ -58,6 +66,7 @@ struct Support {
   double top = 0.0;                     // z of the highest end of a vault's foot on it
   double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
   double width = 0.0;                   // m, across, at the springing
+  std::int32_t material = 0;            // of its stones, not of its infill
   Makeup makeup = Makeup::solid;
   Cutwater cutwater = {};         // of a pier
   Wings wings = {};               // of an abutment
@@ -100,7 +109,7 @@ struct Bridge {
   Vec3 leaf_piece = Vec3::Ones();  // along the face, -, course height
   Vec3 infill = Vec3::Ones();
   Vec3 fill = Vec3::Ones();
-  std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;  // materials
+  std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;  // materials; of vaults and supports as usual
 
   double length() const { return supports.back().x1; }
   double half_width() const { return 0.5 * width; }
@@ -109,6 +118,7 @@ struct Bridge {
   std::size_t last_support() const { return supports.size() - 1; }
   bool is_abutment(std::size_t support) const { return support == 0 || support == last_support(); }
   Unit unit(Component component, int part) const;  // masonry block of a component
+  Unit support_unit(std::size_t support) const;    // masonry block of an abutment or a pier
   Unit fill_unit() const;                          // rigid backfill
   SectionLimits limits() const;                    // what vaults and supports take up above the springing
 };
@@ -216,8 +226,7 @@ void lay_solid(Layout& layout, const Solid& solid, const Unit& unit);
 /// A support of box shape: an outer leaf of pieces in courses whose thickness alternates, corners bonded by turns, and
 /// infill within in courses of half the height. A hollow one has no infill, and slabs from face to face as its top
 /// course.
-void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, Component component,
-                         int part, int support);
+void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, std::size_t support);
 void lay_cutwaters(Layout& layout, const Bridge& bridge, std::size_t support);
 /// Wings and counterforts of an abutment, and what its base has below them.
 void lay_wing_walls(Layout& layout, const Bridge& bridge, std::size_t support);

@@ -67,6 +67,22 @@ void draw_details(GeneratorInput& in, Draw& draw, int spans) {
   }
 }
 
+/// Rings of a thickness each and materials of the case's own.
+void draw_materials_and_rings(GeneratorInput& in, Draw& draw, int spans) {
+  for (int i = 0; i < spans; ++i) {
+    const std::string key = "span." + std::to_string(i + 1) + ".";
+    if (draw.whole(0, 3)) continue;
+    for (int ring = draw.whole(1, 3); ring > 0; --ring) {
+      const double crown = draw.between(0.02, 0.05) * in(key + "clear_span");
+      in.profiles[key + "ring_thicknesses"].emplace_back(crown, 0.0, draw.between(1.0, 1.5) * crown);
+    }
+  }
+  if (draw.whole(0, 2)) return;
+  in.materials["granite"] = {"granite", 2600.0, 9.0e9, 3.6e9, 0.2e6, 0.3e6, radians(35.0)};
+  for (auto& [key, word] : in.choices)
+    if (key.ends_with(".material") && draw.whole(0, 1)) word = "granite";
+}
+
 GeneratorInput random_bridge(int seed) {
   Draw draw(seed);
   const int spans = draw.whole(1, 3);
@@ -117,6 +133,7 @@ GeneratorInput random_bridge(int seed) {
     v[key + "batter_y"] = draw.whole(0, 1) * draw.between(0.0, 0.05);
   }
   draw_details(in, draw, spans);
+  draw_materials_and_rings(in, draw, spans);
   return in;
 }
 
@@ -158,6 +175,10 @@ double expected_volume(const GeneratorInput& in) {
                  own = in(key + "springing_thickness");
     s.crown.assign(std::size_t(rings), thickness / rings),
         s.springing.assign(std::size_t(rings), (own > 0.0 ? own : thickness) / rings);
+    if (const auto each = in.profiles.find(key + "ring_thicknesses"); each != in.profiles.end()) {
+      s.crown.clear(), s.springing.clear();
+      for (const Vec3& pair : each->second) s.crown.push_back(pair.x()), s.springing.push_back(pair.z());
+    }
     s.voussoirs =
         2 * std::max(2, int(std::ceil(0.5 * intrados_length(s) / (in("voussoir_length") * in("block_scale")) - 1e-9)));
     floor = std::min({floor, s.left.z(), s.right.z()});
@@ -384,6 +405,96 @@ TEST(BridgeGenerator, RingsWithoutBondHaveFrictionOnlyAndTheirOwnJoints) {
   in.values["span.1.rings"] = 1.0;
   EXPECT_NE(message_of<InputError>([&] { find_generator("bridge").build(in); }).find("no vault of this bridge"),
             std::string::npos);
+}
+
+TEST(BridgeGenerator, EveryRingMayHaveItsThickness) {
+  GeneratorInput in = plain_skew(0.0, "parallel", 2.0);
+  const Assembly equal = find_generator("bridge").build(in);
+  in.profiles["span.1.ring_thicknesses"] = {{0.25, 0.0, 0.25}, {0.25, 0.0, 0.25}};
+  const Assembly said = find_generator("bridge").build(in);
+  ASSERT_EQ(said.blocks.size(), equal.blocks.size());
+  ASSERT_EQ(said.joints.size(), equal.joints.size());
+  for (std::size_t i = 0; i < said.blocks.size(); ++i) ASSERT_EQ(said.blocks[i].mass, equal.blocks[i].mass) << i;
+  for (std::size_t i = 0; i < said.joints.size(); ++i) ASSERT_EQ(said.joints[i].kn, equal.joints[i].kn) << i;
+
+  VaultShape shape;
+  shape.shape = "segmental", shape.rise = 2.0, shape.right.x() = 8.0;
+  shape.crown = {0.2, 0.35, 0.15}, shape.springing = {0.3, 0.35, 0.25};
+  shape.voussoirs = 2 * int(std::ceil(0.5 * intrados_length(shape) / 0.6 - 1e-9));
+  in.profiles["span.1.ring_thicknesses"] = {{0.2, 0.0, 0.3}, {0.35, 0.0, 0.35}, {0.15, 0.0, 0.25}};
+  const Assembly unequal = find_generator("bridge").build(in);
+  EXPECT_TRUE(find_overlaps(unequal, 1e-7).empty());
+  const std::vector<Ring> rings = vault_rings(shape, "");
+  for (std::size_t k = 0; k < 3; ++k) {
+    double expected = 0.0, volume = 0.0;
+    for (int wedge = 0; wedge < rings[k].wedges(); ++wedge) expected += 5.0 * polygon_area(rings[k].wedge(wedge));
+    for (const std::int64_t block : unequal.groups.at(ring_group(0, k)))
+      volume += mass_properties(unequal.blocks[std::size_t(block)].cells).volume;
+    EXPECT_NEAR(volume, expected, 1e-9 * expected) << k;
+  }
+  // The interface to the fill is a share of the highest ring's modulus over the mean size of its stones.
+  const double size = (intrados_length(shape) / shape.voussoirs + 0.6 * 1.5 + 0.15) / 3.0;
+  std::size_t interfaces = 0;
+  for (const Joint& joint : unequal.joints) {
+    const Component a = unequal.blocks[std::size_t(joint.a)].component,
+                    b = unequal.blocks[std::size_t(joint.b)].component;
+    if (a != Component::arch || b != Component::backfill) continue;
+    ++interfaces;
+    ASSERT_NEAR(joint.kn, 0.2 * 1.5 * 4.0e9 / size, 1e-9 * joint.kn);
+  }
+  EXPECT_GT(interfaces, 10u);
+  in.profiles["span.1.ring_thicknesses"][1].z() = 0.001;
+  EXPECT_NE(message_of<InputError>([&] {
+              find_generator("bridge").build(in);
+            }).find("[[bridge.span]] number 1: ring_thicknesses has 0.001 m in ring 2"),
+            std::string::npos);
+}
+
+TEST(BridgeGenerator, SpansAndSupportsMayHaveMaterialsOfTheirOwn) {
+  GeneratorInput in = with_entries(2, 1);
+  in.values["block_scale"] = 2.0, in.values["pier.1.cutwater_height"] = 2.0;
+  in.choices["pier.1.cutwater"] = "round";
+  const Assembly plain = find_generator("bridge").build(in);
+  in.materials["tuff"] = {"tuff", 1400.0, 2.0e9, 0.8e9, 0.1e6, 0.1e6, radians(25.0)};
+  in.materials["granite"] = {"granite", 2600.0, 9.0e9, 3.6e9, 0.2e6, 0.3e6, radians(35.0)};
+  in.choices["span.2.material"] = in.choices["pier.1.material"] = "granite";
+  in.choices["abutment.left.material"] = "tuff", in.choices["abutment.right.material"] = "vault";
+  const Assembly own = find_generator("bridge").build(in);
+  std::vector<std::string> names;
+  for (const Material& m : own.materials) names.push_back(m.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"masonry", "vault", "infill", "backfill", "granite", "tuff"}));
+  ASSERT_EQ(own.blocks.size(), plain.blocks.size());
+  for (std::size_t i = 0; i < own.blocks.size(); ++i) {
+    const Block& block = own.blocks[i];
+    const bool granite = block.component == Component::pier || (block.component == Component::arch && block.part == 1);
+    const std::string was = plain.materials[std::size_t(plain.blocks[i].material)].name;
+    const std::string expected = granite                                  ? "granite"
+                                 : block.component != Component::abutment ? was
+                                 : block.part == 0                        ? "tuff"
+                                                                          : "vault";
+    ASSERT_EQ(names[std::size_t(block.material)], expected) << i;
+  }
+  ASSERT_EQ(own.joints.size(), plain.joints.size());
+  std::size_t shares = 0, within = 0;
+  for (std::size_t i = 0; i < own.joints.size(); ++i) {
+    const Joint& joint = own.joints[i];
+    const Block &a = own.blocks[std::size_t(joint.a)], &b = own.blocks[std::size_t(joint.b)];
+    const bool vaults[] = {a.component == Component::arch && a.part == 1,
+                           b.component == Component::arch && b.part == 1};
+    const double ratio = joint.kn / plain.joints[i].kn;
+    if (vaults[0] && (vaults[1] || b.component == Component::backfill)) {
+      (vaults[1] ? within : shares) += 1;
+      ASSERT_NEAR(ratio, 9.0 / 4.0, 1e-9);
+      const double cohesion = own.laws[std::size_t(joint.law)].cohesion;
+      ASSERT_EQ(cohesion, vaults[1] ? 0.3e6 : 0.0);
+    }
+  }
+  EXPECT_GT(within, 20u);
+  EXPECT_GT(shares, 5u);
+  in.choices["span.1.material"] = "granit";
+  const std::string text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  EXPECT_NE(text.find("span.1.material = \"granit\""), std::string::npos) << text;
+  EXPECT_NE(text.find("backfill, granite, infill"), std::string::npos) << text;
 }
 
 TEST(BridgeGenerator, ABackingHasTheVolumeUnderItsLine) {
