@@ -31,6 +31,14 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   if (lowest < bridge.springing + 0.1)
     throw InputError("[bridge] gradient = {:g} % takes the deck {:g} m below the springing: make it less",
                      in("gradient"), bridge.springing - lowest);
+  const double surfacing = in("surfacing_depth");
+  at_most(surfacing, "surfacing_depth", lowest - bridge.springing, "springing to deck");
+  if (surfacing > 0.0 && bridge.gradient != 0.0 && bridge.deformable_backfill)
+    throw InputError(
+        "[bridge] surfacing_depth = {:g} m with backfill = \"deformable\" needs a level deck, and gradient = {:g} %: "
+        "set "
+        "one of them to 0, or choose backfill = \"rigid\"",
+        surfacing, in("gradient"));
   const double inside = 0.9 * in("width");
   at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
   at_most(2.0 * in("spandrel_thickness_top"), "2 spandrel_thickness_top", inside, "0.9 width");
@@ -84,10 +92,21 @@ void find_named_materials(Bridge& bridge, const std::vector<Material>& materials
     bridge.supports[i].material = named(support_prefix(in, i, bridge.vaults.size()));
 }
 
+/// Without that of a surfacing which is not there.
+std::vector<Material> used_materials(const std::vector<Material>& defaults, const GeneratorInput& in) {
+  std::vector<Material> materials = in_order(defaults, in);
+  const auto names_it = [](const auto& choice) {
+    return choice.first.ends_with("material") && choice.second == "surfacing";
+  };
+  if (in("surfacing_depth") <= 0.0 && std::none_of(in.choices.begin(), in.choices.end(), names_it))
+    std::erase_if(materials, [](const Material& m) { return m.name == "surfacing"; });
+  return materials;
+}
+
 Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
   Bridge bridge = read_any_bridge(in);
   check_bridge(bridge, in);
-  const std::vector<Material> materials = in_order(defaults, in);
+  const std::vector<Material> materials = used_materials(defaults, in);
   find_materials(bridge, materials);
   find_named_materials(bridge, materials, in);
   JointRules rules = joint_rules(bridge, in);
@@ -111,7 +130,10 @@ Generator bridge_generator() {
   generator.materials = {{"masonry", 1900.0, 3.0e9, 1.2e9, 0.10e6, 0.15e6, friction},
                          {"vault", 1900.0, 4.0e9, 1.6e9, 0.10e6, 0.15e6, friction},
                          {"infill", 1700.0, 0.8e9, 0.32e9, 0.0, 0.02e6, loose},
-                         {"backfill", 1800.0, 0.1e9, 0.04e9, 0.0, 0.01e6, loose}};
+                         {"backfill", 1800.0, 0.1e9, 0.04e9, 0.0, 0.01e6, loose},
+                         // As heavy as asphalt; stiff and strong as a compacted granular base, whose moduli are 0.2 to
+                         // 0.4 GPa (asphalt itself creeps, and is thin).
+                         {"surfacing", 2200.0, 0.3e9, 0.12e9, 0.0, 0.02e6, radians(40.0)}};
   generator.fill_space = [](const GeneratorInput& in) { return fill_space(read_any_bridge(in)); };
   generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
   return generator;

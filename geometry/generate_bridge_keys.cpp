@@ -10,11 +10,12 @@ std::vector<Parameter> any_bridge_keys() {
        "of the supports against the square to the bridge; lengths along it are measured square to them"},
       {"gradient", 0.0, -12.0, 12.0, "%", "rise of the deck over the way along the bridge, from left to right"},
       {"fill_over_crown", 0.5, 0.0, 20.0, "m", "from the extrados to the deck, where it is least"},
+      {"surfacing_depth", 0.0, 0.0, 5.0, "m", "topmost part of the fill, of the material `surfacing`; 0: none"},
       {"deck_height", 0.0, 0.0, 60.0, "m", "of a level deck above the lowest springing; 0: from fill_over_crown"},
       {"backing_height", 1.0, 0.0, 60.0, "m", "top of the backing above the lowest springing"},
       {"backing_over_abutment", 0.0, 0.0, 60.0, "m", "length of the backing from the span on; 0: all of the abutment"},
       {"spandrel_thickness_bottom", 0.6, 0.1, 10.0, "m", "lowest course of the spandrel walls"},
-      {"spandrel_thickness_top", 0.6, 0.1, 10.0, "m", "topmost course; stepped by course in between"},
+      {"spandrel_thickness_top", 0.6, 0.1, 10.0, "m", "topmost course; in between as spandrel_back says"},
       {"parapet_height", 1.0, 0.0, 5.0, "m", "above the deck; 0: no parapets"},
       {"parapet_thickness", 0.35, 0.05, 5.0, "m", "flush with the outer faces"},
       {"string_course_height", 0.0, 0.0, 1.0, "m", "of a course between deck and parapets; 0: none"},
@@ -59,6 +60,9 @@ std::vector<Choice> any_bridge_choices() {
   return {
       {"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
       {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
+      {"spandrel_back",
+       {"stepped", "tapered"},
+       "inner faces of the spandrel walls: stepped from course to course, or one plane from springing to deck"},
       {"skew_bond",
        {"parallel", "helicoidal", "logarithmic"},
        "beds of the vaults of a skew bridge: parallel to the supports (false skew), or square to the faces at their "

@@ -319,6 +319,28 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
   }
 }
 
+/// Tapered walls are laid out with their mean thickness.
+void read_spandrels(Bridge& bridge, const GeneratorInput& in) {
+  bridge.spandrel_bottom = in("spandrel_thickness_bottom"), bridge.spandrel_top = in("spandrel_thickness_top");
+  bridge.tapered = in.choices.at("spandrel_back") == "tapered";
+  if (!bridge.tapered) return;
+  bridge.taper_bottom = bridge.spandrel_bottom, bridge.taper_top = bridge.spandrel_top;
+  bridge.spandrel_bottom = bridge.spandrel_top = 0.5 * (bridge.taper_bottom + bridge.taper_top);
+  if (in("internal.walls") > 0.0 && in.choices.at("internal.between") == "void")
+    throw InputError(
+        "[bridge] spandrel_back = \"tapered\" leaves no bearing for the slabs of [bridge.internal] between = \"void\": "
+        "choose \"stepped\", or \"fill\"");
+  for (const std::size_t i : {std::size_t(0), bridge.last_support()}) {
+    const auto [x0, x1] = wing_extent(bridge, i);
+    if (bridge.deformable_backfill && x1 - x0 > no_masonry)
+      throw InputError(
+          "[bridge] spandrel_back = \"tapered\" with backfill = \"deformable\" needs no fill between wing walls, and "
+          "{} "
+          "has built_length = {:g} m: set it to 0, or choose \"stepped\" or \"rigid\"",
+          support_heading(i, bridge.vaults.size()), in(support_prefix(in, i, bridge.vaults.size()) + "built_length"));
+  }
+}
+
 void read_internal_walls(Bridge& bridge, const GeneratorInput& in) {
   InternalWalls& walls = bridge.internal;
   walls.number = int(in("internal.walls")), walls.thickness = in("internal.thickness");
@@ -369,13 +391,14 @@ Bridge read_any_bridge(const GeneratorInput& in) {
     const double own = in("backing_over_abutment");
     bridge.backing_over_abutment[end] = own > 0.0 ? std::min(own, all) : all;
   }
-  bridge.spandrel_bottom = in("spandrel_thickness_bottom"), bridge.spandrel_top = in("spandrel_thickness_top");
+  bridge.surfacing_depth = in("surfacing_depth");
   bridge.parapet_height = in("parapet_height"), bridge.parapet_thickness = in("parapet_thickness");
   bridge.base_depth = in("base_depth"), bridge.restraint_depth = in("restraint_depth");
   const double wing = in("wing_wall_thickness");
   bridge.wing_wall_thickness = wing > 0.0 ? wing : in("spandrel_thickness_bottom");
   bridge.leaf_thickness[0] = in("leaf_thickness_even"), bridge.leaf_thickness[1] = in("leaf_thickness_odd");
   read_fill_and_blocks(bridge, in);
+  read_spandrels(bridge, in);
   read_internal_walls(bridge, in);
   return bridge;
 }
