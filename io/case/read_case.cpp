@@ -236,6 +236,7 @@ void read_material_tables(TableReader& materials, Case& c) {
   std::vector<std::string> names;
   for (const auto& [name, material] : known) names.push_back(name);
   const auto own = own_materials(find_generator(c.generator), c.generator_input);
+  for (const auto& [name, usual] : own) names.push_back(name);
   for (const std::string& name : materials.keys())
     if (!known.contains(name) && !own.contains(name))
       materials.fail(name, fmt::format("is not a material of \"{}\"{}", c.generator, suggestion(name, names)));

@@ -597,8 +597,18 @@ TEST(BridgeGenerator, TaperedSpandrelWallsHaveAPlaneBack) {
     }
   }
   GeneratorInput in = plain_skew(0.0, "parallel", 1.0);
-  in.choices["spandrel_back"] = "tapered", in.choices["internal.between"] = "void", in.values["internal.walls"] = 2.0;
-  const std::string text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  in.choices["abutment.left.makeup"] = "leaf", in.values["abutment.left.built_length"] = 2.0;  // with wing walls
+  in.values["spandrel_thickness_bottom"] = 0.8;
+  const double straight = free_surface(find_generator("bridge").build(in));
+  in.choices["spandrel_back"] = "tapered";
+  const Assembly winged = find_generator("bridge").build(in);
+  EXPECT_TRUE(find_overlaps(winged, 1e-7).empty());
+  EXPECT_NEAR(free_surface(winged), straight, 1e-6 * straight);
+  in.choices["backfill"] = "deformable";
+  std::string text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  EXPECT_NE(text.find("[bridge.abutment.left] has built_length = 2 m"), std::string::npos) << text;
+  in.choices["internal.between"] = "void", in.values["internal.walls"] = 2.0;
+  text = message_of<InputError>([&] { find_generator("bridge").build(in); });
   EXPECT_NE(text.find("spandrel_back = \"tapered\""), std::string::npos) << text;
   EXPECT_NE(text.find("between = \"void\""), std::string::npos) << text;
 }

@@ -421,6 +421,7 @@ TEST_F(CaseFile, MaterialsOfTheCasesOwnAndRingThicknessesAreReadAndWrittenOut) {
   refused(bridge + "[materials.granite]\ndensity = 2600.0\n",
           {"pier.1.material = \"tuff\"", "the materials are: backfill, granite", "[materials.tuff]"});
   refused(bridge + materials + "[materials.gravel]\ndensity = 1800.0\n", {"'gravel'", "is not a material"});
+  refused(bridge + "[materials.granit]\ndensity = 1800.0\n", {"'granit'", "did you mean 'granite'?"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nring_thickness = 0.5\nring_thicknesses = [[0.3, 0.3]]\n",
           {"'ring_thicknesses'", "'ring_thickness', which it replaces"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nring_thicknesses = [[0.3]]\n",
