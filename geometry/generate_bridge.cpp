@@ -36,8 +36,7 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   if (surfacing > 0.0 && bridge.gradient != 0.0 && bridge.deformable_backfill)
     throw InputError(
         "[bridge] surfacing_depth = {:g} m with backfill = \"deformable\" needs a level deck, and gradient = {:g} %: "
-        "set "
-        "one of them to 0, or choose backfill = \"rigid\"",
+        "choose backfill = \"rigid\", or one of the two as 0",
         surfacing, in("gradient"));
   const double inside = 0.9 * in("width");
   at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
