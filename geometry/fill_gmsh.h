@@ -12,6 +12,7 @@ namespace voussoir {
 /// rings that stand in their height, and less other polygons.
 struct FillSpace {
   std::vector<Box> boxes;
+  std::vector<std::int32_t> materials;  // of each box; empty: all 0. Tetrahedra end where it changes.
   std::vector<Ring> rings;
   std::vector<Polygon> beside;  // polygons in the plane x-z that are not part of it
 };
@@ -24,8 +25,8 @@ struct FillMeshing {
 };
 
 /// Meshes the section of the space with triangles and sweeps them across: oriented, with its surface, every tetrahedron
-/// of material 0; the same bits for the same input. Where the bound of the edges cannot be kept they are as long as
-/// fill_quality() says. Throws RunError when Gmsh fails.
+/// of the material of its box; the same bits for the same input. Where the bound of the edges cannot be kept they are
+/// as long as fill_quality() says. Throws RunError when Gmsh fails.
 FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing = {});
 
 }  // namespace voussoir

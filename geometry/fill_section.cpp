@@ -86,7 +86,7 @@ class Shortening {
   bool stays(const std::vector<std::int32_t>& sides) const {
     if (sides.size() != 2) return true;
     const auto &a = section_.triangles[std::size_t(sides[0])], &b = section_.triangles[std::size_t(sides[1])];
-    return a.y0 != b.y0 || a.y1 != b.y1;
+    return a.y0 != b.y0 || a.y1 != b.y1 || a.material != b.material;
   }
 
   void enter(std::int32_t t) {

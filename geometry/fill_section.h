@@ -13,6 +13,7 @@ struct FillSection {
   struct Triangle {
     std::array<std::int32_t, 3> nodes = {};
     double y0 = 0.0, y1 = 0.0;  // m
+    std::int32_t material = 0;
   };
   std::vector<Vec3> nodes;  // m; y = 0
   std::vector<Triangle> triangles;

@@ -77,6 +77,7 @@ void sweep_triangle(const FillSection::Triangle& triangle, const FillColumns& co
     for (std::size_t i = 0; i < 3; ++i) tet[i] = nodes.at(triangle.nodes[i], level[i]);
     tet[3] = nodes.at(triangle.nodes[next], ++level[next]);
     mesh.tets.push_back(tet);
+    mesh.material.push_back(triangle.material);
   }
 }
 
@@ -94,7 +95,6 @@ FillMesh sweep(const FillSection& section, double edge, double layer) {
   nodes.make(mesh);
   const Order order(columns);
   for (const auto& triangle : section.triangles) sweep_triangle(triangle, columns, order, nodes, mesh);
-  mesh.material.assign(mesh.tets.size(), 0);
   orient_tets(mesh);
   find_surface(mesh);
   return mesh;

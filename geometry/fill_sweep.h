@@ -6,7 +6,7 @@ namespace voussoir {
 
 /// Sweeps a section into tetrahedra with edges of at most `edge` m, if those of the section keep section_bound(), in
 /// layers of at most `layer` m. A fill that is alike on both sides of y = 0 gets a mesh that is its own mirror image.
-/// Oriented, with its surface; every tetrahedron of material 0.
+/// Oriented, with its surface; every tetrahedron of its triangle's material.
 FillMesh sweep(const FillSection& section, double edge, double layer);
 
 }  // namespace voussoir

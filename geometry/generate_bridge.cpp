@@ -31,6 +31,13 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   if (lowest < bridge.springing + 0.1)
     throw InputError("[bridge] gradient = {:g} % takes the deck {:g} m below the springing: make it less",
                      in("gradient"), bridge.springing - lowest);
+  const double surfacing = in("surfacing_depth");
+  at_most(surfacing, "surfacing_depth", lowest - bridge.springing, "springing to deck");
+  if (surfacing > 0.0 && bridge.gradient != 0.0 && bridge.deformable_backfill)
+    throw InputError(
+        "[bridge] surfacing_depth = {:g} m with backfill = \"deformable\" needs a level deck, and gradient = {:g} %: "
+        "choose backfill = \"rigid\", or one of the two as 0",
+        surfacing, in("gradient"));
   if (!bridge.strip) {
     const double inside = 0.9 * in("width");
     at_most(2.0 * in("spandrel_thickness_bottom"), "2 spandrel_thickness_bottom", inside, "0.9 width");
@@ -55,16 +62,10 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   }
 }
 
-/// One pair of values for each component, to which the interface's share refers: of its keys, or from the moduli over
-/// the mean size of a block.
-std::map<Component, Stiffness> masonry_stiffness(const Bridge& bridge, const std::vector<Material>& materials,
-                                                 const JointRules& rules, const GeneratorInput& in) {
+/// One pair of values for each component whose keys are given.
+std::map<Component, Stiffness> given_table(const JointRules& rules, const GeneratorInput& in) {
   std::map<Component, Stiffness> table;
   for (const auto& [component, size] : rules.nominal) {
-    const Material& m = materials[std::size_t(component == Component::arch     ? bridge.vault
-                                              : component == Component::infill ? bridge.infill_material
-                                                                               : bridge.masonry)];
-    table[component] = {m.youngs_modulus / size.mean(), m.shear_modulus / size.mean()};
     const std::string row = component == Component::arch                                       ? "vault"
                             : component == Component::infill                                   ? "infill"
                             : component == Component::pier || component == Component::abutment ? "support"
@@ -79,14 +80,40 @@ std::map<Component, Stiffness> masonry_stiffness(const Bridge& bridge, const std
   return table;
 }
 
+/// The materials that vaults and supports name.
+void find_named_materials(Bridge& bridge, const std::vector<Material>& materials, const GeneratorInput& in) {
+  const auto named = [&](const std::string& prefix) {
+    const std::string& name = in.choices.at(prefix + "material");
+    const auto found =
+        std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
+    return std::int32_t(found - materials.begin());
+  };
+  for (std::size_t i = 0; i < bridge.vaults.size(); ++i) bridge.vaults[i].material = named(span_prefix(i));
+  for (std::size_t i = 0; i < bridge.supports.size(); ++i)
+    bridge.supports[i].material = named(support_prefix(in, i, bridge.vaults.size()));
+}
+
+/// Without that of a surfacing which is not there.
+std::vector<Material> used_materials(const std::vector<Material>& defaults, const GeneratorInput& in) {
+  std::vector<Material> materials = in_order(defaults, in);
+  const auto names_it = [](const auto& choice) {
+    return choice.first.ends_with("material") && choice.second == "surfacing";
+  };
+  if (in("surfacing_depth") <= 0.0 && std::none_of(in.choices.begin(), in.choices.end(), names_it))
+    std::erase_if(materials, [](const Material& m) { return m.name == "surfacing"; });
+  return materials;
+}
+
 Assembly build(const std::vector<Material>& defaults, const GeneratorInput& in) {
   Bridge bridge = read_any_bridge(in);
   check_bridge(bridge, in);
-  const std::vector<Material> materials = in_order(defaults, in);
+  const std::vector<Material> materials = used_materials(defaults, in);
   find_materials(bridge, materials);
+  find_named_materials(bridge, materials, in);
   JointRules rules = joint_rules(bridge, in);
   rules.rings_bonded = in.choices.at("ring_bond") == "mortar";
-  rules.table = masonry_stiffness(bridge, materials, rules, in);
+  rules.table = given_table(rules, in);
+  rules.rows_from_moduli = true;
   if (in.choices.at("stiffness") == "table") rules.kind = JointRules::Kind::table;
   return lay_bridge(bridge, materials, rules, in);
 }
@@ -104,7 +131,10 @@ Generator bridge_generator() {
   generator.materials = {{"masonry", 1900.0, 3.0e9, 1.2e9, 0.10e6, 0.15e6, friction},
                          {"vault", 1900.0, 4.0e9, 1.6e9, 0.10e6, 0.15e6, friction},
                          {"infill", 1700.0, 0.8e9, 0.32e9, 0.0, 0.02e6, loose},
-                         {"backfill", 1800.0, 0.1e9, 0.04e9, 0.0, 0.01e6, loose}};
+                         {"backfill", 1800.0, 0.1e9, 0.04e9, 0.0, 0.01e6, loose},
+                         // As heavy as asphalt; stiff and strong as a compacted granular base, whose moduli are 0.2 to
+                         // 0.4 GPa (asphalt itself creeps, and is thin).
+                         {"surfacing", 2200.0, 0.3e9, 0.12e9, 0.0, 0.02e6, radians(40.0)}};
   generator.fill_space = [](const GeneratorInput& in) { return fill_space(read_any_bridge(in)); };
   generator.build = [materials = generator.materials](const GeneratorInput& in) { return build(materials, in); };
   return generator;

@@ -10,11 +10,12 @@ std::vector<Parameter> any_bridge_keys() {
        "of the supports against the square to the bridge; lengths along it are measured square to them"},
       {"gradient", 0.0, -12.0, 12.0, "%", "rise of the deck over the way along the bridge, from left to right"},
       {"fill_over_crown", 0.5, 0.0, 20.0, "m", "from the extrados to the deck, where it is least"},
+      {"surfacing_depth", 0.0, 0.0, 5.0, "m", "topmost part of the fill, of the material `surfacing`; 0: none"},
       {"deck_height", 0.0, 0.0, 60.0, "m", "of a level deck above the lowest springing; 0: from fill_over_crown"},
       {"backing_height", 1.0, 0.0, 60.0, "m", "top of the backing above the lowest springing"},
       {"backing_over_abutment", 0.0, 0.0, 60.0, "m", "length of the backing from the span on; 0: all of the abutment"},
       {"spandrel_thickness_bottom", 0.6, 0.1, 10.0, "m", "lowest course of the spandrel walls"},
-      {"spandrel_thickness_top", 0.6, 0.1, 10.0, "m", "topmost course; stepped by course in between"},
+      {"spandrel_thickness_top", 0.6, 0.1, 10.0, "m", "topmost course; in between as spandrel_back says"},
       {"parapet_height", 1.0, 0.0, 5.0, "m", "above the deck; 0: no parapets"},
       {"parapet_thickness", 0.35, 0.05, 5.0, "m", "flush with the outer faces"},
       {"string_course_height", 0.0, 0.0, 1.0, "m", "of a course between deck and parapets; 0: none"},
@@ -59,6 +60,9 @@ std::vector<Choice> any_bridge_choices() {
   return {
       {"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
       {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
+      {"spandrel_back",
+       {"stepped", "tapered"},
+       "inner faces of the spandrel walls: stepped from course to course, or one plane from springing to deck"},
       {"skew_bond",
        {"parallel", "helicoidal", "logarithmic"},
        "beds of the vaults of a skew bridge: parallel to the supports (false skew), or square to the faces at their "
@@ -75,11 +79,15 @@ std::vector<Choice> any_bridge_choices() {
 
 namespace {
 
+Choice material_key(const char* usual, const char* help) {
+  return {"material", {usual}, std::string(help) + "; one that only this case has needs its [materials.NAME]", true};
+}
+
 KeyTable span_keys() {
   KeyTable t;
   t.name = "span", t.help = "the vaults from left to right; `repeat` = 3 stands for three alike";
   t.least = 1, t.most = most_spans;
-  t.choices = {{"shape", vault_shapes(), "of the intrados"}};
+  t.choices = {{"shape", vault_shapes(), "of the intrados"}, material_key("vault", "of the vault's stones")};
   t.parameters = {
       {"clear_span", 8.0, 0.3, 100.0, "m", "between the springings; of a surveyed vault its intrados says it"},
       {"rise", 0.0, 0.0, 60.0, "m",
@@ -92,7 +100,12 @@ KeyTable span_keys() {
       {"voussoirs", 0.0, 0.0, 400.0, "-", "of each ring; 0: an even number from voussoir_length", true},
       {"springing_left", 0.0, -20.0, 20.0, "m", "above the level that the heights of piers and abutments reach to"},
       {"springing_right", 0.0, -20.0, 20.0, "m", "likewise"}};
-  t.profiles = {{"intrados", "surveyed, from springing to springing, x and z from any origin"}};
+  t.profiles = {{"intrados", "surveyed, from springing to springing, x and z from any origin"},
+                {"ring_thicknesses",
+                 "of every ring, the lowest first, instead of rings, ring_thickness and springing_thickness",
+                 "[crown, springing]",
+                 false,
+                 {"rings", "ring_thickness", "springing_thickness"}}};
   return t;
 }
 
@@ -105,6 +118,7 @@ KeyTable pier_keys() {
   t.name = "pier", t.help = "the piers from left to right; one entry holds for all";
   t.least = 1, t.most = most_spans;
   t.choices = makeup();
+  t.choices.push_back(material_key("masonry", "of its stones, with those of cutwaters"));
   t.choices.push_back({"cutwater", {"none", "triangular", "round"}, "noses on both side faces"});
   t.parameters = {{"height", 5.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
                   {"thickness", 1.5, 0.1, 20.0, "m", "along the bridge, at the springing"},
@@ -149,6 +163,7 @@ KeyTable abutment_keys(const std::string& side) {
   KeyTable t;
   t.name = "abutment." + side, t.help = "the " + side + " abutment";
   t.choices = makeup();
+  t.choices.push_back(material_key("masonry", "of its stones, with those of its wing walls and counterforts"));
   t.parameters = {{"length", 4.0, 0.3, 60.0, "m", "from the end of the bridge to the springing"},
                   {"height", 4.0, 0.1, 100.0, "m", "from the base to the level of the springings"},
                   {"batter_y", 0.0, 0.0, 0.3, "-", "slope of its side faces"},

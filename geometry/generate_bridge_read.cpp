@@ -36,26 +36,51 @@ double least_backing(const Bridge& bridge, double x0, double x1) {
   return least;
 }
 
-namespace {
-
 std::string span_prefix(std::size_t i) {
   return fmt::format("span.{}.", i + 1);
 }
 
-std::string span_heading(std::size_t i) {
-  return fmt::format("[[bridge.span]] number {}", i + 1);
+std::string support_prefix(const GeneratorInput& in, std::size_t support, std::size_t spans) {
+  if (support == 0) return "abutment.left.";
+  if (support == spans) return "abutment.right.";
+  return fmt::format("pier.{}.", in.entries.at("pier") == 1 ? 1 : support);
 }
 
-/// Keys of a pier; one entry holds for all.
-std::string pier_prefix(const GeneratorInput& in, std::size_t pier) {
-  const std::size_t entries = in.entries.at("pier");
-  return fmt::format("pier.{}.", entries == 1 ? 1 : pier + 1);
+namespace {
+
+std::string span_heading(std::size_t i) {
+  return fmt::format("[[bridge.span]] number {}", i + 1);
 }
 
 double span_length(const GeneratorInput& in, std::size_t i) {
   const auto line = in.profiles.find(span_prefix(i) + "intrados");
   return line == in.profiles.end() ? in(span_prefix(i) + "clear_span")
                                    : line->second.back().x() - line->second.front().x();
+}
+
+/// How thick each ring is: as it is said of every one, or in equal parts.
+void read_rings(VaultShape& v, const GeneratorInput& in, std::size_t i) {
+  const std::string key = span_prefix(i);
+  const auto each = in.profiles.find(key + "ring_thicknesses");
+  if (each == in.profiles.end()) {
+    const double crown = in(key + "ring_thickness"), own = in(key + "springing_thickness");
+    const auto rings = std::size_t(in(key + "rings"));
+    v.crown.assign(rings, crown / double(rings));
+    v.springing.assign(rings, (own > 0.0 ? own : crown) / double(rings));
+    return;
+  }
+  constexpr double least = 0.01, most = 5.0;  // m
+  constexpr std::size_t most_rings = 8;
+  if (each->second.size() > most_rings)
+    throw InputError("{}: ring_thicknesses has {} rings, expected at most {}: leave some out", span_heading(i),
+                     each->second.size(), most_rings);
+  for (const Vec3& pair : each->second) {
+    v.crown.push_back(pair.x()), v.springing.push_back(pair.z());
+    for (const double t : {pair.x(), pair.z()})
+      if (!(t >= least && t <= most))
+        throw InputError("{}: ring_thicknesses has {:g} m in ring {}, expected {:g} to {:g} m: change it",
+                         span_heading(i), t, v.crown.size(), least, most);
+  }
 }
 
 /// The shape of a vault whose left springing is at x (m), of springings about z (m).
@@ -88,10 +113,7 @@ VaultShape read_shape(const GeneratorInput& in, std::size_t i, double x, double 
     const double usual = v.shape == "semicircular" ? half : v.shape == "pointed" ? 1.2 * half : 0.5 * half;
     v.rise = in(key + "rise") > 0.0 ? in(key + "rise") : usual;
   }
-  const double crown = in(key + "ring_thickness"), own = in(key + "springing_thickness");
-  const auto rings = std::size_t(in(key + "rings"));
-  v.crown.assign(rings, crown / double(rings));
-  v.springing.assign(rings, (own > 0.0 ? own : crown) / double(rings));
+  read_rings(v, in, i);
   v.voussoirs = int(in(key + "voussoirs"));
   if (v.voussoirs == 0)  // an even number, so that the crown is a joint
     v.voussoirs =
@@ -108,15 +130,17 @@ Vault make_vault(const GeneratorInput& in, std::size_t i, const VaultShape& shap
           "springing_right = {:g} m, or choose another shape",
           span_heading(i), std::max(shape.left.x() - p.x(), p.x() - shape.right.x()),
           in(span_prefix(i) + "springing_left"), in(span_prefix(i) + "springing_right"));
-  return {rings,
-          {intrados_length(shape) / shape.voussoirs, in("voussoir_width") * in("block_scale"), shape.crown.front()},
-          std::size_t(in(span_prefix(i) + "headers_every"))};
+  Vault vault;
+  vault.rings = rings;
+  vault.thickness = shape.crown;
+  vault.voussoir = {intrados_length(shape) / shape.voussoirs, in("voussoir_width") * in("block_scale"),
+                    shape.crown.back()};
+  vault.headers_every = std::size_t(in(span_prefix(i) + "headers_every"));
+  return vault;
 }
 
 double support_height(const GeneratorInput& in, std::size_t support, std::size_t spans) {
-  if (support == 0) return in("abutment.left.height");
-  if (support == spans) return in("abutment.right.height");
-  return in(pier_prefix(in, support - 1) + "height");
+  return in(support_prefix(in, support, spans) + "height");
 }
 
 /// To which the heights of piers and abutments reach, above the lowest base, m.
@@ -156,7 +180,7 @@ void read_spans(Bridge& bridge, const GeneratorInput& in) {
     bridge.vaults.push_back(make_vault(in, i, shape));
     bridge.springing = std::min({bridge.springing, shape.left.z(), shape.right.z()});
     for (const Vec3& p : bridge.vaults.back().rings.back().extrados) crown = std::max(crown, p.z());
-    x = shape.right.x() + (i + 1 < spans ? in(pier_prefix(in, i) + "thickness") : 0.0);
+    x = shape.right.x() + (i + 1 < spans ? in(support_prefix(in, i + 1, spans) + "thickness") : 0.0);
   }
   // The gradient goes with the way square to the supports; the deck is level along them.
   bridge.gradient = 0.01 * in("gradient") / std::cos(radians(in("skew")));
@@ -270,7 +294,7 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
     if (support.height < 0.05)
       throw InputError("{}: height = {:g} m leaves {:g} m below the springing there: make it higher", heading,
                        support_height(in, i, spans), support.height);
-    const std::string prefix = i == 0 ? "abutment.left." : i == spans ? "abutment.right." : pier_prefix(in, i - 1);
+    const std::string prefix = support_prefix(in, i, spans);
     read_makeup(support, in, prefix, heading, before && after);
     if (before && after) {
       read_cutwater(support, in, prefix, heading);
@@ -292,6 +316,28 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
                        before && after ? "thickness" : "length", support.x1 - support.x0,
                        support.x1 - support.x0 + left - right);
     bridge.supports.push_back(support);
+  }
+}
+
+/// Tapered walls are laid out with their mean thickness.
+void read_spandrels(Bridge& bridge, const GeneratorInput& in) {
+  bridge.spandrel_bottom = in("spandrel_thickness_bottom"), bridge.spandrel_top = in("spandrel_thickness_top");
+  bridge.tapered = in.choices.at("spandrel_back") == "tapered";
+  if (!bridge.tapered) return;
+  bridge.taper_bottom = bridge.spandrel_bottom, bridge.taper_top = bridge.spandrel_top;
+  bridge.spandrel_bottom = bridge.spandrel_top = 0.5 * (bridge.taper_bottom + bridge.taper_top);
+  if (in("internal.walls") > 0.0 && in.choices.at("internal.between") == "void")
+    throw InputError(
+        "[bridge] spandrel_back = \"tapered\" leaves no bearing for the slabs of [bridge.internal] between = \"void\": "
+        "choose \"stepped\", or \"fill\"");
+  for (const std::size_t i : {std::size_t(0), bridge.last_support()}) {
+    const auto [x0, x1] = wing_extent(bridge, i);
+    if (bridge.deformable_backfill && x1 - x0 > no_masonry)
+      throw InputError(
+          "[bridge] spandrel_back = \"tapered\" with backfill = \"deformable\" needs no fill between wing walls, and "
+          "{} "
+          "has built_length = {:g} m: set it to 0, or choose \"stepped\" or \"rigid\"",
+          support_heading(i, bridge.vaults.size()), in(support_prefix(in, i, bridge.vaults.size()) + "built_length"));
   }
 }
 
@@ -386,7 +432,7 @@ Bridge read_any_bridge(const GeneratorInput& in) {
     const double own = in("backing_over_abutment");
     bridge.backing_over_abutment[end] = own > 0.0 ? std::min(own, all) : all;
   }
-  bridge.spandrel_bottom = in("spandrel_thickness_bottom"), bridge.spandrel_top = in("spandrel_thickness_top");
+  bridge.surfacing_depth = in("surfacing_depth");
   bridge.parapet_height = in("parapet_height"), bridge.parapet_thickness = in("parapet_thickness");
   bridge.base_depth = in("base_depth"), bridge.restraint_depth = in("restraint_depth");
   const double wing = in("wing_wall_thickness");
@@ -396,6 +442,7 @@ Bridge read_any_bridge(const GeneratorInput& in) {
   if (in.choices.at("extent") == "strip") {
     make_strip(bridge, in);
   } else {
+    read_spandrels(bridge, in);
     read_internal_walls(bridge, in);
   }
   read_load_beam(bridge, in);

@@ -50,8 +50,10 @@ void read_cs_spans(Bridge& bridge, const GeneratorInput& in) {
                       thickness);
   for (int i = 0; i < spans; ++i) {
     const double x0 = span_start(in, i), x1 = x0 + cs_clear_span(in, i), radius = 0.5 * cs_clear_span(in, i);
-    bridge.vaults.push_back(
-        {{make_semicircle({0.5 * (x0 + x1), 0.0, bridge.springing}, radius, radius + thickness, n)}, voussoir});
+    Vault vault;
+    vault.rings = {make_semicircle({0.5 * (x0 + x1), 0.0, bridge.springing}, radius, radius + thickness, n)};
+    vault.thickness = {thickness}, vault.voussoir = voussoir;
+    bridge.vaults.push_back(vault);
   }
 }
 

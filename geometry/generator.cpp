@@ -52,6 +52,7 @@ void check_value(const Generator& generator, const Parameter& parameter, const G
 void check_choice(const Generator& generator, const Choice& choice, const GeneratorInput& input) {
   const auto found = input.choices.find(choice.name);
   const std::string word = found == input.choices.end() ? "" : found->second;
+  if (choice.material) return;  // of check_named_materials()
   for (const std::string& known : choice.words) {
     if (word == known) return;
   }
@@ -87,6 +88,21 @@ void check_entries(const Generator& generator, const GeneratorInput& input) {
   }
 }
 
+void check_material(const std::string& name, const Material& m) {
+  const auto positive = [&](const char* key, double value) {
+    if (!(value > 0.0)) {
+      throw InputError("[materials.{}] {} = {}: a value above 0 is needed", name, key, value);
+    }
+  };
+  positive("density", m.density);
+  positive("youngs_modulus", m.youngs_modulus);
+  positive("shear_modulus", m.shear_modulus);
+  if (!(m.dilation_angle >= 0.0 && m.dilation_angle <= m.friction_angle)) {
+    throw InputError("[materials.{}] dilation_angle = {:g} degrees: 0 to the friction angle, {:g}, is needed", name,
+                     m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
+  }
+}
+
 void check_materials(const Generator& generator, const GeneratorInput& input) {
   for (const Material& material : generator.materials) {
     const auto found = input.materials.find(material.name);
@@ -94,20 +110,10 @@ void check_materials(const Generator& generator, const GeneratorInput& input) {
       throw InputError("generator \"{}\" needs the material \"{}\"; start from default_input()", generator.name,
                        material.name);
     }
-    const Material& m = found->second;
-    const auto positive = [&](const char* key, double value) {
-      if (!(value > 0.0)) {
-        throw InputError("[materials.{}] {} = {}: a value above 0 is needed", material.name, key, value);
-      }
-    };
-    positive("density", m.density);
-    positive("youngs_modulus", m.youngs_modulus);
-    positive("shear_modulus", m.shear_modulus);
-    if (!(m.dilation_angle >= 0.0 && m.dilation_angle <= m.friction_angle)) {
-      throw InputError("[materials.{}] dilation_angle = {:g} degrees: 0 to the friction angle, {:g}, is needed",
-                       material.name, m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
-    }
+    check_material(material.name, found->second);
   }
+  check_named_materials(generator, input);
+  for (const auto& [name, usual] : own_materials(generator, input)) check_material(name, input.materials.at(name));
 }
 
 }  // namespace
@@ -117,6 +123,14 @@ std::vector<Material> in_order(const std::vector<Material>& defaults, const Gene
   for (const Material& material : defaults) {
     materials.push_back(input.materials.at(material.name));
     materials.back().name = material.name;
+  }
+  const auto is_default = [&](const std::string& name) {
+    return std::any_of(defaults.begin(), defaults.end(), [&](const Material& m) { return m.name == name; });
+  };
+  for (const auto& [name, material] : input.materials) {
+    if (is_default(name)) continue;
+    materials.push_back(material);
+    materials.back().name = name;
   }
   return materials;
 }
@@ -166,6 +180,31 @@ Keys keys_of(const Generator& generator, const GeneratorInput& input) {
   return keys;
 }
 
+std::map<std::string, std::string> own_materials(const Generator& generator, const GeneratorInput& input) {
+  std::map<std::string, std::string> own;
+  for (const Choice& choice : keys_of(generator, input).choices) {
+    const auto found = input.choices.find(choice.name);
+    if (!choice.material || found == input.choices.end()) continue;
+    const bool usual = std::any_of(generator.materials.begin(), generator.materials.end(),
+                                   [&](const Material& m) { return m.name == found->second; });
+    if (!usual) own.try_emplace(found->second, choice.words.front());
+  }
+  return own;
+}
+
+void check_named_materials(const Generator& generator, const GeneratorInput& input) {
+  std::vector<std::string> known;
+  for (const auto& [name, material] : input.materials) known.push_back(name);
+  for (const Choice& choice : keys_of(generator, input).choices) {
+    const auto found = input.choices.find(choice.name);
+    if (!choice.material || found == input.choices.end() || input.materials.contains(found->second)) continue;
+    throw InputError(
+        "[bridge] {} = \"{}\": there is no material of that name; the materials are: {}. Name one of them, or give "
+        "[materials.{}]",
+        choice.name, found->second, joined(known), found->second);
+  }
+}
+
 bool is_dimension(const Parameter& p) {
   static const std::vector<std::string> cuts = {"voussoir_",   "block_",    "fill_length", "fill_width",
                                                 "fill_height", "fill_edge", "infill_",     "leaf_",
@@ -206,11 +245,11 @@ std::string key_rows(const std::vector<Parameter>& parameters, const std::vector
                      const std::vector<Profile>& profiles) {
   std::string text = "| key | default | range | unit | meaning |\n| --- | --- | --- | --- | --- |\n";
   for (const Choice& choice : choices)
-    text += fmt::format("| `{}` | \"{}\" | {} | | {} |\n", choice.name, choice.words.front(), joined(choice.words),
-                        choice.help);
+    text += fmt::format("| `{}` | \"{}\" | {} | | {} |\n", choice.name, choice.words.front(),
+                        choice.material ? "the name of a material" : joined(choice.words), choice.help);
   for (const Parameter& p : parameters)
     text += fmt::format("| `{}` | {:g} | {:g} to {:g} | {} | {} |\n", p.name, p.value, p.low, p.high, p.unit, p.help);
-  for (const Profile& p : profiles) text += fmt::format("| `{}` | none | [[x, z], …] | m | {} |\n", p.name, p.help);
+  for (const Profile& p : profiles) text += fmt::format("| `{}` | none | [{}, …] | m | {} |\n", p.name, p.pair, p.help);
   return text;
 }
 

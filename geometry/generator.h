@@ -23,12 +23,16 @@ struct Choice {
   std::string name;
   std::vector<std::string> words;
   std::string help;
+  bool material = false;  // the word is the name of any of the input's materials
 };
 
-/// One key whose value is a line in the plane x-z, [[x, z], …] in m; it may be left out.
+/// One key whose value is a list of pairs of numbers in m, [[x, z], …]; it may be left out.
 struct Profile {
   std::string name;
   std::string help;
+  std::string pair = "[x, z]";               // what a pair says
+  bool is_line = true;                       // in the plane x-z, of two points or more from left to right
+  std::vector<std::string> instead_of = {};  // keys of the same table that may not stand beside it, and say nothing
 };
 
 /// Keys of a table of their own: a list [[bridge.NAME]] of `least` to `most` entries, or, where `most` is 1, the table
@@ -51,9 +55,9 @@ struct KeyTable {
 struct GeneratorInput {
   std::map<std::string, double> values;
   std::map<std::string, std::string> choices;
-  std::map<std::string, Polygon> profiles;     // y = 0, m; those that are given
+  std::map<std::string, Polygon> profiles;     // pairs as (first, 0, second), m; those that are given
   std::map<std::string, std::size_t> entries;  // of each list of tables
-  std::map<std::string, Material> materials;   // by name, defaults filled in
+  std::map<std::string, Material> materials;   // by name, defaults filled in; also those that only a choice names
   /// Stiffness and strength that the case sets for a pair of materials: key "masonry-infill" (names in either order).
   struct JointOverride {
     double kn = -1.0, ks = -1.0;  // Pa/m; negative: not set
@@ -87,6 +91,11 @@ struct Keys {
   std::vector<Profile> profiles;
 };
 Keys keys_of(const Generator& generator, const GeneratorInput& input);
+/// The materials of the input's own that a choice names, each with the generator's material whose values it has where
+/// it says nothing: the default of the first key that names it.
+std::map<std::string, std::string> own_materials(const Generator& generator, const GeneratorInput& input);
+/// Throws InputError for a choice that names a material which the input does not have.
+void check_named_materials(const Generator& generator, const GeneratorInput& input);
 /// Keys that are dimensions of the bridge, which a survey can have wrong; not those that only say how it is cut into
 /// blocks or loaded.
 bool is_dimension(const Parameter& parameter);

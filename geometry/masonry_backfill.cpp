@@ -49,6 +49,35 @@ void add_over_level(std::vector<FillRegion>& regions, const Bridge& bridge, cons
   }
 }
 
+/// The fill above the springing in two at the underside of the surfacing, which is parallel to the deck.
+std::vector<FillRegion> with_surfacing(const std::vector<FillRegion>& regions, const Bridge& bridge) {
+  std::vector<FillRegion> parts;
+  const auto add = [&](const FillRegion& part) {
+    if (part.high.z() - part.low.z() > no_masonry) parts.push_back(part);
+  };
+  const auto underside = [&](double x) { return bridge.deck_at(x) - bridge.surfacing_depth; };
+  for (const FillRegion& region : regions) {
+    if (region.support >= 0) {
+      parts.push_back(region);
+      continue;
+    }
+    FillRegion below = region, above = region;
+    above.surfacing = true;
+    const double x0 = region.low.x(), x1 = region.high.x(), z0 = underside(x0), z1 = underside(x1);
+    above.low.z() = std::max(region.low.z(), std::min(z0, z1));
+    below.high.z() = std::min(region.high.z(), std::max(z0, z1));
+    if (bridge.gradient != 0.0) {
+      const Plane under = under_backing({x0, 0.0, z0}, {x1, 0.0, z1});
+      below.past.push_back(under), above.past.push_back(opposite(under));
+    }
+    add(below);
+    if (below.high.z() > below.low.z())
+      above.course += int(split(below.low.z(), below.high.z(), bridge.fill.z()).size()) - 1;
+    add(above);
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<FillRegion> fill_regions(const Bridge& bridge) {
@@ -72,7 +101,7 @@ std::vector<FillRegion> fill_regions(const Bridge& bridge) {
     }
     course += int(split(band.z0, band.z1, bridge.fill.z()).size()) - 1;
   }
-  return regions;
+  return bridge.surfacing_depth > 0.0 ? with_surfacing(regions, bridge) : regions;
 }
 
 double fill_space(const Bridge& bridge) {
@@ -82,7 +111,10 @@ double fill_space(const Bridge& bridge) {
     SectionLimits limits = bridge.limits();
     for (const Plane& side : region.past) limits.past.push_back(side);
     const Polygon whole = rectangle(region.low.x(), region.high.x(), region.low.z(), region.high.z());
-    for (const Polygon& piece : within(whole, limits)) volume += width * polygon_area(piece);
+    for (const Polygon& piece : within(whole, limits)) {
+      const double spread = region.support < 0 ? bridge.spread_at(polygon_centroid(piece).z()) : 1.0;
+      volume += width * polygon_area(piece) * spread;  // exact: the width is linear in z
+    }
   }
   return volume / std::cos(bridge.skew);
 }
@@ -107,7 +139,13 @@ std::vector<Polygon> beside_fill(const Bridge& bridge) {
 void lay_region(Layout& layout, const Bridge& bridge, const FillRegion& region) {
   const SectionLimits usual = layout.limits;
   for (const Plane& side : region.past) layout.limits.past.push_back(side);
-  lay_courses(layout, region.low, region.high, bridge.fill_unit(), region.course);
+  Unit unit = bridge.fill_unit();
+  const std::size_t first = layout.stones.size();
+  if (region.surfacing) unit.material = bridge.surfacing, unit.size.z() = region.high.z() - region.low.z();
+  lay_courses(layout, region.low, region.high, unit, region.course);
+  if (region.surfacing)
+    for (std::size_t s = first; s < layout.stones.size(); ++s)  // the box of a deck with a gradient is higher
+      layout.stones[s].nominal.z() = std::min(layout.stones[s].nominal.z(), bridge.surfacing_depth);
   layout.limits = usual;
 }
 

@@ -7,7 +7,7 @@ void lay_load_beam(Layout& layout, const Bridge& bridge) {
   const LoadBeam& beam = bridge.beam;
   if (beam.length <= 0.0) return;
   const double x0 = beam.middle - 0.5 * beam.length, x1 = beam.middle + 0.5 * beam.length;
-  const double y = bridge.half_width() - bridge.spandrel_top;
+  const double y = bridge.half_width() - (bridge.tapered ? bridge.taper_top : bridge.spandrel_top);
   const Polygon side = {{x0, -y, bridge.deck_at(x0)},
                         {x1, -y, bridge.deck_at(x1)},
                         {x1, -y, bridge.deck_at(x1) + beam.height},

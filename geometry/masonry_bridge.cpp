@@ -10,6 +10,13 @@ Unit Bridge::unit(Component component, int part) const {
   return {component, part, masonry, block};
 }
 
+Unit Bridge::support_unit(std::size_t support) const {
+  Unit own =
+      is_abutment(support) ? unit(Component::abutment, support == 0 ? 0 : 1) : unit(Component::pier, int(support) - 1);
+  own.material = supports[support].material;
+  return own;
+}
+
 Unit Bridge::fill_unit() const {
   return {Component::backfill, 0, backfill, fill, fill_bonded};
 }

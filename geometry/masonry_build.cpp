@@ -31,6 +31,7 @@ void append(FillMesh& all, const FillMesh& more) {
     for (std::int32_t& node : tet) node += first;
     all.tets.push_back(tet);
   }
+  all.material.insert(all.material.end(), more.material.begin(), more.material.end());
   find_surface(all);
 }
 
@@ -43,16 +44,19 @@ void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const 
   for (int lane = 0; lane <= last; ++lane) {
     FillSpace space;
     for (const FillRegion& region : regions)
-      if (region.lane == lane) space.boxes.push_back({region.low, region.high});
+      if (region.lane == lane) {
+        space.boxes.push_back({region.low, region.high});
+        space.materials.push_back(region.surfacing ? bridge.surfacing : bridge.backfill);
+      }
     space.rings = bridge.limits().rings;
     space.beside = beside_fill(bridge);
     FillMeshing meshing;
-    meshing.edge = bridge.fill_edge;
+    meshing.edge = bridge.fill_edge / longest_stretch(bridge);
     append(assembly.fill, mesh_fill(space, meshing));
   }
+  for (Vec3& node : assembly.fill.nodes) node.y() *= bridge.spread_at(node.z());
   if (bridge.skew != 0.0)
     for (Vec3& node : assembly.fill.nodes) node = at_skew(node, bridge.skew);
-  assembly.fill.material.assign(assembly.fill.tets.size(), bridge.backfill);
   check_fill(assembly.fill, "the mesh of the fill");
   check_volume(assembly.fill, fill_space(bridge));
   JointSearch search;
@@ -87,6 +91,9 @@ void find_materials(Bridge& bridge, const std::vector<Material>& materials) {
     return std::int32_t(0);
   };
   bridge.vault = index("vault"), bridge.infill_material = index("infill"), bridge.backfill = index("backfill");
+  bridge.surfacing = index("surfacing");
+  for (Vault& vault : bridge.vaults) vault.material = bridge.vault;
+  for (Support& support : bridge.supports) support.material = bridge.masonry;
 }
 
 JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in) {
@@ -117,11 +124,13 @@ Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials
   lay_abutments(layout, bridge);
   lay_vaults(layout, bridge);
   lay_skewbacks(layout, bridge);
+  const std::size_t above = layout.stones.size();
   lay_backing(layout, bridge);
   if (!bridge.strip) lay_spandrels(layout, bridge);
   lay_transverse_walls(layout, bridge);
   lay_internal_walls(layout, bridge);
   lay_backfill(layout, bridge);
+  taper(layout, bridge, above);
   if (!bridge.strip) lay_parapets(layout, bridge);
   lay_bases(layout, bridge);
   lay_restraints(layout, bridge);

@@ -9,6 +9,7 @@ namespace voussoir {
 /// What the keys that all of them have say: blocks and their scale, fill, restraint of the ends.
 void read_fill_and_blocks(Bridge& bridge, const GeneratorInput& in);
 /// Indices of "vault", "infill" and "backfill"; a bridge without a material of its own for a part uses the first.
+/// Vaults and supports get the usual ones.
 void find_materials(Bridge& bridge, const std::vector<Material>& materials);
 /// Stiffness from the moduli, over blocks of these sizes.
 JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in);

@@ -34,7 +34,7 @@ Polyhedron mirrored(Polyhedron shape) {
 void lay_cutwaters(Layout& layout, const Bridge& bridge, std::size_t i) {
   const Support& support = bridge.supports[i];
   if (support.cutwater.length <= 0.0) return;
-  const Unit unit = bridge.unit(Component::pier, int(i) - 1);
+  const Unit unit = bridge.support_unit(i);
   const double half_width = bridge.half_width(i), slope = support.slope_y;
   const Vec3 outward = Vec3(0.0, 1.0, slope).normalized();
   const Plane off_the_pier = {-outward, -outward.dot(Vec3(0.0, half_width, support.springing))};

@@ -122,8 +122,8 @@ void lay_course(Layout& layout, const Bridge& bridge, std::size_t i, const Beds&
                 std::size_t ring, std::size_t rings) {
   const Vault& vault = bridge.vaults[i];
   const int wedges = vault.rings.front().wedges();
-  const Unit unit = {Component::arch, int(i), bridge.vault, vault.voussoir};
-  const Vec3 nominal(unit.size.x(), unit.size.y(), double(rings) * unit.size.z());
+  const Unit unit = {Component::arch, int(i), vault.material, vault.voussoir};
+  const Vec3 nominal = vault.stone(ring, rings);
   const double half_width = bridge.half_width();
   const bool half = ((course + std::int64_t(ring)) % 2 + 2) % 2 == 1;
   const std::vector<double> y = split(-half_width, half_width, unit.size.y(), half);

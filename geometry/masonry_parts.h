@@ -3,6 +3,7 @@
 // meet at equal coordinates.
 #pragma once
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "geometry/masonry.h"
@@ -13,8 +14,15 @@ namespace voussoir {
 /// A vault over one span.
 struct Vault {
   std::vector<Ring> rings;        // the lowest first
-  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of a ring
+  std::vector<double> thickness;  // m, of each ring at the crown
+  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of the highest ring, which the fill lies on
+  std::int32_t material = 0;
   std::size_t headers_every = 0;  // courses, from one of headers (stones through two rings) to the next; 0: none
+  /// Nominal size of a stone through some rings from one on.
+  Vec3 stone(std::size_t ring, std::size_t through) const {
+    const auto from = thickness.begin() + std::ptrdiff_t(ring);
+    return {voussoir.x(), voussoir.y(), std::accumulate(from, from + std::ptrdiff_t(through), 0.0)};
+  }
   double left() const { return rings.front().intrados.front().x(); }  // m, of the opening, at the springings
   double right() const { return rings.front().intrados.back().x(); }
 };
@@ -64,6 +72,7 @@ struct Support {
   double top = 0.0;                     // z of the highest end of a vault's foot on it
   double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
   double width = 0.0;                   // m, across, at the springing
+  std::int32_t material = 0;            // of its stones, not of its infill
   Makeup makeup = Makeup::solid;
   Cutwater cutwater = {};         // of a pier
   Wings wings = {};               // of an abutment
@@ -92,10 +101,13 @@ struct Bridge {
   double backing_top = 0.0;  // z
   Polygon backing_line;      // its top from end to end, where it is not level; otherwise empty
   double backing_over_abutment[2] = {0.0, 0.0};      // length beside the span, left and right
-  double spandrel_bottom = 0.0, spandrel_top = 0.0;  // thickness
+  double spandrel_bottom = 0.0, spandrel_top = 0.0;  // thickness, stepped by course in between
+  bool tapered = false;  // walls whose back is one plane: laid out with `spandrel_bottom` everywhere, see taper()
+  double taper_bottom = 0.0, taper_top = 0.0;  // m, their thickness at the springing and at the deck
   double parapet_height = 0.0, parapet_thickness = 0.0;
   double string_height = 0.0, string_projection = 0.0;  // of a string course between deck and parapet
   double transverse_thickness = 0.0;                    // of walls across over the piers; 0: none
+  double surfacing_depth = 0.0;                         // m, of the topmost part of the fill; 0: none
   double base_depth = 1.0, restraint_depth = 1.0;
   double wing_wall_thickness = 0.0;
   double leaf_thickness[2] = {0.0, 0.0};  // even and odd courses
@@ -108,15 +120,19 @@ struct Bridge {
   Vec3 leaf_piece = Vec3::Ones();  // along the face, -, course height
   Vec3 infill = Vec3::Ones();
   Vec3 fill = Vec3::Ones();
-  std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;  // materials
+  std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;  // materials; of vaults and supports as usual
+  std::int32_t surfacing = 0;
 
   double length() const { return supports.back().x1; }
   double half_width() const { return 0.5 * width; }
+  double spandrel_at(double z) const;  // m, thickness of walls that are tapered
+  double spread_at(double z) const;    // factor on y of what lies between them, against the layout
   double half_width(std::size_t support) const { return 0.5 * supports[support].width; }
   double deck_at(double x) const { return gradient == 0.0 ? deck : deck_start + gradient * x; }
   std::size_t last_support() const { return supports.size() - 1; }
   bool is_abutment(std::size_t support) const { return support == 0 || support == last_support(); }
   Unit unit(Component component, int part) const;  // masonry block of a component
+  Unit support_unit(std::size_t support) const;    // masonry block of an abutment or a pier
   Unit fill_unit() const;                          // rigid backfill
   SectionLimits limits() const;                    // what vaults and supports take up above the springing
 };
@@ -132,6 +148,11 @@ std::vector<Band> spandrel_courses(const Bridge& bridge);
 /// The same with courses of equal thickness on one side of the backing's top taken together: what the space between the
 /// walls is laid in.
 std::vector<Band> interior_bands(const Bridge& bridge);
+
+/// Moves the stones from one on across, from walls of one thickness to tapered ones.
+void taper(Layout& layout, const Bridge& bridge, std::size_t first);
+/// By how much that lengthens an edge between the walls at most.
+double longest_stretch(const Bridge& bridge);
 
 /// Where walls stand across over the piers, and what they leave of the length, both from left to right: from and to, m.
 std::vector<std::pair<double, double>> transverse_walls(const Bridge& bridge);
@@ -170,6 +191,7 @@ struct FillRegion {
   int course = 0;                // number of its lowest course in the bond
   std::vector<Plane> past = {};  // beside the bridge's limits: of the backing below it
   int lane = 0;                  // which of the spaces between internal walls it belongs to
+  bool surfacing = false;        // of the material of the surfacing
 };
 /// The boxes of the fill, which do not overlap: between the wing walls, then those above the springing from below. The
 /// rigid fill is laid in them and the deformable one is meshed in them. Over a backing that is not level they overlap
@@ -227,8 +249,7 @@ void lay_solid(Layout& layout, const Solid& solid, const Unit& unit);
 /// A support of box shape: an outer leaf of pieces in courses whose thickness alternates, corners bonded by turns, and
 /// infill within in courses of half the height. A hollow one has no infill, and slabs from face to face as its top
 /// course.
-void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, Component component,
-                         int part, int support);
+void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, std::size_t support);
 void lay_cutwaters(Layout& layout, const Bridge& bridge, std::size_t support);
 /// Wings and counterforts of an abutment, and what its base has below them.
 void lay_wing_walls(Layout& layout, const Bridge& bridge, std::size_t support);

@@ -31,22 +31,22 @@ void lay_leaf_course(Layout& layout, const Vec3& low, const Vec3& high, double t
 
 }  // namespace
 
-void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, Component component,
-                         int part, int support) {
-  const Unit leaf = {component, part, bridge.masonry, bridge.leaf_piece};
+void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, std::size_t support) {
+  Unit leaf = bridge.support_unit(support), slab = leaf;
+  leaf.size = bridge.leaf_piece;
   const std::vector<double> z = split(low.z(), high.z(), bridge.leaf_piece.z());
-  const bool hollow = bridge.supports[std::size_t(support)].makeup == Makeup::hollow;
+  const bool hollow = bridge.supports[support].makeup == Makeup::hollow;
   for (std::size_t k = 0; k + 1 < z.size(); ++k) {
     if (hollow && k + 2 == z.size()) {
-      const Vec3 slab(high.x() - low.x(), bridge.leaf_piece.x(), z[k + 1] - z[k]);
-      lay_courses(layout, {low.x(), low.y(), z[k]}, high, {component, part, bridge.masonry, slab});
+      slab.size = {high.x() - low.x(), bridge.leaf_piece.x(), z[k + 1] - z[k]};
+      lay_courses(layout, {low.x(), low.y(), z[k]}, high, slab);
       break;
     }
     const double t = bridge.leaf_thickness[k % 2];
     lay_leaf_course(layout, {low.x(), low.y(), z[k]}, {high.x(), high.y(), z[k + 1]}, t, k % 2 == 0, leaf);
     if (hollow) continue;
     const Unit infill = {Component::infill,
-                         support,
+                         int(support),
                          bridge.infill_material,
                          {bridge.infill.x(), bridge.infill.y(), 0.5 * (z[k + 1] - z[k])}};
     lay_courses(layout, {low.x() + t, low.y() + t, z[k]}, {high.x() - t, high.y() - t, z[k + 1]}, infill);
@@ -85,11 +85,10 @@ void lay_piers(Layout& layout, const Bridge& bridge) {
     const Support& support = bridge.supports[i];
     const double z0 = support.base, z1 = support.springing, half = bridge.half_width(i);
     if (support.makeup != Makeup::solid) {
-      lay_leaf_and_infill(layout, bridge, {support.x0, -half, z0}, {support.x1, half, z1}, Component::pier, int(i) - 1,
-                          int(i));
+      lay_leaf_and_infill(layout, bridge, {support.x0, -half, z0}, {support.x1, half, z1}, i);
     } else {
       const Solid solid = {support.x0, support.x1, half, z0, z1, support.slope_x, support.slope_x, support.slope_y};
-      lay_solid(layout, solid, bridge.unit(Component::pier, int(i) - 1));
+      lay_solid(layout, solid, bridge.support_unit(i));
     }
     lay_cutwaters(layout, bridge, i);
   }
@@ -98,10 +97,8 @@ void lay_piers(Layout& layout, const Bridge& bridge) {
 void lay_skewbacks(Layout& layout, const Bridge& bridge) {
   for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
     const Support& support = bridge.supports[i];
-    const Unit unit = bridge.is_abutment(i) ? bridge.unit(Component::abutment, i == 0 ? 0 : 1)
-                                            : bridge.unit(Component::pier, int(i) - 1);
     lay_courses(layout, {support.x0, -bridge.half_width(), support.springing},
-                {support.x1, bridge.half_width(), support.top}, unit);
+                {support.x1, bridge.half_width(), support.top}, bridge.support_unit(i));
   }
   layout.limits = bridge.limits();
 }

@@ -32,7 +32,7 @@ namespace {
 void lay_straight(Layout& layout, const Bridge& bridge, std::size_t i) {
   const Vault& vault = bridge.vaults[i];
   auto& keystone = layout.groups[fmt::format("keystone {}", i)];
-  const Unit unit = {Component::arch, int(i), bridge.vault, vault.voussoir};
+  const Unit unit = {Component::arch, int(i), vault.material, vault.voussoir};
   for (std::size_t k = 0; k < vault.rings.size(); ++k) {
     for (int wedge = 0; wedge < vault.rings[k].wedges(); ++wedge) {
       const std::size_t rings = rings_of_stone(vault, k, wedge);
@@ -42,7 +42,7 @@ void lay_straight(Layout& layout, const Bridge& bridge, std::size_t i) {
       const bool half = (std::size_t(wedge) + k) % 2 == 1;
       if (rings > 0)
         lay_across(layout, polygons, split(-bridge.half_width(), bridge.half_width(), unit.size.y(), half), unit,
-                   {unit.size.x(), unit.size.y(), double(rings) * unit.size.z()});
+                   vault.stone(k, rings));
       if (at_crown(wedge, vault.rings[k].wedges()))
         for (std::size_t s = first; s < layout.stones.size(); ++s) keystone.push_back(std::int64_t(s));
       if (vault.rings.size() > 1) name_rings(layout, i, k, rings, first);

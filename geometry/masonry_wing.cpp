@@ -41,7 +41,7 @@ void splay(Polyhedron& shape, const Bridge& bridge, std::size_t i, double slope)
 
 void lay_wing_walls(Layout& layout, const Bridge& bridge, std::size_t i) {
   for (const Wall& wall : walls(bridge, i)) {
-    Unit unit = bridge.unit(Component::abutment, i == 0 ? 0 : 1);
+    const Unit unit = bridge.support_unit(i);
     Layout straight;
     lay_courses(straight, wall.low, wall.high, unit);
     for (Stone& stone : straight.stones) {

@@ -44,14 +44,14 @@ class Assigner {
     const bool from_table = rules_.kind == JointRules::Kind::table && !fill_a;
     // The table's row of the loose filling is that of its contacts, whatever stands on their other side.
     const bool infill = a.component == Component::infill || b.component == Component::infill;
-    if (from_table && infill) return rules_.table.at(Component::infill);
+    if (from_table && infill) return row(a.component == Component::infill ? a : b);
     return in_series(from_table ? table_half(a) : moduli_half(a), from_table ? table_half(b) : moduli_half(b));
   }
 
   Stiffness stiffness(const FillJoint& joint, const Material& fill) const {
     if (rules_.kind == JointRules::Kind::given) return rules_.uniform;
     const Block& b = block(joint.block);
-    if (!b.fixed) return times(rules_.table.at(b.component), rules_.interface_share);
+    if (!b.fixed) return times(row({b.component, b.material}), rules_.interface_share);
     const double dc = joint.normal.cwiseAbs().dot(rules_.nominal.at(Component::backfill));
     return {fill.youngs_modulus / dc, fill.shear_modulus / dc};
   }
@@ -108,10 +108,15 @@ class Assigner {
 
   /// A joint between two like halves; without a table from the moduli.
   Stiffness of_masonry(const Side& s) const {
-    const auto row = rules_.table.find(s.component);
-    return row != rules_.table.end() ? row->second : times(moduli_half(s), 0.5);
+    return rules_.rows_from_moduli || rules_.table.contains(s.component) ? row(s) : times(moduli_half(s), 0.5);
   }
-  Stiffness table_half(const Side& s) const { return times(rules_.table.at(s.component), 2.0); }
+  Stiffness table_half(const Side& s) const { return times(row(s), 2.0); }
+  Stiffness row(const Side& s) const {
+    const auto given = rules_.table.find(s.component);
+    if (given != rules_.table.end()) return given->second;
+    const double size = rules_.nominal.at(s.component).mean();
+    return {material(s).youngs_modulus / size, material(s).shear_modulus / size};
+  }
   Stiffness moduli_half(const Side& s) const {
     return {material(s).youngs_modulus / s.half_length, material(s).shear_modulus / s.half_length};
   }

@@ -23,6 +23,7 @@ struct JointRules {
   Kind kind = Kind::moduli;
   Stiffness uniform;                     // given only
   std::map<Component, Stiffness> table;  // also what `interface_share` refers to
+  bool rows_from_moduli = false;         // what the table lacks: E and G of a stone over the mean size of a block
   std::map<Component, Vec3> nominal;     // m, block size: half of it stands for the fixed block below or beside
   double interface_share = 0.20;         // masonry-backfill: share of the masonry's value (table or moduli)
   double interface_friction = 0.0;       // rad

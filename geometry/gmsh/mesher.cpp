@@ -106,9 +106,10 @@ DimTags add_box(const Box& box, const FillSpace& space) {
   return rest;
 }
 
-/// Faces of the section that reach equally far across.
+/// Faces of the section that reach equally far across and are of one material.
 struct Part {
   double y0 = 0.0, y1 = 0.0;  // m
+  std::int32_t material = 0;
   DimTags faces;
 };
 
@@ -127,12 +128,14 @@ DimTags fused(const DimTags& faces) {
 /// The section: within a part no edges are left between boxes that touch; parts that touch share their edges.
 std::vector<Part> add_section(const FillSpace& space) {
   std::vector<Part> parts;
-  for (const Box& box : space.boxes) {
+  for (std::size_t i = 0; i < space.boxes.size(); ++i) {
+    const Box& box = space.boxes[i];
+    const std::int32_t material = space.materials.empty() ? 0 : space.materials[i];
     const auto alike = [&](const Part& p) {
-      return std::abs(p.y0 - box.low.y()) < 1e-6 && std::abs(p.y1 - box.high.y()) < 1e-6;
+      return p.material == material && std::abs(p.y0 - box.low.y()) < 1e-6 && std::abs(p.y1 - box.high.y()) < 1e-6;
     };
     auto part = std::find_if(parts.begin(), parts.end(), alike);
-    if (part == parts.end()) part = parts.insert(parts.end(), {box.low.y(), box.high.y(), {}});
+    if (part == parts.end()) part = parts.insert(parts.end(), {box.low.y(), box.high.y(), material, {}});
     for (const auto& face : add_box(box, space)) part->faces.push_back(face);
   }
   for (Part& part : parts) part.faces = fused(part.faces);
@@ -193,7 +196,8 @@ FillSection take_section(const std::vector<Part>& parts) {
   }
   for (const auto& [part, nodes] : corners) {
     for (std::size_t i = 0; i + 2 < nodes.size(); i += 3) {
-      section.triangles.push_back({{own.at(nodes[i]), own.at(nodes[i + 1]), own.at(nodes[i + 2])}, part->y0, part->y1});
+      section.triangles.push_back(
+          {{own.at(nodes[i]), own.at(nodes[i + 1]), own.at(nodes[i + 2])}, part->y0, part->y1, part->material});
     }
   }
   return section;

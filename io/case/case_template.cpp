@@ -36,7 +36,7 @@ std::string parameter_line(const Parameter& p, const Given& given) {
 std::string choice_line(const Choice& c, const Given& given) {
   const auto own = given.find(c.name);
   return key_line(c.name, own != given.end() ? own->second : fmt::format("\"{}\"", c.words.front()),
-                  fmt::format("{} ({})", c.help, fmt::join(c.words, ", ")));
+                  c.material ? c.help : fmt::format("{} ({})", c.help, fmt::join(c.words, ", ")));
 }
 
 std::string key_lines(const std::vector<Parameter>& parameters, const std::vector<Choice>& choices,
@@ -44,7 +44,7 @@ std::string key_lines(const std::vector<Parameter>& parameters, const std::vecto
   std::string text;
   for (const Choice& c : choices) text += choice_line(c, given);
   for (const Parameter& p : parameters) text += parameter_line(p, given);
-  for (const Profile& p : profiles) text += key_line("# " + p.name, "[[x, z], …]", "m, " + p.help);
+  for (const Profile& p : profiles) text += key_line("# " + p.name, fmt::format("[{}, …]", p.pair), "m, " + p.help);
   return text;
 }
 

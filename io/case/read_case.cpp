@@ -31,9 +31,16 @@ void read_keys(TableReader& table, const Keys& keys, const std::string& prefix, 
     input.values[prefix + p.name] = value;
   }
   for (const Choice& choice : keys.choices)
-    input.choices[prefix + choice.name] = choice.words[table.word(choice.name, choice.words, 0)];
-  for (const Profile& profile : keys.profiles)
-    if (Polygon line = table.profile(profile.name); !line.empty()) input.profiles[prefix + profile.name] = line;
+    input.choices[prefix + choice.name] = choice.material ? table.text(choice.name, choice.words.front())
+                                                          : choice.words[table.word(choice.name, choice.words, 0)];
+  for (const Profile& profile : keys.profiles) {
+    const Polygon list = profile.is_line ? table.profile(profile.name) : table.pairs(profile.name, profile.pair, 1);
+    if (list.empty()) continue;
+    input.profiles[prefix + profile.name] = list;
+    for (const std::string& other : profile.instead_of)
+      if (table.has(other))
+        table.fail(profile.name, fmt::format("stands beside '{}', which it replaces: leave out one of them", other));
+  }
 }
 
 /// [[bridge.NAME]]: each entry as often as its `repeat` says.
@@ -115,13 +122,9 @@ void read_material(TableReader& table, Material& m) {
 
 namespace {
 
-/// Of which the rings of a vault are, where a generator makes several.
-constexpr const char* vault_material = "vault";
-
 /// Splits "masonry-infill" at the hyphen that leaves two known materials (names may hold hyphens themselves).
 std::array<std::string, 2> split_pair(const TableReader& joints, const std::string& key,
                                       const std::vector<std::string>& known) {
-  if (key == ring_pair) return {vault_material, vault_material};
   std::array<std::string, 2> any;
   for (std::size_t at = key.find('-'); at != std::string::npos; at = key.find('-', at + 1)) {
     const std::array<std::string, 2> pair = {key.substr(0, at), key.substr(at + 1)};
@@ -138,20 +141,27 @@ std::array<std::string, 2> split_pair(const TableReader& joints, const std::stri
   return any;
 }
 
-/// Strength of a joint table. What it leaves out is the weaker of the two materials', brittle, with no cohesion left.
-JointLaw read_law(TableReader& table, const Material* a, const Material* b) {
+/// Strength of a joint table. What it leaves out is the weakest of the materials', brittle, with no cohesion left.
+JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
   JointLaw law;
+  const bool known = !materials.empty();
+  const auto weakest = [&](double Material::*member) {
+    double least = known ? materials.front().*member : 0.0;
+    for (const Material& m : materials) least = std::min(least, m.*member);
+    return least;
+  };
   const auto strength = [&](const char* key, double Material::*member) {
-    if (!a && !table.has(key)) table.missing(key, "the assembly file does not say");
-    return table.number(key, a ? std::min(a->*member, b->*member) : 0.0, {0.0, 1e10, "Pa"});
+    if (!known && !table.has(key)) table.missing(key, "the assembly file does not say");
+    return table.number(key, weakest(member), {0.0, 1e10, "Pa"});
   };
   const auto angle = [&](const char* key, double fallback) {
     return table.has(key) ? to_radians(table.number(key, 0.0, {0.0, 89.0, "degrees"})) : fallback;
   };
   law.tension = strength("tensile_strength", &Material::tensile_strength);
   law.cohesion = strength("cohesion", &Material::cohesion);
-  if (!a && !table.has("friction_angle")) table.missing("friction_angle", "degrees; the assembly file does not say");
-  law.friction_angle = angle("friction_angle", a ? std::min(a->friction_angle, b->friction_angle) : 0.0);
+  if (!known && !table.has("friction_angle"))
+    table.missing("friction_angle", "degrees; the assembly file does not say");
+  law.friction_angle = angle("friction_angle", weakest(&Material::friction_angle));
   law.residual_cohesion = table.number("residual_cohesion", 0.0, {0.0, 1e10, "Pa"});
   law.residual_friction_angle = angle("residual_friction_angle", law.friction_angle);
   law.dilation_angle = angle("dilation_angle", 0.0);
@@ -170,18 +180,33 @@ JointLaw read_law(TableReader& table, const Material* a, const Material* b) {
   return law;
 }
 
-void read_joint(TableReader& table, const std::array<std::string, 2>& pair, Case& c,
-                GeneratorInput::JointOverride& joint) {
+/// Of which the stones beside the joints of a key are, those of an assembly file excepted: two, or the spans' for the
+/// joints between rings.
+std::vector<Material> materials_of(const Case& c, const std::string& key, const std::array<std::string, 2>& pair) {
+  std::vector<std::string> names(pair.begin(), pair.end());
+  if (key == ring_pair) {
+    names.clear();
+    for (const auto& [name, word] : c.generator_input.choices)
+      if (name.starts_with("span.") && name.ends_with(".material")) names.push_back(word);
+    if (names.empty()) names = {"vault"};
+  }
+  std::vector<Material> materials;
+  for (const std::string& name : names) {
+    const auto found = c.generator_input.materials.find(name);
+    if (found == c.generator_input.materials.end()) return {};
+    materials.push_back(found->second);
+  }
+  return materials;
+}
+
+void read_joint(TableReader& table, const std::vector<Material>& materials, GeneratorInput::JointOverride& joint) {
   joint.kn = table.number("kn", -1.0, {0.0, 1e15, "Pa/m", true});
   joint.ks = table.number("ks", -1.0, {0.0, 1e15, "Pa/m", true});
   for (const char* key : {"tensile_strength", "cohesion", "friction_angle", "residual_cohesion",
                           "residual_friction_angle", "dilation_angle", "kind", "fracture_energy"})
     joint.has_law = table.has(key) || joint.has_law;
   table.finish();
-  if (!joint.has_law) return;
-  const auto& materials = c.generator_input.materials;
-  const bool known = materials.contains(pair[0]) && materials.contains(pair[1]);
-  joint.law = read_law(table, known ? &materials.at(pair[0]) : nullptr, known ? &materials.at(pair[1]) : nullptr);
+  if (joint.has_law) joint.law = read_law(table, materials);
 }
 
 }  // namespace
@@ -203,20 +228,46 @@ void read_bridge(TableReader& root, Case& c) {
   bridge->finish();
 }
 
+namespace {
+
+/// Those of the generator first: what another leaves out has the value that one of them has in this case.
+void read_material_tables(TableReader& materials, Case& c) {
+  auto& known = c.generator_input.materials;
+  std::vector<std::string> names;
+  for (const auto& [name, material] : known) names.push_back(name);
+  const auto own = own_materials(find_generator(c.generator), c.generator_input);
+  for (const auto& [name, usual] : own) names.push_back(name);
+  for (const std::string& name : materials.keys())
+    if (!known.contains(name) && !own.contains(name))
+      materials.fail(name, fmt::format("is not a material of \"{}\"{}", c.generator, suggestion(name, names)));
+  const auto read = [&](const std::string& name, Material& material) {
+    TableReader table = materials.member(name, fmt::format("[materials.{}]", shown(name)));
+    read_material(table, material);
+  };
+  for (const std::string& name : materials.keys())
+    if (!own.contains(name)) read(name, known.at(name));
+  for (const std::string& name : materials.keys()) {
+    if (!own.contains(name)) continue;
+    Material material = known.at(own.at(name));
+    material.name = name;
+    read(name, material);
+    known[name] = material;
+  }
+}
+
+}  // namespace
+
 void read_materials(TableReader& root, Case& c) {
   auto materials = root.table("materials", "[materials]");
-  if (!materials) return;
-  if (c.generator.empty())
+  if (materials && c.generator.empty())
     materials->fail(
         "cannot change an assembly file, which holds its own materials: use [joints.A-B], or generate it anew");
-  std::vector<std::string> known;
-  for (const auto& [name, material] : c.generator_input.materials) known.push_back(name);
-  for (const std::string& name : materials->keys()) {
-    const auto found = c.generator_input.materials.find(name);
-    if (found == c.generator_input.materials.end())
-      materials->fail(name, fmt::format("is not a material of \"{}\"{}", c.generator, suggestion(name, known)));
-    TableReader table = materials->member(name, fmt::format("[materials.{}]", shown(name)));
-    read_material(table, found->second);
+  if (materials) read_material_tables(*materials, c);
+  if (c.generator.empty()) return;
+  try {
+    check_named_materials(find_generator(c.generator), c.generator_input);
+  } catch (const InputError& error) {
+    throw InputError("{}: {}", c.path, error.what());
   }
 }
 
@@ -227,10 +278,10 @@ void read_joints(TableReader& root, Case& c) {
   for (const auto& [name, material] : c.generator_input.materials) known.push_back(name);
   for (const std::string& key : joints->keys()) {
     TableReader table = joints->member(key, fmt::format("[joints.{}]", shown(key)));
-    const auto pair = split_pair(*joints, key, known);
+    const auto pair = key == ring_pair ? std::array<std::string, 2>{} : split_pair(*joints, key, known);
     if (pair[0] != pair[1] && c.generator_input.joints.contains(pair[1] + "-" + pair[0]))
       joints->fail(key, fmt::format("repeats [joints.{}-{}]: give each pair once", pair[1], pair[0]));
-    read_joint(table, pair, c, c.generator_input.joints[key]);
+    read_joint(table, materials_of(c, key, pair), c.generator_input.joints[key]);
   }
 }
 

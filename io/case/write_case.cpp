@@ -30,10 +30,16 @@ class TomlText {
   std::string text_ = "# Resolved case: every value written out, also those that were defaults.\n";
 };
 
-/// Those whose dotted names are the prefix and one more part.
-void write_keys(TomlText& out, const GeneratorInput& input, const std::string& prefix) {
+/// Those whose dotted names are the prefix and one more part; without those that one of the profiles replaces.
+void write_keys(TomlText& out, const GeneratorInput& input, const std::string& prefix,
+                const std::vector<Profile>& profiles) {
+  std::vector<std::string> replaced;
+  for (const Profile& profile : profiles)
+    if (input.profiles.contains(prefix + profile.name))
+      for (const std::string& key : profile.instead_of) replaced.push_back(prefix + key);
   const auto own = [&](const std::string& key) {
-    return key.starts_with(prefix) && key.find('.', prefix.size()) == std::string::npos;
+    return key.starts_with(prefix) && key.find('.', prefix.size()) == std::string::npos &&
+           std::find(replaced.begin(), replaced.end(), key) == replaced.end();
   };
   for (const auto& [key, word] : input.choices)
     if (own(key)) out.set(key.substr(prefix.size()), word);
@@ -52,12 +58,12 @@ void write_bridge(TomlText& out, const Case& c) {
   out.heading("[bridge]");
   if (c.generator.empty()) return out.set("assembly", std::string("assembly.h5"));
   out.set("generator", c.generator);
-  write_keys(out, c.generator_input, "");
+  write_keys(out, c.generator_input, "", {});
   for (const KeyTable& table : find_generator(c.generator).tables) {
     const std::size_t entries = table.is_list() ? c.generator_input.entries.at(table.name) : 1;
     for (std::size_t i = 0; i < entries; ++i) {
       out.heading(table.heading());
-      write_keys(out, c.generator_input, table.prefix(i));
+      write_keys(out, c.generator_input, table.prefix(i), table.profiles);
     }
   }
   for (const auto& [name, m] : c.generator_input.materials) {

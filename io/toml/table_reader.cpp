@@ -218,27 +218,36 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
   return values;
 }
 
-std::vector<Vec3> TableReader::profile(const std::string& key) {
-  const toml::node* node = find(key, "[[x, z], …]");
+std::vector<Vec3> TableReader::pairs(const std::string& key, const std::string& pair, std::size_t least) {
+  const toml::node* node = find(key, fmt::format("[{}, …]", pair));
   if (!node) return {};
-  constexpr double farthest = 1e4;  // m
-  std::vector<Vec3> line;
+  constexpr double largest = 1e4;  // m
+  std::vector<Vec3> list;
   const auto number = [&](const toml::node* item) {
     const std::optional<double> x = item && item->is_number() ? item->value<double>() : std::nullopt;
-    if (!x || !(std::abs(*x) <= farthest))
-      fail(key, fmt::format("has a point {} that is not [x, z] in m, up to {:g}", line.size() + 1, farthest));
+    if (!x || !(std::abs(*x) <= largest))
+      fail(key, fmt::format("has a point {} that is not {} in m, up to {:g}", list.size() + 1, pair, largest));
     return *x;
   };
   const toml::array* points = node->as_array();
-  if (!points || points->size() < 2) fail(key, "must be a list of at least two points, [[x, z], [x, z]], in m");
+  if (!points || points->size() < least)
+    fail(key,
+         fmt::format("must be a list of at least {}, [{}, …], in m", least == 1 ? "one pair" : "two points", pair));
   for (const toml::node& item : *points) {
     const toml::array* point = item.as_array();
     if (!point || point->size() != 2)
-      fail(key, fmt::format("has a point {} that is {}: expected [x, z], in m", line.size() + 1, kind_of(item)));
-    line.emplace_back(number(point->get(0)), 0.0, number(point->get(1)));
-    if (line.size() > 1 && line.back().x() <= line[line.size() - 2].x())
-      fail(key, fmt::format("goes back at x = {:g} m: give its points from left to right", line.back().x()));
+      fail(key, fmt::format("has a point {} that is {}: expected {}, in m", list.size() + 1, kind_of(item), pair));
+    const double first = number(point->get(0)), second = number(point->get(1));
+    list.emplace_back(first, 0.0, second);
   }
+  return list;
+}
+
+std::vector<Vec3> TableReader::profile(const std::string& key) {
+  const std::vector<Vec3> line = pairs(key, "[x, z]", 2);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    if (line[i + 1].x() <= line[i].x())
+      fail(key, fmt::format("goes back at x = {:g} m: give its points from left to right", line[i + 1].x()));
   return line;
 }
 

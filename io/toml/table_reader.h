@@ -54,6 +54,9 @@ class TableReader {
   std::vector<double> number_list(const std::string& key, const Limits& limits = {});
   /// One text or a list of texts.
   std::vector<std::string> texts(const std::string& key);
+  /// Pairs of numbers in m as (first, 0, second), at least so many; empty where the key is not given. `pair` is what
+  /// one is called: "[crown, springing]".
+  std::vector<Vec3> pairs(const std::string& key, const std::string& pair, std::size_t least);
   /// Points [[x, z], …] from left to right, y = 0; empty where the key is not given.
   std::vector<Vec3> profile(const std::string& key);
   /// Three numbers. The limits keep sums of their squares finite; a place is within what geometry/extent.h calls far.

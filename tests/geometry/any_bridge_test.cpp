@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/fill_mesh.h"
 #include "geometry/generator.h"
 #include "geometry/joints.h"
 #include "geometry/rings.h"
@@ -67,6 +68,24 @@ void draw_details(GeneratorInput& in, Draw& draw, int spans) {
   }
 }
 
+/// Rings of a thickness each and materials of the case's own.
+void draw_materials_and_rings(GeneratorInput& in, Draw& draw, int spans) {
+  for (int i = 0; i < spans; ++i) {
+    const std::string key = "span." + std::to_string(i + 1) + ".";
+    if (draw.whole(0, 3)) continue;
+    for (int ring = draw.whole(1, 3); ring > 0; --ring) {
+      const double crown = draw.between(0.02, 0.05) * in(key + "clear_span");
+      in.profiles[key + "ring_thicknesses"].emplace_back(crown, 0.0, draw.between(1.0, 1.5) * crown);
+    }
+  }
+  if (!draw.whole(0, 2)) in.choices["spandrel_back"] = "tapered";
+  if (!draw.whole(0, 2)) in.values["surfacing_depth"] = draw.between(0.05, 0.6);
+  if (draw.whole(0, 2)) return;
+  in.materials["granite"] = {"granite", 2600.0, 9.0e9, 3.6e9, 0.2e6, 0.3e6, radians(35.0)};
+  for (auto& [key, word] : in.choices)
+    if (key.ends_with(".material") && draw.whole(0, 1)) word = "granite";
+}
+
 GeneratorInput random_bridge(int seed) {
   Draw draw(seed);
   const int spans = draw.whole(1, 3);
@@ -117,6 +136,7 @@ GeneratorInput random_bridge(int seed) {
     v[key + "batter_y"] = draw.whole(0, 1) * draw.between(0.0, 0.05);
   }
   draw_details(in, draw, spans);
+  draw_materials_and_rings(in, draw, spans);
   return in;
 }
 
@@ -158,6 +178,10 @@ double expected_volume(const GeneratorInput& in) {
                  own = in(key + "springing_thickness");
     s.crown.assign(std::size_t(rings), thickness / rings),
         s.springing.assign(std::size_t(rings), (own > 0.0 ? own : thickness) / rings);
+    if (const auto each = in.profiles.find(key + "ring_thicknesses"); each != in.profiles.end()) {
+      s.crown.clear(), s.springing.clear();
+      for (const Vec3& pair : each->second) s.crown.push_back(pair.x()), s.springing.push_back(pair.z());
+    }
     s.voussoirs =
         2 * std::max(2, int(std::ceil(0.5 * intrados_length(s) / (in("voussoir_length") * in("block_scale")) - 1e-9)));
     floor = std::min({floor, s.left.z(), s.right.z()});
@@ -215,6 +239,14 @@ double moving_volume(const Assembly& assembly) {
   return sum;
 }
 
+double free_surface(const Assembly& assembly) {
+  double free = uncovered_surface(assembly);
+  for (std::size_t t = 0; t < assembly.fill.triangles.size(); ++t)
+    free += polygon_area(triangle_polygon(assembly.fill, std::int32_t(t)));
+  for (const FillJoint& joint : assembly.fill_joints) free -= joint.area;
+  return free;
+}
+
 TEST(BridgeGenerator, RandomBridgesHaveTheirVolumesOrAreRefusedByName) {
   const Generator& generator = find_generator("bridge");
   int built = 0, refused = 0;
@@ -239,6 +271,31 @@ TEST(BridgeGenerator, RandomBridgesHaveTheirVolumesOrAreRefusedByName) {
     }
   }
   EXPECT_GT(built, 350) << refused;
+}
+
+/// The mesh fills the space that the keys say, and nothing between it and the stones is left open.
+TEST(BridgeGenerator, RandomBridgesAreFilledWithTetrahedra) {
+  const Generator& generator = find_generator("bridge");
+  int built = 0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    GeneratorInput in = random_bridge(seed);
+    const auto surface = [&](const char* backfill) {
+      in.choices["backfill"] = backfill, in.values["fill_edge"] = 1.5;
+      const Assembly assembly = generator.build(in);
+      const double volume = fill_volume(assembly.fill), space = generator.fill_space(in);
+      EXPECT_NEAR(volume, assembly.fill.empty() ? 0.0 : space, 1e-9 * space) << "seed " << seed;
+      return free_surface(assembly);
+    };
+    try {
+      const double filled = surface("deformable");
+      ++built;
+      EXPECT_NEAR(filled, surface("rigid"), 1e-6 * filled) << "seed " << seed;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("[bridge"), std::string::npos)
+          << "seed " << seed << ": " << error.what();
+    }
+  }
+  EXPECT_GT(built, 15);
 }
 
 /// All of each key's range, in blocks as large as there are: most cannot be built, and say why.
@@ -384,6 +441,222 @@ TEST(BridgeGenerator, RingsWithoutBondHaveFrictionOnlyAndTheirOwnJoints) {
   in.values["span.1.rings"] = 1.0;
   EXPECT_NE(message_of<InputError>([&] { find_generator("bridge").build(in); }).find("no vault of this bridge"),
             std::string::npos);
+}
+
+TEST(BridgeGenerator, EveryRingMayHaveItsThickness) {
+  GeneratorInput in = plain_skew(0.0, "parallel", 2.0);
+  const Assembly equal = find_generator("bridge").build(in);
+  in.profiles["span.1.ring_thicknesses"] = {{0.25, 0.0, 0.25}, {0.25, 0.0, 0.25}};
+  const Assembly said = find_generator("bridge").build(in);
+  ASSERT_EQ(said.blocks.size(), equal.blocks.size());
+  ASSERT_EQ(said.joints.size(), equal.joints.size());
+  for (std::size_t i = 0; i < said.blocks.size(); ++i) ASSERT_EQ(said.blocks[i].mass, equal.blocks[i].mass) << i;
+  for (std::size_t i = 0; i < said.joints.size(); ++i) ASSERT_EQ(said.joints[i].kn, equal.joints[i].kn) << i;
+
+  VaultShape shape;
+  shape.shape = "segmental", shape.rise = 2.0, shape.right.x() = 8.0;
+  shape.crown = {0.2, 0.35, 0.15}, shape.springing = {0.3, 0.35, 0.25};
+  shape.voussoirs = 2 * int(std::ceil(0.5 * intrados_length(shape) / 0.6 - 1e-9));
+  in.profiles["span.1.ring_thicknesses"] = {{0.2, 0.0, 0.3}, {0.35, 0.0, 0.35}, {0.15, 0.0, 0.25}};
+  const Assembly unequal = find_generator("bridge").build(in);
+  EXPECT_TRUE(find_overlaps(unequal, 1e-7).empty());
+  const std::vector<Ring> rings = vault_rings(shape, "");
+  for (std::size_t k = 0; k < 3; ++k) {
+    double expected = 0.0, volume = 0.0;
+    for (int wedge = 0; wedge < rings[k].wedges(); ++wedge) expected += 5.0 * polygon_area(rings[k].wedge(wedge));
+    for (const std::int64_t block : unequal.groups.at(ring_group(0, k)))
+      volume += mass_properties(unequal.blocks[std::size_t(block)].cells).volume;
+    EXPECT_NEAR(volume, expected, 1e-9 * expected) << k;
+  }
+  // The interface to the fill is a share of the highest ring's modulus over the mean size of its stones.
+  const double size = (intrados_length(shape) / shape.voussoirs + 0.6 * 1.5 + 0.15) / 3.0;
+  std::size_t interfaces = 0;
+  for (const Joint& joint : unequal.joints) {
+    const Component a = unequal.blocks[std::size_t(joint.a)].component,
+                    b = unequal.blocks[std::size_t(joint.b)].component;
+    if (a != Component::arch || b != Component::backfill) continue;
+    ++interfaces;
+    ASSERT_NEAR(joint.kn, 0.2 * 1.5 * 4.0e9 / size, 1e-9 * joint.kn);
+  }
+  EXPECT_GT(interfaces, 10u);
+  in.profiles["span.1.ring_thicknesses"][1].z() = 0.001;
+  EXPECT_NE(message_of<InputError>([&] {
+              find_generator("bridge").build(in);
+            }).find("[[bridge.span]] number 1: ring_thicknesses has 0.001 m in ring 2"),
+            std::string::npos);
+}
+
+TEST(BridgeGenerator, SpansAndSupportsMayHaveMaterialsOfTheirOwn) {
+  GeneratorInput in = with_entries(2, 1);
+  in.values["block_scale"] = 2.0, in.values["pier.1.cutwater_height"] = 2.0;
+  in.choices["pier.1.cutwater"] = "round";
+  const Assembly plain = find_generator("bridge").build(in);
+  in.materials["tuff"] = {"tuff", 1400.0, 2.0e9, 0.8e9, 0.1e6, 0.1e6, radians(25.0)};
+  in.materials["granite"] = {"granite", 2600.0, 9.0e9, 3.6e9, 0.2e6, 0.3e6, radians(35.0)};
+  in.choices["span.2.material"] = in.choices["pier.1.material"] = "granite";
+  in.choices["abutment.left.material"] = "tuff", in.choices["abutment.right.material"] = "vault";
+  const Assembly own = find_generator("bridge").build(in);
+  std::vector<std::string> names;
+  for (const Material& m : own.materials) names.push_back(m.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"masonry", "vault", "infill", "backfill", "granite", "tuff"}));
+  ASSERT_EQ(own.blocks.size(), plain.blocks.size());
+  for (std::size_t i = 0; i < own.blocks.size(); ++i) {
+    const Block& block = own.blocks[i];
+    const bool granite = block.component == Component::pier || (block.component == Component::arch && block.part == 1);
+    const std::string was = plain.materials[std::size_t(plain.blocks[i].material)].name;
+    const std::string expected = granite                                  ? "granite"
+                                 : block.component != Component::abutment ? was
+                                 : block.part == 0                        ? "tuff"
+                                                                          : "vault";
+    ASSERT_EQ(names[std::size_t(block.material)], expected) << i;
+  }
+  ASSERT_EQ(own.joints.size(), plain.joints.size());
+  std::size_t shares = 0, within = 0;
+  for (std::size_t i = 0; i < own.joints.size(); ++i) {
+    const Joint& joint = own.joints[i];
+    const Block &a = own.blocks[std::size_t(joint.a)], &b = own.blocks[std::size_t(joint.b)];
+    const bool vaults[] = {a.component == Component::arch && a.part == 1,
+                           b.component == Component::arch && b.part == 1};
+    const double ratio = joint.kn / plain.joints[i].kn;
+    if (vaults[0] && (vaults[1] || b.component == Component::backfill)) {
+      (vaults[1] ? within : shares) += 1;
+      ASSERT_NEAR(ratio, 9.0 / 4.0, 1e-9);
+      const double cohesion = own.laws[std::size_t(joint.law)].cohesion;
+      ASSERT_EQ(cohesion, vaults[1] ? 0.3e6 : 0.0);
+    }
+  }
+  EXPECT_GT(within, 20u);
+  EXPECT_GT(shares, 5u);
+  in.choices["span.1.material"] = "granit";
+  const std::string text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  EXPECT_NE(text.find("span.1.material = \"granit\""), std::string::npos) << text;
+  EXPECT_NE(text.find("backfill, granite, infill"), std::string::npos) << text;
+}
+
+/// Area, and first moment about z = 0, of what lies above the supports' tops and the extrados and below the deck.
+struct Section {
+  double area = 0.0, moment = 0.0;
+};
+Section above_the_vault(const Assembly& assembly) {
+  VaultShape shape;
+  shape.shape = "segmental", shape.rise = 2.0, shape.left = {4.0, 0.0, 4.0}, shape.right = {12.0, 0.0, 4.0};
+  shape.crown = shape.springing = {0.5};
+  shape.voussoirs = 2 * int(std::ceil(0.5 * intrados_length(shape) / 0.6 - 1e-9));
+  Polygon outline = vault_rings(shape, "").front().extrados;
+  double deck = 0.0;
+  for (const Vec3& p : outline) deck = std::max(deck, p.z() + 0.5);
+  outline.insert(outline.begin(), {0.0, 0.0, outline.front().z()});
+  outline.emplace_back(16.0, 0.0, outline.back().z());
+  outline.emplace_back(16.0, 0.0, deck);
+  outline.emplace_back(0.0, 0.0, deck);
+  Section s;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec3 &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    const double cross = p.x() * q.z() - q.x() * p.z();
+    s.area += 0.5 * cross, s.moment += cross * (p.z() + q.z()) / 6.0;
+  }
+  double top = 0.0;
+  for (const Block& block : assembly.blocks) top = std::max(top, block_box(block).high.z());
+  EXPECT_NEAR(top, deck, 1e-9);
+  return s;
+}
+
+double volume_of(const Assembly& assembly, Component component) {
+  double volume = 0.0;
+  for (const Block& block : assembly.blocks)
+    if (block.component == component) volume += mass_properties(block.cells).volume;
+  return volume;
+}
+
+/// The wall's volume is the integral of its thickness, which is linear in z, over the section.
+TEST(BridgeGenerator, TaperedSpandrelWallsHaveAPlaneBack) {
+  const double bottom = 0.9, top = 0.4;
+  for (const double skew : {0.0, 25.0}) {
+    for (const char* backfill : {"rigid", "deformable"}) {
+      SCOPED_TRACE(std::to_string(skew) + " " + backfill);
+      GeneratorInput in = plain_skew(skew, "helicoidal", 1.0);
+      in.choices["backfill"] = backfill, in.values["fill_edge"] = 0.8;
+      const Assembly straight = find_generator("bridge").build(in);
+      in.choices["spandrel_back"] = "tapered";
+      in.values["spandrel_thickness_bottom"] = bottom, in.values["spandrel_thickness_top"] = top;
+      const Assembly tapered = find_generator("bridge").build(in);
+      EXPECT_TRUE(find_overlaps(tapered, 1e-7).empty());
+      const Section s = above_the_vault(tapered);
+      double deck = 0.0;
+      for (const Block& block : tapered.blocks) deck = std::max(deck, block_box(block).high.z());
+      const double slope = (top - bottom) / (deck - 4.0), stretch = 1.0 / std::cos(radians(skew));
+      const double walls = 2.0 * (s.area * (bottom - 4.0 * slope) + s.moment * slope) * stretch;
+      EXPECT_NEAR(volume_of(tapered, Component::spandrel), walls, 1e-9 * walls);
+      const double inside = 5.0 * s.area * stretch - walls - volume_of(tapered, Component::backing);
+      EXPECT_NEAR(find_generator("bridge").fill_space(in), inside, 1e-9 * inside);
+      const bool rigid = backfill == std::string("rigid");
+      EXPECT_NEAR(rigid ? volume_of(tapered, Component::backfill) : fill_volume(tapered.fill), inside, 1e-9 * inside);
+      EXPECT_NEAR(free_surface(tapered), free_surface(straight), 1e-6 * free_surface(straight));
+      const double longest = rigid || skew != 0.0 ? 0.0 : fill_quality(tapered.fill).longest_edge;
+      EXPECT_LE(longest, 0.8 + 1e-9);
+    }
+  }
+  GeneratorInput in = plain_skew(0.0, "parallel", 1.0);
+  in.choices["abutment.left.makeup"] = "leaf", in.values["abutment.left.built_length"] = 2.0;  // with wing walls
+  in.values["spandrel_thickness_bottom"] = 0.8;
+  const double straight = free_surface(find_generator("bridge").build(in));
+  in.choices["spandrel_back"] = "tapered";
+  const Assembly winged = find_generator("bridge").build(in);
+  EXPECT_TRUE(find_overlaps(winged, 1e-7).empty());
+  EXPECT_NEAR(free_surface(winged), straight, 1e-6 * straight);
+  in.choices["backfill"] = "deformable";
+  std::string text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  EXPECT_NE(text.find("[bridge.abutment.left] has built_length = 2 m"), std::string::npos) << text;
+  in.choices["internal.between"] = "void", in.values["internal.walls"] = 2.0;
+  text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  EXPECT_NE(text.find("spandrel_back = \"tapered\""), std::string::npos) << text;
+  EXPECT_NE(text.find("between = \"void\""), std::string::npos) << text;
+}
+
+TEST(BridgeGenerator, ASurfacingHasItsDepthOverTheWholeFill) {
+  const auto surfacing_mass = [](const Assembly& assembly) {
+    double mass = 0.0;
+    for (const Block& block : assembly.blocks)
+      if (assembly.materials[std::size_t(block.material)].name == "surfacing" && !block.fixed) mass += block.mass;
+    const FillMesh& fill = assembly.fill;
+    for (std::size_t t = 0; t < fill.tets.size(); ++t) {
+      const Material& m = assembly.materials[std::size_t(fill.material[t])];
+      const auto x = [&](std::size_t k) -> const Vec3& { return fill.nodes[std::size_t(fill.tets[t][k])]; };
+      if (m.name == "surfacing") mass += m.density * (x(1) - x(0)).dot((x(2) - x(0)).cross(x(3) - x(0))) / 6.0;
+    }
+    return mass;
+  };
+  for (const char* backfill : {"rigid", "deformable"}) {
+    for (const double gradient : {0.0, 3.0}) {
+      const bool rigid = backfill == std::string("rigid");
+      if (!rigid && gradient != 0.0) continue;
+      SCOPED_TRACE(std::string(backfill) + " " + std::to_string(gradient));
+      GeneratorInput in = plain_skew(20.0, "parallel", 1.0);
+      in.choices["backfill"] = backfill, in.values["fill_edge"] = 0.8, in.values["gradient"] = gradient;
+      const Assembly without = find_generator("bridge").build(in);
+      for (const Material& m : without.materials) EXPECT_NE(m.name, "surfacing");
+      in.values["surfacing_depth"] = 0.3;
+      const Assembly assembly = find_generator("bridge").build(in);
+      const double mass = 2200.0 * 0.3 * (5.0 - 2.0 * 0.6) * 16.0 / std::cos(radians(20.0));
+      EXPECT_NEAR(surfacing_mass(assembly), mass, 1e-9 * mass);
+      EXPECT_TRUE(find_overlaps(assembly, 1e-7).empty());
+      EXPECT_NEAR(free_surface(assembly), free_surface(without), 1e-6 * free_surface(without));
+      const double all = find_generator("bridge").fill_space(in);
+      EXPECT_NEAR(rigid ? volume_of(assembly, Component::backfill) : fill_volume(assembly.fill), all, 1e-9 * all);
+      if (rigid) continue;
+      for (std::size_t t = 0; t < assembly.fill.tets.size(); ++t)  // no tetrahedron reaches across the boundary
+        for (const std::int32_t node : assembly.fill.tets[t]) {
+          const double depth = 4.0 + 2.0 + 0.5 + 0.5 - assembly.fill.nodes[std::size_t(node)].z();
+          const bool surfacing = assembly.materials[std::size_t(assembly.fill.material[t])].name == "surfacing";
+          ASSERT_TRUE(surfacing ? depth <= 0.3 + 1e-9 : depth >= 0.3 - 1e-9) << depth;
+        }
+    }
+  }
+  GeneratorInput in = plain_skew(0.0, "parallel", 1.0);
+  in.choices["backfill"] = "deformable", in.values["gradient"] = 2.0, in.values["surfacing_depth"] = 0.2;
+  const std::string text = message_of<InputError>([&] { find_generator("bridge").build(in); });
+  EXPECT_NE(text.find("surfacing_depth = 0.2 m"), std::string::npos) << text;
+  EXPECT_NE(text.find("gradient = 2 %"), std::string::npos) << text;
 }
 
 TEST(BridgeGenerator, ABackingHasTheVolumeUnderItsLine) {

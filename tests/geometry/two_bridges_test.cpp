@@ -55,6 +55,7 @@ GeneratorInput as_any_bridge(const GeneratorInput& cs) {
     in.materials["vault"] = in.materials.at("masonry"), in.materials["vault"].name = "vault";
   if (!in.materials.contains("infill"))
     in.materials["infill"] = in.materials.at("masonry"), in.materials["infill"].name = "infill";
+  for (const Material& m : generator.materials) in.materials.try_emplace(m.name, m);  // of what they do not have
   return in;
 }
 

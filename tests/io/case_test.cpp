@@ -393,6 +393,41 @@ TEST_F(CaseFile, ListsOfSpansAreReadAndWrittenOut) {
           {"'intrados'", "left to right"});
 }
 
+TEST_F(CaseFile, MaterialsOfTheCasesOwnAndRingThicknessesAreReadAndWrittenOut) {
+  const std::string bridge =
+      "[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nmaterial = \"granite\"\n"
+      "ring_thicknesses = [[0.3, 0.2], [0.25, 0.4]]\n[[bridge.pier]]\nmaterial = \"tuff\"\n";
+  const std::string materials =
+      "[materials.tuff]\nyoungs_modulus = 2e9\n[materials.masonry]\ndensity = 2000.0\n"
+      "[materials.granite]\nfriction_angle = 35.0\n";
+  const std::string rest = "[joints.granite-tuff]\nkn = 1e9\n[[stage]]\nkind = \"gravity\"\n";
+  const Case c = parse_case(bridge + materials + rest, folder / "case.toml");
+  const GeneratorInput& in = c.generator_input;
+  EXPECT_EQ(in.profiles.at("span.1.ring_thicknesses"), (Polygon{{0.3, 0.0, 0.2}, {0.25, 0.0, 0.4}}));
+  EXPECT_EQ(in.materials.at("tuff").youngs_modulus, 2e9);
+  EXPECT_EQ(in.materials.at("tuff").density, 2000.0) << "as masonry in this case, wherever it stands";
+  EXPECT_EQ(in.materials.at("granite").youngs_modulus, in.materials.at("vault").youngs_modulus);
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  EXPECT_EQ(resolved_text(copy), resolved_text(c));
+  EXPECT_EQ(copy.generator_input.choices, in.choices);
+  EXPECT_EQ(copy.generator_input.values, in.values);
+  EXPECT_EQ(copy.generator_input.profiles, in.profiles);
+
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& words) {
+    const std::string said = test::message_of<InputError>([&] { parse_case(text + rest, folder / "case.toml"); });
+    for (const std::string& word : words) EXPECT_NE(said.find(word), std::string::npos) << said;
+  };
+  refused(bridge + "[materials.granite]\ndensity = 2600.0\n",
+          {"pier.1.material = \"tuff\"", "the materials are: backfill, granite", "[materials.tuff]"});
+  refused(bridge + materials + "[materials.gravel]\ndensity = 1800.0\n", {"'gravel'", "is not a material"});
+  refused(bridge + "[materials.granit]\ndensity = 1800.0\n", {"'granit'", "did you mean 'granite'?"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nring_thickness = 0.5\nring_thicknesses = [[0.3, 0.3]]\n",
+          {"'ring_thicknesses'", "'ring_thickness', which it replaces"});
+  refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nring_thicknesses = [[0.3]]\n",
+          {"'ring_thicknesses'", "[crown, springing]"});
+}
+
 TEST_F(CaseFile, BaselineCorrectionAndOneColumn) {
   folder.write("a.txt", "0.1\n0.2\n-0.1\n0.3\n0.1\n0.2\n-0.2\n");
   const std::string head =

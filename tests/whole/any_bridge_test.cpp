@@ -22,7 +22,10 @@ TEST(AnyBridge, ComesToRestBuiltInStages) {
   Folder folder;
   for (const auto& [first, second, keys] : {std::tuple("segmental", "semicircular", ""),
                                             {"elliptical", "pointed", "abutments = \"restrained\"\n"},
-                                            {"three-centred", "parabolic", "backfill = \"deformable\"\n"}}) {
+                                            {"three-centred", "parabolic", "backfill = \"deformable\"\n"},
+                                            {"segmental", "pointed",
+                                             "backfill = \"deformable\"\nspandrel_back = \"tapered\"\n"
+                                             "spandrel_thickness_bottom = 0.9\nsurfacing_depth = 0.2\n"}}) {
     folder.write("case.toml", two_spans(first, second, keys));
     const Outcome run =
         voussoir({"run", "case.toml", "-o", "run", "--no-pictures", "--overwrite"}, {.folder = folder.path()});
