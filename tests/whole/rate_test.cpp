@@ -116,6 +116,24 @@ TEST(Rate, SaysWhatItNeeds) {
   EXPECT_NE(none.err.find("no road"), std::string::npos) << none.err;
 }
 
+/// The worked example of BA 16/97.
+TEST(Rate, PrintsMexeBesideIt) {
+  const Bridge folder;
+  const std::string example =
+      "[mexe]\nspan = 5.23\nrise = 1.57\nquarter_rise = 1.373\nring = 0.34\nfill = 0.34\nbarrel_factor = 0.8\n"
+      "fill_factor = 0.7\nwidth_factor = 0.9\ndepth_factor = 0.9\nmortar_factor = 1.0\ncondition_factor = 0.7\n";
+  folder.write("mexe.toml", example);
+  const Outcome outcome = rate(folder, {"--strip", "0.3", "--step", "3", "--refine", "0", "--tolerance", "7", "--most",
+                                        "60", "--no-runs", "--mexe", "mexe.toml"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("modified axle load 11.2 t"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("39.83 t"), std::string::npos) << outcome.out;
+  folder.write("mexe.toml", example + "surface = 3\n");
+  const Outcome wrong = rate(folder, {"--mexe", "mexe.toml"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("surface"), std::string::npos) << wrong.err;
+}
+
 /// A vehicle that stands on the bridge, named in the case: its weight arrives at the bases.
 TEST(Rate, AVehicleInACaseStandsOnItsBases) {
   const Bridge folder;

@@ -10,6 +10,7 @@ namespace voussoir {
 /// What is said beside the figures.
 struct RatePageWords {
   std::string title;                  // "Rating: prestwood"
+  std::string beside = {};            // another method's figures; may be empty
   std::vector<std::string> remarks;   // how the bridge was loaded
   std::vector<PagePicture> pictures;  // of the worst place
 };

@@ -8,6 +8,7 @@
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
 #include "solver/base/suggestion.h"
+#include "tools/rate/mexe_file.h"
 #include "tools/rate/rate_page.h"
 #include "tools/rate/rate_report.h"
 #include "tools/rate/strip.h"
@@ -163,6 +164,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
       "most", real_option("most", 0.01, 1e6)->value_name("F")->default_value(30.0),
       "largest factor that is looked for")(
       "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05), "of the factor")(
+      "mexe", options::value<std::string>()->value_name("FILE"),
+      "figures of the MEXE method for the arch (docs/rating.md); printed beside the rating")(
       "no-runs", "leave out the runs of the worst place and their pictures");
   line.positional = line.required = {"CASE"};
   options::variables_map values;
@@ -178,6 +181,7 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   request.most = values["most"].as<double>(), request.tolerance = values["tolerance"].as<double>();
   request.threads = threads_asked(values);
   RatePageWords words;
+  if (values.count("mexe")) words.beside = mexe_text(mexe(read_mexe(values["mexe"].as<std::string>())));
   const Case given = read_case(file);
   const Case c = loaded_case(given, values, request, words.remarks);
   for (const std::string& remark : factor_remarks(values)) words.remarks.push_back(remark);
@@ -195,7 +199,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   write_atomically(out + "/images/rate.svg", influence_chart(rating, request));
   if (!values.count("no-runs")) words.pictures = run_worst(c, request, rating, out, quiet);
   write_atomically(out + "/report.html", rate_page(rating, request, words));
-  if (!quiet) fmt::print("{}\n{}/report.html, rate.csv, rate.json\n", rating_text(rating, request), out);
+  if (!quiet)
+    fmt::print("{}{}\n{}/report.html, rate.csv, rate.json\n", rating_text(rating, request), words.beside, out);
   return 0;
 }
 
