@@ -121,7 +121,7 @@ TEST(GravityStage, WithoutEquilibriumItNamesTheStonesOnTheirWay) {
   for (int i = 0; i < 3; ++i) add_box(assembly, {-0.25, -0.25, 0.5 * i}, {0.25, 0.25, 0.5 * (i + 1)});
   const Assembly stack = joined(std::move(assembly), 2e9, 8e8, dry_law(2.0));
   StageSettings gravity;
-  gravity.loads = Loads{Vec3(9.81, 0.0, 0.0), {}};
+  gravity.loads = Loads{Vec3(9.81, 0.0, 0.0), {}, {}};
   SolverSettings settings;
   settings.stages = {gravity};
   Simulation run(stack, settings, 1, {});
@@ -134,7 +134,7 @@ TEST(GravityStage, WithoutEquilibriumItNamesTheStonesOnTheirWay) {
 TEST(GravityStage, HasARowWithTheReactionsOfAllFixedGroups) {
   const Assembly assembly = leaning_pier();
   StageSettings loaded;
-  loaded.loads = Loads{Vec3(0.1, 0.0, 0.0), {}};
+  loaded.loads = Loads{Vec3(0.1, 0.0, 0.0), {}, {}};
   SolverSettings settings;
   settings.stages = {StageSettings{}, loaded};
   std::vector<Sample> rows;

@@ -28,7 +28,7 @@ SolverSettings guided() {
   SolverSettings settings;
   settings.guides = {{"beam", {false, false, true}}};
   StageSettings gravity;
-  gravity.loads = Loads{Vec3::Zero(), {{"beam", {0, 0, -load}, Vec3(0.9, 0.2, 1.5)}}};
+  gravity.loads = Loads{Vec3::Zero(), {{"beam", {0, 0, -load}, Vec3(0.9, 0.2, 1.5)}}, {}};
   settings.stages = {gravity};
   return settings;
 }

@@ -78,12 +78,12 @@ class StageMaker {
   StageSettings collapse() {
     StageSettings stage;
     stage.kind = StageSettings::Kind::collapse;
-    stage.loads = Loads{Vec3(9.81, 0.0, 0.0), {}};
+    stage.loads = Loads{Vec3(9.81, 0.0, 0.0), {}, {}};
     stage.collapse.tolerance = 0.2;
     stage.collapse.confirm = 0.0;
     return stage;
   }
-  Loads loads() { return {Vec3(0.4 * pick(3), 0.0, -0.4 * pick(3)), {}}; }
+  Loads loads() { return {Vec3(0.4 * pick(3), 0.0, -0.4 * pick(3)), {}, {}}; }
 
   std::mt19937 random_;
 };
@@ -146,7 +146,7 @@ TEST(StageOrders, TheSecondGravityStageFindsItsOwnEquilibrium) {
     SolverSettings settings;
     settings.stages.resize(std::size_t(stages));
     for (StageSettings& stage : settings.stages) stage.method = method;
-    settings.stages.back().loads = Loads{Vec3(0.2, 0.0, 0.0), {}};
+    settings.stages.back().loads = Loads{Vec3(0.2, 0.0, 0.0), {}, {}};
     Simulation run(assembly, settings, 1, {});
     EXPECT_EQ(run.run(), RunEnd::finished) << run.failure();
     return run.state().pose[pose_width * std::size_t(run.model().body_of_block[2])];

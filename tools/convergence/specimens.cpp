@@ -190,7 +190,7 @@ Bed computed_bed(double eccentricity, int points) {
   settings.contact.points_per_side = points;
   settings.step.equilibrium_tolerance = 1e-10;
   StageSettings loaded;
-  loaded.loads = Loads{Vec3::Zero(), {{"top", {0, 0, -bed_force}, Vec3(eccentricity * bed_side, 0, 0)}}};
+  loaded.loads = Loads{Vec3::Zero(), {{"top", {0, 0, -bed_force}, Vec3(eccentricity * bed_side, 0, 0)}}, {}};
   settings.stages = {loaded};
   const Assembly assembly = block_on_a_bed(0.6);
   Simulation run(assembly, settings, 1, {});
@@ -205,7 +205,7 @@ double torsion_capacity(int points) {
   SolverSettings settings = undamped(Vec3::Zero());
   settings.contact.points_per_side = points;
   StageSettings pressed;
-  pressed.loads = Loads{Vec3::Zero(), {{"top", {0, 0, -bed_force}, Vec3(0, 0, 0)}}};
+  pressed.loads = Loads{Vec3::Zero(), {{"top", {0, 0, -bed_force}, Vec3(0, 0, 0)}}, {}};
   settings.stages = {pressed};
   Loads couple;  // at the level of the joint, so that it does not tip
   couple.forces = {{"top", {0, exact / a, 0}, Vec3(0.5 * a, 0, 0)}, {"top", {0, -exact / a, 0}, Vec3(-0.5 * a, 0, 0)}};
@@ -358,7 +358,7 @@ Push push_wall(double duration, double local) {
   settings.output.history_every = std::max(2e-4, duration / 4000.0);
   settings.output.fields_every = settings.output.checkpoint_every = 0.0;
   StageSettings loaded, pushed;
-  loaded.loads = Loads{Vec3::Zero(), {{"beam", {0, 0, -1e5}, {}}}};
+  loaded.loads = Loads{Vec3::Zero(), {{"beam", {0, 0, -1e5}, {}}}, {}};
   pushed.kind = StageSettings::Kind::free;
   pushed.duration = duration;
   pushed.drives = {{"beam", Vec3::Zero(), {0.01, 0, 0}}};

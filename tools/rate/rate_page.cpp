@@ -109,6 +109,9 @@ std::string rate_page(const Rating& rating, const RateRequest& request, const Ra
       "weight acts as it is. It is the largest at which equilibrium was found.");
   body += figure(influence_chart(rating, request));
   body += heading("Worst places") + table(rating, request);
+  if (!words.passages.empty())
+    body += heading("Repeated passages") + figure(ratchet_chart(words.passages)) +
+            paragraph(passages_text(words.passages, rating.places[rating.worst.front()].factor));
   if (!words.beside.empty()) body += heading("Beside it") + paragraph(words.beside);
   if (!words.remarks.empty()) body += heading("Assumptions") + list(words.remarks);
   body += pictures_section(words.pictures, "The worst place");

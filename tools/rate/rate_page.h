@@ -2,15 +2,16 @@
 #pragma once
 #include <string>
 
-#include "tools/rate/rate.h"
+#include "tools/rate/passages.h"
 #include "viz/page/html.h"
 
 namespace voussoir {
 
 /// What is said beside the figures.
 struct RatePageWords {
-  std::string title;                  // "Rating: prestwood"
-  std::string beside = {};            // another method's figures; may be empty
+  std::string title;        // "Rating: prestwood"
+  std::string beside = {};  // another method's figures; may be empty
+  std::vector<PassageSeries> passages = {};
   std::vector<std::string> remarks;   // how the bridge was loaded
   std::vector<PagePicture> pictures;  // of the worst place
 };

@@ -9,6 +9,7 @@
 #include "solver/base/json_file.h"
 #include "solver/base/suggestion.h"
 #include "tools/rate/mexe_file.h"
+#include "tools/rate/passages.h"
 #include "tools/rate/rate_page.h"
 #include "tools/rate/rate_report.h"
 #include "tools/rate/strip.h"
@@ -139,6 +140,22 @@ std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, co
   return pictures;
 }
 
+/// Shares of the adequacy factor with which the vehicle passes; the usual rule takes the half.
+constexpr double passage_shares[] = {0.3, 0.5, 0.6, 0.7, 0.8, 0.9};
+
+std::vector<PassageSeries> pass_repeatedly(const Case& c, const Assembly& assembly, const RateRequest& request,
+                                           const Rating& rating, int count, bool quiet) {
+  const RatedPlace& worst = rating.places[rating.worst.front()];
+  PassageRequest asked;
+  asked.rate = request;
+  asked.rate.lanes = {worst.place.y};
+  asked.passages = count;
+  for (const double share : passage_shares) asked.factors.push_back(share * worst.factor);
+  return passages(c, assembly, asked, [&](const std::string& text) {
+    if (!quiet) fmt::print(stderr, "{}\n", text);
+  });
+}
+
 int rate_bridge(const std::vector<std::string>& arguments) {
   CommandLine line("rate", "rate CASE --vehicle NAME [--vehicle …] [-o DIR] [--strip W]",
                    "voussoir rate cases/bridges/prestwood.toml --vehicle cs454-normal-single --strip 0.3 -o rated");
@@ -166,6 +183,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
       "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05), "of the factor")(
       "mexe", options::value<std::string>()->value_name("FILE"),
       "figures of the MEXE method for the arch (docs/rating.md); printed beside the rating")(
+      "passages", whole_option("passages", 3, 10'000)->value_name("N"),
+      "drive the first vehicle over so many times, with shares of its adequacy factor: what settles, what grows")(
       "no-runs", "leave out the runs of the worst place and their pictures");
   line.positional = line.required = {"CASE"};
   options::variables_map values;
@@ -188,15 +207,21 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   const std::string name = fs::path(file).stem().string();
   const std::string out = values.count("output") ? values["output"].as<std::string>() : "rate-" + name;
   words.title = "Rating: " + name;
-  const Rating rating =
-      rate(c, make_assembly(c), request, [&](const RatedPlace& at, std::size_t done, std::size_t all) {
-        if (!quiet) fmt::print(stderr, "{}\n", now_text(at, request, done, all));
-      });
+  const Assembly assembly = make_assembly(c);
+  const Rating rating = rate(c, assembly, request, [&](const RatedPlace& at, std::size_t done, std::size_t all) {
+    if (!quiet) fmt::print(stderr, "{}\n", now_text(at, request, done, all));
+  });
   make_folder_of(out + "/rate.json");
   write_json(out + "/rate.json", rating_json(rating, request));
   write_atomically(out + "/rate.csv", rating_csv(rating, request));
   make_folder_of(out + "/images/rate.svg");
   write_atomically(out + "/images/rate.svg", influence_chart(rating, request));
+  if (values.count("passages")) {
+    words.passages = pass_repeatedly(c, assembly, request, rating, values["passages"].as<int>(), quiet);
+    write_atomically(out + "/passages.csv", passages_csv(words.passages));
+    write_atomically(out + "/images/ratchet.svg", ratchet_chart(words.passages));
+    if (!quiet) fmt::print("{}\n", passages_text(words.passages, rating.places[rating.worst.front()].factor));
+  }
   if (!values.count("no-runs")) words.pictures = run_worst(c, request, rating, out, quiet);
   write_atomically(out + "/report.html", rate_page(rating, request, words));
   if (!quiet)

@@ -1,0 +1,77 @@
+// How series of passages are judged, where vehicles are put, and what a strip is made of.
+#include "tools/rate/passages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/folder.h"
+#include "tools/rate/strip.h"
+
+namespace voussoir::test {
+namespace VOUSSOIR_FILE {
+
+/// Displacements whose increments are those of a geometric series.
+std::vector<AfterPassage> geometric(int passages, double first, double ratio) {
+  std::vector<AfterPassage> after(1);
+  for (int n = 0; n < passages; ++n) {
+    after.push_back(after.back());
+    after.back().largest += first * std::pow(ratio, n);
+  }
+  return after;
+}
+
+TEST(Passages, SettleOrGrowByTheirIncrements) {
+  constexpr double none = 1e-6;
+  EXPECT_EQ(judge(geometric(12, 1e-3, 0.8), none), PassageEnd::settles);
+  EXPECT_EQ(judge(geometric(12, 1e-3, 0.9), none), PassageEnd::undecided);
+  EXPECT_EQ(judge(geometric(12, 1e-3, 0.98), none), PassageEnd::grows);
+  EXPECT_EQ(judge(geometric(12, 1e-3, 1.1), none), PassageEnd::grows);
+  EXPECT_EQ(judge(geometric(12, 1e-7, 1.0), none), PassageEnd::settles);  // less than counts
+  EXPECT_EQ(judge(geometric(2, 1e-3, 1.0), none), PassageEnd::undecided);
+  std::vector<AfterPassage> slides = geometric(12, 0.0, 1.0);  // at one place, while joints slide on
+  for (std::size_t n = 0; n < slides.size(); ++n) slides[n].slips = 1e-4 * double(n);
+  EXPECT_EQ(judge(slides, none), PassageEnd::grows);
+}
+
+Vehicle two_axles() {
+  return parse_vehicle(
+      "[vehicle]\ntitle = \"a\"\nsource = \"b\"\nkind = \"road\"\ntrack = 2.0\nwheel = [0.3, 0.4]\n"
+      "[[axle]]\nx = 0\nload = 1e5\n[[axle]]\nx = 2\nload = 5e4\n",
+      "lorry.toml");
+}
+
+TEST(Fronts, HaveEveryAxleOverTheSpansOnce) {
+  const std::vector<SpanExtent> spans = {{0, 4.0, 10.0}, {1, 12.0, 18.0}};
+  for (const bool right : {true, false}) {
+    const std::vector<double> at = fronts(two_axles(), spans, right, 0.5);
+    ASSERT_EQ(at.size(), 31u);  // 16 m in steps of half a metre, without both ends
+    EXPECT_NEAR(at.front(), right ? 4.5 : 2.5, 1e-12);
+    EXPECT_NEAR(at.back(), right ? 19.5 : 17.5, 1e-12);
+  }
+}
+
+TEST(PlacedVehicle, HasItsAxlesWhereItDrives) {
+  const auto middle = [](const RoadLoad& load) { return 0.5 * (load.area.x0 + load.area.x1); };
+  const std::vector<RoadLoad> right = loads_of(two_axles(), {7.0, 0.5, true}),
+                              left = loads_of(two_axles(), {7.0, 0.5, false});
+  ASSERT_EQ(right.size(), 4u);
+  EXPECT_NEAR(middle(right[0]), 7.0, 1e-12);
+  EXPECT_NEAR(middle(right[2]), 5.0, 1e-12);
+  EXPECT_NEAR(middle(left[2]), 9.0, 1e-12);
+  double sum = 0.0;
+  for (const RoadLoad& load : right) sum += load.pressure * load.area.area();
+  EXPECT_NEAR(sum, 1.5e5, 1e-6);
+  const std::vector<RoadLoad> strip = loads_on_strip(two_axles(), {7.0, 0.0, true}, 0.3, 3.0);
+  sum = 0.0;
+  for (const RoadLoad& load : strip) sum += load.pressure * load.area.area();
+  EXPECT_NEAR(sum, 1.5e5 * 0.3 / 3.0, 1e-6);
+}
+
+TEST(EffectiveWidth, IsWheelsAndACoverButNoMoreThanTheBridge) {
+  EXPECT_NEAR(effective_width(2.0, 0.4, 10.0), 3.9, 1e-12);
+  EXPECT_NEAR(effective_width(2.0, 0.4, 3.0), 3.0, 1e-12);
+}
+
+}  // namespace VOUSSOIR_FILE
+}  // namespace voussoir::test
