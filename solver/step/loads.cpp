@@ -112,7 +112,8 @@ const Road& LoadPlaces::road() const {
 
 void LoadPlaces::add_road(const RoadLoad& load, bool end, LoadsAtWork& work) const {
   const RoadArea wanted = on_the_way(load.area, road().extent());
-  if (wanted.x1 <= wanted.x0) return;
+  constexpr double nothing = 1e-9;  // m
+  if (wanted.x1 - wanted.x0 < nothing) return;
   const RoadShare share = road().under(wanted);
   const double pressure = load.pressure * evened(share, wanted, load, road().extent());
   for (const RoadShare::OfBlock& of : share.blocks) {

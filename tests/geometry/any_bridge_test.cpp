@@ -315,6 +315,7 @@ TEST(BridgeGenerator, TheWholeKeySpaceIsBuiltOrRefusedByName) {
     for (const Choice& c : keys.choices)
       in.choices.at(c.name) = c.words[std::size_t(draw.whole(0, int(c.words.size()) - 1))];
     in.choices.at("backfill") = draw.whole(0, 1) ? "rigid" : "none";
+    in.choices.at("extent") = draw.whole(0, 3) ? "whole" : "strip";  // most draws are too crooked for a strip
     in.values["block_scale"] = 6.0;
     for (const char* key :
          {"block_length", "block_width", "block_height", "fill_length", "fill_width", "fill_height", "infill_length",

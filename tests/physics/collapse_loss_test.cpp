@@ -40,7 +40,7 @@ Collapse under_a_wheel(const Assembly& assembly, double displacement, double to)
   settings.guides = {pad};
   StageSettings collapse;
   collapse.kind = StageSettings::Kind::collapse;
-  collapse.loads = Loads{Vec3::Zero(), {{"load", Vec3(0.0, 0.0, -1000.0), {}}}};
+  collapse.loads = Loads{Vec3::Zero(), {{"load", Vec3(0.0, 0.0, -1000.0), {}}}, {}};
   collapse.collapse.to = to;
   collapse.collapse.tolerance = 1.0;
   collapse.collapse.displacement = displacement;
@@ -89,7 +89,7 @@ Collapse of_a_stack(const Loads& pattern) {
 TEST(CollapseLoss, OfTheLoadedStoneAloneIsLocal) {
   const Assembly assembly = generated("column", {{"blocks", 3}});
   const double weight = 9.81 * assembly.blocks[2].mass;
-  const Collapse c = of_a_stack({Vec3::Zero(), {{"top", Vec3(weight, 0.0, 0.0), {}}}});
+  const Collapse c = of_a_stack({Vec3::Zero(), {{"top", Vec3(weight, 0.0, 0.0), {}}}, {}});
   ASSERT_TRUE(c.found) << c.account;
   const double tan_friction = std::tan(assembly.materials[0].friction_angle);
   EXPECT_NEAR(c.multiplier, tan_friction, 0.02 + 0.02 * tan_friction);
@@ -103,7 +103,7 @@ TEST(CollapseLoss, OfTheLoadedStoneAloneIsLocal) {
 /// All three go together: no part is left that could stand.
 TEST(CollapseLoss, OfTheWholeStackIsGlobal) {
   const Assembly assembly = generated("column", {{"blocks", 3}});
-  const Collapse c = of_a_stack({Vec3(9.81, 0.0, 0.0), {}});
+  const Collapse c = of_a_stack({Vec3(9.81, 0.0, 0.0), {}, {}});
   ASSERT_TRUE(c.found) << c.account;
   EXPECT_FALSE(c.loss.local);
   EXPECT_FALSE(c.loss.rest_stands.has_value());

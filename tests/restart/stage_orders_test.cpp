@@ -162,7 +162,7 @@ TEST(StageOrders, NoStackStandsUnderTwoGSideways) {
   const Assembly assembly = generated("column", {{"blocks", 3}, {"kn", 1e9}, {"ks", 1e9}});
   StageSettings first, second;
   first.method = second.method = StageSettings::Method::relaxation;
-  second.loads = Loads{Vec3(20.0, 0.0, 0.0), {}};
+  second.loads = Loads{Vec3(20.0, 0.0, 0.0), {}, {}};
   SolverSettings settings;
   settings.stages = {first, second};
   Simulation run(assembly, settings, 1, {});

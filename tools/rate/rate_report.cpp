@@ -41,7 +41,9 @@ std::string moving_text(const Rating& rating, const RatedPlace& at) {
   if (!at.found) return "it stands";
   const std::string spans = spans_text(rating, at);
   if (at.fill_alone) return "the fill gives way under it, the vaults stand";
-  return fmt::format("{}{}", at.moving, spans.empty() ? "" : "; vaults of spans " + spans);
+  if (spans.empty()) return at.moving;
+  return fmt::format("{}; {} {}", at.moving,
+                     spans.find(' ') == std::string::npos ? "the vault of span" : "vaults of spans", spans);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/vtk/series.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
@@ -16,6 +17,7 @@
 #include "tools/run/run_directory.h"
 #include "tools/run/run_session.h"
 #include "tools/voussoir/options.h"
+#include "viz/render.h"
 
 namespace voussoir {
 
@@ -111,6 +113,22 @@ std::string now_text(const RatedPlace& at, const RateRequest& request, std::size
                      request.vehicles[at.vehicle].name, at.place.x, at.place.y, factor_text(at, request));
 }
 
+/// The section along the bridge under the vehicle, from the last stored frame.
+std::string draw_working(const Case& c, const std::string& folder) {
+  const VtkSeries series(folder);
+  const std::string png = folder + "/images/working_front.png";
+  if (series.blocks().frames().empty()) return png;
+  const auto& last = series.blocks().frames().back();
+  RenderOptions o;
+  o.view = "front", o.colour = "displacement", o.cut = "y", o.hide = {};
+  o.amplification = 50.0, o.crack_mm = 0.1;
+  o.title = "Under the vehicle, " + fs::path(c.path).stem().string();
+  render_picture(PictureFiles{series.blocks().file_path(last), series.joints().file_at(last.time),
+                              series.fill().file_at(last.time)},
+                 o, png);
+  return png;
+}
+
 /// The worst place of all once more, as a run with its pictures and its page. Returns the pictures.
 std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, const Rating& rating,
                                    const std::string& out, bool quiet) {
@@ -130,12 +148,13 @@ std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, co
     if (!quiet)
       fmt::print("{}: {}\n", folder, to_collapse ? "to collapse at the worst place" : "under the vehicle as it is");
     RunSession(run).run();
-    for (const char* name : {"end.png", "deformed.png", "damage.png"}) {
-      std::error_code ignored;
-      const std::string file = folder + "/images/" + name;
-      if (fs::exists(file, ignored))
-        pictures.push_back({to_collapse ? "Beyond the collapse load" : "Under the vehicle", name, read_text(file)});
-    }
+    const std::string file = to_collapse ? folder + "/images/mechanism_front.png" : draw_working(more, folder);
+    std::error_code ignored;
+    if (fs::exists(file, ignored))
+      pictures.push_back({to_collapse ? "Beyond the collapse load" : "Under the vehicle as it is",
+                          to_collapse ? "worst: displacements, and joints of the mechanism in red"
+                                      : "working: displacements; joints that opened or slipped more than 0.1 mm in red",
+                          read_text(file)});
   }
   return pictures;
 }
