@@ -5,7 +5,7 @@ namespace voussoir {
 
 std::vector<Parameter> any_bridge_keys() {
   return {
-      {"width", 8.0, 0.1, 40.0, "m", "from face to face of the spandrel walls, or of the strip"},
+      {"width", 8.0, 1.0, 40.0, "m", "from face to face of the spandrel walls"},
       {"skew", 0.0, -45.0, 45.0, "deg",
        "of the supports against the square to the bridge; lengths along it are measured square to them"},
       {"gradient", 0.0, -12.0, 12.0, "%", "rise of the deck over the way along the bridge, from left to right"},
@@ -27,6 +27,7 @@ std::vector<Parameter> any_bridge_keys() {
        "of walls behind the built part of an abutment; 0: spandrel_thickness_bottom"},
       {"leaf_thickness_even", 0.3, 0.05, 5.0, "m", "leaf: thickness in courses 0, 2, … from the base"},
       {"leaf_thickness_odd", 0.5, 0.05, 5.0, "m", "leaf: thickness in courses 1, 3, …"},
+      {"strip_width", 0.3, 0.05, 5.0, "m", "across, of extent = strip"},
       {"block_scale", 1.0, 0.25, 6.0, "-", "factor on all block sizes"},
       {"voussoir_length", 0.4, 0.03, 10.0, "m", "voussoirs along the intrados, at most"},
       {"voussoir_width", 0.6, 0.05, 10.0, "m", "voussoirs across"},
@@ -69,7 +70,8 @@ std::vector<Choice> any_bridge_choices() {
        "chord (English) or everywhere (French)"},
       {"extent",
        {"whole", "strip"},
-       "strip: in plane strain, without walls along the faces and parapets, between fixed smooth walls"},
+       "strip: strip_width of it in plane strain, without walls along the faces and parapets, between fixed smooth "
+       "walls"},
       {"stiffness", {"moduli", "table"}, "joints from E/dc and G/dc, or from the table kn_, ks_ per component"},
       {"ring_bond",
        {"mortar", "none"},

@@ -376,6 +376,7 @@ void make_strip(Bridge& bridge, const GeneratorInput& in) {
         "\"whole\"",
         in("skew"));
   bridge.strip = true;
+  bridge.width = in("strip_width");
   bridge.spandrel_bottom = bridge.spandrel_top = bridge.wing_wall_thickness = 0.0;
   bridge.parapet_height = bridge.string_height = 0.0;
   bridge.internal.number = 0;

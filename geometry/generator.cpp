@@ -208,7 +208,7 @@ void check_named_materials(const Generator& generator, const GeneratorInput& inp
 bool is_dimension(const Parameter& p) {
   static const std::vector<std::string> cuts = {"voussoir_",   "block_",    "fill_length", "fill_width",
                                                 "fill_height", "fill_edge", "infill_",     "leaf_",
-                                                "sliver_",     "base_",     "restraint_"};
+                                                "sliver_",     "base_",     "restraint_",  "strip_"};
   const std::string key = p.name.substr(p.name.rfind('.') + 1);
   const bool of_a_test = p.name.starts_with("beam.");
   return p.unit == "m" && !of_a_test &&

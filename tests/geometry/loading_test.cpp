@@ -67,7 +67,7 @@ TEST(LoadBeam, IsRefusedWhereItCannotLie) {
 /// The vault, the fill and the whole are their sections times the width; nothing rubs on the walls.
 TEST(Strip, IsItsSectionTimesItsWidth) {
   for (const char* backfill : {"rigid", "deformable"}) {
-    GeneratorInput in = one_span(backfill, {{"width", 0.4}});
+    GeneratorInput in = one_span(backfill, {{"strip_width", 0.4}});
     in.choices["extent"] = "strip";
     const Assembly assembly = built(in);
     const double r0 = 4.0, r1 = 4.5, deck = 4.5 + 0.5, length = 16.0, backing = 1.0;
@@ -106,10 +106,10 @@ TEST(Strip, IsItsSectionTimesItsWidth) {
 }
 
 TEST(Strip, IsSquareAndSolid) {
-  GeneratorInput skew = one_span("rigid", {{"width", 0.4}, {"skew", 10.0}});
+  GeneratorInput skew = one_span("rigid", {{"strip_width", 0.4}, {"skew", 10.0}});
   skew.choices["extent"] = "strip";
   EXPECT_NE(message_of<InputError>([&] { built(skew); }).find("skew"), std::string::npos);
-  GeneratorInput leaf = one_span("rigid", {{"width", 0.4}});
+  GeneratorInput leaf = one_span("rigid", {{"strip_width", 0.4}});
   leaf.choices["extent"] = "strip", leaf.choices["abutment.left.makeup"] = "leaf";
   EXPECT_NE(message_of<InputError>([&] { built(leaf); }).find("makeup"), std::string::npos);
 }

@@ -33,7 +33,7 @@ std::string repeated(const std::string& text, int times) {
 const std::vector<Wrong> table = {
     {"LoadOfWhat",
      head + gravity + "load = [{ force = [0, 0, 1] }]\n",
-     {"c.toml:5:", "either 'acceleration'", "'group' and 'force'"}},
+     {"c.toml:5:", "one of 'acceleration'", "'group' with 'force'", "'road' with 'pressure'"}},
     {"LoadWithoutForce", head + gravity + "load = [{ group = \"top\" }]\n", {"c.toml:5:", "needs 'force'", "in N"}},
     {"LoadUnit", head + gravity + "load = [{ acceleration = [0, 0, 98100] }]\n", {"c.toml:5: 'load'", "unit"}},
     {"CollapseWithoutPattern", head + "[[stage]]\nkind = \"collapse\"\n", {"c.toml:3:", "needs 'load'", "'tilt'"}},

@@ -36,19 +36,9 @@ double by_limit_analysis(const Assembly& assembly, const Road& road, double x) {
 }
 
 double by_program(const Assembly& assembly, double x, double expected, int threads) {
-  StageSettings stage;
-  stage.kind = StageSettings::Kind::collapse;
-  stage.loads = Loads();
-  stage.loads->road = {at(x)};
-  stage.collapse.to = 2.0 * expected;
-  stage.collapse.tolerance = 0.01 * expected;
-  stage.collapse.confirm = 0.0;
-  SolverSettings settings;
-  settings.step.equilibrium_tolerance = 1e-5;
-  settings.stages = {StageSettings{}, stage};
-  Simulation run(assembly, settings, threads, {});
-  if (run.run() != RunEnd::finished || !run.collapse().found) throw RunError("no collapse load: {}", run.failure());
-  return 0.5 * (run.collapse().multiplier + run.collapse().above);
+  Loads loads;
+  loads.road = {at(x)};
+  return collapse_multiplier(assembly, loads, expected, threads);
 }
 
 std::vector<Finding> climb_axle(int threads) {

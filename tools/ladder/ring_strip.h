@@ -117,13 +117,12 @@ inline StripLoad load_on(const Assembly& assembly, const RingStrip& strip, doubl
   return load;
 }
 
-/// The program's own collapse load as a multiplier of the load, to a hundredth of what is expected. Throws RunError
-/// when it finds none.
-inline double collapse_multiplier(const Assembly& assembly, const StripLoad& load, double expected, int threads) {
+/// The program's own collapse load as a multiplier of loads, to a hundredth of what is expected. Throws RunError when
+/// it finds none.
+inline double collapse_multiplier(const Assembly& assembly, const Loads& loads, double expected, int threads) {
   StageSettings stage;
   stage.kind = StageSettings::Kind::collapse;
-  stage.loads = Loads();
-  stage.loads->forces = {{load.group, load.force, load.at}};
+  stage.loads = loads;
   stage.collapse.to = 2.0 * expected;
   stage.collapse.tolerance = 0.01 * expected;
   stage.collapse.confirm = 0.0;
@@ -133,6 +132,11 @@ inline double collapse_multiplier(const Assembly& assembly, const StripLoad& loa
   Simulation run(assembly, settings, threads, {});
   if (run.run() != RunEnd::finished || !run.collapse().found) throw RunError("no collapse load: {}", run.failure());
   return 0.5 * (run.collapse().multiplier + run.collapse().above);
+}
+inline double collapse_multiplier(const Assembly& assembly, const StripLoad& load, double expected, int threads) {
+  Loads loads;
+  loads.forces = {{load.group, load.force, load.at}};
+  return collapse_multiplier(assembly, loads, expected, threads);
 }
 
 }  // namespace voussoir::ladder

@@ -52,7 +52,7 @@ std::vector<RoadLoad> loads_at(const PassageRequest& request, const Case& c, con
   const Vehicle& vehicle = request.rate.vehicles.front();
   std::vector<RoadLoad> loads =
       request.rate.effective_width
-          ? loads_on_strip(vehicle, place, c.generator_input("width"), *request.rate.effective_width)
+          ? loads_on_strip(vehicle, place, c.generator_input("strip_width"), *request.rate.effective_width)
           : loads_of(vehicle, place);
   for (RoadLoad& load : loads) load.pressure *= factor;
   return loads;

@@ -47,7 +47,7 @@ bool same_both_ways(const Vehicle& vehicle) {
 std::vector<RoadLoad> road_loads(const RateRequest& request, const Case& c, const RatedPlace& at) {
   const Vehicle& vehicle = request.vehicles[at.vehicle];
   if (!request.effective_width) return loads_of(vehicle, at.place);
-  return loads_on_strip(vehicle, at.place, c.generator_input("width"), *request.effective_width);
+  return loads_on_strip(vehicle, at.place, c.generator_input("strip_width"), *request.effective_width);
 }
 
 StageSettings collapse_stage(const RateRequest& request, const Case& c, const RatedPlace& at) {
@@ -155,6 +155,13 @@ class Sweep {
 };
 
 }  // namespace
+
+std::size_t worst_of_all(const Rating& rating) {
+  std::size_t worst = rating.worst.front();
+  for (const std::size_t index : rating.worst)
+    if (is_worse(rating.places[index], rating.places[worst])) worst = index;
+  return worst;
+}
 
 std::vector<SpanExtent> span_extents(const Assembly& assembly) {
   std::map<std::int32_t, SpanExtent> found;

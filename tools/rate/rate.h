@@ -50,6 +50,9 @@ struct Rating {
   double gravity_seconds = 0.0;
 };
 
+/// Index into places of the worst of all vehicles.
+std::size_t worst_of_all(const Rating& rating);
+
 /// The vaults over which a load may stand, from left to right. Throws InputError where there is none.
 std::vector<SpanExtent> span_extents(const Assembly& assembly);
 

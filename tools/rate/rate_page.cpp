@@ -63,12 +63,7 @@ std::string table(const Rating& rating, const RateRequest& request) {
 }
 
 std::string first_sentence(const Rating& rating, const RateRequest& request) {
-  std::size_t least = rating.worst.front();
-  for (const std::size_t index : rating.worst)
-    if (rating.places[index].found &&
-        (!rating.places[least].found || rating.places[index].factor < rating.places[least].factor))
-      least = index;
-  const RatedPlace& at = rating.places[least];
+  const RatedPlace& at = rating.places[worst_of_all(rating)];
   const Vehicle& vehicle = request.vehicles[at.vehicle];
   if (!at.found)
     return fmt::format("The bridge bears {:g} times every vehicle at every place that was looked at.", request.most);

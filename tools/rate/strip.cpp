@@ -28,7 +28,7 @@ Case strip_case(const Case& c, double width) {
   GeneratorInput& in = strip.generator_input;
   in.choices["extent"] = "strip";
   in.choices["backfill"] = "deformable";
-  in.values["width"] = width;
+  in.values["strip_width"] = width;
   in.values["skew"] = 0.0;
   in.values["beam.length"] = 0.0;
   for (auto& [key, word] : in.choices)

@@ -132,12 +132,7 @@ std::string draw_working(const Case& c, const std::string& folder) {
 /// The worst place of all once more, as a run with its pictures and its page. Returns the pictures.
 std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, const Rating& rating,
                                    const std::string& out, bool quiet) {
-  std::size_t least = rating.worst.front();
-  for (const std::size_t index : rating.worst)
-    if (rating.places[index].found &&
-        (!rating.places[least].found || rating.places[index].factor < rating.places[least].factor))
-      least = index;
-  const RatedPlace& at = rating.places[least];
+  const RatedPlace& at = rating.places[worst_of_all(rating)];
   std::vector<PagePicture> pictures;
   for (const bool to_collapse : {true, false}) {
     const Case more = with_vehicle(c, request, at, to_collapse);
