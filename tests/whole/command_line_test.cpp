@@ -9,9 +9,9 @@
 namespace voussoir::test {
 namespace VOUSSOIR_FILE {
 
-const std::vector<std::string> verb_names = {"generate", "import", "export", "info",     "run",       "resume",
-                                             "modal",    "render", "check",  "step",     "effects",   "diagnose",
-                                             "hide",     "motion", "report", "campaign", "fragility", "vehicles"};
+const std::vector<std::string> verb_names = {
+    "generate", "import",   "export", "info",   "run",    "resume",   "modal",     "render",   "check", "step",
+    "effects",  "diagnose", "hide",   "motion", "report", "campaign", "fragility", "vehicles", "rate"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

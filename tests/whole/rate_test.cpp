@@ -14,7 +14,8 @@ const std::string small_bridge = R"([bridge]
 generator = "bridge"
 width = 3.0
 block_scale = 2.0
-fill_edge = 0.6
+fill_edge = 0.8
+fill_over_crown = 0.2
 backfill = "deformable"
 abutments = "restrained"
 
@@ -22,7 +23,7 @@ abutments = "restrained"
 shape = "segmental"
 clear_span = 3.0
 rise = 0.75
-ring_thickness = 0.25
+ring_thickness = 0.12
 
 [bridge.abutment.left]
 length = 1.5
@@ -47,7 +48,7 @@ kind = "road"
 
 [[axle]]
 x = 0.0
-load = 50e3
+load = 1000e3
 track = 1.8
 wheel = [0.3, 0.3]
 )";
@@ -74,8 +75,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST(Rate, SweepsAStripAndSaysWhereItIsWorst) {
   const Bridge folder;
-  const Outcome outcome =
-      rate(folder, {"--strip", "0.3", "--step", "0.75", "--refine", "1", "--tolerance", "0.25", "--no-runs"});
+  const Outcome outcome = rate(
+      folder, {"--strip", "0.4", "--step", "0.8", "--refine", "1", "--most", "4", "--tolerance", "0.25", "--no-runs"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("adequacy factor"), std::string::npos) << outcome.out;
   const nlohmann::json json = read_json(folder / "rated/rate.json");
