@@ -84,7 +84,7 @@ const std::vector<std::string>& component_names() {
 }
 
 const std::vector<std::string>& joint_law_kinds() {
-  static const std::vector<std::string> names = {"brittle", "softening", "elastic", "tie"};
+  static const std::vector<std::string> names = {"brittle", "softening", "elastic", "tie", "composite"};
   return names;
 }
 

@@ -57,7 +57,7 @@ struct Material {
 /// one stone to another that only pulls: kn, tension (where it yields) and prestress times the area of its polygon are
 /// its axial stiffness, yield force and pretension; the other strengths are not used.
 struct JointLaw {
-  enum class Kind : std::int32_t { brittle, softening, elastic, tie };
+  enum class Kind : std::int32_t { brittle, softening, elastic, tie, composite };
   Kind kind = Kind::brittle;
   double tension = 0.0;                                // Pa
   double cohesion = 0.0;                               // Pa
@@ -65,8 +65,15 @@ struct JointLaw {
   double residual_cohesion = 0.0;                      // Pa, once the bond is lost
   double residual_friction_angle = 0.0;                // rad, once the bond is lost
   double dilation_angle = 0.0;                         // rad
-  std::array<double, 2> fracture_energy = {0.0, 0.0};  // GI, GII, J/m2; softening only
+  std::array<double, 2> fracture_energy = {0.0, 0.0};  // GI, GII, J/m2; softening and composite
   double prestress = 0.0;                              // Pa, in the placement as built; tie only
+  // Composite only (docs/theory/joints.md):
+  double compressive_strength = 0.0;  // Pa; 0: it never crushes
+  double compressive_energy = 0.0;    // J/m2, beyond the peak and above the residual strength
+  double compressive_peak = 0.0;      // m, inelastic closure at the strength; 0: as much as the elastic one
+  double cap_shear = 9.0;             // weight of the shear in the cap
+  double dilation_length = 0.0;       // m, slip over which the dilation fades; 0: it does not
+  double dilation_pressure = 0.0;     // Pa, beyond which there is none; 0: at any
   bool operator==(const JointLaw&) const = default;
 };
 const std::vector<std::string>& joint_law_kinds();  // names in the order of JointLaw::Kind

@@ -6,6 +6,7 @@
 #include "geometry/rings.h"
 #include "geometry/stiffness.h"
 #include "io/case/case.h"
+#include "io/case/composite_joints.h"
 #include "io/hdf5/assembly_file.h"
 #include "solver/base/error.h"
 
@@ -114,6 +115,7 @@ Assembly make_assembly(const Case& c) {
         done.erase(found);
     }
   });
+  in_case(c, [&] { check_composite_joints(assembly); });
   assembly.case_text = c.text;
   in_case(c, [&] {
     attach_sensors(assembly, c.sensors);

@@ -11,6 +11,7 @@
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
+#include "solver/model/laws.h"
 
 namespace voussoir {
 
@@ -141,6 +142,44 @@ std::array<std::string, 2> split_pair(const TableReader& joints, const std::stri
   return any;
 }
 
+const std::vector<std::string> composite_keys = {"compressive_strength", "compressive_energy",
+                                                 "compressive_peak",     "cap_shear",
+                                                 "dilation_length",      "dilation_pressure"};
+
+/// What only composite joints have.
+void read_composite(TableReader& table, JointLaw& law) {
+  if (law.kind != JointLaw::Kind::composite) {
+    for (const std::string& key : composite_keys)
+      if (table.has(key))
+        table.fail(key, "is for joints with kind = \"composite\": set that kind, or leave the key out");
+    return;
+  }
+  law.dilation_length = table.number("dilation_length", 0.0, {0.0, 1.0, "m"});
+  law.dilation_pressure = table.number("dilation_pressure", 0.0, {0.0, 1e10, "Pa"});
+  if (law.dilation_angle > law.friction_angle || law.dilation_angle > law.residual_friction_angle)
+    table.fail(
+        "dilation_angle",
+        fmt::format("is {} degrees: with kind = \"composite\" it must not be more than the friction angle or the "
+                    "residual friction angle, {} and {} degrees",
+                    degrees_text(law.dilation_angle), degrees_text(law.friction_angle),
+                    degrees_text(law.residual_friction_angle)));
+  if (!table.has("compressive_strength")) {
+    for (const char* key : {"compressive_energy", "compressive_peak", "cap_shear"})
+      if (table.has(key)) table.fail(key, "needs 'compressive_strength' in Pa: without it these joints never crush");
+    return;
+  }
+  law.compressive_strength = table.number("compressive_strength", 0.0, {0.0, 1e13, "Pa", true});
+  law.compressive_energy = table.required_number("compressive_energy", {0.0, 1e12, "J/m2", true});
+  law.compressive_peak = table.number("compressive_peak", 0.0, {0.0, 1.0, "m"});
+  law.cap_shear = table.number("cap_shear", law.cap_shear, {0.0, 1e3, "-"});
+  const double begin = CrushingCurve::begin * law.compressive_strength;
+  if (law.tension > begin)
+    table.fail("compressive_strength",
+               fmt::format("is {:g} Pa, so that the cap begins at a third of it, {:g} Pa, below the tensile strength, "
+                           "{:g} Pa: raise it to {:g} Pa at least, or lower 'tensile_strength'",
+                           law.compressive_strength, begin, law.tension, law.tension / CrushingCurve::begin));
+}
+
 /// Strength of a joint table. What it leaves out is the weakest of the materials', brittle, with no cohesion left.
 JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
   JointLaw law;
@@ -167,9 +206,11 @@ JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
   law.dilation_angle = angle("dilation_angle", 0.0);
   const bool softens = table.has("fracture_energy");
   std::vector<std::string> kinds = joint_law_kinds();
-  kinds.pop_back();  // a tie is no joint
-  law.kind = JointLaw::Kind(
-      table.word("kind", kinds, std::size_t(softens ? JointLaw::Kind::softening : JointLaw::Kind::brittle)));
+  constexpr auto tie = std::size_t(JointLaw::Kind::tie);
+  kinds.erase(kinds.begin() + tie);  // it is no joint
+  const std::size_t kind =
+      table.word("kind", kinds, std::size_t(softens ? JointLaw::Kind::softening : JointLaw::Kind::brittle));
+  law.kind = JointLaw::Kind(kind < tie ? kind : kind + 1);
   if (softens) {
     const auto energy = table.numbers("fracture_energy", 2, {0.0, 1e9, "J/m2"});
     law.fracture_energy = {energy[0], energy[1]};
@@ -177,6 +218,14 @@ JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
   const bool softening = law.kind == JointLaw::Kind::softening;
   if (softening && !(law.fracture_energy[0] > 0.0 && law.fracture_energy[1] > 0.0))
     table.fail("needs 'fracture_energy' = [GI, GII] in J/m2, both above 0, because kind is \"softening\"");
+  const bool bonded = law.tension > 0.0 || law.cohesion > law.residual_cohesion;
+  if (law.kind == JointLaw::Kind::composite && bonded &&
+      !(law.fracture_energy[0] > 0.0 && law.fracture_energy[1] > 0.0))
+    table.fail(
+        "needs 'fracture_energy' = [GI, GII] in J/m2, both above 0, because kind is \"composite\" and its joints have "
+        "a "
+        "bond (tensile_strength, cohesion)");
+  read_composite(table, law);
   return law;
 }
 
@@ -205,6 +254,7 @@ void read_joint(TableReader& table, const std::vector<Material>& materials, Gene
   for (const char* key : {"tensile_strength", "cohesion", "friction_angle", "residual_cohesion",
                           "residual_friction_angle", "dilation_angle", "kind", "fracture_energy"})
     joint.has_law = table.has(key) || joint.has_law;
+  for (const std::string& key : composite_keys) joint.has_law = table.has(key) || joint.has_law;
   table.finish();
   if (joint.has_law) joint.law = read_law(table, materials);
 }

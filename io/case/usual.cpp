@@ -35,6 +35,9 @@ const std::map<std::string, Usual>& quantities() {
       {"shear modulus", {"for stone, brick and fill", "Pa", 2e6, 1e11, 4e7, 5e10, stress}},
       // From the weakest mortar to sound granite.
       {"strength", {"for mortar, brick and stone (or 0)", "Pa", 100.0, 5e7, 1e3, 3e7, strength}},
+      // From lime mortar to granite; crushing energies of masonry are some thousand J/m2.
+      {"compressive strength", {"for mortar, brick and stone", "Pa", 1e5, 4e8, 1e6, 2e8, strength}},
+      {"crushing energy", {"for mortar, brick and stone", "J/m2", 100.0, 1e6, 1e3, 1e5, {{1e3, "N/mm"}}}},
       {"friction", {"for dry joints and fill (or 0)", "degrees", 3.0, 89.0, 3.0, 60.0, {{degree, "radians"}}}},
       {"dilation", {"for joints (or 0)", "degrees", 0.5, 45.0, 0.5, 45.0, {{degree, "radians"}}}},
       // Modulus over thickness of a joint or spacing of joints: 5 MPa over 1 m to 60 GPa over a millimetre.
@@ -77,6 +80,8 @@ const std::map<std::string, std::string>& keys() {
                                                          {"joints.residual_friction_angle", "friction"},
                                                          {"joints.dilation_angle", "dilation"},
                                                          {"joints.fracture_energy", "fracture energy"},
+                                                         {"joints.compressive_strength", "compressive strength"},
+                                                         {"joints.compressive_energy", "crushing energy"},
                                                          {"analysis.gravity", "gravity"},
                                                          {"damping.ratio", "damping"},
                                                          {"modal.expected.period", "period"},

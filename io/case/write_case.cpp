@@ -94,6 +94,14 @@ void write_joints(TomlText& out, const Case& c) {
     out.set_angle("dilation_angle", law.dilation_angle);
     out.raw("fracture_energy",
             fmt::format("[{}, {}]", number_text(law.fracture_energy[0]), number_text(law.fracture_energy[1])));
+    if (law.kind != JointLaw::Kind::composite) continue;
+    out.set("dilation_length", law.dilation_length);
+    out.set("dilation_pressure", law.dilation_pressure);
+    if (law.compressive_strength == 0.0) continue;
+    out.set("compressive_strength", law.compressive_strength);
+    out.set("compressive_energy", law.compressive_energy);
+    out.set("compressive_peak", law.compressive_peak);
+    out.set("cap_shear", law.cap_shear);
   }
 }
 

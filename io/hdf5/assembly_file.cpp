@@ -177,6 +177,14 @@ void add_laws(Tables& tables, const Assembly& assembly) {
   tables.push_back({"laws/kind", "", 1, std::move(kind)});
   if (std::any_of(laws.begin(), laws.end(), [](const JointLaw& law) { return law.prestress != 0.0; }))
     tables.push_back({"laws/prestress", "Pa", 1, gather(laws, &JointLaw::prestress)});
+  if (std::none_of(laws.begin(), laws.end(), [](const JointLaw& l) { return l.kind == JointLaw::Kind::composite; }))
+    return;
+  tables.push_back({"laws/compressive_strength", "Pa", 1, gather(laws, &JointLaw::compressive_strength)});
+  tables.push_back({"laws/compressive_energy", "J/m2", 1, gather(laws, &JointLaw::compressive_energy)});
+  tables.push_back({"laws/compressive_peak", "m", 1, gather(laws, &JointLaw::compressive_peak)});
+  tables.push_back({"laws/cap_shear", "-", 1, gather(laws, &JointLaw::cap_shear)});
+  tables.push_back({"laws/dilation_length", "m", 1, gather(laws, &JointLaw::dilation_length)});
+  tables.push_back({"laws/dilation_pressure", "Pa", 1, gather(laws, &JointLaw::dilation_pressure)});
 }
 
 void add_materials(Tables& tables, const Assembly& assembly) {

@@ -230,6 +230,14 @@ void AssemblyReader::read_laws() {
              dilation = read_column("laws/dilation_angle", n);
   const auto energy = read_finite(file_, "laws/fracture_energy", {n, 2});
   const auto prestress = file_.has("laws/prestress") ? read_column("laws/prestress", n) : std::vector<double>(n, 0.0);
+  // Files without composite joints leave these out.
+  const std::pair<const char*, double JointLaw::*> composite[] = {
+      {"laws/compressive_strength", &JointLaw::compressive_strength},
+      {"laws/compressive_energy", &JointLaw::compressive_energy},
+      {"laws/compressive_peak", &JointLaw::compressive_peak},
+      {"laws/cap_shear", &JointLaw::cap_shear},
+      {"laws/dilation_length", &JointLaw::dilation_length},
+      {"laws/dilation_pressure", &JointLaw::dilation_pressure}};
   for (std::size_t i = 0; i < n; ++i) {
     assembly_.laws.push_back({JointLaw::Kind(kind[i]),
                               tension[i],
@@ -239,13 +247,32 @@ void AssemblyReader::read_laws() {
                               residual_friction[i],
                               dilation[i],
                               {energy[2 * i], energy[2 * i + 1]},
-                              prestress[i]});
+                              prestress[i],
+                              0.0,
+                              0.0,
+                              0.0,
+                              JointLaw{}.cap_shear,
+                              0.0,
+                              0.0});
     if (tension[i] < 0.0) file_.fail("laws/tension", fmt::format("row {}: {} Pa, expected 0 or more", i, tension[i]));
     if (cohesion[i] < 0.0)
       file_.fail("laws/cohesion", fmt::format("row {}: {} Pa, expected 0 or more", i, cohesion[i]));
     if (friction[i] < 0.0 || friction[i] >= 1.5707)
       file_.fail("laws/friction_angle", fmt::format("row {}: {} rad, expected 0 to 1.57", i, friction[i]));
   }
+  for (const auto& [name, member] : composite) {
+    if (!file_.has(name)) continue;
+    const auto values = read_column(name, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (values[i] < 0.0) file_.fail(name, fmt::format("row {}: {}, expected 0 or more", i, values[i]));
+      assembly_.laws[i].*member = values[i];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (const JointLaw& law = assembly_.laws[i]; law.compressive_strength > 0.0 && law.compressive_energy <= 0.0)
+      file_.fail("laws/compressive_energy",
+                 fmt::format("row {}: {} J/m2, expected above 0 where there is a compressive strength", i,
+                             law.compressive_energy));
 }
 
 /// For files that do not say which faces meet: the face of a block that looks along the joint, out of it, and is

@@ -94,6 +94,15 @@ void describe_components(Lines& out, const Assembly& assembly) {
     out.add("    {:<10} {:>8} blocks {:>14.1f} kg", component_names()[std::size_t(component)], sum.first, sum.second);
 }
 
+std::string composite_text(const JointLaw& law) {
+  std::string text = fmt::format("composite joints: tension {:g} Pa, cohesion {:g} Pa, GI {:g} and GII {:g} J/m2",
+                                 law.tension, law.cohesion, law.fracture_energy[0], law.fracture_energy[1]);
+  if (law.compressive_strength <= 0.0) return text + ", no crushing";
+  text += fmt::format("; compressive strength {:g} Pa, energy {:g} J/m2, shear {:g} times as heavy",
+                      law.compressive_strength, law.compressive_energy, law.cap_shear);
+  return law.compressive_peak > 0.0 ? text + fmt::format(", peak at {:g} m", law.compressive_peak) : text;
+}
+
 std::string describe_assembly(const std::string& path) {
   const Assembly assembly = read_assembly(path);
   Box box;
@@ -128,6 +137,8 @@ std::string describe_assembly(const std::string& path) {
   out.add("  {} joints, {:.2f} m2, {} laws, {} materials", assembly.joints.size(), area, assembly.laws.size(),
           assembly.materials.size());
   out.add("  {}", joints_text(assembly));
+  for (const JointLaw& law : assembly.laws)
+    if (law.kind == JointLaw::Kind::composite) out.add("  {}", composite_text(law));
   if (!assembly.blocks.empty() && !states_joints(path)) out.add("  the file states no joints: these were found");
   for (const std::string& line : fill_lines(assembly)) out.add("  {}", line);
   std::size_t objects = 0;

@@ -116,7 +116,8 @@ struct ContactPass {
       const LawConstants& law = pass.model->laws[std::size_t(batch.patch.law_of[lane])];
       s.residual_cohesion[lane] = law.residual_cohesion;
       s.residual_tangent[lane] = law.residual_tan_friction;
-      s.dilation[lane] = law.tan_dilation;
+      // By the time a patch is clipped anew it has slid so far that the dilation of composite joints has faded.
+      s.dilation[lane] = is_composite(law) && law.dilation_length > 0.0 ? 0.0 : law.tan_dilation;
     }
     return s;
   }

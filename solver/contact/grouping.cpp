@@ -107,6 +107,7 @@ template <class RowsOf>
 void move_memory(const Moves& moves, const RowsOf& rows_of, std::size_t branches, PatchMemory& memory) {
   move_rows(moves, 2, rows_of, memory.point.data());
   move_rows(moves, 2, rows_of, memory.point_rest.data());
+  if (!memory.point_crush.empty()) move_rows(moves, 3, rows_of, memory.point_crush.data());
   move_rows(moves, 1, rows_of, memory.broken.data());
   move_rows(moves, 3 * branches, rows_of, memory.point_branch.data());
   move_rows(moves, 2, one_each, memory.largest.data());

@@ -228,7 +228,8 @@ struct BatchPass {
       cohesion = select(broken, Side::splat(law.residual_cohesion), cohesion);
       tangent = select(broken, Side::splat(law.residual_tan_friction), tangent);
     }
-    return all(surely_bear<Side>(batch, e, tension, cohesion, tangent));
+    if (!all(surely_bear<Side>(batch, e, tension, cohesion, tangent))) return false;
+    return !crushes(law) || surely_whole<Side>(batch, law, e.u[0], e.u[1], e.u[2], e.u[3], e.u[4], e.u[5]);
   }
 
   /// All lanes are springs, and were: nothing of theirs changes but the last jump and the branches. Side by side.
@@ -328,7 +329,10 @@ struct BatchPass {
       using Side = decltype(side);
       using L = typename Side::Numbers;
       auto e = elastic_of<Side>(side_of<Side>(jump), slid);
-      const auto check = check_corners<Side>(*pass.model, batch, e, strength, Side::of(broken), Side::of(keep));
+      auto check = check_corners<Side>(*pass.model, batch, e, strength, Side::of(broken), Side::of(keep));
+      if (const auto crushed = Side::of(strength.crushes); any(crushed))
+        check.admissible = check.admissible & (~crushed | whole_lanes<Side>(*pass.model, batch, e.u[0], e.u[1], e.u[2],
+                                                                            e.u[3], e.u[4], e.u[5]));
       const auto opens = Side::of(broken) & check.open, closed = without(check.admissible, opens),
                  stays = opens | closed;
       if (any(opens)) follow_open<Side>(*pass.model, batch, e, opens, in.slip_of(k), mode, largest_openings());

@@ -105,4 +105,10 @@ inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, co
           u.z - memory.point[point_index(patch, i, 2, 1)]};
 }
 
+/// What is left of the stiffness of point i.
+inline double kept_at(const LawConstants& law, const Patch& patch, const PatchMemory& memory, int i) {
+  return memory.point_crush.empty() ? 1.0
+                                    : kept_stiffness(law, patch.kn, memory.point_crush[point_index(patch, i, 3, 0)]);
+}
+
 }  // namespace voussoir

@@ -61,6 +61,60 @@ template <class Side, class L>
   return at_most(sigma, tension) & at_most(ks * ks * (s * s + t * t), limit * limit);
 }
 
+/// What the cap of the composite law has of a side's lanes before anything crushes: Pa, –.
+template <class L>
+struct CapOf {
+  L begin, shear;
+};
+template <class Side>
+[[gnu::noinline]] CapOf<typename Side::Numbers> caps_of(const Model& model, const JointBatch& batch) {
+  CapOf<typename Side::Numbers> cap = {Side::splat(0.0), Side::splat(0.0)};
+  for (int lane = 0; lane < Side::lanes; ++lane) {
+    const LawConstants& law = model.laws[std::size_t(batch.law_of[Side::first_lane + lane])];
+    cap.begin[lane] = CrushingCurve::begin * law.crushing;
+    cap.shear[lane] = law.cap_shear;
+  }
+  return cap;
+}
+
+/// Lanes whose pressure kn n and shear (of which `shear2` is the square, m2) begin to crush nothing.
+template <class Side, class L>
+[[gnu::always_inline]] inline auto within_cap(const JointBatch& batch, const CapOf<L>& cap, L n, L shear2) {
+  const L ks = Side::of(batch.ks), pressure = Side::of(batch.kn) * larger(L(-n), Side::splat(0.0));
+  return at_most(pressure * pressure + cap.shear * (ks * ks * shear2), cap.begin * cap.begin);
+}
+
+/// Whether the lanes of a side of one law surely crush nothing, by the largest pressure and the largest shear jump of
+/// their rectangles, as in surely_bear(). By value and apart, so that for other laws nothing is kept in memory.
+template <class Side, class L>
+[[gnu::noinline]] bool surely_whole(const JointBatch& batch, const LawConstants& law, L n, L s, L t, L rn, L rs, L rt) {
+  const L a = Side::of(batch.half_s), b = Side::of(batch.half_t);
+  const L turned = magnitude(rs) * b + magnitude(rt) * a;
+  const L along = magnitude(s) + magnitude(rn) * b, across = magnitude(t) + magnitude(rn) * a;
+  const CapOf<L> cap = {Side::splat(CrushingCurve::begin * law.crushing), Side::splat(law.cap_shear)};
+  return all(within_cap<Side>(batch, cap, L(n - turned), L(along * along + across * across)));
+}
+
+/// Lanes of a side that crush nothing at any corner: the cap is convex too.
+template <class Side, class L>
+[[gnu::noinline]] auto whole_lanes(const Model& model, const JointBatch& batch, L n, L s, L t, L rn, L rs, L rt) {
+  const ElasticOf<L> e = {{n, s, t, rn, rs, rt}};
+  const CapOf<L> cap = caps_of<Side>(model, batch);
+  const auto holds = [&](L x, L y) {
+    const Triple<L> u = jump_at(e, x, y);
+    return within_cap<Side>(batch, cap, u.x, L(u.y * u.y + u.z * u.z));
+  };
+  if (batch.rectangles) {
+    const L a = Side::of(batch.half_s), b = Side::of(batch.half_t);
+    return holds(a, b) & holds(L(-a), b) & holds(L(-a), L(-b)) & holds(a, L(-b));
+  }
+  const Lanes* corner = &model.batch_corners[std::size_t(batch.first_corner)];
+  auto whole = holds(L(Side::of(corner[0])), L(Side::of(corner[1])));
+  for (int c = 1; c < batch.corners; ++c)
+    whole = whole & holds(L(Side::of(corner[2 * c])), L(Side::of(corner[2 * c + 1])));
+  return whole;
+}
+
 /// The elastic traction field is affine and the admissible set convex: the corners decide for the whole polygon, and
 /// those of a rectangle about it are on the safe side.
 template <class Side, class L, class M>

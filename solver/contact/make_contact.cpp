@@ -241,12 +241,13 @@ Carried elastic_wrench(const Model& model, const State& state, const Patch& patc
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = elastic_jump(patch, j, point, memory, i);
-    Triple<double> e = u;
+    const double kept = kept_at(model.laws[patch.law], patch, memory, i);
+    Triple<double> e = {kept * u.x, kept * u.y, kept * u.z};
     if (memory.broken[point_index(patch, i, 1, 0)]) {
       if (u.x >= 0.0) continue;
       const LawConstants& law = model.laws[patch.law];
-      const double limit = law.residual_cohesion - patch.kn * u.x * law.residual_tan_friction;
-      const double shear = patch.ks * std::hypot(u.y, u.z);
+      const double limit = law.residual_cohesion - patch.kn * e.x * law.residual_tan_friction;
+      const double shear = patch.ks * std::hypot(e.y, e.z);
       if (law.kind != JointLaw::Kind::elastic && shear > limit) e.y *= limit / shear, e.z *= limit / shear;
     }
     const Vec3 force = point.weight * (axes * Vec3(patch.kn * e.x, patch.ks * e.y, patch.ks * e.z));

@@ -43,18 +43,19 @@ PatchEnergy points_energy(const Model& model, bool yielding, const Patch& patch,
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = elastic_jump(patch, j, point, memory, i);
+    const double kept = kept_at(model.laws[patch.law], patch, memory, i);
     double x[3] = {u.x, u.y, u.z};
     if (memory.broken[point_index(patch, i, 1, 0)]) {
       if (x[0] >= 0.0) continue;
       const LawConstants& law = model.laws[patch.law];
-      const double limit = law.residual_cohesion - patch.kn * u.x * law.residual_tan_friction;
-      const double shear = patch.ks * std::hypot(u.y, u.z);
+      const double limit = law.residual_cohesion - kept * patch.kn * u.x * law.residual_tan_friction;
+      const double shear = kept * patch.ks * std::hypot(u.y, u.z);
       if (yielding && law.kind != JointLaw::Kind::elastic && shear > limit)
         x[1] *= limit / shear, x[2] *= limit / shear;
     }
     for (int c = 0; c < 3; ++c) {
       const double k = point.weight * (c == 0 ? patch.kn : patch.ks);
-      e.elastic += 0.5 * k * x[c] * x[c];
+      e.elastic += 0.5 * kept * k * x[c] * x[c];
       for (int b = 0; b < branches.count; ++b) {
         const double q = memory.point_branch[point_index(patch, i, 3 * branches.count, 3 * b + c)];
         e.branches += 0.5 * k * branches.stored[b] * q * q;

@@ -26,6 +26,19 @@ void store_memory(const Patch& patch, int i, const PointMemory& point, PatchMemo
   memory.broken[point_index(patch, i, 1, 0)] = point.broken;
 }
 
+/// What the composite law remembers beside.
+void load_crushing(const Patch& patch, int i, const PatchMemory& memory, PointMemory& point) {
+  point.crushed = memory.point_crush[point_index(patch, i, 3, 0)];
+  point.closure = memory.point_crush[point_index(patch, i, 3, 1)];
+  point.slip = memory.point_crush[point_index(patch, i, 3, 2)];
+}
+
+void store_crushing(const Patch& patch, int i, const PointMemory& point, PatchMemory& memory) {
+  memory.point_crush[point_index(patch, i, 3, 0)] = point.crushed;
+  memory.point_crush[point_index(patch, i, 3, 1)] = point.closure;
+  memory.point_crush[point_index(patch, i, 3, 2)] = point.slip;
+}
+
 /// How much a point's jump has changed since the pass before, and its elastic jump then.
 struct PointBefore {
   double du[3], elastic[3];
@@ -52,6 +65,23 @@ void book_losses(const Patch& patch, const PointBefore& b, double plastic_openin
     r.friction = shear + (r.open ? 0.0 : patch.kn * r.n * plastic_opening);
     r.fracture = 0.0;
   } else {  // what the law calls friction is friction, the rest went with the bond
+    r.fracture = shear + lost(patch.kn, r.n, 0) - r.friction;
+  }
+}
+
+/// The same of a composite point, whose stiffness goes as it crushes: of jumps in terms of the undamaged stiffness, ½ k
+/// jump² over what is left of it is stored. What is neither friction nor, as for other laws, the normal part at a point
+/// that opens without bond, went with the bond and with crushing.
+void book_composite(const Patch& patch, const PointBefore& b, bool was_broken, double kept_then, double kept,
+                    PointResult& r) {
+  const auto lost = [&](double k, double now, int c) {
+    return 0.5 * k * ((now + b.elastic[c]) * b.du[c] - now * now / kept + b.elastic[c] * b.elastic[c] / kept_then);
+  };
+  const double shear = lost(patch.ks, r.s, 1) + lost(patch.ks, r.t, 2);
+  if (was_broken && r.open) {
+    r.friction = shear;
+    r.fracture = 0.0;
+  } else {
     r.fracture = shear + lost(patch.kn, r.n, 0) - r.friction;
   }
 }
@@ -91,10 +121,18 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = point_jump(patch, j, point.s, point.t);
     PointMemory pm = load_memory(patch, i, memory);
-    const PointBefore before = point_before(point, u, change, pm);
+    if constexpr (Law::crushes) load_crushing(patch, i, memory, pm);
+    PointBefore before = point_before(point, u, change, pm);
     const PointMemory old = pm;
     PointResult r = Law::update(law, patch.kn, patch.ks, u.x, u.y, u.z, pm);
-    if (!r.elastic) book_losses(patch, before, pm.n - old.n, old.broken, r);
+    if constexpr (Law::crushes) {
+      const double then = kept_stiffness(law, patch.kn, old.crushed);
+      for (double& jump : before.elastic) jump *= then;
+      if (!r.elastic) book_composite(patch, before, old.broken, then, kept_stiffness(law, patch.kn, pm.crushed), r);
+      store_crushing(patch, i, pm, memory);
+    } else if (!r.elastic) {
+      book_losses(patch, before, pm.n - old.n, old.broken, r);
+    }
     store_memory(patch, i, pm, memory);
     double damping = 0.0;
     Triple<double> viscous = {0.0, 0.0, 0.0};

@@ -46,8 +46,13 @@ Matrix6 points_stiffness(const Model& model, const State& state, const Patch& pa
   for (int i = 0; i < patch.point_count; ++i) {
     const PatchPoint point = patch_point(patch, points, i);
     const Triple<double> u = elastic_jump(patch, j, point, memory, i);
+    const LawConstants& law = model.laws[patch.law];
+    const bool broken = memory.broken[point_index(patch, i, 1, 0)];
     const Mat3 d =
-        point_tangent(model.laws[patch.law], patch.kn, patch.ks, u, memory.broken[point_index(patch, i, 1, 0)]);
+        memory.point_crush.empty() || !is_composite(law)
+            ? point_tangent(law, patch.kn, patch.ks, u, broken)
+            : composite_tangent(law, patch.kn, patch.ks, u, broken, memory.point_rest[point_index(patch, i, 2, 1)],
+                                memory.point_crush[point_index(patch, i, 3, 0)]);
     const Matrix3x6 rows = point_rows(point);
     k += point.weight * rows.transpose() * d * rows;
   }
@@ -188,6 +193,23 @@ Mat3 point_tangent(const LawConstants& law, double kn, double ks, const Triple<d
   if (shear < limit * (1.0 - 1e-9) || shear == 0.0) return d;
   const Eigen::Vector2d along(s / shear, t / shear);
   d.bottomRightCorner<2, 2>() -= 0.999 * ks * along * along.transpose();
+  return d;
+}
+
+Mat3 composite_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken,
+                       double softening, double crushed) {
+  const double kept = kept_stiffness(law, kn, crushed);
+  LawConstants left = law;  // what friction is left of
+  left.residual_cohesion += (1.0 - softening) * (law.cohesion - law.residual_cohesion);
+  left.residual_tan_friction += (1.0 - softening) * (law.tan_friction - law.residual_tan_friction);
+  const bool pulled = elastic.x >= 0.0 && !broken;
+  Mat3 d = point_tangent(left, kept * kn, kept * ks, elastic, !pulled);
+  if (!crushes(law) || elastic.x >= 0.0) return d;
+  const CrushingCurve curve(law, kn);
+  const double p = kn * elastic.x, t2 = ks * ks * (elastic.y * elastic.y + elastic.z * elastic.z);
+  if (std::sqrt(p * p + law.cap_shear * t2) < (1.0 - 1e-9) * curve.effective(crushed)) return d;
+  const double slope = std::max(curve.slope(crushed), 0.0);
+  d(0, 0) = std::max(kn * slope / (kn + slope), 1e-3 * kn);
   return d;
 }
 

@@ -21,6 +21,11 @@ enum class PatchTangent {
 /// where sliding.
 Mat3 point_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken);
 
+/// The same of a composite point: with what is left of its stiffness, its bond and its strength. A point on its cap has
+/// the hardening tangent along the normal, past the peak a thousandth of kn: positive, as friction keeps a thousandth.
+Mat3 composite_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken,
+                       double softening, double crushed);
+
 /// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
 /// What that patch adds to the two diagonal blocks of K: of its bodies a and b.

@@ -16,6 +16,14 @@ LawConstants law_constants(const JointLaw& law) {
   c.mode_1 = law.fracture_energy[0];
   c.mode_2 = law.fracture_energy[1];
   c.prestress = law.prestress;
+  if (law.kind == JointLaw::Kind::composite) {
+    c.crushing = law.compressive_strength;
+    c.mode_c = law.compressive_energy;
+    c.crushing_peak = law.compressive_peak;
+    c.cap_shear = law.cap_shear;
+    c.dilation_length = law.dilation_length;
+    c.dilation_pressure = law.dilation_pressure;
+  }
   constexpr double none = 1e300;
   const bool elastic = law.kind == JointLaw::Kind::elastic;
   const double apex = c.tan_friction > 0.0 ? c.cohesion / c.tan_friction : none;

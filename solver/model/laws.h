@@ -18,10 +18,19 @@ struct LawConstants {
   double tan_dilation = 0.0;
   double mode_1 = 0.0, mode_2 = 0.0;  // J/m2, softening
   double prestress = 0.0;             // Pa, tie
+  // Composite: Pa (0: none), J/m2, m (0: as much as elastic), –, m (0: none), Pa (0: none).
+  double crushing = 0.0, mode_c = 0.0, crushing_peak = 0.0, cap_shear = 0.0;
+  double dilation_length = 0.0, dilation_pressure = 0.0;
   // What the elastic path compares with: nothing limits an elastic law, and tension ends at the apex of the cone.
   double most_tension = 0.0, most_cohesion = 0.0, slope = 0.0;
 };
 LawConstants law_constants(const JointLaw& law);
+inline bool is_composite(const LawConstants& law) {
+  return law.kind == JointLaw::Kind::composite;
+}
+inline bool crushes(const LawConstants& law) {
+  return law.crushing > 0.0;
+}
 /// Whether a joint of this law begins with a bond that it can lose; elastic ones count, though they never do.
 inline bool has_bond(const LawConstants& law) {
   return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
@@ -30,8 +39,11 @@ inline bool has_bond(const LawConstants& law) {
 /// What a point remembers: plastic jump (normal, s, t), whether the bond is lost, how far it has softened.
 struct PointMemory {
   double n = 0.0, s = 0.0, t = 0.0;  // m
-  double softening = 0.0;            // 0 intact … 1 gone; softening law only
+  double softening = 0.0;            // 0 intact … 1 gone; softening and composite laws only
   bool broken = false;
+  // Composite law only, m: inelastic jump of crushing, what of the normal one is crushed (it stays when the point
+  // opens), and length of all slip.
+  double crushed = 0.0, closure = 0.0, slip = 0.0;
 };
 
 /// Result of one update. `n, s, t` is the elastic jump: traction is (kn n, ks s, ks t). Energies per unit area, J/m2.
@@ -81,6 +93,7 @@ inline PointResult coulomb(const LawConstants& law, double kn, double ks, double
 /// Mohr–Coulomb with tension cut-off; past either the bond is lost for good (as in the distinct element codes that
 /// masonry analysts use: Hart, Cundall & Lemos 1988; Lemos 2007).
 struct BrittleLaw {
+  static constexpr bool crushes = false;
   static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
                             PointMemory& memory) {
     if (!memory.broken) {
@@ -110,6 +123,7 @@ struct BrittleLaw {
 /// plastic opening over wI = 2 GI / ft and the plastic slip over wII = 2 GII / c (after Lourenço & Rots 1997, linear
 /// instead of exponential). A branch too steep for the spring (snap-back) is brittle. Friction is not softened.
 struct SofteningLaw {
+  static constexpr bool crushes = false;
   static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
                             PointMemory& memory) {
     if (memory.broken)
@@ -183,6 +197,7 @@ struct SofteningLaw {
 
 /// A spring without limits, for verification.
 struct ElasticLaw {
+  static constexpr bool crushes = false;
   static PointResult update(const LawConstants&, double, double, double un, double us, double ut, PointMemory&) {
     PointResult r;
     r.n = un;
@@ -196,6 +211,7 @@ struct ElasticLaw {
 /// it is pressed when taut and open when slack, like a dry contact; what it has yielded is its plastic jump, which
 /// stays when it goes slack.
 struct TieLaw {
+  static constexpr bool crushes = false;
   static PointResult update(const LawConstants& law, double kn, double, double un, double, double,
                             PointMemory& memory) {
     PointResult r;
@@ -212,6 +228,12 @@ struct TieLaw {
   }
 };
 
+}  // namespace voussoir
+
+#include "solver/model/composite_law.h"
+
+namespace voussoir {
+
 /// Calls `use` with the law of that kind.
 template <class F>
 auto with_law(JointLaw::Kind kind, F&& use) {
@@ -222,6 +244,8 @@ auto with_law(JointLaw::Kind kind, F&& use) {
       return use(ElasticLaw{});
     case JointLaw::Kind::tie:
       return use(TieLaw{});
+    case JointLaw::Kind::composite:
+      return use(CompositeLaw{});
     default:
       return use(BrittleLaw{});
   }

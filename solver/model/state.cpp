@@ -77,6 +77,7 @@ Patch patch_of_row(const double* r) {
 void add(std::vector<NamedArray>& list, const std::string& prefix, PatchMemory& memory) {
   list.push_back({prefix + "/point_slip", 2, "m, m", &memory.point});
   list.push_back({prefix + "/point_rest", 2, "m, -", &memory.point_rest});
+  if (!memory.point_crush.empty()) list.push_back({prefix + "/point_crush", 3, "m, m, m", &memory.point_crush});
   list.push_back({prefix + "/point_broken", 1, "-", &memory.broken});
   list.push_back({prefix + "/point_branch", 1, "m", &memory.point_branch});
   list.push_back({prefix + "/mode", 1, "-", &memory.mode});
@@ -225,6 +226,9 @@ State initial_state(const Model& model) {
   if (!model.plan.empty()) state.built.assign(6 * model.joints.size(), 0.0f);
   state.slip.assign(3 * lane_count * model.batches.size(), 0.0);
   state.joint.resize(model.joints.size(), model.batches.size(), lane_count * model.point_rows);
+  if (std::any_of(model.joints.begin(), model.joints.end(),
+                  [&](const Patch& p) { return is_composite(model.laws[std::size_t(p.law)]); }))
+    state.joint.point_crush.assign(3 * lane_count * model.point_rows, 0.0);
   state.joint.last.assign(6 * lane_count * model.batches.size(), 0.0f);
   state.branch_work.assign(lane_count * model.tiles.size(), 0.0);
   state.support_work.assign(model.tiles.size(), 0.0);

@@ -23,8 +23,10 @@ enum PatchMode : std::uint8_t {
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.
 struct PatchMemory {
-  Array<double> point;         // 2 columns: plastic jump s, t (m)
-  Array<double> point_rest;    // 2 columns: plastic jump n (m), softening; the step reads them where a law needs them
+  Array<double> point;       // 2 columns: plastic jump s, t (m)
+  Array<double> point_rest;  // 2 columns: plastic jump n (m), softening; the step reads them where a law needs them
+  Array<double>
+      point_crush;  // 3 columns: inelastic jump, closure and slip (m); none without joints of the composite law
   Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and open
   Array<float> point_branch;   // 3 columns a branch: q (m)
   Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits

@@ -54,6 +54,28 @@ TEST(Threads, GiveTheSameBits) {
   measured("2 or 3 threads against 1, wall of 4 x 5, 2500 steps: runs with equal state_hash", runs, equal, "runs");
 }
 
+/// Crushing is in the state, and its joints change places with the others of their tile.
+TEST(Threads, GiveTheSameBitsWithCompositeJoints) {
+  const auto hash = [](int threads, double& crushed) {
+    SolverSettings settings = undamped({0, 0, -9.81});
+    settings.damping.kind = DampingSettings::Kind::maxwell;
+    Bench bench(crushing_wall(6, 6), settings);
+    EXPECT_TRUE(bench.balance(1e-8).converged);
+    bench.begin();
+    const GroundMotion motion = strong_motion(2.0);
+    bench.stepper.motion = &motion;
+    bench.stepper.threads = threads;
+    EXPECT_TRUE(bench.run(2500));
+    const Array<double>& crush = bench.state.joint.point_crush;
+    crushed = *std::max_element(crush.begin(), crush.end());
+    return hash_arrays(bench.state.arrays());
+  };
+  double crushed = 0.0;
+  const std::uint64_t one = hash(1, crushed);
+  EXPECT_GT(crushed, 1e-5);
+  for (const int threads : {2, 3}) EXPECT_EQ(hash(threads, crushed), one) << threads;
+}
+
 /// How far tiles may go ahead of each other is nobody's business: not that of the contacts found either.
 TEST(Threads, GiveTheSameBitsHoweverFarTilesGoAhead) {
   const auto hash = [](int ahead, int threads, std::int64_t piece) {

@@ -75,6 +75,21 @@ void expect_equal(const Joint& a, const Joint& b) {
   EXPECT_EQ(a.law, b.law);
 }
 
+/// Only an assembly that has such joints stores what they are made of: files of others stay as they were.
+TEST(AssemblyFile, KeepsCompositeLaws) {
+  const Folder folder;
+  Assembly out = small_assembly();
+  write_assembly(folder / "plain.h5", out);
+  EXPECT_FALSE(h5::File::open(folder / "plain.h5").has("laws/cap_shear"));
+  JointLaw law = out.laws[1];
+  law.kind = JointLaw::Kind::composite;
+  law.compressive_strength = 9e6, law.compressive_energy = 2e4, law.compressive_peak = 1e-3;
+  law.cap_shear = 4.0, law.dilation_length = 2e-3, law.dilation_pressure = 1e6;
+  out.laws.push_back(law);
+  write_assembly(folder / "a.h5", out);
+  EXPECT_EQ(read_assembly(folder / "a.h5").laws, out.laws);
+}
+
 TEST(AssemblyFile, RoundTripIsExact) {
   const Folder folder;
   const Assembly out = small_assembly();

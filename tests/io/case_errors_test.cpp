@@ -16,9 +16,11 @@ struct Wrong {
   std::vector<std::string> expected;
 };
 
-const std::string head = "[bridge]\ngenerator = \"wall\"\n";                  // lines 1 and 2
-const std::string gravity = "[[stage]]\nkind = \"gravity\"\n";                // two lines
-const std::string motion = "[[stage]]\nkind = \"motion\"\nduration = 2.0\n";  // three lines
+const std::string head = "[bridge]\ngenerator = \"wall\"\n";  // lines 1 and 2
+const std::string composite =
+    "[joints.masonry-masonry]\nkind = \"composite\"\nfracture_energy = [20, 80]\n";  // three lines
+const std::string gravity = "[[stage]]\nkind = \"gravity\"\n";                       // two lines
+const std::string motion = "[[stage]]\nkind = \"motion\"\nduration = 2.0\n";         // three lines
 
 const std::string pulse =  // one line
     "pulse = { kind = \"sine\", axis = \"x\", amplitude = 1.0, frequency = 2.0 }\n";
@@ -204,6 +206,28 @@ const std::vector<Wrong> table = {
     {"SofteningEnergy",
      head + "[joints.masonry-masonry]\nkind = \"softening\"\n" + gravity,
      {"c.toml:3: ", "needs 'fracture_energy'"}},
+    {"CompositeEnergy",
+     head + "[joints.masonry-masonry]\nkind = \"composite\"\ntensile_strength = 1e5\n" + gravity,
+     {"c.toml:3: ", "needs 'fracture_energy'", "have a bond"}},
+    {"CompositeKeyOfAnother",
+     head + "[joints.masonry-masonry]\ncompressive_strength = 1e7\n" + gravity,
+     {"c.toml:4: 'compressive_strength'", "kind = \"composite\""}},
+    {"CrushingWithoutEnergy",
+     head + composite + "compressive_strength = 1e7\n" + gravity,
+     {"c.toml:3: ", "needs 'compressive_energy'"}},
+    {"CrushingWithoutStrength",
+     head + composite + "compressive_energy = 1e4\n" + gravity,
+     {"c.toml:6: 'compressive_energy'", "needs 'compressive_strength'"}},
+    {"CrushingOfNoStrength",
+     head + composite + "compressive_strength = 0\ncompressive_energy = 1e4\n" + gravity,
+     {"c.toml:6: 'compressive_strength'", "is 0: must be above 0 to"}},
+    {"CapBelowTension",
+     head + composite + "tensile_strength = 4e5\ncompressive_strength = 1e6\ncompressive_energy = 1e4\n" + gravity,
+     {"c.toml:7: 'compressive_strength'", "a third of it, 333333 Pa, below the tensile strength",
+      "raise it to 1.2e+06"}},
+    {"DilationBeyondFriction",
+     head + composite + "friction_angle = 30\ndilation_angle = 31\n" + gravity,
+     {"c.toml:7: 'dilation_angle'", "is 31.0 degrees", "30.0 and 30.0 degrees"}},
     {"DampingKind",
      head + "[damping]\nkind = \"viscous\"\n",
      {"c.toml:4: 'kind'", "expected one of: none, maxwell, rayleigh, local"}},

@@ -179,6 +179,45 @@ TEST_F(CaseFile, HashSeesTheCaseAndTheRecords) {
   EXPECT_NE(read_case(folder.write("case.toml", full)).hash, hash);
 }
 
+TEST_F(CaseFile, CompositeJointsSurviveResolving) {
+  const std::string text =
+      "[bridge]\ngenerator = \"wall\"\nkn = 1e10\nks = 4e9\n[joints.masonry-masonry]\nkind = \"composite\"\n"
+      "tensile_strength = 1e5\ncohesion = 2e5\nfriction_angle = 37\nresidual_friction_angle = 31\n"
+      "dilation_angle = 11\nfracture_energy = [20, 80]\ncompressive_strength = 9e6\ncompressive_energy = 2e4\n"
+      "compressive_peak = 1e-3\ncap_shear = 4\ndilation_length = 0.002\ndilation_pressure = 1e6\n"
+      "[[stage]]\nkind = \"gravity\"\n";
+  const Case c = parse_case(text, folder / "case.toml");
+  const Case copy = parse_case(resolved_text(c), folder / "case.toml");
+  EXPECT_EQ(copy.hash, c.hash);
+  for (const Case* one : {&c, &copy}) {
+    const JointLaw& law = one->generator_input.joints.at("masonry-masonry").law;
+    EXPECT_EQ(law.kind, JointLaw::Kind::composite);
+    EXPECT_EQ(law.compressive_strength, 9e6);
+    EXPECT_EQ(law.compressive_energy, 2e4);
+    EXPECT_EQ(law.compressive_peak, 1e-3);
+    EXPECT_EQ(law.cap_shear, 4.0);
+    EXPECT_EQ(law.dilation_length, 0.002);
+    EXPECT_EQ(law.dilation_pressure, 1e6);
+  }
+  EXPECT_NO_THROW(make_assembly(c));
+}
+
+/// Said with the least that will do, once the stiffness of the joints is known.
+TEST_F(CaseFile, CompressiveEnergyTooSmallForTheStiffness) {
+  const std::string text =
+      "[bridge]\ngenerator = \"wall\"\nkn = 1e10\nks = 4e9\n[joints.masonry-masonry]\nkind = \"composite\"\n"
+      "fracture_energy = [20, 80]\ncompressive_strength = 9e6\ncompressive_energy = 1e4\n"
+      "[[stage]]\nkind = \"gravity\"\n";
+  try {
+    make_assembly(parse_case(text, folder / "case.toml"));
+    FAIL() << "was taken";
+  } catch (const InputError& error) {
+    const std::string what = error.what();  // (67/75) fc² / (0.7 ks + 0.3 kn)
+    EXPECT_NE(what.find("compressive_energy, 10000 J/m2, is too small"), std::string::npos) << what;
+    EXPECT_NE(what.find("Give more than 1.248e+04 J/m2"), std::string::npos) << what;
+  }
+}
+
 TEST_F(CaseFile, DrivesSurviveResolving) {
   const std::string text =
       "[bridge]\ngenerator = \"arch\"\n[[stage]]\nkind = \"free\"\nduration = 2.0\ndrive = [{ group = \"springing "

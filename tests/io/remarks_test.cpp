@@ -45,6 +45,10 @@ const std::vector<Slipped> table = {
     {"FractureEnergyInNPerMm",
      head + "[joints.masonry-masonry]\nfracture_energy = [0.02, 50]\n",
      {"c.toml:4: fracture_energy = 0.02 J/m2", "N/mm, write 20"}},
+    {"CompressiveStrengthInMPa",
+     head + "[joints.masonry-masonry]\nkind = \"composite\"\nfracture_energy = [20, 50]\ncompressive_strength = 12\n"
+            "compressive_energy = 2e4\n",
+     {"c.toml:6: compressive_strength = 12 Pa", "MPa, write 1.2e+07"}},
     {"StiffnessOfAGenerator", head + "kn = 20\n", {"c.toml:3: kn = 20 Pa/m in [bridge]", "N/mm3, write 2e+10"}},
     {"LengthInMillimetres",
      column + "base_width = 900.0\n",

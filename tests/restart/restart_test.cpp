@@ -102,6 +102,18 @@ TEST(Restart, AnotherOrderOfBodiesNeedsAnotherVersion) {
   EXPECT_EQ(model.block_of_body, of_version_10) << "with another order raise the format_version of checkpoints";
 }
 
+/// What has been crushed is in the state.
+TEST(Restart, GivesTheSameBitsWithCompositeJoints) {
+  const Assembly assembly = crushing_wall(4, 5);
+  const SolverSettings settings = shaken(DampingSettings::Kind::maxwell);
+  Simulation whole(assembly, settings, 1, {});
+  ASSERT_EQ(whole.run(), RunEnd::finished) << whole.failure();
+  const Array<double>& crush = whole.state().joint.point_crush;
+  ASSERT_FALSE(crush.empty());
+  EXPECT_GT(*std::max_element(crush.begin(), crush.end()), 1e-5);
+  EXPECT_EQ(in_pieces(assembly, settings, {0.1, 0.55, 0.85}), hash_arrays(whole.state().arrays()));
+}
+
 /// What ties have yielded is in the state.
 TEST(Restart, GivesTheSameBitsWithTies) {
   Assembly assembly = weak_wall(4, 5);

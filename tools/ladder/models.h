@@ -91,6 +91,18 @@ inline Assembly weak_wall(int length, int courses) {
   return assembly;
 }
 
+/// The same wall with composite joints so soft that the motion crushes them too.
+inline Assembly crushing_wall(int length, int courses) {
+  Assembly assembly = weak_wall(length, courses);
+  JointLaw law = assembly.laws[0];
+  law.kind = JointLaw::Kind::composite;
+  law.fracture_energy = {1.0, 5.0};
+  law.residual_friction_angle = std::atan(0.5), law.dilation_angle = std::atan(0.2), law.dilation_length = 1e-3;
+  law.compressive_strength = 3e5, law.compressive_energy = 100.0;
+  set_law(assembly, law);
+  return assembly;
+}
+
 /// Settings without damping.
 inline SolverSettings undamped(const Vec3& gravity = Vec3::Zero()) {
   SolverSettings settings;

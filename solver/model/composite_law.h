@@ -1,0 +1,307 @@
+// The composite law: tension cut-off, Coulomb friction and a cap for crushing, all of them softening, at one point of a
+// patch (docs/theory/joints.md). Part of laws.h, which is what to include.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+namespace voussoir {
+
+/// exp(−x) of x ≥ 0 by its series within a factor √2 (Abramowitz & Stegun 1964, 4.2.1), to the rounding of x. The
+/// library's function is chosen for the processor at hand, so that one program would not give the same bits on all of
+/// them.
+inline double fading(double x) {
+  if (x > 700.0) return 0.0;
+  constexpr double log_2 = 0.693147180559945309417;
+  const double halvings = std::floor(x / log_2 + 0.5), r = halvings * log_2 - x;
+  double sum = 1.0;
+  for (int i = 13; i > 0; --i) sum = 1.0 + sum * r / i;
+  return std::ldexp(sum, -int(halvings));
+}
+
+/// The root of f in (0, end), where f(0) = `first` > 0 and f(end) = `last` ≤ 0: false position with halving of the end
+/// that stays (Illinois: Dowell & Jarratt 1971).
+template <class F>
+double first_root(const F& f, double first, double end, double last) {
+  const double small = 1e-15 * std::max(first, -last);
+  double low = 0.0, high = end, root = end;
+  int stayed = 0;  // 1: the upper end did, -1: the lower
+  for (int i = 0; i < 80 && last < 0.0 && high - low > 1e-16 * end; ++i) {
+    root = (low * last - high * first) / (last - first);
+    if (!(root > low && root < high)) root = 0.5 * (low + high);
+    const double value = f(root);
+    if (std::abs(value) <= small) break;
+    if (value > 0.0) {
+      low = root, first = value;
+      if (stayed == 1) last *= 0.5;
+      stayed = 1;
+    } else {
+      high = root, last = value;
+      if (stayed == -1) first *= 0.5;
+      stayed = -1;
+    }
+  }
+  return root;
+}
+
+/// What the cap holds against inelastic jump, and what of the stiffness is left.
+class CrushingCurve {
+ public:
+  static constexpr double begin = 1.0 / 3.0, middle = 0.5, rest = 0.1;  // shares of the strength
+  /// Share of the inelastic jump that stays when the stress is taken off (Birtel & Mark 2006).
+  static constexpr double lasting = 0.7;
+  /// Gc over the strength and the length of the first half of the softening (Lourenço 1996: 67/75 with these shares).
+  static constexpr double fullness = 5.0 / 6.0 - rest + (middle - rest) * (middle - rest);
+
+  CrushingCurve(const LawConstants& law, double kn)
+      : strength_(law.crushing),
+        peak_(law.crushing_peak > 0.0 ? law.crushing_peak : law.crushing / kn),
+        width_(law.mode_c / (fullness * law.crushing)),
+        kn_(kn) {}
+
+  /// Pa, at an inelastic jump (m).
+  double strength(double crushed) const {
+    if (crushed < peak_) {
+      const double x = crushed / peak_;
+      return strength_ * (begin + (1.0 - begin) * x * (2.0 - x));
+    }
+    const double y = (crushed - peak_) / width_;
+    if (y < 1.0) return strength_ * (1.0 - (1.0 - middle) * y * y);
+    return strength_ * (rest + (middle - rest) * fading((y - 1.0) / (middle - rest)));
+  }
+  /// Pa/m: how fast it rises; negative past the peak.
+  double slope(double crushed) const {
+    if (crushed < peak_) return 2.0 * strength_ * (1.0 - begin) / peak_ * (1.0 - crushed / peak_);
+    const double y = (crushed - peak_) / width_;
+    if (y < 1.0) return -strength_ / width_ * y;
+    return -strength_ / width_ * fading((y - 1.0) / (middle - rest));
+  }
+  /// The strength in effective stress: over the share of the stiffness that is left.
+  double effective(double crushed) const { return strength(crushed) + (1.0 - lasting) * kn_ * crushed; }
+  double kept(double crushed) const { return crushed > 0.0 ? strength(crushed) / effective(crushed) : 1.0; }
+
+ private:
+  double strength_, peak_, width_, kn_;  // Pa, m, m, Pa/m
+};
+
+/// The least Gc (J/m2) with which crushing is stable under a given jump: kn and ks must outweigh the steepest
+/// softening, fc² fullness / Gc, in whatever direction the cap yields (docs/theory/joints.md).
+inline double least_compressive_energy(const JointLaw& law, double kn, double ks) {
+  const double least = std::min(kn, ks) * std::min(1.0, std::sqrt(law.cap_shear));
+  const double firm = std::min(kn, CrushingCurve::lasting * least + (1.0 - CrushingCurve::lasting) * kn);
+  return CrushingCurve::fullness * law.compressive_strength * law.compressive_strength / firm;
+}
+
+/// What is left of the stiffness of a point: 1 but for composite points that have crushed.
+inline double kept_stiffness(const LawConstants& law, double kn, double crushed) {
+  return crushed > 0.0 ? CrushingCurve(law, kn).kept(crushed) : 1.0;
+}
+
+/// Tension cut-off and Coulomb friction that soften together, and an elliptic cap (Lourenço & Rots 1997), with damaged
+/// unloading and a dilation that fades with slip and pressure (van Zijl 2004). Results are in jumps of the undamaged
+/// stiffness, so that the traction is (kn n, ks s, ks t) as with the other laws.
+struct CompositeLaw {
+  static constexpr bool crushes = true;
+  static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
+                            PointMemory& memory) {
+    Point p(law, kn, ks, memory);
+    p.n = un - memory.n, p.s = us - memory.s, p.t = ut - memory.t;
+    if (!memory.broken) p.pull();
+    if (is_open(p)) return open(us, ut, p);
+    p.slide(p.tan_dilation());
+    if (is_open(p)) {  // it broke in shear while it was pulled
+      p.result.fracture += p.stored();
+      return open(us, ut, p);
+    }
+    if (law.crushing > 0.0 && p.crush()) p.slide(0.0);
+    PointResult r = p.result;
+    r.n = p.kept * p.n, r.s = p.kept * p.s, r.t = p.kept * p.t;
+    return r;
+  }
+
+ private:
+  static constexpr double last_bond = 1e-4;  // share of the bond below which it counts as lost
+
+  /// A point on its way: its elastic jump, m.
+  struct Point {
+    const LawConstants& law;
+    double kn, ks;  // Pa/m, undamaged
+    PointMemory& memory;
+    double n = 0.0, s = 0.0, t = 0.0;
+    double kept;          // share of the stiffness
+    double pulled = 0.0;  // what this update's opening has added to the exponent of softening
+    PointResult result;
+
+    Point(const LawConstants& l, double normal, double shear, PointMemory& m)
+        : law(l), kn(normal), ks(shear), memory(m), kept(kept_stiffness(l, normal, m.crushed)) {}
+
+    double shear() const { return std::sqrt(s * s + t * t); }
+    double stored() const { return 0.5 * kept * (kn * n * n + ks * (s * s + t * t)); }
+    double bond() const { return 1.0 - memory.softening; }
+    double cohesion(double bond) const { return law.residual_cohesion + bond * (law.cohesion - law.residual_cohesion); }
+    /// Its friction goes with the cohesion (Lourenço & Rots 1997).
+    double tan_friction(double bond) const {
+      return law.residual_tan_friction + bond * (law.tan_friction - law.residual_tan_friction);
+    }
+    void set_bond(double bond) {
+      memory.softening = 1.0 - bond;
+      if (bond < last_bond) lose_bond();
+    }
+    void lose_bond() {
+      memory.broken = true;
+      memory.softening = 1.0;
+    }
+
+    /// tan ψ = tan ψ0 ⟨1 − p/pψ⟩ exp(−us/u0) (van Zijl 2004), at the beginning of the update.
+    double tan_dilation() const {
+      double tangent = law.tan_dilation;
+      if (tangent == 0.0) return 0.0;
+      if (law.dilation_length > 0.0) tangent *= fading(memory.slip / law.dilation_length);
+      if (law.dilation_pressure > 0.0) tangent *= std::clamp(1.0 + kept * kn * n / law.dilation_pressure, 0.0, 1.0);
+      return tangent;
+    }
+
+    /// Opens a bonded point until it bears T exp(−opening/w), w = GI/T0; a branch too steep for the spring is brittle.
+    void pull() {
+      const double k = kept * kn, tension = law.most_tension * bond();
+      if (k * n <= tension) return;
+      result.elastic = false;
+      const double before = stored(), width = law.most_tension > 0.0 ? law.mode_1 / law.most_tension : 0.0;
+      if (k * width <= tension) return snap(before);
+      const double last = tension * fading(n / width);
+      const double opening =
+          first_root([&](double x) { return k * (n - x) - tension * fading(x / width); }, k * n - tension, n, -last);
+      result.fracture += 0.5 * (tension + k * (n - opening)) * opening;
+      memory.n += opening, n -= opening;
+      pulled = opening / width;
+      set_bond(bond() * fading(pulled));
+    }
+    void snap(double before) {
+      lose_bond();
+      result.fracture += before;
+    }
+
+    /// Slides until Coulomb's limit bears the shear.
+    void slide(double tan_dilation) {
+      const double k = kept * ks, trial = k * shear(), limit = slip_limit(bond(), n);
+      if (trial <= limit) return;
+      result.elastic = false;
+      double end_bond = 0.0, slip = 0.0;
+      if (!memory.broken && !(softens_in_time(k))) {
+        const double before = stored();
+        lose_bond();
+        slip_by(broken_slip(trial, tan_dilation), tan_dilation);
+        result.fracture += std::max(0.0, before - stored());
+        return;
+      }
+      const double from = bond();
+      if (memory.broken) {
+        slip = broken_slip(trial, tan_dilation);
+      } else {
+        slip = bonded_slip(trial, limit, tan_dilation);
+        end_bond = bond_after(slip);
+      }
+      const double held = 0.5 * (cohesion(from) + cohesion(end_bond)) - law.residual_cohesion;
+      const double pressed = n;
+      slip_by(slip, tan_dilation);
+      const double lost =
+          0.5 * (limit + k * shear() + kept * kn * (pressed + n) * tan_dilation) * slip;  // less what dilation lifts
+      const double rubbed = memory.broken ? 0.0 : std::min(held * slip, lost);  // a point may slip while it is pulled
+      result.fracture += rubbed;
+      result.friction += lost - rubbed;
+      if (!memory.broken) set_bond(end_bond);
+    }
+    double slip_limit(double bond, double normal) const {
+      return std::max(0.0, cohesion(bond) - kept * kn * normal * tan_friction(bond));
+    }
+    double slip_width() const {
+      const double drop = law.cohesion - law.residual_cohesion;
+      return drop > 0.0 ? law.mode_2 / drop : 0.0;
+    }
+    /// Whether the limit falls more slowly than the spring of stiffness k can follow.
+    bool softens_in_time(double k) const {
+      const double drop = law.cohesion - law.residual_cohesion +
+                          std::max(0.0, -kept * kn * n) * (law.tan_friction - law.residual_tan_friction);
+      return k * slip_width() > drop * bond();
+    }
+    /// Exponents of opening and slip together, as the root of the sum of their squares (Lourenço & Rots 1997).
+    double bond_after(double slip) const {
+      const double rubbed = slip / slip_width();
+      return bond() * fading(std::sqrt(pulled * pulled + rubbed * rubbed) - pulled);
+    }
+    double bonded_slip(double trial, double limit, double tan_dilation) const {
+      const double k = kept * ks, end = shear();
+      const auto excess = [&](double slip) {
+        return trial - k * slip - slip_limit(bond_after(slip), n - slip * tan_dilation);
+      };
+      return first_root(excess, trial - limit, end, excess(end));
+    }
+    double broken_slip(double trial, double tan_dilation) const {
+      const double over = trial - slip_limit(0.0, n);
+      if (over <= 0.0) return 0.0;
+      return std::min(over / (kept * (ks + kn * tan_dilation * law.residual_tan_friction)), shear());
+    }
+    void slip_by(double slip, double tan_dilation) {
+      const double length = shear(), share = length > 0.0 ? slip / length : 0.0;
+      memory.s += share * s, memory.t += share * t;
+      s -= share * s, t -= share * t;
+      memory.n += slip * tan_dilation, n -= slip * tan_dilation;
+      memory.slip += slip;
+    }
+
+    /// Associated return to the cap p² + Css τ² = strength², p the pressure, in effective stress; true if it yielded.
+    /// With the multiplier x/(1 − x) over kn the pressure falls to its (1 − x)th part, the shear to its
+    /// shear_left(x)th.
+    bool crush() {
+      const double pressure = std::max(0.0, -kn * n), drag = ks * shear(), css = law.cap_shear;
+      const double trial = std::sqrt(pressure * pressure + css * drag * drag);
+      if (memory.crushed == 0.0 && trial <= CrushingCurve::begin * law.crushing) return false;
+      const CrushingCurve curve(law, kn);
+      const double holds = curve.effective(memory.crushed);
+      if (trial <= holds) return false;
+      result.elastic = false;
+      const double faster = css * ks / kn;
+      const auto shear_left = [&](double x) { return (1.0 - x) / (1.0 - x + faster * x); };
+      const auto crushed = [&](double x) {
+        const double normal = pressure / kn * x, along = drag / ks * (1.0 - shear_left(x));
+        return memory.crushed + std::sqrt(normal * normal + along * along) / CrushingCurve::lasting;
+      };
+      const auto excess = [&](double x) {
+        const double p = pressure * (1.0 - x), d = drag * shear_left(x);
+        return std::sqrt(p * p + css * d * d) - curve.effective(crushed(x));
+      };
+      const double end = 1.0 - 1e-12;
+      const double x = first_root(excess, trial - holds, end, excess(end));
+      yield(holds / trial, x, shear_left(x), crushed(x), curve);
+      return true;
+    }
+    /// What is lost: mean stress times plastic jump, and mean energy times the stiffness that goes.
+    void yield(double touched, double x, double left, double crushed, const CrushingCurve& curve) {
+      const double kept_then = kept;
+      const double closing = n < 0.0 ? -n * x : 0.0, along = shear() * (1.0 - left);
+      const double pressed = std::max(0.0, -n) * (touched + 1.0 - x), dragged = shear() * (touched + left);
+      memory.crushed = crushed;
+      memory.closure += closing;
+      memory.n -= closing, n += closing;
+      memory.s += (1.0 - left) * s, memory.t += (1.0 - left) * t;
+      s *= left, t *= left;
+      kept = curve.kept(crushed);
+      result.fracture += 0.25 * (kept_then + kept) * (kn * pressed * closing + ks * dragged * along) +
+                         0.125 * (kept_then - kept) * (kn * pressed * pressed + ks * dragged * dragged);
+    }
+  };
+
+  static bool is_open(const Point& p) { return p.memory.broken && p.n >= 0.0; }
+
+  /// It carries nothing, its plastic shear jump follows, and of the normal one it keeps what is crushed: it closes
+  /// again where the crushed faces touch, without a kick.
+  static PointResult open(double us, double ut, Point& p) {
+    p.memory.n = -p.memory.closure;
+    p.memory.s = us, p.memory.t = ut;
+    p.result.open = true;
+    p.result.elastic = false;
+    p.result.friction = 0.0;
+    return p.result;
+  }
+};
+
+}  // namespace voussoir
