@@ -279,9 +279,11 @@ struct BatchPass {
     const LaneBytes modes = load_bytes(mode, batch.count);
     const LaneMask keep = pass.shortcut ? without(live, bytes_with(modes, mode_points)) : LaneMask{};
     const LaneStrength strength = strengths(*pass.model, batch);
-    Lanes change[6];  // of the jump since the pass before
+    Lanes change[6];                       // of the jump since the pass before
+    LaneMask in_lanes = strength.brittle;  // of the lanes point by point
+    if (any(strength.composite)) in_lanes = in_lanes | plain_lanes(jump, modes, live & strength.composite);
     // point_patch() keeps the last jump of its lanes itself.
-    const LaneMask left = without(live, keep | strength.brittle), noted = ~left;
+    const LaneMask left = without(live, keep | in_lanes), noted = ~left;
     each_side([&](auto side) __attribute__((always_inline)) {
       using Side = decltype(side);
       typename Side::Numbers since[6];
@@ -298,8 +300,10 @@ struct BatchPass {
     ahead.constants(1);
     const Resultant<Lanes> nothing{};
     Resultant<Lanes> by_points{};
-    const LaneMask brittle = points & strength.brittle, others = without(points, brittle);
-    leave_intact(without(points, bytes_with(modes, mode_points)));
+    const LaneMask brittle = points & in_lanes, others = without(points, brittle);
+    const LaneMask leave = without(points, bytes_with(modes, mode_points));
+    leave_intact(leave);
+    if (any(strength.composite)) give_back(change, leave & strength.composite);
     if (any(brittle)) by_points = point_lanes(jump, change, strength, brittle, findings);
     const Resultant<Lanes> resultant = select(intact.closed, intact.resultant, select(brittle, by_points, nothing));
     alignas(64) double rows[lane_count * wrench_width];
@@ -316,6 +320,20 @@ struct BatchPass {
     findings.reclip |= without(live, strength.tie) & past_limits(in.limits, batch.area, jump);
     findings.intact += count_of(intact.stays);
     findings.points += count_of(points);
+  }
+
+  /// Composite lanes that go point by point and are now no more than brittle ones that have broken: what friction can
+  /// hold at the largest pressure of their rectangles crushes nothing. Notes which they are.
+  [[gnu::noinline]] LaneMask plain_lanes(const Jump<Lanes>& jump, LaneBytes modes, LaneMask composite) const {
+    Lanes most;
+    for (int lane = 0; lane < lane_count; ++lane)
+      most[lane] = pass.model->laws[std::size_t(batch.law_of[lane])].plain_pressure;
+    const Lanes turned = magnitude(jump.rs) * batch.half_t + magnitude(jump.rt) * batch.half_s;
+    const LaneMask eligible = composite & bytes_with(modes, mode_points) & bytes_with(modes, mode_plain);
+    const LaneMask plain = eligible & at_most(batch.kn * (turned - jump.n), most);
+    for (int lane = 0; lane < batch.count; ++lane)
+      if (composite[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_lanes) | (plain[lane] ? mode_lanes : 0));
+    return plain;
   }
 
   /// Intact lanes: checked at the corners, advanced if they stay.
@@ -362,6 +380,14 @@ struct BatchPass {
   void leave_intact(LaneMask leave) const {
     for (int lane = 0; any(leave) && lane < lane_count; ++lane)
       if (leave[lane]) joint_to_points(*pass.model, *pass.state, pass.branches, std::size_t(batch.first_joint + lane));
+  }
+
+  /// Composite lanes that leave the intact path get the jump of the pass before back, from which point_patch() takes
+  /// the change over the step.
+  [[gnu::noinline]] void give_back(const Lanes* change, LaneMask leave) const {
+    for (std::size_t c = 0; c < 6; ++c)
+      for (int lane = 0; lane < batch.count; ++lane)
+        if (leave[lane]) pass.state->joint.last[last_index(k, int(c)) + std::size_t(lane)] -= float(change[c][lane]);
   }
 
   /// Lanes point by point; the few whose law has no lane form are left to point_patch().

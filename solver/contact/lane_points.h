@@ -12,7 +12,7 @@ struct LaneStrength {
   Lanes tension, cohesion, tangent, residual_cohesion, residual_tangent, dilation;
   LaneMask brittle;
   LaneMask tie;
-  LaneMask crushes;
+  LaneMask composite, crushes;
 };
 
 [[gnu::always_inline]] inline LaneStrength strength_of(const LawConstants& law) {
@@ -25,6 +25,7 @@ struct LaneStrength {
   s.dilation = splat(law.tan_dilation);
   s.brittle = LaneMask::first(law.kind == JointLaw::Kind::brittle ? lane_count : 0);
   s.tie = LaneMask::first(law.kind == JointLaw::Kind::tie ? lane_count : 0);
+  s.composite = LaneMask::first(is_composite(law) ? lane_count : 0);
   s.crushes = LaneMask::first(crushes(law) ? lane_count : 0);
   return s;
 }
@@ -41,6 +42,7 @@ struct LaneStrength {
     take(s.dilation, one.dilation);
     s.brittle = without(s.brittle, only) | (one.brittle & only);
     s.tie = without(s.tie, only) | (one.tie & only);
+    s.composite = without(s.composite, only) | (one.composite & only);
     s.crushes = without(s.crushes, only) | (one.crushes & only);
   }
   return s;

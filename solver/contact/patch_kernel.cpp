@@ -70,16 +70,16 @@ void book_losses(const Patch& patch, const PointBefore& b, double plastic_openin
 }
 
 /// The same of a composite point, whose stiffness goes as it crushes: of jumps in terms of the undamaged stiffness, ½ k
-/// jump² over what is left of it is stored. What is neither friction nor, as for other laws, the normal part at a point
-/// that opens without bond, went with the bond and with crushing.
-void book_composite(const Patch& patch, const PointBefore& b, bool was_broken, double kept_then, double kept,
-                    PointResult& r) {
+/// jump² over what is left of it is stored. A point that had no bond and did not crush is booked as those of other
+/// laws; else what is not friction went with the bond and with crushing.
+void book_composite(const Patch& patch, const PointBefore& b, const PointMemory& old, const PointMemory& memory,
+                    double kept_then, double kept, PointResult& r) {
   const auto lost = [&](double k, double now, int c) {
     return 0.5 * k * ((now + b.elastic[c]) * b.du[c] - now * now / kept + b.elastic[c] * b.elastic[c] / kept_then);
   };
   const double shear = lost(patch.ks, r.s, 1) + lost(patch.ks, r.t, 2);
-  if (was_broken && r.open) {
-    r.friction = shear;
+  if (old.broken && memory.crushed == old.crushed) {
+    r.friction = shear + (r.open ? 0.0 : patch.kn * r.n * (memory.n - old.n));
     r.fracture = 0.0;
   } else {
     r.fracture = shear + lost(patch.kn, r.n, 0) - r.friction;
@@ -110,6 +110,7 @@ struct PointSums {
   double friction = 0.0, fracture = 0.0, damping = 0.0;
   double opening = 0.0, slip2 = 0.0;
   bool all_open = true, all_broken = true;
+  bool all_plain = true;  // of composite points: without bond, nothing crushed, where they were made
 };
 
 template <class Law>
@@ -128,8 +129,9 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
     if constexpr (Law::crushes) {
       const double then = kept_stiffness(law, patch.kn, old.crushed);
       for (double& jump : before.elastic) jump *= then;
-      if (!r.elastic) book_composite(patch, before, old.broken, then, kept_stiffness(law, patch.kn, pm.crushed), r);
+      if (!r.elastic) book_composite(patch, before, old, pm, then, kept_stiffness(law, patch.kn, pm.crushed), r);
       store_crushing(patch, i, pm, memory);
+      sums.all_plain &= pm.broken && pm.crushed == 0.0 && pm.n == 0.0;
     } else if (!r.elastic) {
       book_losses(patch, before, pm.n - old.n, old.broken, r);
     }
@@ -157,6 +159,13 @@ PointSums sum_points(Law, const LawConstants& law, const Patch& patch, const Jum
     }
   }
   return sums;
+}
+
+/// From the next pass on it may go with brittle joints, whose rows without weight repeat the last point too.
+void become_plain(const Model& model, const Patch& patch, PatchMemory& memory) {
+  const PointMemory last = load_memory(patch, patch.point_count - 1, memory);
+  for (int i = patch.point_count; i < model.batches[std::size_t(patch.batch)].points; ++i)
+    store_memory(patch, i, last, memory);
 }
 
 }  // namespace
@@ -192,12 +201,18 @@ void point_patch(const PatchPass& pass, std::size_t index, double* wrench) {
     double& most = memory.largest[largest_index(at, c)];
     most = std::max(most, reached[c]);
   }
-  if (sums.all_open && sums.all_broken) memory.mode[index] |= mode_broken;
+  std::uint8_t& mode = memory.mode[index];
+  if (sums.all_open && sums.all_broken) mode |= mode_broken;
+  if (!is_composite(law)) return;
+  mode &= std::uint8_t(~mode_plain);
+  if (!sums.all_plain || law.tan_dilation > 0.0) return;
+  mode |= mode_plain;
+  become_plain(model, patch, memory);
 }
 
 bool in_tile_energy(const Model& model, const State& state, std::size_t joint) {
   return model.laws[std::size_t(model.joints[joint].law)].kind == JointLaw::Kind::brittle ||
-         !(state.joint.mode[joint] & mode_points);
+         !(state.joint.mode[joint] & mode_points) || (state.joint.mode[joint] & mode_lanes);
 }
 
 void joint_to_points(const Model& model, State& state, const Branches& branches, std::size_t index) {

@@ -91,6 +91,15 @@ inline double least_compressive_energy(const JointLaw& law, double kn, double ks
   return CrushingCurve::fullness * law.compressive_strength * law.compressive_strength / firm;
 }
 
+/// The pressure p (Pa) at which the most shear that a point without bond can have, c_res + p tan φ_res, reaches the cap
+/// at its first size: √(p² + Css (c_res + p tan φ_res)²) = fc/3. Negative: at any.
+inline double plain_pressure(const LawConstants& law) {
+  if (law.crushing <= 0.0) return 1e300;
+  const double begin = CrushingCurve::begin * law.crushing, c = law.residual_cohesion, t = law.residual_tan_friction;
+  const double a = 1.0 + law.cap_shear * t * t, b = law.cap_shear * c * t, rest = begin * begin - law.cap_shear * c * c;
+  return rest < 0.0 ? -1.0 : (std::sqrt(b * b + a * rest) - b) / a;
+}
+
 /// What is left of the stiffness of a point: 1 but for composite points that have crushed.
 inline double kept_stiffness(const LawConstants& law, double kn, double crushed) {
   return crushed > 0.0 ? CrushingCurve(law, kn).kept(crushed) : 1.0;

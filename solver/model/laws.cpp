@@ -23,6 +23,7 @@ LawConstants law_constants(const JointLaw& law) {
     c.cap_shear = law.cap_shear;
     c.dilation_length = law.dilation_length;
     c.dilation_pressure = law.dilation_pressure;
+    c.plain_pressure = plain_pressure(c);
   }
   constexpr double none = 1e300;
   const bool elastic = law.kind == JointLaw::Kind::elastic;

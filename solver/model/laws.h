@@ -21,6 +21,7 @@ struct LawConstants {
   // Composite: Pa (0: none), J/m2, m (0: as much as elastic), –, m (0: none), Pa (0: none).
   double crushing = 0.0, mode_c = 0.0, crushing_peak = 0.0, cap_shear = 0.0;
   double dilation_length = 0.0, dilation_pressure = 0.0;
+  double plain_pressure = 0.0;  // Pa, up to which a point without bond crushes nothing, whatever its shear
   // What the elastic path compares with: nothing limits an elastic law, and tension ends at the apex of the cone.
   double most_tension = 0.0, most_cohesion = 0.0, slope = 0.0;
 };

@@ -19,6 +19,9 @@ enum PatchMode : std::uint8_t {
   mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted; or a free slot
   mode_open = 8,    // intact path, or a contact: wholly open at the last pass
   mode_slid = 16,   // intact path: its rigid plastic slip is not zero
+  // Composite joints point by point:
+  mode_plain = 32,  // all bonds are lost, nothing is crushed, nothing dilates: as a brittle joint that has broken
+  mode_lanes = 64,  // it was computed as such at the last pass
 };
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.

@@ -100,6 +100,57 @@ TEST(Composite, LeavesTheIntactPathAtTheCap) {
   }
 }
 
+/// Without bond, dilation and much pressure a composite joint goes eight side by side with brittle ones, with their
+/// forces and losses; pressed harder it crushes, and is computed by its own law from then on.
+TEST(Composite, GoesWithBrittleJointsUntilItCrushes) {
+  JointLaw composite = composite_law(), brittle = dry_law(0.6);
+  composite.tension = composite.cohesion = composite.dilation_angle = 0.0;
+  composite.friction_angle = composite.residual_friction_angle;
+  for (const bool rectangle : {true, false}) {
+    const auto blocks = [&](const JointLaw& law) {
+      const Polygon pentagon = {{0, 0, 0}, {0.8, 0, 0}, {0.9, 0.4, 0}, {0.4, 0.7, 0}, {-0.1, 0.4, 0}};
+      if (rectangle) return two_blocks(law);
+      Assembly assembly = stone();
+      add_block(assembly, make_prism(pentagon, {0, 0, -0.7}), true);
+      add_block(assembly, make_prism(Polygon(pentagon.rbegin(), pentagon.rend()), {0, 0, 0.6}));
+      return joined(std::move(assembly), kn, ks, law);
+    };
+    SolverSettings settings = undamped();
+    settings.damping.kind = DampingSettings::Kind::maxwell;
+    Bench one(blocks(composite), settings), other(blocks(brittle), settings);
+    for (Bench* bench : {&one, &other}) bench->begin(1e-3);
+    double worst = 0.0, largest = 0.0;
+    int in_lanes = 0, open = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const double t = 0.02 * i;
+      const Vec3 half = 2e-5 * Vec3(std::sin(0.9 * t), std::sin(1.7 * t), std::sin(0.5 * t));
+      for (Bench* bench : {&one, &other}) {
+        bench->place(1, {2e-5 * std::sin(1.3 * t), 2e-5 * std::sin(0.7 * t), 4e-5 * std::sin(1.1 * t) + 1e-5},
+                     Eigen::Quaterniond(std::sqrt(1 - half.squaredNorm()), half.x(), half.y(), half.z()));
+        bench->stepper.patches_only();
+      }
+      const std::uint8_t mode = one.state.joint.mode[0];
+      in_lanes += (mode & mode_points) && (mode & mode_lanes), open += !(mode & mode_points) && (mode & mode_open);
+      for (std::size_t c = 0; c < 6; ++c) {
+        worst = std::max(worst, std::abs(one.stepper.wrenches[c] - other.stepper.wrenches[c]));
+        largest = std::max(largest, std::abs(other.stepper.wrenches[c]));
+      }
+    }
+    EXPECT_GT(in_lanes, 500) << rectangle;
+    EXPECT_GT(open, 100) << rectangle << ": came back to the intact path";
+    EXPECT_LT(worst, 1e-6 * largest) << rectangle << ": branches are kept in single precision";
+    const auto friction = [](const Bench& bench) { return bench.state.joint.energy[energy_index({0, 0}, 0)]; };
+    EXPECT_GT(friction(other), 0.0);
+    EXPECT_NEAR(friction(one), friction(other), 1e-5 * friction(other));
+    for (int i = 1; i <= 100; ++i) {
+      one.place(1, {1e-4, 0, -3e-6 * i}, Eigen::Quaterniond(1, 1e-5, 0, 0).normalized());
+      one.stepper.patches_only();
+    }
+    EXPECT_EQ(one.state.joint.mode[0] & (mode_plain | mode_lanes), 0);
+    EXPECT_GT(one.state.joint.point_crush[point_index(one.model.joints[0], 0, 3, 0)], 1e-5);
+  }
+}
+
 /// A block on strips of base, so that points lie close: tilted further and further under a constant load it ends on the
 /// rectangular block of stress, whose lever about the middle is t/2 − N/(2 fc w) (w the width, t the depth).
 TEST(Composite, AHingeCrushesToTheRectangularBlockOfStress) {
