@@ -68,6 +68,22 @@ TEST(PlacedVehicle, HasItsAxlesWhereItDrives) {
   EXPECT_NEAR(sum, 1.5e5 * 0.3 / 3.0, 1e-6);
 }
 
+/// A case that is a loading test is rated without it; what comes before the test stays.
+TEST(LoadingTest, IsLeftOutWithItsBeam) {
+  const Case c = read_case(std::string(VOUSSOIR_SOURCE_DIR) + "/cases/bridges/prestwood.toml");
+  ASSERT_TRUE(is_loading_test(c));
+  const Case without = without_loading_test(c);
+  EXPECT_FALSE(is_loading_test(without));
+  EXPECT_TRUE(without.settings.guides.empty());
+  ASSERT_EQ(without.settings.stages.size(), 1u);
+  EXPECT_EQ(without.settings.stages[0].kind, StageSettings::Kind::gravity);
+  EXPECT_EQ(without.motions.size(), 1u);
+  EXPECT_FALSE(make_assembly(without).groups.contains("load"));
+  const Case strip = strip_case(c, 0.3);
+  EXPECT_FALSE(is_loading_test(strip));
+  EXPECT_EQ(strip.settings.stages.size(), 1u);
+}
+
 TEST(EffectiveWidth, IsWheelsAndACoverButNoMoreThanTheBridge) {
   EXPECT_NEAR(effective_width(2.0, 0.4, 10.0), 3.9, 1e-12);
   EXPECT_NEAR(effective_width(2.0, 0.4, 3.0), 3.0, 1e-12);

@@ -39,7 +39,7 @@ AfterPassage look_at(const Simulation& run, const Snapshot& begun) {
   return after;
 }
 
-StageSettings standing(std::vector<RoadLoad> loads, const Loads& before) {
+StageSettings standing(const std::vector<RoadLoad>& loads, const Loads& before) {
   StageSettings stage;
   stage.label = "passage";
   stage.allow_motion = true;
@@ -48,23 +48,10 @@ StageSettings standing(std::vector<RoadLoad> loads, const Loads& before) {
   return stage;
 }
 
-std::vector<RoadLoad> loads_at(const PassageRequest& request, const Case& c, const VehiclePlace& place, double factor) {
-  const Vehicle& vehicle = request.rate.vehicles.front();
-  std::vector<RoadLoad> loads =
-      request.rate.effective_width
-          ? loads_on_strip(vehicle, place, c.generator_input("strip_width"), *request.rate.effective_width)
-          : loads_of(vehicle, place);
-  for (RoadLoad& load : loads) load.pressure *= factor;
-  return loads;
-}
-
 /// The stages of the case that bring it to rest, and those of all passages.
 std::vector<StageSettings> all_stages(const Case& c, const std::vector<SpanExtent>& spans,
                                       const PassageRequest& request, double factor, std::size_t& first) {
-  std::vector<StageSettings> stages = c.settings.stages;
-  if (!stages.empty() && stages.back().kind == StageSettings::Kind::collapse) stages.pop_back();
-  if (stages.empty())
-    throw InputError("{} has no stage that brings the bridge to rest: begin with a gravity stage", c.path);
+  std::vector<StageSettings> stages = before_vehicles(c).settings.stages;
   first = stages.size();
   const Loads before = loads_after(stages, first - 1);
   const Vehicle& vehicle = request.rate.vehicles.front();
@@ -73,7 +60,9 @@ std::vector<StageSettings> all_stages(const Case& c, const std::vector<SpanExten
     for (int k = 0; k < request.places; ++k) {
       const double share = (k + 0.5) / request.places;
       const VehiclePlace place = {way.front() + share * (way.back() - way.front()), request.rate.lanes.front(), true};
-      stages.push_back(standing(loads_at(request, c, place, factor), before));
+      std::vector<RoadLoad> loads = vehicle_loads(request.rate, c, 0, place);
+      for (RoadLoad& load : loads) load.pressure *= factor;
+      stages.push_back(standing(loads, before));
     }
     stages.push_back(standing({}, before));
   }

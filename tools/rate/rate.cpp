@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <mutex>
 
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
+#include "solver/base/timed.h"
 #include "solver/run/simulation.h"
 
 namespace voussoir {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// Of its loads in its own frame, m.
 std::pair<double, double> reach(const Vehicle& vehicle) {
@@ -44,18 +38,12 @@ bool same_both_ways(const Vehicle& vehicle) {
   return vehicle.strips.empty() || !vehicle.axles.empty();
 }
 
-std::vector<RoadLoad> road_loads(const RateRequest& request, const Case& c, const RatedPlace& at) {
-  const Vehicle& vehicle = request.vehicles[at.vehicle];
-  if (!request.effective_width) return loads_of(vehicle, at.place);
-  return loads_on_strip(vehicle, at.place, c.generator_input("strip_width"), *request.effective_width);
-}
-
 StageSettings collapse_stage(const RateRequest& request, const Case& c, const RatedPlace& at) {
   StageSettings stage;
   stage.kind = StageSettings::Kind::collapse;
   stage.label = "collapse";
   stage.loads = Loads{};
-  stage.loads->road = road_loads(request, c, at);
+  stage.loads->road = vehicle_loads(request, c, at.vehicle, at.place);
   stage.collapse.to = request.most;
   stage.collapse.tolerance = request.tolerance;
   stage.collapse.confirm = 0.0;
@@ -71,11 +59,7 @@ struct AtRest {
 
 AtRest bring_to_rest(const Case& c, const Assembly& assembly, int threads) {
   AtRest rest;
-  rest.settings = c.settings;
-  std::vector<StageSettings>& stages = rest.settings.stages;
-  if (!stages.empty() && stages.back().kind == StageSettings::Kind::collapse) stages.pop_back();
-  if (stages.empty())
-    throw InputError("{} has no stage that brings the bridge to rest: begin with a gravity stage", c.path);
+  rest.settings = before_vehicles(c).settings;
   rest.settings.output.fields_every = 0.0;
   Simulation run(assembly, rest.settings, threads, {});
   if (run.run() != RunEnd::finished) throw RunError("{}: {}", c.path, run.failure());
@@ -134,7 +118,7 @@ class Sweep {
 
  private:
   void one(RatedPlace& at) const {
-    const Clock::time_point begin = Clock::now();
+    const Timed timed(at.seconds);
     SolverSettings settings = rest_.settings;
     settings.stages.push_back(collapse_stage(request_, case_, at));
     Simulation run(assembly_, settings, 1, {});
@@ -142,7 +126,6 @@ class Sweep {
     run.restore(rest_.position);
     if (run.run() != RunEnd::finished) throw RunError("{}", run.failure());
     note_loss(assembly_, run.collapse(), at);
-    at.seconds = seconds_since(begin);
   }
 
   const Case& case_;
@@ -155,6 +138,25 @@ class Sweep {
 };
 
 }  // namespace
+
+Case before_vehicles(const Case& c) {
+  Case before = c;
+  std::vector<StageSettings>& stages = before.settings.stages;
+  if (!stages.empty() && stages.back().kind == StageSettings::Kind::collapse) {
+    stages.pop_back();
+    before.motions.pop_back();
+  }
+  if (stages.empty())
+    throw InputError("{} has no stage that brings the bridge to rest: begin with a gravity stage", c.path);
+  return before;
+}
+
+std::vector<RoadLoad> vehicle_loads(const RateRequest& request, const Case& c, std::size_t vehicle,
+                                    const VehiclePlace& place) {
+  const Vehicle& v = request.vehicles[vehicle];
+  if (!request.effective_width) return loads_of(v, place);
+  return loads_on_strip(v, place, c.generator_input("strip_width"), *request.effective_width);
+}
 
 std::size_t worst_of_all(const Rating& rating) {
   std::size_t worst = rating.worst.front();
@@ -202,9 +204,7 @@ Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
     step = 1e300;
     for (const SpanExtent& span : rating.spans) step = std::min(step, 0.1 * (span.x1 - span.x0));
   }
-  const Clock::time_point begin = Clock::now();
   const AtRest rest = bring_to_rest(c, assembly, request.threads);
-  rating.gravity_seconds = seconds_since(begin);
   std::vector<RatedPlace> places;
   for (std::size_t v = 0; v < request.vehicles.size(); ++v)
     for (const double lane : request.lanes)
@@ -241,12 +241,8 @@ Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
 }
 
 Case with_vehicle(const Case& c, const RateRequest& request, const RatedPlace& at, bool to_collapse) {
-  Case more = c;
+  Case more = before_vehicles(c);
   std::vector<StageSettings>& stages = more.settings.stages;
-  if (!stages.empty() && stages.back().kind == StageSettings::Kind::collapse) {
-    stages.pop_back();
-    more.motions.pop_back();
-  }
   StageSettings stage = collapse_stage(request, c, at);
   if (to_collapse) {
     stage.collapse.confirm = CollapseSettings{}.confirm;
@@ -255,10 +251,9 @@ Case with_vehicle(const Case& c, const RateRequest& request, const RatedPlace& a
   } else {
     stage.kind = StageSettings::Kind::gravity;
     stage.label = "vehicle";
-    const Loads before = loads_after(stages, stages.size());
-    stage.loads->acceleration = before.acceleration;
-    stage.loads->forces = before.forces;
-    stage.loads->road.insert(stage.loads->road.begin(), before.road.begin(), before.road.end());
+    Loads all = loads_after(stages, stages.size());
+    all.road.insert(all.road.end(), stage.loads->road.begin(), stage.loads->road.end());
+    stage.loads = all;
     stage.collapse = {};
   }
   stages.push_back(stage);

@@ -47,8 +47,14 @@ struct Rating {
   std::vector<SpanExtent> spans;
   std::vector<RatedPlace> places;  // by vehicle, lane, direction and x
   std::vector<std::size_t> worst;  // of each vehicle: index into places
-  double gravity_seconds = 0.0;
 };
+
+/// The case without what must not act before a vehicle: a last stage of collapse. Throws InputError when no stage is
+/// left that brings the bridge to rest.
+Case before_vehicles(const Case& c);
+/// What a vehicle of the request puts on the road of the case's bridge, or on its strip.
+std::vector<RoadLoad> vehicle_loads(const RateRequest& request, const Case& c, std::size_t vehicle,
+                                    const VehiclePlace& place);
 
 /// Index into places of the worst of all vehicles.
 std::size_t worst_of_all(const Rating& rating);

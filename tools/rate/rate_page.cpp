@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/base/constants.h"
 #include "tools/rate/rate_report.h"
 #include "viz/page/line_chart.h"
 
@@ -47,9 +48,9 @@ std::string table(const Rating& rating, const RateRequest& request) {
   for (const std::size_t index : rating.worst) {
     const RatedPlace& at = rating.places[index];
     const Vehicle& vehicle = request.vehicles[at.vehicle];
-    const nlohmann::json row = rating_json({rating.spans, rating.places, {index}, 0.0}, request)["vehicles"][0];
+    const nlohmann::json row = rating_json({rating.spans, rating.places, {index}}, request)["vehicles"][0];
     text += table_row({words_cell(vehicle.name),
-                       {fmt::format("{:.1f}", axle_weight(vehicle) / 9810.0), true},
+                       {fmt::format("{:.1f}", axle_weight(vehicle) / (1e3 * standard_gravity)), true},
                        {factor_text(at, request), true},
                        {at.found ? fmt::format("{:.3g}", at.above) : "–", true},
                        {fmt::format("{:.2f}", at.place.x), true},

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -14,7 +16,29 @@ bool has_word(const Case& c, const std::string& ending, const std::string& usual
   return false;
 }
 
+constexpr const char* beam_length = "beam.length";
+constexpr const char* beam_group = "load";
+
 }  // namespace
+
+bool is_loading_test(const Case& c) {
+  const auto length = c.generator_input.values.find(beam_length);
+  return length != c.generator_input.values.end() && length->second > 0.0;
+}
+
+Case without_loading_test(const Case& c) {
+  if (!is_loading_test(c)) return c;
+  Case without = c;
+  without.generator_input.values[beam_length] = 0.0;
+  std::erase_if(without.settings.guides, [](const Guide& g) { return g.group == beam_group; });
+  std::vector<StageSettings>& stages = without.settings.stages;
+  const auto test = std::find_if(stages.begin(), stages.end(), [](const StageSettings& stage) {
+    return std::any_of(stage.drives.begin(), stage.drives.end(), [](auto& d) { return d.group == beam_group; });
+  });
+  stages.erase(test, stages.end());
+  without.motions.resize(stages.size());
+  return without;
+}
 
 Case strip_case(const Case& c, double width) {
   if (c.generator != "bridge")
@@ -24,13 +48,12 @@ Case strip_case(const Case& c, double width) {
         c.path, c.generator.empty() ? "an assembly file" : "of generator = \"" + c.generator + "\"");
   if (c.generator_input.choices.at("backfill") == "none")
     throw InputError("{}: there is no fill to load: set backfill in [bridge]", c.path);
-  Case strip = c;
+  Case strip = without_loading_test(c);
   GeneratorInput& in = strip.generator_input;
   in.choices["extent"] = "strip";
   in.choices["backfill"] = "deformable";
   in.values["strip_width"] = width;
   in.values["skew"] = 0.0;
-  in.values["beam.length"] = 0.0;
   for (auto& [key, word] : in.choices)
     if (key.ends_with("makeup")) word = "solid";
   for (auto& [key, value] : in.values)
@@ -45,7 +68,7 @@ Case strip_case(const Case& c, double width) {
 }
 
 std::vector<std::string> strip_remarks(const Case& c) {
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks = {"without spandrel walls and parapets"};
   const GeneratorInput& in = c.generator_input;
   if (in("skew") != 0.0)
     remarks.push_back(fmt::format("laid square: the skew of {:g} degrees is left out", in("skew")));

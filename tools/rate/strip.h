@@ -1,8 +1,13 @@
-// A bridge as a strip in plane strain: what `rate --strip` loads.
+// A case as `rate` loads it: without the beam of a loading test, whole or as a strip in plane strain.
 #pragma once
 #include "io/case/case.h"
 
 namespace voussoir {
+
+/// Whether the case is a loading test: a generated bridge with a beam on its road.
+bool is_loading_test(const Case& c);
+/// Without the beam, its guides, and the stages from the first that drives it on.
+Case without_loading_test(const Case& c);
 
 /// The case of a generated bridge (generator "bridge") as a strip: square to its supports, solid supports, a continuum
 /// as its fill, all its weight at once, restrained ends as the case has them. `width` in m. Throws InputError for

@@ -1,6 +1,7 @@
 // voussoir rate.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "io/vtk/series.h"
@@ -8,7 +9,6 @@
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
-#include "solver/base/suggestion.h"
 #include "tools/rate/mexe_file.h"
 #include "tools/rate/passages.h"
 #include "tools/rate/rate_page.h"
@@ -80,9 +80,22 @@ std::vector<Vehicle> vehicles_asked(const options::variables_map& values) {
   return all;
 }
 
-std::vector<std::string> factor_remarks(const options::variables_map& values) {
-  if (!values.count("factor")) return {"no dynamic factor acts: --factor NAME applies one"};
-  return {fmt::format("dynamic factor {}", values["factor"].as<std::string>())};
+std::vector<double> lanes_asked(const std::vector<double>& lanes) {
+  for (const double y : lanes)
+    if (!(std::abs(y) <= 100.0)) throw InputError("--lane {}: must be a number from -100 to 100, in m", y);
+  return lanes;
+}
+
+/// Dynamic factors, and figures of the vehicles that nobody has looked up.
+std::vector<std::string> vehicle_remarks(const options::variables_map& values, const std::vector<Vehicle>& vehicles) {
+  std::vector<std::string> remarks = {values.count("factor")
+                                          ? fmt::format("dynamic factor \"{}\"", values["factor"].as<std::string>())
+                                          : std::string("no dynamic factor acts: --factor NAME applies one")};
+  for (const Vehicle& vehicle : vehicles)
+    if (!vehicle.not_checked.empty())
+      remarks.push_back(
+          fmt::format("{}: not looked up in its source: {}", vehicle.name, fmt::join(vehicle.not_checked, ", ")));
+  return remarks;
 }
 
 double widest(const std::vector<Vehicle>& vehicles) {
@@ -94,10 +107,15 @@ double widest(const std::vector<Vehicle>& vehicles) {
 /// The case as it is loaded, and what was assumed for it.
 Case loaded_case(const Case& c, const options::variables_map& values, RateRequest& request,
                  std::vector<std::string>& remarks) {
-  if (!values.count("strip")) return c;
+  const char* const beam = "without the beam of its loading test, and without the stages from that test on";
+  if (!values.count("strip")) {
+    if (is_loading_test(c)) remarks.push_back(beam);
+    return without_loading_test(c);
+  }
   const double cover =
       c.generator_input.values.contains("fill_over_crown") ? c.generator_input("fill_over_crown") : 0.0;
   remarks = strip_remarks(c);
+  if (is_loading_test(c)) remarks.push_back(beam);
   Case strip = strip_case(c, values["strip"].as<double>());
   request.effective_width = values.count("effective-width")
                                 ? values["effective-width"].as<double>()
@@ -207,7 +225,7 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   const bool quiet = values.count("quiet") > 0;
   RateRequest request;
   request.vehicles = vehicles_asked(values);
-  if (values.count("lane")) request.lanes = values["lane"].as<std::vector<double>>();
+  if (values.count("lane")) request.lanes = lanes_asked(values["lane"].as<std::vector<double>>());
   if (values.count("step")) request.step = values["step"].as<double>();
   request.refinements = values["refine"].as<int>();
   request.both_ways = values.count("one-way") == 0;
@@ -217,7 +235,7 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   if (values.count("mexe")) words.beside = mexe_text(mexe(read_mexe(values["mexe"].as<std::string>())));
   const Case given = read_case(file);
   const Case c = loaded_case(given, values, request, words.remarks);
-  for (const std::string& remark : factor_remarks(values)) words.remarks.push_back(remark);
+  for (const std::string& remark : vehicle_remarks(values, request.vehicles)) words.remarks.push_back(remark);
   const std::string name = fs::path(file).stem().string();
   const std::string out = values.count("output") ? values["output"].as<std::string>() : "rate-" + name;
   words.title = "Rating: " + name;
