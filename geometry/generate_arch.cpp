@@ -175,6 +175,8 @@ Assembly build_arch(const std::vector<Material>& defaults, const GeneratorInput&
     for (std::int64_t s = first[i]; s < first[i + 1]; ++s) {
       layout.groups[fmt::format("voussoir {}", i)].push_back(s);
       if (keystone) layout.groups["keystone 0"].push_back(s);
+      if (const int quarter = quarter_of(ring.intrados, int(i)); quarter >= 0)
+        layout.groups[quarter == 0 ? "quarter 0 left" : "quarter 0 right"].push_back(s);
     }
   }
   const Vec3 &foot_in = ring.intrados.front(), &foot_out = ring.extrados.front();

@@ -166,6 +166,8 @@ Assembly build_filled_arch(const std::vector<Material>& defaults, const Generato
   for (std::size_t i = 0; i < n; ++i) {
     layout.groups[fmt::format("voussoir {}", i)] = {first[i]};
     if (i >= (n - 1) / 2 && i <= n / 2) layout.groups["keystone 0"].push_back(first[i]);
+    if (const int quarter = quarter_of(s.ring.intrados, int(i)); quarter >= 0)
+      layout.groups[quarter == 0 ? "quarter 0 left" : "quarter 0 right"].push_back(first[i]);
   }
   for (const bool left : {true, false}) lay_springing(layout, s, left);
   lay_walls(layout, s);

@@ -3,6 +3,7 @@
 #include "geometry/fill_gmsh.h"
 #include "geometry/fill_joints.h"
 #include "geometry/fill_mesh.h"
+#include "geometry/road.h"
 #include "solver/base/constants.h"
 #include "solver/base/error.h"
 
@@ -64,6 +65,13 @@ void add_fill(Assembly& assembly, const Bridge& bridge, JointRules rules, const 
   find_fill_joints(assembly, search);
   rules.nominal.at(Component::backfill) /= in("block_scale");
   assign_fill_stiffness(assembly, rules, in);
+}
+
+/// The blocks that bear the road, group "deck".
+void name_deck(Assembly& assembly) {
+  const Road road(assembly);
+  for (const RoadShare::OfBlock& share : road.under(road.extent()).blocks)
+    assembly.groups["deck"].push_back(share.block);
 }
 
 }  // namespace
@@ -142,6 +150,7 @@ Assembly lay_bridge(const Bridge& bridge, const std::vector<Material>& materials
   assign_stiffness(assembly, rules, in);
   if (bridge.deformable_backfill) add_fill(assembly, bridge, rules, in);
   smooth_strip_walls(assembly);
+  if (bridge.rigid_backfill) name_deck(assembly);
   return assembly;
 }
 

@@ -138,14 +138,18 @@ void lay_course(Layout& layout, const Bridge& bridge, std::size_t i, const Beds&
   for (std::size_t k = 0; k + 1 < y.size(); ++k) {
     std::vector<Polyhedron> cells;
     bool crown = false;
+    int quarter = -1;
     for (const CourseWedge& part : row) {
       const std::size_t before = cells.size();
       for (const Polyhedron& prism : part.prisms) add_between(cells, prism, y[k], y[k + 1], nominal.prod());
-      if (cells.size() > before && at_crown(part.wedge, wedges)) crown = true;
+      if (cells.size() == before) continue;
+      crown |= at_crown(part.wedge, wedges);
+      quarter = std::max(quarter, quarter_of(vault.rings.front().intrados, part.wedge));
     }
     if (cells.empty()) continue;
     if (crown) keystone.push_back(std::int64_t(layout.stones.size()));
     lay_stone(layout, std::move(cells), unit, nominal, true);
+    name_quarter(layout, i, quarter, layout.stones.size() - 1);
     layout.stones.back().layers = ((1u << rings) - 1u) << ring;
   }
 }

@@ -215,6 +215,9 @@ bool at_crown(int wedge, int wedges);
 /// Puts the stones from number `from` on into the groups of their rings.
 void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::size_t rings, std::size_t from);
 
+/// Puts the stones from number `from` on into the group of a quarter point of a vault, 0 left and 1 right; −1: none.
+void name_quarter(Layout& layout, std::size_t vault, int quarter, std::size_t from);
+
 /// The barrel of one vault in helicoidal or logarithmic bond. Throws InputError for an intrados that is upright or
 /// overhangs.
 void lay_oblique(Layout& layout, const Bridge& bridge, std::size_t vault);
@@ -222,8 +225,9 @@ void lay_oblique(Layout& layout, const Bridge& bridge, std::size_t vault);
 void turn_to_skew(Layout& layout, double skew);
 Vec3 at_skew(const Vec3& p, double skew);
 
-void lay_vaults(Layout& layout, const Bridge& bridge);  // sets the layout's rings; groups "keystone i"
-void lay_piers(Layout& layout, const Bridge& bridge);
+void lay_vaults(Layout& layout,
+                const Bridge& bridge);  // sets the layout's rings; groups "keystone i", "quarter i left", …
+void lay_piers(Layout& layout, const Bridge& bridge);      // groups "pier top 0" …
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them
 void lay_skewbacks(Layout& layout, const Bridge& bridge);  // supports from the springing to the vaults' feet
 void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y- pier 0" …

@@ -1,4 +1,6 @@
 // Piers: solid with battered faces, or a leaf around loose infill.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "geometry/masonry_parts.h"
@@ -80,8 +82,27 @@ void lay_solid(Layout& layout, const Solid& solid, const Unit& unit) {
   }
 }
 
+namespace {
+
+/// The uppermost course of a pier, from stone number `from` on.
+void name_top(Layout& layout, std::size_t pier, std::size_t from) {
+  const auto top = [&](std::size_t s) {
+    double z = -1e300;
+    for (const Polyhedron& cell : layout.stones[s].cells) z = std::max(z, bounding_box(cell).high.z());
+    return z;
+  };
+  double highest = -1e300;
+  for (std::size_t s = from; s < layout.stones.size(); ++s) highest = std::max(highest, top(s));
+  auto& group = layout.groups[fmt::format("pier top {}", pier)];
+  for (std::size_t s = from; s < layout.stones.size(); ++s)
+    if (top(s) > highest - no_masonry) group.push_back(std::int64_t(s));
+}
+
+}  // namespace
+
 void lay_piers(Layout& layout, const Bridge& bridge) {
   for (std::size_t i = 1; i < bridge.last_support(); ++i) {
+    const std::size_t first = layout.stones.size();
     const Support& support = bridge.supports[i];
     const double z0 = support.base, z1 = support.springing, half = bridge.half_width(i);
     if (support.makeup != Makeup::solid) {
@@ -90,6 +111,7 @@ void lay_piers(Layout& layout, const Bridge& bridge) {
       const Solid solid = {support.x0, support.x1, half, z0, z1, support.slope_x, support.slope_x, support.slope_y};
       lay_solid(layout, solid, bridge.support_unit(i));
     }
+    name_top(layout, i - 1, first);
     lay_cutwaters(layout, bridge, i);
   }
 }

@@ -27,6 +27,12 @@ void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::
   }
 }
 
+void name_quarter(Layout& layout, std::size_t vault, int quarter, std::size_t from) {
+  if (quarter < 0) return;
+  auto& group = layout.groups[fmt::format("quarter {} {}", vault, quarter == 0 ? "left" : "right")];
+  for (std::size_t s = from; s < layout.stones.size(); ++s) group.push_back(std::int64_t(s));
+}
+
 namespace {
 
 void lay_straight(Layout& layout, const Bridge& bridge, std::size_t i) {
@@ -45,6 +51,7 @@ void lay_straight(Layout& layout, const Bridge& bridge, std::size_t i) {
                    vault.stone(k, rings));
       if (at_crown(wedge, vault.rings[k].wedges()))
         for (std::size_t s = first; s < layout.stones.size(); ++s) keystone.push_back(std::int64_t(s));
+      name_quarter(layout, i, quarter_of(vault.rings[k].intrados, wedge), first);
       if (vault.rings.size() > 1) name_rings(layout, i, k, rings, first);
     }
   }

@@ -147,6 +147,18 @@ void cut_all(std::vector<Polygon>& pieces, const Polygon& whole, const std::vect
 
 }  // namespace
 
+int quarter_of(const Polygon& intrados, int wedge) {
+  const double left = intrados.front().x(), span = intrados.back().x() - left;
+  const auto k = std::size_t(wedge);
+  const double low = std::min(intrados[k].x(), intrados[k + 1].x()),
+               high = std::max(intrados[k].x(), intrados[k + 1].x());
+  for (const int side : {0, 1}) {
+    const double at = left + (side == 0 ? 0.25 : 0.75) * span;
+    if (at >= low - no_masonry && at <= high + no_masonry) return side;
+  }
+  return -1;
+}
+
 Ring make_semicircle(const Vec3& centre, double inner_radius, double outer_radius, int wedges) {
   Ring ring;
   ring.centre = centre;

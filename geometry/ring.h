@@ -24,6 +24,10 @@ struct Ring {
 /// one another bit for bit about `centre`.
 Ring make_semicircle(const Vec3& centre, double inner_radius, double outer_radius, int wedges);
 
+/// 0 for a wedge under which the left quarter point of an intrados' span in plan lies, 1 for the right one, −1 for
+/// neither. Where a joint stands on it, both its neighbours have it.
+int quarter_of(const Polygon& intrados, int wedge);
+
 /// The upright rectangle [x0, x1] × [z0, z1] in the plane y = 0.
 Polygon rectangle(double x0, double x1, double z0, double z1);
 

@@ -10,7 +10,7 @@
 namespace voussoir {
 
 const std::vector<std::string>& stage_kinds() {
-  static const std::vector<std::string> names = {"gravity", "motion", "free", "collapse"};
+  static const std::vector<std::string> names = {"gravity", "motion", "free", "collapse", "quasi-static"};
   return names;
 }
 
@@ -77,6 +77,9 @@ void read_drives(TableReader& table, StageSettings& stage) {
   for (TableReader& sub : table.tables("drive")) {
     Drive drive;
     drive.group = sub.required_text("group");
+    if (sub.has("velocity") && stage.kind == StageSettings::Kind::quasi_static)
+      sub.fail("velocity",
+               "has no meaning in a quasi-static stage: give 'displacement', [x, y, z] in m at the share 1");
     if (sub.has("velocity") && sub.has("displacement"))
       sub.fail("velocity", "and 'displacement' are both given: keep one");
     const bool departs = sub.has("factor") || sub.has("delay");
@@ -92,8 +95,10 @@ void read_drives(TableReader& table, StageSettings& stage) {
     drive.factor = sub.number("factor", 1.0, {-10.0, 10.0, ""});
     drive.delay = sub.number("delay", 0.0, {-10.0, 10.0, "s"});
     if (!(drive.velocity.norm() <= 10.0)) sub.fail("velocity", "is above 10 m/s: look at its unit");
-    if (!(drive.displacement.norm() <= 10.0 * stage.duration))
+    if (stage.timed() && !(drive.displacement.norm() <= 10.0 * stage.duration))
       sub.fail("displacement", "asks for more than 10 m/s on average: look at its unit");
+    if (!stage.timed() && !(drive.displacement.norm() > 0.0 && drive.displacement.norm() <= 10.0))
+      sub.fail("displacement", "must be more than 0 and at most 10 m long");
     sub.finish();
     stage.drives.push_back(drive);
   }
@@ -140,8 +145,9 @@ void add_road_load(TableReader& sub, StageSettings& stage, Loads& loads, const R
     loads.road.push_back(load);
     return;
   }
-  if (!stage.timed())
-    sub.fail("speed", "is for stages that take time: kind = \"free\" or \"motion\"; leave it out here");
+  if (!stage.timed() && stage.kind != StageSettings::Kind::quasi_static)
+    sub.fail("speed",
+             "is for stages with a duration: kind = \"free\", \"motion\" or \"quasi-static\"; leave it out here");
   stage.moving.push_back({load, speed});
 }
 
@@ -216,6 +222,40 @@ void read_collapse(TableReader& table, StageSettings& stage) {
   s.confirm = table.number("confirm", s.confirm, {0.0, 1e4, "s"});
 }
 
+bool has_force(const Loads& loads) {
+  return !loads.acceleration.isZero(0.0) ||
+         std::ranges::any_of(loads.forces, [](const ForceLoad& l) { return !l.force.isZero(0.0); }) ||
+         std::ranges::any_of(loads.road, [](const RoadLoad& l) { return l.pressure > 0.0; });
+}
+
+/// Loads and drives have been read.
+void read_quasi_static(TableReader& table, bool last, StageSettings& stage) {
+  QuasiStaticSettings& s = stage.quasi_static;
+  s.steps = int(table.integer("steps", s.steps, 1, 100000));
+  s.halvings = int(table.integer("halvings", s.halvings, 0, 20));
+  if (table.has("path")) s.path = table.number_list("path", {-100.0, 100.0, ""});
+  double from = 0.0;
+  for (const double corner : s.path) {
+    if (corner == from)
+      table.fail("path", fmt::format("goes from {0:g} to {0:g}: two corners one after the other must differ, and the "
+                                     "first from 0, where the path begins",
+                                     corner));
+    from = corner;
+  }
+  if (!stage.moving.empty() && (s.path.size() != 1 || s.path[0] != 1.0))
+    table.fail("path", "is for loads that stay where they are; what has a speed goes its way once: remove it");
+  if (!stage.loads && stage.moving.empty() && stage.drives.empty())
+    table.missing("load", "or 'vehicle' or 'drive': what changes from step to step");
+  if (!table.has("push")) return;
+  s.push = table.required_number("push", {-10.0, 10.0, "m"});
+  if (!stage.loads || !has_force(*stage.loads))
+    table.fail("push", "asks a machine to push loads along, but this stage has none that stay where they are");
+  if (!stage.drives.empty()) table.fail("push", "and 'drive' are both given: keep one");
+  if (*s.push == 0.0) table.fail("push", "is 0: how far (m) are the loaded points to be pushed along the loads?");
+  if (!last)
+    table.fail("push", "finds the size of its loads, so that nothing could act on: such a stage must be the last");
+}
+
 ConstructionStep read_step(TableReader& table) {
   ConstructionStep step;
   if (table.has("add")) step.add = table.texts("add");
@@ -268,6 +308,8 @@ const char* plain_label(const StageSettings& stage) {
       return "gravity";
     case StageSettings::Kind::collapse:
       return "collapse";
+    case StageSettings::Kind::quasi_static:
+      return stage.drives.empty() ? "load steps" : "settlement steps";
     default:
       return stage.drives.empty() ? "free vibration" : "driven blocks";
   }
@@ -286,9 +328,17 @@ void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
       table.fail("drive",
                  "has no meaning in a " + name + " stage, which takes no time: drive in a free or motion stage");
   }
+  const bool steps = kind == StageSettings::Kind::quasi_static;
+  if (steps && table.has("place"))
+    table.fail("place", "has no meaning in a quasi-static stage: place blocks in a free or motion stage");
+  if (kind != StageSettings::Kind::gravity && !steps && table.has("method"))
+    table.fail("method", "belongs to a gravity or quasi-static stage: remove it");
   if (kind != StageSettings::Kind::gravity)
-    for (const char* key : {"method", "allow_motion", "construction", "lift"})
+    for (const char* key : {"allow_motion", "construction", "lift"})
       if (table.has(key)) table.fail(key, "belongs to a gravity stage: remove it");
+  if (!steps)
+    for (const char* key : {"steps", "path", "push", "halvings"})
+      if (table.has(key)) table.fail(key, "belongs to a quasi-static stage: set kind = \"quasi-static\" or remove it");
   if (kind != StageSettings::Kind::collapse)
     for (const char* key : {"to", "tilt", "tolerance", "displacement", "confirm"})
       if (table.has(key)) table.fail(key, "belongs to a collapse stage: set kind = \"collapse\" or remove it");
@@ -313,10 +363,15 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
       stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0)),
       stage.allow_motion = table.flag("allow_motion", false),
       read_construction(table, &table == &tables.front(), stage);
+    const bool steps = stage.kind == StageSettings::Kind::quasi_static;
+    if (steps) stage.method = StageSettings::Method(table.word("method", gravity_methods(), 0));
+    if (steps) stage.duration = table.number("duration", 1.0, {0.0, 1e6, "s", true});
     if (stage.timed()) stage.duration = table.required_number("duration", {0.0, 1e6, "s", true});
     if (stage.kind == StageSettings::Kind::motion) read_motion(table, c, use, stage, source);
-    if (stage.timed()) read_drives(table, stage), read_placements(table, stage);
+    if (stage.timed() || steps) read_drives(table, stage);
+    if (stage.timed()) read_placements(table, stage);
     read_loads(table, c.path, stage);
+    if (steps) read_quasi_static(table, &table == &tables.back(), stage);
     if (stage.kind == StageSettings::Kind::collapse) {
       read_collapse(table, stage);
       if (&table != &tables.back()) table.fail("kind", "is \"collapse\": such a stage must be the last");

@@ -246,6 +246,18 @@ void write_collapse(TomlText& out, const CollapseSettings& collapse) {
   out.set("confirm", collapse.confirm);
 }
 
+void write_quasi_static(TomlText& out, const StageSettings& stage) {
+  const QuasiStaticSettings& s = stage.quasi_static;
+  out.set("method", gravity_methods()[std::size_t(stage.method)]);
+  out.set("duration", stage.duration);
+  out.raw("steps", std::to_string(s.steps));
+  std::vector<std::string> corners;
+  for (const double corner : s.path) corners.push_back(number_text(corner));
+  out.raw("path", fmt::format("[{}]", fmt::join(corners, ", ")));
+  if (s.push) out.set("push", *s.push);
+  out.raw("halvings", std::to_string(s.halvings));
+}
+
 void write_guides(TomlText& out, const std::vector<Guide>& guides) {
   for (const Guide& guide : guides) {
     std::vector<std::string> ways;
@@ -270,6 +282,7 @@ void write_stages(TomlText& out, const Case& c) {
       write_construction(out, stage.construction);
     }
     if (stage.timed()) out.set("duration", stage.duration);
+    if (stage.kind == StageSettings::Kind::quasi_static) write_quasi_static(out, stage);
     if (stage.kind == StageSettings::Kind::motion) write_motion(out, c.motions[i], i);
     write_drives(out, stage.drives);
     write_placements(out, stage.placements);

@@ -106,6 +106,14 @@ struct ConstructionSettings {
   double lift = 2.0;  // m, of the masons' order
 };
 
+/// How a quasi-static stage goes from equilibrium to equilibrium (docs/theory/steps.md).
+struct QuasiStaticSettings {
+  int steps = 20;                    // in which the whole path is gone
+  std::vector<double> path = {1.0};  // shares of the loads and drives at its corners, one after the other from 0
+  std::optional<double> push;        // m: a stiff machine pushes the loaded points as far along the loads at share 1
+  int halvings = 4;                  // of a step that finds no equilibrium, before equilibrium counts as lost
+};
+
 /// A load that moves along the road.
 struct MovingLoad {
   RoadLoad start;      // where it is when the stage begins
@@ -113,22 +121,23 @@ struct MovingLoad {
 };
 
 struct StageSettings {
-  enum class Kind { gravity, motion, free, collapse };
-  enum class Method { automatic, newton, relaxation };  // gravity only
+  enum class Kind { gravity, motion, free, collapse, quasi_static };
+  enum class Method { automatic, newton, relaxation };  // gravity and quasi-static
   Kind kind = Kind::gravity;
   Method method = Method::automatic;
   bool allow_motion = false;                         // gravity: an equilibrium is one wherever stones come to rest
   std::optional<ConstructionSettings> construction;  // gravity, of the first stage; none: all stands there at once
-  double duration = 0.0;                             // s; motion and free
+  double duration = 0.0;                             // s; motion and free; quasi-static: in which its path is drawn
   GroundMotion motion;                               // motion only: scaled, in m/s2
-  std::vector<Drive> drives;                         // motion and free; no group twice
+  std::vector<Drive> drives;                         // motion, free and quasi-static; no group twice
   std::vector<Placement> placements;                 // motion and free, from rest
   /// At the end of the stage and until another stage has some; none: as the stages before have left them. Of a collapse
   /// stage: the pattern that the multiplier multiplies.
   std::optional<Loads> loads;
-  std::vector<MovingLoad> moving;  // motion and free, beside what acted before; instead of loads
-  CollapseSettings collapse;       // collapse only
-  std::string label;               // for logs: "gravity", "motion (pulse sine y)", …
+  std::vector<MovingLoad> moving;    // motion, free and quasi-static, beside what acted before; instead of loads
+  CollapseSettings collapse;         // collapse only
+  QuasiStaticSettings quasi_static;  // quasi-static only
+  std::string label;                 // for logs: "gravity", "motion (pulse sine y)", …
   bool timed() const { return kind == Kind::motion || kind == Kind::free; }
 };
 

@@ -86,6 +86,10 @@ bool Simulation::stopped() const {
   return observers_.stop && observers_.stop->load();
 }
 
+double Simulation::seconds_since_saved() const {
+  return seconds_since(saved_);
+}
+
 void Simulation::log(const std::string& text) const {
   if (observers_.log) observers_.log(text);
 }
@@ -224,6 +228,8 @@ void Simulation::start_from_rest() {
 /// Step, damping branches and the energy at the start; once a stage, before its first step.
 void Simulation::begin_stage(const StageSettings& stage) {
   position_.stage_start = state_.time();
+  step_row_ = {};
+  if (stage.kind == StageSettings::Kind::quasi_static) position_.stage_begun = 1.0;
   if (!stage.timed()) return stop_motion(state_);
   if (position_.dt <= 0.0) choose_step();
   const bool from_rest = position_.stage == 0 || !settings_.stages[std::size_t(position_.stage - 1)].timed();
@@ -291,6 +297,7 @@ Sample Simulation::take_sample(const BodyPass& pass) const {
   s.broken_shares = lost_bonds_.shares();
   for (const std::string& group : held_groups_) s.reactions.push_back(reaction(pass, group));
   s.accelerations.assign(assembly_->sensors.size(), 0.0);
+  s.step = step_row_;
   return s;
 }
 
@@ -323,8 +330,20 @@ double next_multiple(double time, double every) {
 
 }  // namespace
 
+/// Of a quasi-static stage: each of its steps sees to its own.
+void Simulation::impose_nothing() {
+  stepper_.loads = {};
+  stepper_.loads_since = -1.0;
+  stepper_.stage_duration = 0.0;  // loads act as a whole
+  stepper_.drives.clear();
+  stepper_.drive.clear();
+  stepper_.single = false;
+  stepper_.ground = {};
+}
+
 /// What a stage does to the assembly: drives and loads.
 void Simulation::impose(const StageSettings& stage) {
+  if (stage.kind == StageSettings::Kind::quasi_static) return impose_nothing();
   const auto at = std::size_t(position_.stage);
   const Loads before = at > 0 ? loads_after(settings_.stages, at - 1) : Loads{};
   part_of_way_ = -1;
@@ -403,7 +422,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     }
     const double slack = 1e-6 * stepper_.dt, near_end = std::max(2.0 * stepper_.dt, 0.01 * output.fields_every);
     if (state_.time() >= fields_at - slack && state_.time() < end - near_end) write_fields();  // the end has its own
-    const bool wall = seconds_since(saved_) > output.checkpoint_wall;
+    const bool wall = seconds_since_saved() > output.checkpoint_wall;
     if ((state_.time() >= save_at - slack || wall) && state_.time() < end - slack && observers_.checkpoint) {
       write_checkpoint(false);
       saved_ = Clock::now();
@@ -429,7 +448,11 @@ RunEnd Simulation::run(double until) {
     log(fmt::format("stage {}: {}", position_.stage + 1, stage.label));
     impose(stage);
     if (position_.stage_begun == 0.0) begin_stage(stage);
-    if (!stage.timed()) {
+    if (stage.kind == StageSettings::Kind::quasi_static) {
+      const RunEnd end = step_by_step(stage, until);
+      if (end == RunEnd::failed) write_fields();  // where it has gone
+      if (end != RunEnd::finished) return end;
+    } else if (!stage.timed()) {
       const bool done = stage.kind == StageSettings::Kind::gravity ? gravity(stage) : collapse(stage);
       if (!done && stopped()) return RunEnd::interrupted;
       sample_at_rest();
@@ -446,7 +469,7 @@ RunEnd Simulation::run(double until) {
       observers_.ended(*this, position_.stage);
     }
     ++position_.stage;
-    position_.stage_begun = 0.0;
+    position_.stage_begun = position_.stops = 0.0;
     write_fields();
     write_checkpoint(true);
     saved_ = Clock::now();

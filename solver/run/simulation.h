@@ -7,6 +7,7 @@
 #include <string>
 
 #include "solver/statics/collapse.h"
+#include "solver/statics/stops.h"
 #include "solver/step/contact_bound.h"
 #include "solver/step/damage.h"
 #include "solver/step/energy.h"
@@ -29,6 +30,15 @@ struct Progress {
   std::string note;              // "Newton 2: 1e-7", "3 % of joints point by point"
 };
 
+/// Where a quasi-static stage is on its way: of an equilibrium.
+struct StepRow {
+  double share = 0.0;         // of the loads and drives
+  double multiplier = 0.0;    // of the loads: the share, or what a machine has found; 0 where there are none
+  double displacement = 0.0;  // m, since the stage began: of the loaded points along the loads, of the first drive, or
+                              // of a load that moves
+  double force = 0.0;         // N: of the loads in all, or what drives the first drive along its way
+};
+
 /// One row of the history.
 struct Sample {
   double time = 0.0;
@@ -40,6 +50,7 @@ struct Sample {
   std::vector<double> broken_shares;  // of the bonds of bonded_families()
   std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
   std::vector<double> accelerations;  // m/s2, of the assembly's sensors along their directions; 0 where no time passes
+  StepRow step;                       // zero but in quasi-static stages
 };
 
 struct Observers {
@@ -69,6 +80,9 @@ struct RunPosition {
   double highest = 0.0;                        // rad/s, of the intact assembly
   double stiffest = 0.0, stiffest_node = 0.0;  // 1/s2, see ContactBound
   double stage_begun = 0.0;                    // 1 once the present stage has its step and damping
+  double stops = 0.0;                          // of a quasi-static stage: how many of its steps are done
+  double along = 0.0;                          // m: pattern_displacement() when it began
+  double multiplier = 0.0;                     // of a machine, at the last of these steps
 };
 
 class Simulation {
@@ -96,6 +110,7 @@ class Simulation {
   /// Groups of fixed blocks, guided and driven ones among them: whose reactions a Sample holds.
   const std::vector<std::string>& held_groups() const { return held_groups_; }
   const Collapse& collapse() const { return collapse_; }        // of a collapse stage, empty without
+  bool quasi_static() const;                                    // whether any stage is
   const MassScaling& mass_scaling() const { return scaling_; }  // once the step is chosen
   int threads() const { return stepper_.threads; }
   const RunCosts& costs() const { return costs_; }
@@ -110,7 +125,21 @@ class Simulation {
   void construct(const StageSettings& stage);
   bool stayed(const StageSettings& stage, const Standing& before);
   bool collapse(const StageSettings& stage);
+  RunEnd step_by_step(const StageSettings& stage, double until);
+  bool begin_steps(const StageSettings& stage);
+  Stop approach(const StageSettings& stage, Stop from, const Stop& to);
+  bool equilibrium_at(const StageSettings& stage, const Stop& stop, bool relaxes);
+  RunEnd lose(const StageSettings& stage, const Stop& from, const Stop& to);
+  LoadsAtWork step_loads(const StageSettings& stage, double share) const;
+  Machine machine_at(const StageSettings& stage, double share) const;
+  void step_by_newton(const StageSettings& stage, double share);
+  void step_by_relaxation(const StageSettings& stage, double share);
+  bool by_newton(const StageSettings& stage) const;
+  void take_multiplier(const Machine& machine);
+  void note_step(const StageSettings& stage, double share);
+  void drive_to(const StageSettings& stage, double from, double to);
   void impose(const StageSettings& stage);
+  void impose_nothing();
   double follow_loads(const StageSettings& stage);
   void place(const StageSettings& stage);
   void start_from_rest();
@@ -127,6 +156,7 @@ class Simulation {
   void choose_step();
   void write_fields();
   void write_checkpoint(bool stage_end);
+  double seconds_since_saved() const;
   void report_progress(bool force, const std::string& note);
   void log(const std::string& text) const;
 
@@ -150,6 +180,8 @@ class Simulation {
   LoadPlaces places_;
   std::int64_t part_of_way_ = -1;  // of loads that move
   LostBonds lost_bonds_;
+  LoadsAtWork step_pattern_;  // of a quasi-static stage
+  StepRow step_row_;
   double worst_balance_ = 0.0;
   std::string exploded_;  // why the ledger is not to be believed; empty while it is
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;

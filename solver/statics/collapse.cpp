@@ -87,48 +87,6 @@ std::vector<MechanismJoint> find_mechanism(const Model& model, const State& befo
 
 namespace {
 
-/// Of each body whether the pattern's forces act on it; empty where the pattern acts on all.
-std::vector<char> bodies_loaded(const Model& model, const LoadsAtWork& none, const LoadsAtWork& full) {
-  if (none.acceleration_to != full.acceleration_to || (full.points.empty() && full.nodes_to.empty())) return {};
-  std::vector<char> loaded(model.bodies.size(), 0);
-  for (const PointLoad& p : full.points)
-    if (!p.to.isZero(0.0)) loaded[std::size_t(p.body)] = 1;
-  for (const PointLoad& p : none.points)  // what stands on it anyway is no pattern
-    if (!p.to.isZero(0.0)) loaded[std::size_t(p.body)] = 0;
-  return loaded;
-}
-
-/// How far the loaded points have gone in the direction of the pattern, m: the mean, weighted by the load.
-double along_pattern(const Model& model, const State& from, const State& to, const LoadsAtWork& none,
-                     const LoadsAtWork& full) {
-  double work = 0.0, weight = 0.0;
-  const auto centre = [&](const State& state, std::size_t i) { return Vec3(&state.pose[pose_width * i]); };
-  const Vec3 a = full.acceleration_to - none.acceleration_to;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    if (model.bodies[i].still() || a.isZero(0.0)) continue;
-    work += model.bodies[i].mass * a.dot(centre(to, i) - centre(from, i));
-    weight += model.bodies[i].mass * a.norm();
-  }
-  const auto add = [&](const LoadsAtWork& loads, double sign) {
-    for (const PointLoad& p : loads.points) {
-      const auto i = std::size_t(p.body);
-      const Vec3 u = centre(to, i) - centre(from, i) + rotation_of(to, i) * p.arm - rotation_of(from, i) * p.arm;
-      work += sign * p.to.dot(u);
-      weight += sign * p.to.norm();
-    }
-  };
-  add(full, 1.0), add(none, -1.0);
-  for (std::size_t i = 0; i < full.nodes_to.size(); i += node_width) {
-    const auto force = [i](const LoadsAtWork& loads) {
-      return loads.nodes_to.empty() ? Vec3(Vec3::Zero()) : Vec3(&loads.nodes_to[i]);
-    };
-    const Vec3 p = force(full) - force(none);
-    work += p.dot(Vec3(&to.fill.pose[i]) - Vec3(&from.fill.pose[i]));
-    weight += p.norm();
-  }
-  return weight > 0.0 ? work / weight : 0.0;
-}
-
 constexpr double takes_part = 0.1;    // of the largest displacement: less does not move
 constexpr double local_share = 0.05;  // of the mass that can move: less is a local loss
 
@@ -185,8 +143,8 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
   Collapse result;
   const Model& model = *stepper.model;
   const double distance = settings.displacement * model.typical_size;
-  const LoadsAtWork none = loads(0.0), full = loads(settings.to);
-  const std::vector<char> loaded = bodies_loaded(model, none, full);
+  const LoadsAtWork pattern = pattern_between(loads(0.0), loads(settings.to));
+  const std::vector<char> loaded = bodies_loaded(model, pattern);
   State start = *stepper.state;
   RelaxationLimits limits;
   limits.steps = 200000;
@@ -207,9 +165,10 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
     result.tries.push_back(one);
     if (!e.converged) return false;
     if (result.curve.empty()) start = *stepper.state;
-    result.curve.push_back({multiplier, along_pattern(model, start, *stepper.state, none, full),
-                            largest_displacement(model, start.pose, stepper.state->pose),
-                            largest_displacement(model, from.pose, stepper.state->pose) > distance});
+    result.curve.push_back(
+        {multiplier, pattern_displacement(model, *stepper.state, pattern) - pattern_displacement(model, start, pattern),
+         largest_displacement(model, start.pose, stepper.state->pose),
+         largest_displacement(model, from.pose, stepper.state->pose) > distance});
     return true;
   };
   const auto stopped = [&] { return stop && stop->load(); };

@@ -33,14 +33,30 @@ struct PatchBackup {
   }
 };
 
+/// How a step of displacement and turn is taken: the displacement as it is, or both as one screw, so that a stone that
+/// turns about an edge stays on it.
+enum class Way { straight, screw };
+
+/// Where a centroid goes that sets out along `u` and turns with `turn` all the while:
+/// u + (1 − cos φ)/φ² ω × u + (φ − sin φ)/φ³ ω × (ω × u).
+Vec3 screwed(const Vec3& u, const Vec3& turn) {
+  const double angle = turn.norm();
+  constexpr double small = 1e-4;  // rad: series below, exact to rounding
+  const double second = angle < small ? 0.5 - angle * angle / 24.0 : (1.0 - std::cos(angle)) / (angle * angle);
+  const double third = angle < small ? 1.0 / 6.0 : (angle - std::sin(angle)) / (angle * angle * angle);
+  const Vec3 across = turn.cross(u);
+  return u + second * across + third * turn.cross(across);
+}
+
 void move_bodies(const Model& model, const Unknowns& unknowns, const Array<double>& from, const Eigen::VectorXd& step,
-                 double share, State& state) {
+                 double share, Way way, State& state) {
   state.pose = from;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Vector6 part = share * part_of(step, unknowns, i);
     double* pose = &state.pose[pose_width * i];
-    for (int c = 0; c < 3; ++c) pose[c] += part[c];
     const Vec3 turn = part.tail<3>();
+    const Vec3 u = way == Way::screw ? screwed(part.head<3>(), turn) : Vec3(part.head<3>());
+    for (int c = 0; c < 3; ++c) pose[c] += u[c];
     const double angle = turn.norm();
     const Eigen::Quaterniond dq =
         angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) : Eigen::Quaterniond::Identity();
@@ -146,9 +162,10 @@ struct Surroundings {
   const Unknowns& unknowns;
   const PatchBackup& start;
   Array<double> pose, nodes;
+  Way way = Way::straight;
 
   OutOfBalance moved(const Eigen::VectorXd& step, double share) const {
-    move_bodies(*stepper.model, unknowns, pose, step, share, *stepper.state);
+    move_bodies(*stepper.model, unknowns, pose, step, share, way, *stepper.state);
     move_nodes(*stepper.model, unknowns, nodes, step, share, *stepper.state);
     start.restore(*stepper.state);
     return out_of_balance(stepper, unknowns);
@@ -241,7 +258,7 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
     const bool fresh = renew;
     if (fresh && !inverse.compute(slightly_held(stiffness_blocks(model, state, tangent), unknowns, tangent), state))
       break;
-    const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose};
+    const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose, Way::straight};
     const bool consistent = i > 0 && !model.fill.empty();
     // What the last step with this inverse changed is known: it is taken again, by the share that leaves least, and the
     // inverse finds what goes with the rest (Anderson 1965, one step remembered).
@@ -299,6 +316,96 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
       fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight{}",
                   result.converged ? "converged" : "did not converge", result.iterations, result.residual,
                   result.converged ? "" : inverse.remark());
+  return result;
+}
+
+namespace {
+
+/// The tangent at the present placement, factored; with what the forces that the joints carry add, if that leaves it
+/// positive.
+bool factor_tangent(Stepper& stepper, const Unknowns& unknowns, TangentInverse& inverse) {
+  const Model& model = *stepper.model;
+  const BlockMatrix plain =
+      slightly_held(stiffness_blocks(model, *stepper.state, PatchTangent::present), unknowns, PatchTangent::present);
+  BlockMatrix whole = plain;
+  add_geometric_stiffness(whole, model, *stepper.state, stepper.wrenches);
+  return inverse.compute(std::move(whole), *stepper.state) || inverse.compute(plain, *stepper.state);
+}
+
+/// A Newton step, and by how much the multiplier changes with it: K x = r + Δλ g with gᵀ x = G (head − a) (the bordered
+/// system of displacement control, Batoz & Dhatt 1979).
+struct PushedStep {
+  Eigen::VectorXd x;
+  double multiplier = 0.0;
+};
+
+std::optional<PushedStep> pushed_step(const Stepper& stepper, const Unknowns& unknowns, const Machine* machine,
+                                      TangentInverse& inverse, const Eigen::VectorXd& force) {
+  constexpr double accuracy = 1e-3;
+  std::optional<Eigen::VectorXd> x = inverse.times(force, accuracy);
+  if (!x || !machine) return x ? std::optional(PushedStep{std::move(*x), 0.0}) : std::nullopt;
+  const Eigen::VectorXd g = pattern_vector(*stepper.model, *stepper.state, unknowns, machine->pattern);
+  const std::optional<Eigen::VectorXd> y = inverse.times(g, accuracy);
+  if (!y || !(g.dot(*y) > 0.0)) return {};
+  const double wanted = pattern_force(*stepper.model, machine->pattern) *
+                        (machine->head - pattern_displacement(*stepper.model, *stepper.state, machine->pattern));
+  const double change = (wanted - g.dot(*x)) / g.dot(*y);
+  return PushedStep{*x + change * *y, change};
+}
+
+}  // namespace
+
+Equilibrium newton_step(Stepper& stepper, double tolerance, Machine* machine, const std::atomic<bool>* stop,
+                        const std::function<void(int, double)>& progress) {
+  constexpr int most_iterations = 30;
+  const Model& model = *stepper.model;
+  State& state = *stepper.state;
+  const Unknowns unknowns = number_unknowns(model);
+  const PatchBackup start(state);
+  const Array<double> first_pose = state.pose, first_nodes = state.fill.pose;
+  double multiplier = machine ? machine->multiplier : 0.0;
+  if (machine) stepper.loads = at_share(machine->pattern, multiplier);
+  Equilibrium result;
+  TangentInverse inverse(model, unknowns);
+  OutOfBalance r = out_of_balance(stepper, unknowns);
+  result.first_residual = result.residual = r.largest;
+  bool pushes = machine != nullptr;  // the head has not moved yet
+  for (int i = 0; i < most_iterations && (pushes || r.largest > tolerance) && !(stop && stop->load()); ++i) {
+    if (!factor_tangent(stepper, unknowns, inverse)) break;
+    const std::optional<PushedStep> step = pushed_step(stepper, unknowns, machine, inverse, r.force);
+    if (!step) break;
+    const Surroundings here = {stepper, unknowns, start, state.pose, state.fill.pose, Way::screw};
+    const auto moved = [&](double share) {
+      if (machine) set_share(machine->pattern, multiplier + share * step->multiplier, stepper.loads);
+      return here.moved(step->x, share);
+    };
+    double best_norm = 1e300, best_share = 0.0, tried = 0.0;
+    const double norm = pushes ? 1e300 : r.force.norm();  // the first push is taken whole
+    for (double share = 1.0; share > 0.05; share *= 0.5) {
+      r = moved(tried = share);
+      const double now = r.force.norm();
+      if (now < best_norm) best_norm = now, best_share = share;
+      if (now < (1.0 - 0.1 * share) * norm) break;
+    }
+    if (!(best_norm < 1e300)) break;
+    if (best_share != tried) r = moved(best_share);
+    multiplier += best_share * step->multiplier;
+    pushes = false;
+    result.iterations = i + 1;
+    result.residual = r.largest;
+    if (progress) progress(i + 1, r.largest);
+  }
+  result.converged = !pushes && r.largest <= tolerance;
+  if (!result.converged) {
+    state.pose = first_pose, state.fill.pose = first_nodes;
+    start.restore(state);
+  } else if (machine) {
+    machine->multiplier = multiplier;
+  }
+  stop_motion(state);
+  result.account =
+      fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
+                  result.converged ? "converged" : "did not converge", result.iterations, result.residual);
   return result;
 }
 

@@ -4,7 +4,8 @@
 // is at most twice its two blocks; the critical step is then at least √2 and no stiff sliver holds up the rest.
 // Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after
 // Underwood 1983). That lies above the lowest frequency, so that the slowest motion is damped at 0.6 of critical or
-// more: it hardly overshoots, and so little slips or opens that rest would not.
+// more: it hardly overshoots, and so little slips or opens that rest would not. A gentle relaxation is damped at 3 ω,
+// and in its first steps as much as they bear.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -116,6 +117,17 @@ Seen look_back(const Model& model, const State& state, const Unknowns& unknowns,
   return seen;
 }
 
+/// A round of steps, before each of which the machine pushes anew.
+Advance pushed(Stepper& stepper, Machine& machine, const std::atomic<bool>* stop) {
+  Advance last;
+  for (std::int64_t i = 0; i < round_steps; ++i) {
+    machine.push(*stepper.model, *stepper.state, stepper.loads);
+    last = stepper.advance(stepper.state->step() + 1, 1, nullptr, stop);
+    if (last.outcome != StepOutcome::reached) break;
+  }
+  return last;
+}
+
 }  // namespace
 
 double body_displacement(const Model& model, const Array<double>& from, const Array<double>& to, std::size_t body) {
@@ -134,10 +146,11 @@ double largest_displacement(const Model& model, const Array<double>& from, const
 }
 
 Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& limits, const std::atomic<bool>* stop,
-                  const std::function<void(std::int64_t, double)>& progress) {
+                  const std::function<void(std::int64_t, double)>& progress, Machine* machine) {
   State& state = *stepper.state;
   Model model = *stepper.model;  // as heavy as before, but with inertia of its own
   choose_inertia(false, state, model);
+  if (machine) machine->brace(model);
   const Unknowns unknowns = number_unknowns(model);
 
   Stepper relaxing = stepper;
@@ -145,6 +158,9 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   relaxing.motion = nullptr;
   relaxing.damping = DampingAtWork{};
   relaxing.dt = model.fill.empty() ? 1.3 : 0.95;  // s of no meaning
+  const double most_damped = 1.9 / relaxing.dt;
+  if (limits.gently) relaxing.damping.mass_rate = most_damped;
+  if (machine) relaxing.loads = at_share(machine->pattern, 0.0);
   relaxing.prepare();
   const std::int64_t first = state.step();
   const Array<double> start = state.pose;
@@ -154,12 +170,17 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
 
   Equilibrium result;
   result.relaxed = true;
-  OutOfBalance now = out_of_balance(relaxing, unknowns);
-  result.residual = result.first_residual = now.largest;
+  const auto balance = [&] {
+    if (machine) machine->push(model, state, relaxing.loads);
+    return out_of_balance(relaxing, unknowns);
+  };
+  OutOfBalance now = balance();
+  result.first_residual = now.largest;
+  result.residual = limits.ramp_rounds > 0 ? std::max(now.largest, tolerance) : now.largest;
   result.earlier = start;
   // Soil that is overshot flows and tears its joints open: with a fill the weight comes on little by little.
   const Vec3 gravity = model.gravity;
-  int round = model.fill.empty() || !limits.from_unloaded ? easing_rounds : 0;
+  int round = model.fill.empty() || !limits.from_unloaded ? easing_rounds : 0, ramped = 0;
   const auto hopeless = [&](const Look& before) {
     return limits.hopeless && limits.hopeless(state, look_back(model, state, unknowns, before, now.force).work);
   };
@@ -167,10 +188,17 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
     const bool eases = round < easing_rounds;
     if (eases) {
       model.gravity = double(++round) / easing_rounds * gravity;
-      now = out_of_balance(relaxing, unknowns);
+      now = balance();
+    }
+    const bool ramps = ramped < limits.ramp_rounds;
+    if (ramps) {
+      limits.ramp(double(++ramped) / limits.ramp_rounds);
+      relaxing.loads = stepper.loads;
+      now = balance();
     }
     const Look before = {state.pose, state.fill.pose, now.force};
-    const Advance a = relaxing.advance(state.step() + round_steps, 1, nullptr, stop);
+    const Advance a =
+        machine ? pushed(relaxing, *machine, stop) : relaxing.advance(state.step() + round_steps, 1, nullptr, stop);
     result.lost =
         a.outcome == StepOutcome::runaway || largest_displacement(model, start, state.pose) > limits.displacement;
     if (result.lost) break;
@@ -182,14 +210,15 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
       const ContactUpdate update = update_contacts(model, state, relaxing.damping.branches, a.past, relaxing.threads);
       if (update.made + update.clipped > 0) choose_inertia(true, state, model);
       relaxing.prepare();
-      now = out_of_balance(relaxing, unknowns);
+      now = balance();
       if ((result.lost = hopeless(before))) break;
       continue;
     }
-    now = out_of_balance(relaxing, unknowns);
-    result.residual = eases ? std::max(now.largest, tolerance) : now.largest;
+    now = balance();
+    result.residual = eases || ramps ? std::max(now.largest, tolerance) : now.largest;
     const Seen seen = look_back(model, state, unknowns, before, now.force);
-    relaxing.damping.mass_rate = 1.2 * std::sqrt(std::clamp(seen.frequency2, 1e-8, 1.0));
+    const double frequency = std::sqrt(std::clamp(seen.frequency2, 1e-8, 1.0));
+    relaxing.damping.mass_rate = limits.gently ? std::min(3.0 * frequency, most_damped) : 1.2 * frequency;
     if ((result.lost = result.residual >= tolerance && hopeless(before))) break;
     if (progress) progress(state.step() - first, result.residual);
   }

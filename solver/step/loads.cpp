@@ -46,11 +46,39 @@ std::int64_t parts_of_way(const std::vector<MovingLoad>& moving, double duration
   return std::max<std::int64_t>(1, std::int64_t(std::ceil(way / part - 1e-9)));
 }
 
+namespace {
+
+/// Adds a share of some loads to others.
+void add_share(const Loads& loads, double share, Loads& sum) {
+  sum.acceleration += share * loads.acceleration;
+  for (ForceLoad load : loads.forces) {
+    load.force *= share;
+    sum.forces.push_back(load);
+  }
+  for (RoadLoad load : loads.road) {
+    load.pressure *= share;
+    sum.road.push_back(load);
+  }
+}
+
+/// Where the path of a quasi-static stage ends.
+Loads at_end_of_path(const Loads& before, const StageSettings& stage) {
+  const double share = stage.quasi_static.path.back();
+  if (share == 1.0) return *stage.loads;
+  Loads sum;
+  add_share(before, 1.0 - share, sum);
+  add_share(*stage.loads, share, sum);
+  return sum;
+}
+
+}  // namespace
+
 Loads loads_after(const std::vector<StageSettings>& stages, std::size_t stage) {
   for (std::size_t i = std::min(stage + 1, stages.size()); i-- > 0;) {
-    if (!stages[i].moving.empty())
-      return with_moving(i > 0 ? loads_after(stages, i - 1) : Loads{}, stages[i].moving, stages[i].duration);
-    if (stages[i].loads && stages[i].kind != StageSettings::Kind::collapse) return *stages[i].loads;
+    const auto before = [&] { return i > 0 ? loads_after(stages, i - 1) : Loads{}; };
+    if (!stages[i].moving.empty()) return with_moving(before(), stages[i].moving, stages[i].duration);
+    if (!stages[i].loads || stages[i].kind == StageSettings::Kind::collapse) continue;
+    return stages[i].kind == StageSettings::Kind::quasi_static ? at_end_of_path(before(), stages[i]) : *stages[i].loads;
   }
   return {};
 }
@@ -80,10 +108,6 @@ void add_points(const Assembly& assembly, const Model& model, const ForceLoad& l
     points.push_back(point);
   }
 }
-
-}  // namespace
-
-namespace {
 
 constexpr double part_of_gaps = 0.02;  // of a rectangle: joints that a drawn deck leaves open
 
@@ -152,16 +176,7 @@ Loads loads_at(const Loads& base, const StageSettings& stage, const Vec3& gravit
   Loads sum = base;
   if (stage.collapse.tilt)
     sum.acceleration += Eigen::AngleAxisd(std::atan(multiplier), stage.collapse.tilt->normalized()) * gravity - gravity;
-  if (!stage.loads) return sum;
-  sum.acceleration += multiplier * stage.loads->acceleration;
-  for (ForceLoad load : stage.loads->forces) {
-    load.force *= multiplier;
-    sum.forces.push_back(load);
-  }
-  for (RoadLoad load : stage.loads->road) {
-    load.pressure *= multiplier;
-    sum.road.push_back(load);
-  }
+  if (stage.loads) add_share(*stage.loads, multiplier, sum);
   return sum;
 }
 

@@ -34,6 +34,7 @@ class StageMaker {
       const bool at_rest = i == 0 || !all.back().timed();
       all.push_back(pick(5) < (with_fill ? 3 : 2) ? gravity() : timed(at_rest));
       if (pick(3) == 0) all.back().loads = loads();
+      if (pick(3) == 0) all.push_back(steps());
     }
     if (pick(4) == 0) all.push_back(collapse());
     return all;
@@ -75,6 +76,19 @@ class StageMaker {
     }
     return stage;
   }
+  StageSettings steps() {
+    StageSettings stage;
+    stage.kind = StageSettings::Kind::quasi_static;
+    stage.duration = 0.3;
+    stage.quasi_static.steps = 1 + pick(3);
+    stage.quasi_static.path = {1.0, 0.5 * pick(2)};
+    if (pick(2) == 0) {
+      stage.loads = loads();
+    } else {
+      stage.drives = {{"base", Vec3::Zero(), Vec3(1e-4 * pick(3), 0.0, -1e-4)}};
+    }
+    return stage;
+  }
   StageSettings collapse() {
     StageSettings stage;
     stage.kind = StageSettings::Kind::collapse;
@@ -91,7 +105,7 @@ class StageMaker {
 std::string text_of(const std::vector<StageSettings>& stages) {
   std::string text;
   for (const StageSettings& stage : stages)
-    text += fmt::format("{}{}{}{} ", "gmfc"[int(stage.kind)], stage.loads ? "l" : "", stage.drives.empty() ? "" : "d",
+    text += fmt::format("{}{}{}{} ", "gmfcs"[int(stage.kind)], stage.loads ? "l" : "", stage.drives.empty() ? "" : "d",
                         stage.placements.empty() ? "" : "p");
   return text;
 }

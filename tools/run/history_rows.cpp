@@ -34,7 +34,48 @@ std::vector<DemandPoint> demand_points(const Assembly& assembly) {
   return points;
 }
 
-std::vector<Channel> history_channels(const Assembly& assembly, const std::vector<std::string>& held_groups) {
+std::vector<std::string> shown_places(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const auto& [name, blocks] : assembly.groups)
+    if (!blocks.empty() &&
+        (name.starts_with("keystone ") || name.starts_with("quarter ") || name.starts_with("pier top ")))
+      names.push_back(name);
+  return names;
+}
+
+const std::vector<std::pair<const char*, double StepRow::*>>& step_channels() {
+  static const std::vector<std::pair<const char*, double StepRow::*>> all = {
+      {"steps/share", &StepRow::share},
+      {"steps/multiplier", &StepRow::multiplier},
+      {"steps/displacement", &StepRow::displacement},
+      {"steps/force", &StepRow::force}};
+  return all;
+}
+
+namespace {
+
+/// Mean over a group's blocks of displacement and rotation since the last gravity stage.
+std::pair<Vec3, Vec3> place_moved(const Simulation& run, const std::string& group) {
+  const std::vector<std::int64_t>& blocks = run.assembly().groups.at(group);
+  Vec3 u = Vec3::Zero(), turn = Vec3::Zero();
+  for (const std::int64_t b : blocks) {
+    u += relative_displacement(run.model(), run.state(), b, run.assembly().blocks[std::size_t(b)].centroid);
+    turn += relative_rotation(run.model(), run.state(), b);
+  }
+  return {u / double(blocks.size()), turn / double(blocks.size())};
+}
+
+void add_step_channels(const Simulation& run, std::vector<Channel>& channels) {
+  const char* units[] = {"-", "-", "m", "N"};
+  for (std::size_t i = 0; i < step_channels().size(); ++i) channels.push_back({step_channels()[i].first, units[i]});
+  const DeckLine deck(run.assembly());
+  for (const double x : deck.stations()) channels.push_back({DeckLine::channel(x), "m"});
+}
+
+}  // namespace
+
+std::vector<Channel> history_channels(const Simulation& run) {
+  const Assembly& assembly = run.assembly();
   std::vector<Channel> channels = {{"time", "s"}, {"stage", "-"}};
   for (const auto& term : energy_terms()) channels.push_back({std::string("energy/") + term.first, "J"});
   channels.push_back({"energy/balance_error", "-"});
@@ -52,12 +93,16 @@ std::vector<Channel> history_channels(const Assembly& assembly, const std::vecto
     for (char axis : {'x', 'y', 'z'})
       channels.push_back({fmt::format("sensors/{}/rotation_{}", sensor.id, axis), "rad"});
   }
-  for (const std::string& group : held_groups)
+  for (const std::string& group : run.held_groups())
     for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("reactions/{}_{}", group, axis), "N"});
+  for (const std::string& place : shown_places(assembly))
+    for (const auto& [what, unit] : {std::pair{"displacement", "m"}, std::pair{"rotation", "rad"}})
+      for (char axis : {'x', 'y', 'z'}) channels.push_back({fmt::format("places/{}/{}_{}", place, what, axis), unit});
+  if (run.quasi_static()) add_step_channels(run, channels);
   return channels;
 }
 
-std::vector<double> history_row(const Simulation& run, const Sample& s) {
+std::vector<double> history_row(const Simulation& run, const Sample& s, const DeckLine& deck) {
   std::vector<double> row = {s.time, double(s.stage + 1)};
   for (const auto& term : energy_terms()) row.push_back(s.energies.*term.second);
   row.push_back(s.balance_error);
@@ -78,6 +123,15 @@ std::vector<double> history_row(const Simulation& run, const Sample& s) {
     for (int c = 0; c < 3; ++c) row.push_back(turn[c]);
   }
   for (const Vec3& reaction : s.reactions) row.insert(row.end(), reaction.begin(), reaction.end());
+  for (const std::string& place : shown_places(run.assembly())) {
+    const auto [u, turn] = place_moved(run, place);
+    row.insert(row.end(), u.begin(), u.end());
+    row.insert(row.end(), turn.begin(), turn.end());
+  }
+  if (!run.quasi_static()) return row;
+  for (const auto& [name, value] : step_channels()) row.push_back(s.step.*value);
+  const std::vector<double> settled = deck.displacements(run.model(), run.state());
+  row.insert(row.end(), settled.begin(), settled.end());
   return row;
 }
 

@@ -3,6 +3,7 @@
 #include "geometry/assembly.h"
 #include "io/hdf5/history_file.h"
 #include "solver/run/simulation.h"
+#include "tools/run/deck_line.h"
 
 namespace voussoir {
 
@@ -16,8 +17,15 @@ std::vector<DemandPoint> demand_points(const Assembly& assembly);
 /// "demand/GROUP AXIS"
 std::string demand_channel(const DemandPoint& point);
 
-/// All channels, in the order of a row; held_groups: those of fixed blocks.
-std::vector<Channel> history_channels(const Assembly& assembly, const std::vector<std::string>& held_groups);
+/// Places whose mean displacement and rotation are kept: groups named "keystone …", "quarter …" and "pier top …".
+std::vector<std::string> shown_places(const Assembly& assembly);
+
+/// All channels, in the order of a row.
+std::vector<Channel> history_channels(const Simulation& run);
+std::vector<double> history_row(const Simulation& run, const Sample& sample, const DeckLine& deck);
+
+/// "steps/share" and the like, of the rows of quasi-static stages; in the order of a row.
+const std::vector<std::pair<const char*, double StepRow::*>>& step_channels();
 std::vector<double> history_row(const Simulation& run, const Sample& sample);
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 #include "io/records/curve.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/run_session.h"
+#include "tools/run/steps_report.h"
 #include "viz/chart_picture.h"
 #include "viz/render.h"
 
@@ -125,6 +126,18 @@ void draw_charts(const std::string& images, const Assembly& assembly, const Hist
   if (!spandrels.curves.empty()) write_run_chart(spandrels, images + "/spandrels.png");
 }
 
+/// Of quasi-static stages.
+void draw_steps(const std::string& images, const Case& c, const History& history) {
+  const std::vector<StageSettings>& stages = c.settings.stages;
+  for (auto& [chart, name] :
+       {std::pair{capacity_chart(stages, history), "capacity"}, std::pair{deck_chart(stages, history), "deck"}})
+    if (!chart.curves.empty()) {
+      LineChart sized = chart;
+      sized.width = run_chart("", "", "").width, sized.height = run_chart("", "", "").height;
+      write_run_chart(sized, fmt::format("{}/{}.png", images, name));
+    }
+}
+
 /// A label as given, or the channel with its unit.
 std::string axis_label(const std::string& label, const std::string& name, double factor, const History& history) {
   if (!label.empty()) return label;
@@ -160,6 +173,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
     if (run.collapse().found) draw_mechanism(images, run, snapshot);
     if (run.collapse().curve.size() > 1) draw_curve(images, run.collapse());
     draw_charts(images, run.assembly(), history);
+    draw_steps(images, c, history);
     for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
     return {};
   } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn

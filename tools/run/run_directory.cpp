@@ -58,7 +58,7 @@ DirectoryLock prepare_directory(const Case& c, const std::string& directory, boo
   try {
     Simulation run(assembly, c.settings, 1, {});
     run.check();
-    check_plots(c, history_channels(assembly, run.held_groups()));
+    check_plots(c, history_channels(run));
   } catch (const InputError& error) {
     throw InputError("{}: {}", c.path, error.what());
   }

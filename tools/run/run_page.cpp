@@ -15,6 +15,7 @@
 #include "solver/motion/intensity.h"
 #include "tools/run/damage_words.h"
 #include "tools/run/gravity_report.h"
+#include "tools/run/steps_report.h"
 #include "viz/page/html.h"
 #include "viz/page/line_chart.h"
 #include "viz/page/palette.h"
@@ -216,6 +217,39 @@ std::string ground_spectra(const RunFiles& run) {
   return figure(line_chart(chart));
 }
 
+/// What was found on the way of quasi-static stages, in words and charts.
+std::string steps_section(const RunFiles& run) {
+  const std::vector<StageSettings>& stages = run.c.settings.stages;
+  const nlohmann::json all = steps_json(stages, run.history);
+  if (all.empty()) return "";
+  std::string text = heading("From equilibrium to equilibrium") + "<table>\n";
+  text += table_row({words_cell("stage"),
+                     words_cell("path"),
+                     {"largest force (kN)", true},
+                     {"at (mm)", true},
+                     {"last force (kN)", true},
+                     {"at (mm)", true}},
+                    "th");
+  for (const nlohmann::json& one : all) {
+    const auto number = [&](const char* key, double factor) {
+      return Cell{fmt::format("{:.4g}", factor * one.value(key, NAN)), true};
+    };
+    text += table_row({words_cell(fmt::format("{}. {}", one.value("stage", 0), one.value("label", std::string()))),
+                       words_cell(one.value("whole", false) ? "to its end"
+                                                            : fmt::format("equilibrium lost beyond the share {:.4g}",
+                                                                          one.value("share", 0.0))),
+                       number("largest_force", 1e-3), number("largest_force_at", 1e3), number("force", 1e-3),
+                       number("displacement", 1e3)},
+                      "td");
+  }
+  text +=
+      "</table>\n" + note("Each row of history.h5 of these stages is an equilibrium; steps.csv has them as a table.");
+  for (LineChart chart :
+       {capacity_chart(stages, run.history), deck_chart(stages, run.history), reaction_chart(stages, run.history)})
+    if (!chart.curves.empty()) text += figure(line_chart(chart));
+  return text;
+}
+
 std::string histories_section(const RunFiles& run) {
   std::string text =
       channels_chart(run, "Acceleration of the base", "acceleration (g)",
@@ -277,7 +311,7 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
 void write_run_page(const std::string& directory) {
   const RunFiles run = run_files(directory);
   const std::string body = verdict(run) + facts(run) + remarks_section(run) +
-                           gravity_section(run.summary.value("gravity", nlohmann::json::array())) +
+                           gravity_section(run.summary.value("gravity", nlohmann::json::array())) + steps_section(run) +
                            damage_section(run) + demand_section(run) + pictures_section(pictures_of(run)) +
                            histories_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));

@@ -21,6 +21,7 @@
 #include "tools/run/gravity_report.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/run_page.h"
+#include "tools/run/steps_report.h"
 #include "tools/run/summary.h"
 
 namespace voussoir {
@@ -50,7 +51,8 @@ RunSession::RunSession(const RunRequest& request)
       progress_(request.quiet),
       vtk_(request.directory, request.packing) {
   simulation_ = std::make_unique<Simulation>(assembly_, case_.settings, request.threads, observers());
-  history_ = History(path("history.h5"), history_channels(assembly_, simulation_->held_groups()));
+  if (simulation_->quasi_static()) deck_ = DeckLine(assembly_);
+  history_ = History(path("history.h5"), history_channels(*simulation_));
 }
 
 void RunSession::log(const std::string& text) {
@@ -79,7 +81,7 @@ Observers RunSession::observers() {
 }
 
 void RunSession::append_history(const Sample& s) {
-  history_.append(history_row(*simulation_, s));
+  history_.append(history_row(*simulation_, s, deck_));
   if (!fallen_ && has_fallen()) {
     fallen_ = true;
     stop_flag.store(true);
@@ -134,6 +136,9 @@ CheckpointHeader RunSession::own_header() {
       {"stiffest", p.stiffest},
       {"stiffest_node", p.stiffest_node},
       {"stage_begun", p.stage_begun},
+      {"stops", p.stops},
+      {"along", p.along},
+      {"multiplier", p.multiplier},
       {"worst_balance", simulation_->worst_balance()},
       {"history_rows", double(history_.rows())},
       {"frames", double(vtk_.blocks().frames().size())},
@@ -212,6 +217,8 @@ void RunSession::go_on_from(const CheckpointHeader& header) {
   p.stiffest = header.number("stiffest");
   p.stiffest_node = header.number("stiffest_node");
   p.stage_begun = header.number("stage_begun");
+  if (header.numbers.contains("stops"))  // earlier versions had no quasi-static stages
+    p.stops = header.number("stops"), p.along = header.number("along"), p.multiplier = header.number("multiplier");
   equilibrium_before_.converged = header.number("equilibrium_converged") > 0.0;
   equilibrium_before_.iterations = int(header.count("newton_iterations"));
   equilibrium_before_.steps = header.count("relaxation_steps");
@@ -284,6 +291,10 @@ void RunSession::write_summary(RunEnd end) {
   if (nlohmann::json gravity = json_if_any(path("gravity.json")); gravity.is_array())
     json["gravity"] = std::move(gravity);
   if (!run.collapse().curve.empty()) write_atomically(path("collapse_curve.csv"), curve_table(run.collapse()));
+  if (nlohmann::json steps = steps_json(case_.settings.stages, history_); !steps.empty()) {
+    json["quasi_static"] = std::move(steps);
+    write_atomically(path("steps.csv"), steps_table(case_.settings.stages, history_));
+  }
   write_json(path("summary.json"), json);
 }
 

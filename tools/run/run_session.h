@@ -8,6 +8,7 @@
 #include "io/hdf5/history_file.h"
 #include "io/vtk/series.h"
 #include "solver/run/simulation.h"
+#include "tools/run/deck_line.h"
 #include "tools/run/terminal.h"
 
 namespace voussoir {
@@ -68,6 +69,7 @@ class RunSession {
   ProgressLine progress_;
   std::unique_ptr<Simulation> simulation_;
   History history_;
+  DeckLine deck_;  // in runs with quasi-static stages
   VtkSeries vtk_;
   Equilibrium equilibrium_before_;  // found by a part of this run that ended earlier
   double before_seconds_ = 0.0;     // wall time of the parts of this run that ended earlier
