@@ -22,6 +22,7 @@
 #include "tools/run/history_rows.h"
 #include "tools/run/run_page.h"
 #include "tools/run/summary.h"
+#include "tools/run/thrust.h"
 
 namespace voussoir {
 
@@ -284,7 +285,13 @@ void RunSession::write_summary(RunEnd end) {
   if (nlohmann::json gravity = json_if_any(path("gravity.json")); gravity.is_array())
     json["gravity"] = std::move(gravity);
   if (!run.collapse().curve.empty()) write_atomically(path("collapse_curve.csv"), curve_table(run.collapse()));
+  if (const std::vector<BedJoint> beds = bed_joints(); !beds.empty())
+    write_atomically(path("joints.csv"), bed_joint_table(beds));
   write_json(path("summary.json"), json);
+}
+
+std::vector<BedJoint> RunSession::bed_joints() const {
+  return bed_joints_at_end(*simulation_);
 }
 
 /// The simulation and its files; what cannot be written ends it with words on how to go on.
