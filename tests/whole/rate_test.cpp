@@ -105,6 +105,9 @@ TEST(Rate, SaysWhatItNeeds) {
   const Outcome wide = rate(folder, {"--lane", "1.2"});
   EXPECT_EQ(wide.status, 2);
   EXPECT_NE(wide.err.find("no road"), std::string::npos) << wide.err;
+  const Outcome nowhere = rate(folder, {"--from", "40"});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_NE(nowhere.err.find("--from and --to leave no place of axle"), std::string::npos) << nowhere.err;
   const Outcome named = voussoir({"rate", "bridge.toml", "--vehicle", "cs454-normal-singl"}, {.folder = folder.path()});
   EXPECT_EQ(named.status, 2);
   EXPECT_NE(named.err.find("cs454-normal-single"), std::string::npos) << named.err;

@@ -215,6 +215,9 @@ int rate_bridge(const std::vector<std::string>& arguments) {
       "m, y of the vehicle's middle line; may be repeated (default: 0)")(
       "step", real_option("step", 0.01, 100.0)->value_name("M"),
       "m from place to place (default: a tenth of the shortest span)")(
+      "from", real_option("from", -1e4, 1e4)->value_name("X"),
+      "m, least x of the middle of the axles (default: all vaults)")(
+      "to", real_option("to", -1e4, 1e4)->value_name("X"), "m, and the greatest")(
       "refine", whole_option("refine", 0, 10)->value_name("N")->default_value(2),
       "halvings of the step about the worst place")("one-way", "only towards the right")(
       "strip", real_option("strip", 0.05, 5.0)->value_name("W"),
@@ -238,6 +241,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   request.vehicles = vehicles_asked(values);
   if (values.count("lane")) request.lanes = lanes_asked(values["lane"].as<std::vector<double>>());
   if (values.count("step")) request.step = values["step"].as<double>();
+  if (values.count("from")) request.from = values["from"].as<double>();
+  if (values.count("to")) request.to = values["to"].as<double>();
   request.refinements = values["refine"].as<int>();
   request.both_ways = values.count("one-way") == 0;
   request.most = values["most"].as<double>(), request.tolerance = values["tolerance"].as<double>();
