@@ -24,15 +24,15 @@ using Beds = std::map<BedKey, std::vector<std::size_t>>;  // numbers of Snapshot
 /// Which stones lie side by side across the barrel, and which patches lie between such courses.
 class Courses {
  public:
-  Courses(const Assembly& assembly, const Snapshot& snapshot)
-      : assembly_(assembly), snapshot_(snapshot), rings_(assembly), sets_(assembly.blocks.size()) {
+  Courses(const Assembly& assembly, const RestForces& rest)
+      : assembly_(assembly), rest_(rest), snapshot_(rest.snapshot), rings_(assembly), sets_(assembly.blocks.size()) {
     for (const Joint& joint : assembly.joints)
       if (common_rings(joint.a, joint.b) && std::abs(joint.normal.y()) > is_heading)
         sets_.join(std::size_t(joint.a), std::size_t(joint.b));
     for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
       if (!is_voussoir(std::int64_t(i))) continue;
       auto& [sum, count] = middles_.try_emplace(course(std::int64_t(i)), Vec3::Zero(), 0.0).first->second;
-      sum += assembly.blocks[i].centroid + snapshot.displacement[i], count += 1.0;
+      sum += assembly.blocks[i].centroid + snapshot_.displacement[i], count += 1.0;
     }
   }
 
@@ -40,7 +40,7 @@ class Courses {
     Beds beds;
     for (std::size_t i = 0; i < snapshot_.patches.size(); ++i) {
       const PatchSnapshot& p = snapshot_.patches[i];
-      if (p.tie || p.replaced) continue;
+      if (is_none(i)) continue;
       const std::uint32_t common = common_rings(p.a, p.b);
       const auto [low, high] = std::minmax({course(p.a), course(p.b)});
       if (common && low != high) beds[{part_of(p.a), lowest(common), low, high}].push_back(i);
@@ -48,7 +48,7 @@ class Courses {
     const std::map<std::int64_t, Vec3> ends = ends_of(beds);
     for (std::size_t i = 0; i < snapshot_.patches.size(); ++i) {
       const PatchSnapshot& p = snapshot_.patches[i];
-      if (p.tie || p.replaced || is_voussoir(p.a) == is_voussoir(p.b)) continue;
+      if (is_none(i) || is_voussoir(p.a) == is_voussoir(p.b)) continue;
       const std::int64_t stone = is_voussoir(p.a) ? p.a : p.b;
       const auto end = ends.find(course(stone));
       const Vec3 out = stone == p.a ? p.normal : -p.normal;
@@ -59,6 +59,13 @@ class Courses {
   }
 
  private:
+  /// Ties, joints that a contact has taken the place of, and contacts of faces that are near each other and bear
+  /// nothing.
+  bool is_none(std::size_t patch) const {
+    const PatchSnapshot& p = snapshot_.patches[patch];
+    const bool met = patch >= assembly_.joints.size();
+    return p.tie || p.replaced || (met && rest_.forces[patch].force.isZero(0.0));
+  }
   /// Courses with neighbours on one side only, and the way from there on (unit).
   std::map<std::int64_t, Vec3> ends_of(const Beds& beds) {
     std::map<std::int64_t, std::pair<Vec3, double>> ways;
@@ -95,11 +102,21 @@ class Courses {
   static std::int32_t lowest(std::uint32_t rings) { return std::countr_zero(rings); }
 
   const Assembly& assembly_;
+  const RestForces& rest_;
   const Snapshot& snapshot_;
   RingJoints rings_;
   DisjointSets sets_;
   std::map<std::int64_t, std::pair<Vec3, double>> middles_;  // of each course: sum of centroids, stones
 };
+
+/// The patches that give a bed its place and axes: the joints it was built with, if there are any left. Contacts beside
+/// them bear their part, but their faces may stand at an angle.
+std::vector<std::size_t> shape_of(const std::vector<std::size_t>& patches, std::size_t joints) {
+  std::vector<std::size_t> built;
+  for (const std::size_t i : patches)
+    if (i < joints) built.push_back(i);
+  return built.empty() ? patches : built;
+}
 
 /// Geometry of a bed: area, centre and mean normal, which still may point either way.
 BedJoint bed_of(const BedKey& key, const std::vector<std::size_t>& patches, const Snapshot& snapshot) {
@@ -160,7 +177,7 @@ double reach_along(const Vec3& axis, const std::vector<std::size_t>& patches, co
 
 /// What the left side puts on the right. With n × d = g a force N n + … through e d + f g has the moments
 /// M · g = −e N and M · d = f N about the centre.
-void add_up(BedJoint& bed, const std::vector<std::size_t>& patches, const RestForces& rest) {
+void add_up(BedJoint& bed, const std::vector<std::size_t>& patches, const RestForces& rest, std::size_t joints) {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double capacity = 0.0;
   for (const std::size_t i : patches) {
@@ -177,17 +194,18 @@ void add_up(BedJoint& bed, const std::vector<std::size_t>& patches, const RestFo
   bed.eccentricity = bed.normal > 0.0 ? -moment.dot(bed.g) / bed.normal : none;
   bed.eccentricity_across = bed.normal > 0.0 ? moment.dot(bed.d) / bed.normal : none;
   bed.utilisation = capacity > 0.0 ? std::hypot(bed.shear, bed.shear_across) / capacity : none;
-  bed.depth = reach_along(bed.d, patches, rest.snapshot), bed.width = reach_along(bed.g, patches, rest.snapshot);
+  const std::vector<std::size_t> shape = shape_of(patches, joints);
+  bed.depth = reach_along(bed.d, shape, rest.snapshot), bed.width = reach_along(bed.g, shape, rest.snapshot);
 }
 
 }  // namespace
 
 std::vector<BedJoint> bed_joints(const Assembly& assembly, const RestForces& rest) {
-  const Beds beds = Courses(assembly, rest.snapshot).beds();
+  const Beds beds = Courses(assembly, rest).beds();
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<BedJoint>> rings;
   std::vector<const std::vector<std::size_t>*> patches;
   for (const auto& [key, of] : beds) {
-    BedJoint bed = bed_of(key, of, rest.snapshot);
+    BedJoint bed = bed_of(key, shape_of(of, assembly.joints.size()), rest.snapshot);
     bed.number = std::int32_t(patches.size());  // which patches it has, until they are in order
     patches.push_back(&of);
     rings[{bed.vault, bed.ring}].push_back(bed);
@@ -196,7 +214,7 @@ std::vector<BedJoint> bed_joints(const Assembly& assembly, const RestForces& res
   for (auto& [which, ring] : rings) {
     lay_out(ring);
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      add_up(ring[i], *patches[std::size_t(ring[i].number)], rest);
+      add_up(ring[i], *patches[std::size_t(ring[i].number)], rest, assembly.joints.size());
       ring[i].number = std::int32_t(i);
       all.push_back(ring[i]);
     }

@@ -138,7 +138,7 @@ TEST(Rate, DrawsTheThrustOfTheWorstPlace) {
       EXPECT_EQ(numbers[2], double(i - 1));
       EXPECT_GT(numbers[6], 0.0) << "every joint is pressed";
       EXPECT_LT(std::abs(numbers[10]), 0.51) << "the thrust lies in the ring";
-      EXPECT_NEAR(numbers[12], 0.12, 1e-3);
+      EXPECT_NEAR(numbers[12], 0.12, 1e-4);
       EXPECT_NEAR(numbers[13], 0.4, 1e-3);
     }
   }
