@@ -23,6 +23,8 @@ class RingJoints {
   const std::vector<std::int32_t>& vaults() const { return vaults_; }
   /// Whether a joint lies between stones of one vault that have no ring in common.
   bool operator()(const Joint& joint) const;
+  /// Bit k: the block belongs to ring k of its vault; none of a vault with one ring and of any other block.
+  std::uint32_t rings_of(std::int64_t block) const { return rings_[std::size_t(block)]; }
 
  private:
   const Assembly* assembly_;

@@ -193,6 +193,7 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
     if (result.found) break;
     increment *= 0.5;
   }
+  if (!stopped()) result.last = forces_at_rest(model, good);
   *stepper.state = result.found ? lost : good;
   stepper.prepare();
   if (result.found) {

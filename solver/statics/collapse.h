@@ -2,6 +2,7 @@
 // beyond it.
 #pragma once
 #include "solver/statics/equilibrium.h"
+#include "solver/statics/resultants.h"
 
 namespace voussoir {
 
@@ -45,6 +46,7 @@ struct Collapse {
   double above = 0.0;       // the least tried from there at which it was lost
   std::vector<CollapseTry> tries;
   std::vector<CollapsePoint> curve;
+  RestForces last;    // what joints bear in that last equilibrium
   CollapseLoss loss;  // where found
   std::vector<MechanismJoint> mechanism;
   std::optional<bool> stands_below, falls_above;  // what dynamic runs say, where they were made

@@ -105,6 +105,9 @@ TEST(Rate, SaysWhatItNeeds) {
   const Outcome wide = rate(folder, {"--lane", "1.2"});
   EXPECT_EQ(wide.status, 2);
   EXPECT_NE(wide.err.find("no road"), std::string::npos) << wide.err;
+  const Outcome nowhere = rate(folder, {"--from", "40"});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_NE(nowhere.err.find("--from and --to leave no place of axle"), std::string::npos) << nowhere.err;
   const Outcome named = voussoir({"rate", "bridge.toml", "--vehicle", "cs454-normal-singl"}, {.folder = folder.path()});
   EXPECT_EQ(named.status, 2);
   EXPECT_NE(named.err.find("cs454-normal-single"), std::string::npos) << named.err;
@@ -115,6 +118,34 @@ TEST(Rate, SaysWhatItNeeds) {
   const Outcome none = rate(folder, {});
   EXPECT_EQ(none.status, 2);
   EXPECT_NE(none.err.find("no road"), std::string::npos) << none.err;
+}
+
+/// The two runs of the worst place write what their bed joints bear, and the page draws the lines of thrust.
+TEST(Rate, DrawsTheThrustOfTheWorstPlace) {
+  const Bridge folder;
+  const Outcome outcome =
+      rate(folder, {"--strip", "0.4", "--step", "3", "--refine", "0", "--most", "2", "--tolerance", "0.5"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* run : {"rated/worst", "rated/working"}) {
+    const std::vector<std::string> lines = lines_of(bytes_of(folder / (std::string(run) + "/joints.csv")));
+    ASSERT_EQ(lines.size(), 8u) << run << ": of six voussoirs";
+    EXPECT_EQ(lines[0].substr(0, 33), "vault,ring,joint,x_m,y_m,z_m,norm");
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      std::istringstream cells(lines[i]);
+      std::vector<double> numbers;
+      for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(cell.empty() ? 0.0 : std::stod(cell));
+      ASSERT_EQ(numbers.size(), 16u);
+      EXPECT_EQ(numbers[2], double(i - 1));
+      EXPECT_GT(numbers[6], 0.0) << "every joint is pressed";
+      EXPECT_LT(std::abs(numbers[10]), 0.51) << "the thrust lies in the ring";
+      EXPECT_NEAR(numbers[12], 0.12, 1e-4);
+      EXPECT_NEAR(numbers[13], 0.4, 1e-3);
+    }
+  }
+  const std::string page = bytes_of(folder / "rated/report.html");
+  EXPECT_NE(page.find("Lines of thrust"), std::string::npos);
+  EXPECT_NE(page.find("largest load found"), std::string::npos);
+  EXPECT_NE(bytes_of(folder / "rated/images/thrust.svg").find("<svg"), std::string::npos);
 }
 
 /// The worked example of BA 16/97.

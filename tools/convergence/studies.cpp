@@ -358,7 +358,8 @@ const std::vector<NamedStudy>& convergence_studies() {
       {"points", "points per joint side: partly open joint, torsion, an arch", study_of_points},
       {"stiffness", "joint stiffness: multipliers and rocking against rigid blocks", study_of_stiffness},
       {"step", "time step: frequency, responses, energy balance", study_of_steps},
-      {"rate", "how slowly a wall must be pushed", study_of_rates}};
+      {"rate", "how slowly a wall must be pushed", study_of_rates},
+      {"dispersal", "how a fill spreads a wheel, beside the rules of codes (docs/theory/fill.md)", study_of_dispersal}};
   return list;
 }
 

@@ -10,6 +10,8 @@ struct NamedStudy {
   std::string name, help;  // help: one line
   std::function<Study()> run;
 };
+Study study_of_dispersal();
+
 /// In the order of docs/convergence.md. Seconds to minutes each, on one thread.
 const std::vector<NamedStudy>& convergence_studies();
 

@@ -62,6 +62,7 @@ Rung fill_triaxial();
 Rung fill_oedometer();
 Rung fill_footing();
 Rung fill_bearing();
+Rung fill_dispersal();
 Rung fill_patch();
 Rung fill_slide();
 Rung fill_rankine();

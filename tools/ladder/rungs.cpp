@@ -26,6 +26,7 @@ const std::vector<Rung>& rungs() {
         fill_oedometer(),      //
         fill_footing(),        //
         fill_bearing(),        //
+        fill_dispersal(),      //
         fill_patch(),          //
         fill_slide(),          //
         fill_rankine(),

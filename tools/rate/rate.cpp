@@ -11,6 +11,7 @@
 #include "solver/base/parallel.h"
 #include "solver/base/timed.h"
 #include "solver/run/simulation.h"
+#include "tools/rate/rate_report.h"
 
 namespace voussoir {
 
@@ -195,6 +196,34 @@ std::vector<double> fronts(const Vehicle& vehicle, const std::vector<SpanExtent>
   return at;
 }
 
+namespace {
+
+/// Where the vehicles of a request stand, `step` m from place to place.
+std::vector<RatedPlace> places_of(const RateRequest& request, const std::vector<SpanExtent>& spans, double step) {
+  std::vector<RatedPlace> places;
+  for (std::size_t v = 0; v < request.vehicles.size(); ++v)
+    for (const double lane : request.lanes)
+      for (const bool right : {true, false}) {
+        if (!right && (!request.both_ways || same_both_ways(request.vehicles[v]))) continue;
+        for (const double x : fronts(request.vehicles[v], spans, right, step)) {
+          RatedPlace at;
+          at.vehicle = v;
+          at.place = {x, lane, right};
+          const double middle = middle_of(request.vehicles[v], at.place);
+          if (middle >= request.from && middle <= request.to) places.push_back(at);
+        }
+      }
+  for (std::size_t v = 0; v < request.vehicles.size(); ++v)
+    if (std::none_of(places.begin(), places.end(), [v](const RatedPlace& at) { return at.vehicle == v; }))
+      throw InputError(
+          "--from and --to leave no place of {}: the vaults reach from x = {:.2f} to {:.2f} m, in steps of "
+          "{:.2f} m",
+          request.vehicles[v].name, spans.front().x0, spans.back().x1, step);
+  return places;
+}
+
+}  // namespace
+
 Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
             const std::function<void(const RatedPlace&, std::size_t, std::size_t)>& progress) {
   Rating rating;
@@ -204,19 +233,8 @@ Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
     step = 1e300;
     for (const SpanExtent& span : rating.spans) step = std::min(step, 0.1 * (span.x1 - span.x0));
   }
+  const std::vector<RatedPlace> places = places_of(request, rating.spans, step);
   const AtRest rest = bring_to_rest(c, assembly, request.threads);
-  std::vector<RatedPlace> places;
-  for (std::size_t v = 0; v < request.vehicles.size(); ++v)
-    for (const double lane : request.lanes)
-      for (const bool right : {true, false}) {
-        if (!right && (!request.both_ways || same_both_ways(request.vehicles[v]))) continue;
-        for (const double x : fronts(request.vehicles[v], rating.spans, right, step)) {
-          RatedPlace at;
-          at.vehicle = v;
-          at.place = {x, lane, right};
-          places.push_back(at);
-        }
-      }
   Sweep sweep(c, assembly, request, rest, progress);
   sweep.run(places);
   for (int round = 1; round <= request.refinements; ++round) {

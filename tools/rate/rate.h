@@ -20,6 +20,7 @@ struct RateRequest {
   std::vector<double> lanes = {0.0};      // m, y of their middle lines
   bool both_ways = true;                  // of vehicles that are not the same the other way round
   double step = 0.0;                      // m, from place to place; 0: a tenth of the shortest span
+  double from = -1e300, to = 1e300;       // m: only places with the middle of the axles between these x
   int refinements = 2;                    // halvings of the step about the worst place
   double most = 30.0;                     // the factor is looked for up to here
   double tolerance = 0.05;                // of the factor

@@ -111,6 +111,11 @@ std::string rate_page(const Rating& rating, const RateRequest& request, const Ra
   if (!words.beside.empty()) body += heading("Beside it") + paragraph(words.beside);
   if (!words.remarks.empty()) body += heading("Assumptions") + list(words.remarks);
   body += pictures_section(words.pictures, "The worst place");
+  if (!words.thrust.empty())
+    body += heading("Lines of thrust at the worst place") + figure(words.thrust) +
+            note(
+                "One line a ring, of the resultant over the whole width of the vault, as seen along y. The joints' "
+                "forces are in worst/joints.csv and working/joints.csv.");
   return html_page(words.title, body);
 }
 

@@ -14,6 +14,7 @@ struct RatePageWords {
   std::vector<PassageSeries> passages = {};
   std::vector<std::string> remarks;   // how the bridge was loaded
   std::vector<PagePicture> pictures;  // of the worst place
+  std::string thrust = {};            // thrust_chart() of the worst place; may be empty
 };
 
 /// Adequacy factor over where the middle of the axles is: one curve a vehicle, lane and direction. As SVG.

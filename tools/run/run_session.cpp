@@ -23,6 +23,7 @@
 #include "tools/run/run_page.h"
 #include "tools/run/steps_report.h"
 #include "tools/run/summary.h"
+#include "tools/run/thrust.h"
 
 namespace voussoir {
 
@@ -295,7 +296,13 @@ void RunSession::write_summary(RunEnd end) {
     json["quasi_static"] = std::move(steps);
     write_atomically(path("steps.csv"), steps_table(case_.settings.stages, history_));
   }
+  if (const std::vector<BedJoint> beds = bed_joints(); !beds.empty())
+    write_atomically(path("joints.csv"), bed_joint_table(beds));
   write_json(path("summary.json"), json);
+}
+
+std::vector<BedJoint> RunSession::bed_joints() const {
+  return bed_joints_at_end(*simulation_);
 }
 
 /// The simulation and its files; what cannot be written ends it with words on how to go on.

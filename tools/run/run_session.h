@@ -8,6 +8,7 @@
 #include "io/hdf5/history_file.h"
 #include "io/vtk/series.h"
 #include "solver/run/simulation.h"
+#include "solver/statics/bed_joints.h"
 #include "tools/run/deck_line.h"
 #include "tools/run/terminal.h"
 
@@ -46,6 +47,8 @@ class RunSession {
   /// Share of the mass that can move which has gone farther than fall_displacement, relative to the ground and to where
   /// it stood under gravity.
   double fallen_share() const;
+  /// After run(): of its end, see bed_joints_at_end() in tools/run/thrust.h.
+  std::vector<BedJoint> bed_joints() const;
 
  private:
   Observers observers();

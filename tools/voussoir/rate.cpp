@@ -16,6 +16,7 @@
 #include "tools/rate/strip.h"
 #include "tools/run/run_directory.h"
 #include "tools/run/run_session.h"
+#include "tools/run/thrust.h"
 #include "tools/voussoir/options.h"
 #include "viz/render.h"
 
@@ -147,11 +148,17 @@ std::string draw_working(const Case& c, const std::string& folder) {
   return png;
 }
 
-/// The worst place of all once more, as a run with its pictures and its page. Returns the pictures.
-std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, const Rating& rating,
-                                   const std::string& out, bool quiet) {
-  const RatedPlace& at = rating.places[worst_of_all(rating)];
+/// What the runs of the worst place show.
+struct WorstRuns {
   std::vector<PagePicture> pictures;
+  std::vector<ThrustLine> thrust;  // under the vehicle as it is, then under the largest load found
+};
+
+/// The worst place of all once more, as runs with their pictures and pages.
+WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rating, const std::string& out,
+                    bool quiet) {
+  const RatedPlace& at = rating.places[worst_of_all(rating)];
+  WorstRuns all;
   for (const bool to_collapse : {true, false}) {
     const Case more = with_vehicle(c, request, at, to_collapse);
     const std::string folder = out + (to_collapse ? "/worst" : "/working");
@@ -160,16 +167,20 @@ std::vector<PagePicture> run_worst(const Case& c, const RateRequest& request, co
     const DirectoryLock lock = prepare_directory(more, folder, true);
     if (!quiet)
       fmt::print("{}: {}\n", folder, to_collapse ? "to collapse at the worst place" : "under the vehicle as it is");
-    RunSession(run).run();
+    RunSession session(run);
+    session.run();
+    all.thrust.insert(all.thrust.begin(),
+                      {to_collapse ? "largest load found" : "under the vehicle as it is", session.bed_joints()});
     const std::string file = to_collapse ? folder + "/images/mechanism_front.png" : draw_working(more, folder);
     std::error_code ignored;
     if (fs::exists(file, ignored))
-      pictures.push_back({to_collapse ? "Beyond the collapse load" : "Under the vehicle as it is",
-                          to_collapse ? "worst: displacements, and joints of the mechanism in red"
-                                      : "working: displacements; joints that opened or slipped more than 0.1 mm in red",
-                          read_text(file)});
+      all.pictures.push_back({to_collapse ? "Beyond the collapse load" : "Under the vehicle as it is",
+                              to_collapse
+                                  ? "worst: displacements, and joints of the mechanism in red"
+                                  : "working: displacements; joints that opened or slipped more than 0.1 mm in red",
+                              read_text(file)});
   }
-  return pictures;
+  return all;
 }
 
 /// Shares of the adequacy factor with which the vehicle passes; the usual rule takes the half.
@@ -204,6 +215,9 @@ int rate_bridge(const std::vector<std::string>& arguments) {
       "m, y of the vehicle's middle line; may be repeated (default: 0)")(
       "step", real_option("step", 0.01, 100.0)->value_name("M"),
       "m from place to place (default: a tenth of the shortest span)")(
+      "from", real_option("from", -1e4, 1e4)->value_name("X"),
+      "m, least x of the middle of the axles (default: all vaults)")(
+      "to", real_option("to", -1e4, 1e4)->value_name("X"), "m, and the greatest")(
       "refine", whole_option("refine", 0, 10)->value_name("N")->default_value(2),
       "halvings of the step about the worst place")("one-way", "only towards the right")(
       "strip", real_option("strip", 0.05, 5.0)->value_name("W"),
@@ -227,6 +241,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   request.vehicles = vehicles_asked(values);
   if (values.count("lane")) request.lanes = lanes_asked(values["lane"].as<std::vector<double>>());
   if (values.count("step")) request.step = values["step"].as<double>();
+  if (values.count("from")) request.from = values["from"].as<double>();
+  if (values.count("to")) request.to = values["to"].as<double>();
   request.refinements = values["refine"].as<int>();
   request.both_ways = values.count("one-way") == 0;
   request.most = values["most"].as<double>(), request.tolerance = values["tolerance"].as<double>();
@@ -254,7 +270,12 @@ int rate_bridge(const std::vector<std::string>& arguments) {
     write_atomically(out + "/images/ratchet.svg", ratchet_chart(words.passages));
     if (!quiet) fmt::print("{}\n", passages_text(words.passages, rating.places[rating.worst.front()].factor));
   }
-  if (!values.count("no-runs")) words.pictures = run_worst(c, request, rating, out, quiet);
+  if (!values.count("no-runs")) {
+    WorstRuns runs = run_worst(c, request, rating, out, quiet);
+    words.pictures = std::move(runs.pictures);
+    words.thrust = thrust_chart(runs.thrust);
+    if (!words.thrust.empty()) write_atomically(out + "/images/thrust.svg", words.thrust);
+  }
   write_atomically(out + "/report.html", rate_page(rating, request, words));
   if (!quiet)
     fmt::print("{}{}\n{}/report.html, rate.csv, rate.json\n", rating_text(rating, request), words.beside, out);

@@ -1,0 +1,28 @@
+// Bed joints of vaults as a table, and their lines of thrust as a figure.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "solver/run/simulation.h"
+#include "solver/statics/bed_joints.h"
+
+namespace voussoir {
+
+/// At the end of a run: of the last equilibrium of a collapse stage, or of what a gravity stage has brought to rest.
+/// Empty after a stage in which time passes, and without a vault.
+std::vector<BedJoint> bed_joints_at_end(const Simulation& run);
+
+/// joints.csv (docs/formats.md): a row a bed joint. Cells of what is not finite are empty.
+std::string bed_joint_table(const std::vector<BedJoint>& beds);
+
+/// What one line of thrust is of.
+struct ThrustLine {
+  std::string name;  // in the legend
+  std::vector<BedJoint> beds;
+};
+
+/// The rings of the first, intrados and extrados, and in them the lines of thrust of all, one line a ring, seen along
+/// y. Both axes have one scale, m. As SVG; empty without a bed joint.
+std::string thrust_chart(const std::vector<ThrustLine>& lines);
+
+}  // namespace voussoir
