@@ -9,17 +9,6 @@ namespace voussoir {
 
 namespace {
 
-/// Blocks of one layout, which take some kilobytes each before there is a model of them.
-constexpr double kMostStones = 2e6;
-
-void check_number(double stones) {
-  if (!(stones <= kMostStones))
-    throw InputError(
-        "[bridge] asks for {:.3g} blocks, expected at most {:g}: make them larger (block_scale, or the sizes of the "
-        "blocks), or the structure smaller",
-        stones, kMostStones);
-}
-
 Polyhedron sweep_across(Polygon polygon, double y0, double y1) {
   for (Vec3& p : polygon) p.y() = y0;
   return make_prism(polygon, Vec3(0.0, y1 - y0, 0.0));
@@ -78,6 +67,15 @@ void lay_box(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit
 
 }  // namespace
 
+void check_stones(double stones) {
+  constexpr double most = 2e6;  // they take some kilobytes each before there is a model of them
+  if (!(stones <= most))
+    throw InputError(
+        "[bridge] asks for {:.3g} blocks, expected at most {:g}: make them larger (block_scale, or the sizes of the "
+        "blocks), or the structure smaller",
+        stones, most);
+}
+
 std::vector<double> split(double from, double to, double size, bool half) {
   const int n = std::max(1, int(std::lround((to - from) / size)));
   const double step = (to - from) / n;
@@ -115,7 +113,7 @@ void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& 
   if ((high - low).minCoeff() <= 0.0) return;
   const std::vector<double> z = split(low.z(), high.z(), unit.size.z());
   const Vec3 counts = ((high - low).cwiseQuotient(unit.size)).array().round().max(1.0);
-  check_number(double(layout.stones.size()) + counts.prod());
+  check_stones(double(layout.stones.size()) + counts.prod());
   const Vec3 nominal = (high - low).cwiseQuotient(counts);
   for (std::size_t k = 0; k + 1 < z.size(); ++k) {
     const std::vector<double> y = split(low.y(), high.y(), unit.size.y());
@@ -130,7 +128,7 @@ void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& 
 }
 
 void lay_stone(Layout& layout, std::vector<Polyhedron> cells, const Unit& unit, const Vec3& nominal, bool was_cut) {
-  check_number(double(layout.stones.size()) + 1.0);
+  check_stones(double(layout.stones.size()) + 1.0);
   Stone stone;
   stone.cells = std::move(cells);
   stone.component = unit.component;

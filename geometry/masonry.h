@@ -38,6 +38,9 @@ struct Layout {
   std::map<std::string, std::vector<std::int64_t>> groups;  // indices into `stones`
 };
 
+/// Throws InputError where a layout is to hold more stones than a model can be made of.
+void check_stones(double stones);
+
 /// Boundaries that divide [from, to] into round(length / size) equal parts, at least one. With `half` the parts are
 /// shifted by half of one, with half parts at both ends; a single part is never halved.
 std::vector<double> split(double from, double to, double size, bool half = false);

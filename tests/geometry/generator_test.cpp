@@ -128,6 +128,37 @@ TEST(Wall, CountsOfBlocksAndJoints) {
   EXPECT_EQ(small.groups.at("top").size(), 11u);
 }
 
+TEST(Wall, MayEndInHalfABlockOnEitherSide) {
+  const Assembly wall = build("wall", {{"length_blocks", 4.5}, {"courses", 16.0}});
+  EXPECT_EQ(moving(wall), 16 * 5);
+  EXPECT_EQ(wall.joints.size(), 16u * 4 + 15u * 9 + 5u);
+  EXPECT_NEAR(moving_mass(wall), 2000.0 * 2.7 * 8.0 * 0.45, 1e-6);
+  GeneratorInput third = default_input(find_generator("wall"));
+  third.values["length_blocks"] = 4.3;
+  EXPECT_NE(error_of("wall", third).find("length_blocks = 4.3"), std::string::npos);
+}
+
+TEST(Wall, BlocksMayCrackInTheirMiddle) {
+  const Assembly wall =
+      build("wall", {{"length_blocks", 4.5}, {"courses", 3.0}, {"crack_strength", 2e6}, {"crack_energy", 80.0}});
+  EXPECT_EQ(moving(wall), 3 * 9);
+  int cracks = 0, heads = 0;
+  for (const Joint& joint : wall.joints) {
+    const JointLaw& law = wall.laws[std::size_t(joint.law)];
+    const bool upright = std::abs(joint.normal.x()) > 0.5;
+    cracks += upright && law.tension == 2e6, heads += upright && law.tension == 0.0;
+    EXPECT_TRUE(upright || law.tension == 0.0);
+    if (law.tension == 0.0) continue;
+    EXPECT_EQ(law.kind, JointLaw::Kind::composite);
+    EXPECT_NEAR(joint.kn, 4e9 / 0.3, 1.0);
+    const Vec3 at = polygon_centroid(joint.polygon);  // whole blocks from 0 in even courses, from 0.3 m in odd ones
+    const double from = int(at.z() / 0.5) % 2 ? 0.3 : 0.0;
+    EXPECT_NEAR(std::remainder(at.x() - from - 0.3, 0.6), 0.0, 1e-9);
+  }
+  EXPECT_EQ(cracks, 3 * 4);
+  EXPECT_EQ(heads, 3 * 4);
+}
+
 TEST(Wall, StiffnessFromTheModuliAndFromTheKeys) {
   const Assembly wall = build("wall");
   for (const Joint& joint : wall.joints) {

@@ -34,6 +34,19 @@ TEST(Passages, SettleOrGrowByTheirIncrements) {
   EXPECT_EQ(judge(slides, none), PassageEnd::grows);
 }
 
+TEST(Passages, SayUpToWhichFactorAllSettle) {
+  const auto series = [](double factor, PassageEnd end, int passages) {
+    return PassageSeries{factor, std::vector<AfterPassage>(std::size_t(passages) + 1), end};
+  };
+  const std::string text = passages_text({series(0.3, PassageEnd::settles, 9), series(0.5, PassageEnd::grows, 9),
+                                          series(0.7, PassageEnd::settles, 9), series(0.9, PassageEnd::collapses, 2)},
+                                         1.0);
+  EXPECT_EQ(text.find("Over 9 passages displacements settle with factors up to 0.3 (30 % of"), 0u) << text;
+  EXPECT_NE(text.find("with 0.5 they do not"), std::string::npos) << text;
+  const std::string none = passages_text({series(0.3, PassageEnd::collapses, 0), series(0.5, PassageEnd::grows, 9)}, 1);
+  EXPECT_EQ(none.find("Over 9 passages displacements settle with none of the factors; with 0.3"), 0u) << none;
+}
+
 Vehicle two_axles() {
   return parse_vehicle(
       "[vehicle]\ntitle = \"a\"\nsource = \"b\"\nkind = \"road\"\ntrack = 2.0\nwheel = [0.3, 0.4]\n"

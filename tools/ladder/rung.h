@@ -54,6 +54,7 @@ Rung bridge_ring();
 Rung maxwell_fit();
 Rung maxwell_ring();
 Rung softening_joint();
+Rung composite_joint();
 Rung falling_blocks();
 Rung colliding_blocks();
 Rung skew_arch();

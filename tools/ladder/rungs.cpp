@@ -18,6 +18,7 @@ const std::vector<Rung>& rungs() {
         maxwell_fit(),         //
         maxwell_ring(),        //
         softening_joint(),     //
+        composite_joint(),     //
         falling_blocks(),      //
         colliding_blocks(),    //
         skew_arch(),           //

@@ -31,9 +31,11 @@ AfterPassage look_at(const Simulation& run, const Snapshot& begun) {
       after.largest = std::max(after.largest, (now.displacement[i] - begun.displacement[i]).norm());
   for (const auto& [name, blocks] : run.assembly().groups)
     if (name.starts_with("keystone "))
-      for (const std::int64_t block : blocks)
-        after.crown = std::max(after.crown,
-                               begun.displacement[std::size_t(block)].z() - now.displacement[std::size_t(block)].z());
+      for (const std::int64_t block : blocks) {
+        const auto i = std::size_t(block);
+        const double down = begun.displacement[i].z() - now.displacement[i].z();
+        if (std::abs(down) > std::abs(after.crown)) after.crown = down;
+      }
   for (const TetSnapshot& tet : now.fill.tets) after.plastic += tet.plastic_shear;
   if (!now.fill.tets.empty()) after.plastic /= double(now.fill.tets.size());
   return after;
@@ -94,6 +96,13 @@ PassageSeries series_of(const Case& c, const Assembly& assembly, const std::vect
   return series;
 }
 
+/// "settles"; "collapses in passage 3".
+std::string end_of(const PassageSeries& series) {
+  std::string text = passage_word(series.end);
+  if (series.end == PassageEnd::collapses) text += fmt::format(" in passage {}", series.after.size());
+  return text;
+}
+
 }  // namespace
 
 const char* passage_word(PassageEnd end) {
@@ -123,27 +132,29 @@ std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, con
   std::vector<PassageSeries> all(request.factors.size());
   for_all(all.size(), request.rate.threads, [&](std::size_t i) {
     all[i] = series_of(c, assembly, spans, request, request.factors[i]);
-    say(fmt::format("{} passages with factor {:.3g}: {}", all[i].after.size() - 1, all[i].factor,
-                    passage_word(all[i].end)));
+    say(fmt::format("passages with factor {:.3g}: {}", all[i].factor, end_of(all[i])));
   });
   return all;
 }
 
 std::string passages_text(const std::vector<PassageSeries>& all, double adequacy) {
-  double settles = 0.0, goes_on = 1e300;
-  for (const PassageSeries& series : all)
-    if (series.end == PassageEnd::settles) settles = std::max(settles, series.factor);
-  for (const PassageSeries& series : all)
-    if (series.end != PassageEnd::settles && series.factor > settles) goes_on = std::min(goes_on, series.factor);
-  const std::size_t count = all.front().after.size() - 1;
-  std::string text =
-      settles > 0.0
-          ? fmt::format(
-                "Over {} passages displacements settle with factors up to {:.3g} ({:.0f} % of the adequacy factor)",
-                count, settles, 100.0 * settles / adequacy)
-          : fmt::format("Over {} passages displacements settle with none of the factors", count);
-  if (goes_on < 1e300) text += fmt::format("; with {:.3g} they do not", goes_on);
-  return text + fmt::format(". Half of the adequacy factor, the usual rule, is {:.3g}.", 0.5 * adequacy);
+  std::size_t count = 0;
+  for (const PassageSeries& series : all) count = std::max(count, series.after.size() - 1);
+  const auto first =
+      std::find_if(all.begin(), all.end(), [](const PassageSeries& s) { return s.end != PassageEnd::settles; });
+  std::string text = fmt::format("Over {} passages displacements settle with ", count);
+  if (first == all.begin()) {
+    text += "none of the factors";
+  } else {
+    const double settles = std::prev(first)->factor;
+    text += fmt::format("factors up to {:.3g} ({:.0f} % of the adequacy factor)", settles, 100.0 * settles / adequacy);
+  }
+  if (first != all.end()) text += fmt::format("; with {:.3g} they do not", first->factor);
+  return text + fmt::format(
+                    ". Half of the adequacy factor, the usual rule, is {:.3g}. They settle when passages of the last "
+                    "third add at most half of what those of the third before do, and grow when they add nine tenths "
+                    "or more.",
+                    0.5 * adequacy);
 }
 
 std::string passages_csv(const std::vector<PassageSeries>& all) {
@@ -166,7 +177,7 @@ std::string ratchet_chart(const std::vector<PassageSeries>& all) {
   chart.y_label = "largest displacement since gravity, without the vehicle (mm)";
   for (const PassageSeries& series : all) {
     ChartCurve curve;
-    curve.name = fmt::format("factor {:.3g}: {}", series.factor, passage_word(series.end));
+    curve.name = fmt::format("factor {:.3g}: {}", series.factor, end_of(series));
     curve.dots = true;
     for (std::size_t n = 0; n < series.after.size(); ++n)
       curve.x.push_back(double(n)), curve.y.push_back(1e3 * series.after[n].largest);

@@ -6,7 +6,7 @@ namespace voussoir {
 
 /// The bridge after a passage, without the vehicle.
 struct AfterPassage {
-  double crown = 0.0;    // m, displacement down of the crown that has gone farthest since gravity
+  double crown = 0.0;    // m, displacement downwards of the crown that has gone farthest since gravity
   double opening = 0.0;  // m, of the joint that stands open most
   double slip = 0.0;     // m, of the joint that has slid most, since the start
   double slips = 0.0;    // m, sum of all joints' slip weighted by area over all area
@@ -40,7 +40,8 @@ std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, con
 /// How increments of the displacement of a series end (docs/theory/shakedown.md).
 PassageEnd judge(const std::vector<AfterPassage>& after, double settled);
 
-/// The largest factor that settles and the smallest that does not, against the adequacy factor.
+/// The factors in ascending order: the last of those that settle and the first that does not, against the adequacy
+/// factor.
 std::string passages_text(const std::vector<PassageSeries>& all, double adequacy);
 std::string passages_csv(const std::vector<PassageSeries>& all);
 /// Displacement over the number of passages: one curve a factor. As SVG.

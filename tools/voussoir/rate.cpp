@@ -184,7 +184,7 @@ WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rat
 }
 
 /// Shares of the adequacy factor with which the vehicle passes; the usual rule takes the half.
-constexpr double passage_shares[] = {0.3, 0.5, 0.6, 0.7, 0.8, 0.9};
+constexpr double passage_shares[] = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
 
 std::vector<PassageSeries> pass_repeatedly(const Case& c, const Assembly& assembly, const RateRequest& request,
                                            const Rating& rating, int count, bool quiet) {
