@@ -158,8 +158,9 @@ struct BatchAhead {
   }
 };
 
-/// One batch, from its pose to its wrenches, with `count` branches.
-template <int count>
+/// One batch, from its pose to its wrenches, with `count` branches. `composite`: some law of the model is; where none
+/// is, its joints cost nothing.
+template <int count, bool composite>
 struct BatchPass {
   const PatchPass& pass;
   const BatchArrays<count>& in;
@@ -229,7 +230,8 @@ struct BatchPass {
       tangent = select(broken, Side::splat(law.residual_tan_friction), tangent);
     }
     if (!all(surely_bear<Side>(batch, e, tension, cohesion, tangent))) return false;
-    return !crushes(law) || surely_whole<Side>(batch, law, e.u[0], e.u[1], e.u[2], e.u[3], e.u[4], e.u[5]);
+    return !composite || !crushes(law) ||
+           surely_whole<Side>(batch, law, e.u[0], e.u[1], e.u[2], e.u[3], e.u[4], e.u[5]);
   }
 
   /// All lanes are springs, and were: nothing of theirs changes but the last jump and the branches. Side by side.
@@ -281,7 +283,7 @@ struct BatchPass {
     const LaneStrength strength = strengths(*pass.model, batch);
     Lanes change[6];                       // of the jump since the pass before
     LaneMask in_lanes = strength.brittle;  // of the lanes point by point
-    if (any(strength.composite)) in_lanes = in_lanes | plain_lanes(jump, modes, live & strength.composite);
+    if (composite && any(strength.composite)) in_lanes = in_lanes | plain_lanes(jump, modes, live & strength.composite);
     // point_patch() keeps the last jump of its lanes itself.
     const LaneMask left = without(live, keep | in_lanes), noted = ~left;
     each_side([&](auto side) __attribute__((always_inline)) {
@@ -303,7 +305,7 @@ struct BatchPass {
     const LaneMask brittle = points & in_lanes, others = without(points, brittle);
     const LaneMask leave = without(points, bytes_with(modes, mode_points));
     leave_intact(leave);
-    if (any(strength.composite)) give_back(change, leave & strength.composite);
+    if (composite && any(strength.composite)) give_back(change, leave & strength.composite);
     if (any(brittle)) by_points = point_lanes(jump, change, strength, brittle, findings);
     const Resultant<Lanes> resultant = select(intact.closed, intact.resultant, select(brittle, by_points, nothing));
     alignas(64) double rows[lane_count * wrench_width];
@@ -324,15 +326,15 @@ struct BatchPass {
 
   /// Composite lanes that go point by point and are now no more than brittle ones that have broken: what friction can
   /// hold at the largest pressure of their rectangles crushes nothing. Notes which they are.
-  [[gnu::noinline]] LaneMask plain_lanes(const Jump<Lanes>& jump, LaneBytes modes, LaneMask composite) const {
+  [[gnu::noinline]] LaneMask plain_lanes(const Jump<Lanes>& jump, LaneBytes modes, LaneMask of_law) const {
     Lanes most;
     for (int lane = 0; lane < lane_count; ++lane)
       most[lane] = pass.model->laws[std::size_t(batch.law_of[lane])].plain_pressure;
     const Lanes turned = magnitude(jump.rs) * batch.half_t + magnitude(jump.rt) * batch.half_s;
-    const LaneMask eligible = composite & bytes_with(modes, mode_points) & bytes_with(modes, mode_plain);
+    const LaneMask eligible = of_law & bytes_with(modes, mode_points) & bytes_with(modes, mode_plain);
     const LaneMask plain = eligible & at_most(batch.kn * (turned - jump.n), most);
     for (int lane = 0; lane < batch.count; ++lane)
-      if (composite[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_lanes) | (plain[lane] ? mode_lanes : 0));
+      if (of_law[lane]) mode[lane] = std::uint8_t((mode[lane] & ~mode_lanes) | (plain[lane] ? mode_lanes : 0));
     return plain;
   }
 
@@ -348,9 +350,10 @@ struct BatchPass {
       using L = typename Side::Numbers;
       auto e = elastic_of<Side>(side_of<Side>(jump), slid);
       auto check = check_corners<Side>(*pass.model, batch, e, strength, Side::of(broken), Side::of(keep));
-      if (const auto crushed = Side::of(strength.crushes); any(crushed))
-        check.admissible = check.admissible & (~crushed | whole_lanes<Side>(*pass.model, batch, e.u[0], e.u[1], e.u[2],
-                                                                            e.u[3], e.u[4], e.u[5]));
+      if constexpr (composite)
+        if (const auto crushed = Side::of(strength.crushes); any(crushed))
+          check.admissible = check.admissible & (~crushed | whole_lanes<Side>(*pass.model, batch, e.u[0], e.u[1],
+                                                                              e.u[2], e.u[3], e.u[4], e.u[5]));
       const auto opens = Side::of(broken) & check.open, closed = without(check.admissible, opens),
                  stays = opens | closed;
       if (any(opens)) follow_open<Side>(*pass.model, batch, e, opens, in.slip_of(k), mode, largest_openings());
@@ -429,7 +432,7 @@ struct BatchPass {
   }
 };
 
-template <int count>
+template <int count, bool composite>
 PassReport joints_of(const PatchPass& pass, std::size_t index) {
   const Tile& tile = pass.model->tiles[index];
   std::fill(pass.sums + wrench_width * std::size_t(tile.first_sum),
@@ -437,7 +440,7 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
   const BatchArrays<count> arrays(pass);
   TileFindings found;
   for (auto k = std::size_t(tile.first_batch); k < std::size_t(tile.end_batch); ++k)
-    BatchPass<count>(pass, arrays, k).run(found);
+    BatchPass<count, composite>(pass, arrays, k).run(found);
   if constexpr (count > 0) *reinterpret_cast<Lanes*>(&pass.state->branch_work[lane_count * index]) += found.work;
   if (pass.energies) pass.energies[index] = {sum_of(found.elastic), sum_of(found.stored)};
   PassReport report;
@@ -449,7 +452,10 @@ PassReport joints_of(const PatchPass& pass, std::size_t index) {
 }  // namespace
 
 PassReport PatchPass::joints(std::size_t tile) const {
-  return with_branches(branches.count, [&](auto count) { return joints_of<count>(*this, tile); });
+  const bool composite = std::ranges::any_of(model->laws, is_composite);
+  return with_branches(branches.count, [&](auto count) {
+    return composite ? joints_of<count, true>(*this, tile) : joints_of<count, false>(*this, tile);
+  });
 }
 
 }  // namespace voussoir

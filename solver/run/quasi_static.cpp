@@ -139,7 +139,7 @@ bool Simulation::equilibrium_at(const StageSettings& stage, const Stop& stop, bo
     put_back();
     return false;
   }
-  state_.time() = position_.stage_start + stop.way * stage.duration;
+  step_time_ = state_.time() = position_.stage_start + stop.way * stage.duration;
   note_step(stage, stop.share);
   return true;
 }
@@ -186,6 +186,7 @@ bool Simulation::begin_steps(const StageSettings& stage) {
                                               : stage.loads.value_or(before);
   step_pattern_ = stage.moving.empty() ? one_a_point(places_.at_work(before, after)) : LoadsAtWork{};
   step_row_ = {};
+  step_time_ = state_.time();
   step_row_.multiplier = position_.stops > 0.0 ? position_.multiplier : 0.0;
   if (position_.stops > 0.0) return true;
   position_.along = pattern_displacement(model_, state_, step_pattern_);

@@ -102,7 +102,9 @@ void Simulation::report_progress(bool force, const std::string& note) {
   p.end = end_time();
   p.timed =
       position_.stage >= std::int64_t(settings_.stages.size()) || settings_.stages[position_.stage].duration > 0.0;
-  p.time = p.timed ? state_.time() : position_.stage_start;  // relaxation is no time
+  const bool steps = position_.stage < std::int64_t(settings_.stages.size()) &&
+                     settings_.stages[position_.stage].kind == StageSettings::Kind::quasi_static;
+  p.time = steps ? step_time_ : p.timed ? state_.time() : position_.stage_start;  // relaxation is no time
   p.share = p.end > 0.0 ? p.time / p.end : 1.0;
   const double wall = seconds_since(started_);
   p.speed = p.timed && wall > 0.0 ? (p.time - started_time_) / wall : 0.0;
@@ -229,6 +231,7 @@ void Simulation::start_from_rest() {
 void Simulation::begin_stage(const StageSettings& stage) {
   position_.stage_start = state_.time();
   step_row_ = {};
+  step_time_ = state_.time();
   if (stage.kind == StageSettings::Kind::quasi_static) position_.stage_begun = 1.0;
   if (!stage.timed()) return stop_motion(state_);
   if (position_.dt <= 0.0) choose_step();

@@ -182,6 +182,7 @@ class Simulation {
   LostBonds lost_bonds_;
   LoadsAtWork step_pattern_;  // of a quasi-static stage
   StepRow step_row_;
+  double step_time_ = 0.0;  // s, of the last of its equilibria
   double worst_balance_ = 0.0;
   std::string exploded_;  // why the ledger is not to be believed; empty while it is
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;

@@ -259,7 +259,7 @@ const std::vector<Wrong> table = {
     {"GravityRecord", head + gravity + "record = \"a\"\n", {"c.toml:5: 'record'", "belongs to a motion stage"}},
     {"FreeMethod",
      head + "[[stage]]\nkind = \"free\"\nduration = 1\nmethod = \"newton\"\n",
-     {"c.toml:6: 'method'", "belongs to a gravity stage"}},
+     {"c.toml:6: 'method'", "belongs to a gravity or quasi-static stage"}},
     {"NoSource", head + motion, {"c.toml:3: [[stage]] number 1 needs 'record'"}},
     {"RecordAndPulse",
      head + motion + "record = \"a\"\npulse = { kind = \"sine\" }\n",

@@ -219,6 +219,19 @@ nlohmann::json collapse_json(const Simulation& run) {
   return json;
 }
 
+/// Of crowns, quarter points and pier tops: mean displacement (m) and rotation (rad) at the end, since the last gravity
+/// stage.
+nlohmann::json places_json(const Assembly& assembly, const History& history) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const std::string& place : shown_places(assembly))
+    for (const auto& [what, before] : {std::pair{"displacement", ""}, std::pair{"rotation", "rotation_"}})
+      for (const char axis : {'x', 'y', 'z'}) {
+        const std::vector<double>& values = history.values(fmt::format("places/{}/{}_{}", place, what, axis));
+        if (!values.empty()) json[place][before + std::string(1, axis)] = values.back();
+      }
+  return json;
+}
+
 /// Where arches have turned open, in the end.
 nlohmann::json hinges_json(const Assembly& assembly, const Snapshot& snapshot) {
   nlohmann::json json = nlohmann::json::array();
@@ -260,6 +273,7 @@ nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot,
       {"demand", demand_json(run.assembly(), history)},          {"sensors", sensors_json(run.assembly(), history)},
       {"reactions", reactions_json(run.held_groups(), history)}, {"stages", stages_json(run, history)},
       {"damage", damage_json(run.assembly(), snapshot)},         {"hinges", hinges_json(run.assembly(), snapshot)}};
+  if (nlohmann::json places = places_json(run.assembly(), history); !places.empty()) json["places"] = std::move(places);
   if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
   if (nlohmann::json ties = ties_json(snapshot); !ties.empty()) json["ties"] = std::move(ties);
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);

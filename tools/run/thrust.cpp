@@ -11,7 +11,7 @@ namespace voussoir {
 std::vector<BedJoint> bed_joints_at_end(const Simulation& run) {
   if (!run.collapse().last.empty()) return bed_joints(run.assembly(), run.collapse().last);
   const auto ended = std::size_t(run.position().stage);
-  if (ended == 0 || run.settings().stages[ended - 1].kind != StageSettings::Kind::gravity) return {};
+  if (ended == 0 || run.settings().stages[ended - 1].timed()) return {};
   return bed_joints(run.assembly(), forces_at_rest(run.model(), run.state()));
 }
 

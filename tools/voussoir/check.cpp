@@ -94,13 +94,25 @@ std::vector<Step> steps_asked(const std::vector<std::string>& names) {
   return steps;
 }
 
-/// The number at a place like "collapse.multiplier"; true counts as 1, false as 0.
+/// Entry `key` of a list, counted from 0; null where it has none.
+const nlohmann::json* entry_of(const nlohmann::json& list, const std::string& key) {
+  if (!list.is_array() || key.empty() || key.find_first_not_of("0123456789") != std::string::npos) return nullptr;
+  const std::size_t index = std::stoul(key.substr(0, 6));
+  return index < list.size() ? &list[index] : nullptr;
+}
+
+/// The number at a place like "collapse.multiplier" or "quasi_static.0.share"; true counts as 1, false as 0.
 double value_at(const nlohmann::json& summary, const std::string& place) {
   const nlohmann::json* node = &summary;
   std::size_t from = 0;
   while (from <= place.size()) {
     const std::size_t to = std::min(place.find('.', from), place.size());
     const std::string key = place.substr(from, to - from);
+    from = to + 1;
+    if (const nlohmann::json* entry = entry_of(*node, key)) {
+      node = entry;
+      continue;
+    }
     if (!node->is_object() || !node->contains(key)) {
       std::string known;
       if (node->is_object())
@@ -108,7 +120,6 @@ double value_at(const nlohmann::json& summary, const std::string& place) {
       throw InputError("summary.json has no '{}': '{}' is none of: {}", place, key, known);
     }
     node = &(*node)[key];
-    from = to + 1;
   }
   if (node->is_boolean()) return node->get<bool>() ? 1.0 : 0.0;
   if (node->is_array()) return double(node->size());
