@@ -3,6 +3,7 @@
 #include "tests/restart/copy_state.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
+#include "tools/ladder/fill_models.h"
 
 namespace voussoir::test {
 namespace VOUSSOIR_FILE {
@@ -170,6 +171,29 @@ TEST(QuasiStatic, LetsASupportSettle) {
       EXPECT_NEAR(s.reactions[0].z() + s.reactions[1].z() + s.reactions[2].z(), w, 1e-5 * w);
     }
   }
+}
+
+/// A machine on soil: of a Poisson's ratio of zero a column of it is a spring, E A / h, in series with its joints;
+/// loaded, unloaded and loaded again by relaxation.
+TEST(QuasiStatic, PushesAColumnOfSoil) {
+  const double youngs = 80e6, joint = 1e10;
+  Assembly assembly = stone();
+  add_box(assembly, {-1, -1, -1}, {2, 2, 0}, true);
+  add_box(assembly, {0, 0, 1}, {1, 1, 1.5});
+  assembly.groups["cube"] = {1};
+  assembly = filled(std::move(assembly), box_mesh({0, 0, 0}, {1, 1, 1}, 2, 2, 2),
+                    elastic_fill(1500.0, youngs / 3.0, 0.5 * youngs), joint, joint, dry_law(0.7));
+  StageSettings gravity, push = load_steps({0, 0, -1e5}, {}, 6);
+  push.quasi_static.push = 1e-4;  // m: a strain at which the change of the geometry does not show
+  push.quasi_static.path = {1.0, 0.5, 1.0};
+  const Rows rows = rows_of(assembly, {gravity, push});
+  ASSERT_EQ(rows.all.size(), 8u);                               // three steps, two and two
+  const double stiffness = 1.0 / (1.0 / youngs + 2.0 / joint);  // N/m
+  for (const Sample& s : rows.all)
+    EXPECT_NEAR(s.step.force, stiffness * s.step.displacement, 1e-3 * stiffness * 1e-4) << s.step.share;
+  measured("column of soil under a machine: stiffness", stiffness,
+           rows.all[3].step.force / rows.all[3].step.displacement, "N/m");
+  EXPECT_GT(rows.all[3].step.displacement, 0.5e-4);
 }
 
 /// Taken up anew after any step, with other threads, it ends in the same bits.
