@@ -255,6 +255,11 @@ double fallen_share(const Model& model, const State& state, double distance) {
     const Vec3 u = relative_displacement(model, state, std::int64_t(block), body.centroid);
     if (!(u.norm() <= distance)) gone += body.mass;
   }
+  for (std::size_t node = 0; node < model.fill.nodes.size(); ++node) {  // what loose soil has done, a wall did not hold
+    whole += model.fill.mass[node];
+    const Vec3 u = Vec3(&state.fill.pose[node_width * node]) - state.base_displacement();
+    if (!(u.norm() <= distance)) gone += model.fill.mass[node];
+  }
   return whole > 0.0 ? gone / whole : 0.0;
 }
 

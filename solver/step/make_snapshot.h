@@ -25,8 +25,9 @@ Vec3 relative_rotation(const Model& model, const State& state, std::int64_t bloc
 /// assembly.
 Vec3 point_velocity(const Model& model, const State& state, std::int64_t block, const Vec3& position);
 
-/// Share of the mass of all free blocks whose centroids have gone farther than `distance` (m) relative to the base and
-/// to the last gravity stage. A displacement that is not a number counts as farther.
+/// Share of the mass of all free blocks and of the fill that has gone farther than `distance` (m) relative to the base:
+/// blocks by their centroids since the last gravity stage, nodes of the fill since all was built. A displacement that
+/// is not a number counts as farther.
 double fallen_share(const Model& model, const State& state, double distance);
 
 }  // namespace voussoir

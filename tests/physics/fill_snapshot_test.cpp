@@ -150,5 +150,19 @@ TEST(FillSnapshot, WithoutAFillThereIsNone) {
   EXPECT_TRUE(make_snapshot(bench.model, bench.state).fill.empty());
 }
 
+/// Soil that has run away counts among what has fallen, by its mass.
+TEST(FallenShare, CountsTheFill) {
+  const Assembly assembly = heap(flowing());
+  const Model model = build_model(assembly, {});
+  State state = initial_state(model);
+  EXPECT_EQ(fallen_share(model, state, 1.0), 0.0);
+  double whole = 0.0;
+  for (const double mass : model.fill.mass) whole += mass;
+  state.fill.pose[node_width * 3] = 1.5;  // m
+  state.fill.pose[node_width * 4 + 2] = std::numeric_limits<double>::quiet_NaN();
+  state.fill.pose[node_width * 5 + 1] = 0.5;
+  EXPECT_NEAR(fallen_share(model, state, 1.0), (model.fill.mass[3] + model.fill.mass[4]) / whole, 1e-12);
+}
+
 }  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::ladder
