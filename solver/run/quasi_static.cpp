@@ -69,18 +69,19 @@ void Simulation::step_by_relaxation(const StageSettings& stage, double share) {
   double driven = from;
   Machine machine = machine_at(stage, from);
   const std::vector<char> loaded = bodies_loaded(model_, step_pattern_);
-  MotionWatch watch(model_, loaded, state_, watched * model_.typical_size);
+  std::optional<MotionWatch> watch;  // from where all has come on: until then what moves is pushed
   RelaxationLimits limits;
   limits.steps = 200000;
   limits.from_unloaded = false;
   limits.gently = true;
-  limits.hopeless = [&](const State& state, double work) { return watch.hopeless(state, work); };
-  limits.ramp_rounds = rounds;
+  limits.hopeless = [&](const State& state, double work) { return watch && watch->hopeless(state, work); };
+  limits.ramp_rounds = share == from ? 1 : rounds;
   limits.ramp = [&](double part) {
     const double now = part < 1.0 ? from + part * (share - from) : share;
     drive_to(stage, std::exchange(driven, now), now);
     machine.head = machine_at(stage, now).head;
     stepper_.loads = step_loads(stage, now);
+    if (part >= 1.0) watch.emplace(model_, loaded, state_, watched * model_.typical_size);
   };
   stepper_.prepare();
   equilibrium_ = relax(
@@ -193,8 +194,7 @@ bool Simulation::begin_steps(const StageSettings& stage) {
   if (equilibrium_at(stage, {}, stage.method != StageSettings::Method::newton)) return true;
   failure_ = fmt::format(
       "there is no equilibrium where the stage '{}' begins: {}. Begin with a gravity stage, and look at where it "
-      "leaves "
-      "the stones",
+      "leaves the stones",
       stage.label, equilibrium_.account);
   return false;
 }
@@ -225,10 +225,7 @@ RunEnd Simulation::step_by_step(const StageSettings& stage, double until) {
     const bool ends = stopped() || (until >= 0.0 && state_.time() >= until * (1.0 - 1e-12));
     if (there && done() == stops.size()) break;  // its frame and checkpoint are those of the stage's end
     if (there) write_fields();
-    if (there && (ends || seconds_since_saved() > settings_.output.checkpoint_wall)) {
-      write_checkpoint(false);
-      saved_ = std::chrono::steady_clock::now();
-    }
+    if (there) write_checkpoint(false);  // a step takes as long as many checkpoints
     if (ends) return RunEnd::interrupted;
     if (!there) return lose(stage, come, next);
   }

@@ -86,10 +86,6 @@ bool Simulation::stopped() const {
   return observers_.stop && observers_.stop->load();
 }
 
-double Simulation::seconds_since_saved() const {
-  return seconds_since(saved_);
-}
-
 void Simulation::log(const std::string& text) const {
   if (observers_.log) observers_.log(text);
 }
@@ -425,7 +421,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     }
     const double slack = 1e-6 * stepper_.dt, near_end = std::max(2.0 * stepper_.dt, 0.01 * output.fields_every);
     if (state_.time() >= fields_at - slack && state_.time() < end - near_end) write_fields();  // the end has its own
-    const bool wall = seconds_since_saved() > output.checkpoint_wall;
+    const bool wall = seconds_since(saved_) > output.checkpoint_wall;
     if ((state_.time() >= save_at - slack || wall) && state_.time() < end - slack && observers_.checkpoint) {
       write_checkpoint(false);
       saved_ = Clock::now();

@@ -156,7 +156,6 @@ class Simulation {
   void choose_step();
   void write_fields();
   void write_checkpoint(bool stage_end);
-  double seconds_since_saved() const;
   void report_progress(bool force, const std::string& note);
   void log(const std::string& text) const;
 

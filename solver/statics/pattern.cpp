@@ -10,23 +10,26 @@ Vec3 node_force(const Array<double>& nodes, std::size_t i) {
   return nodes.empty() ? Vec3(Vec3::Zero()) : Vec3(&nodes[i]);
 }
 
-/// Calls `take` with the difference of each load and the displacement of where it acts.
+/// Calls `take` with the difference of each load and the displacement of where it acts; zero without a state.
 template <class Take>
-void for_each_load(const Model& model, const State& state, const LoadsAtWork& pattern, const Take& take) {
-  const auto centre = [&](std::size_t i) { return Vec3(&state.pose[pose_width * i]); };
+void for_each_load(const Model& model, const State* state, const LoadsAtWork& pattern, const Take& take) {
+  const auto centre = [&](std::size_t i) { return state ? Vec3(&state->pose[pose_width * i]) : Vec3(Vec3::Zero()); };
+  const auto node = [&](std::size_t i) { return state ? Vec3(&state->fill.pose[i]) : Vec3(Vec3::Zero()); };
+  const auto turned = [&](std::size_t i, const Vec3& arm) {
+    return state ? Vec3(rotation_of(*state, i) * arm - arm) : Vec3(Vec3::Zero());
+  };
   const Vec3 a = pattern.acceleration_to - pattern.acceleration_from;
   if (!a.isZero(0.0)) {
     for (std::size_t i = 0; i < model.bodies.size(); ++i)
       if (!model.bodies[i].still()) take(model.bodies[i].mass * a, centre(i));
-    for (std::size_t i = 0; i < model.fill.nodes.size(); ++i)
-      take(model.fill.mass[i] * a, Vec3(&state.fill.pose[node_width * i]));
+    for (std::size_t i = 0; i < model.fill.nodes.size(); ++i) take(model.fill.mass[i] * a, node(node_width * i));
   }
   for (const PointLoad& p : pattern.points) {
     const auto i = std::size_t(p.body);
-    take(p.to - p.from, centre(i) + rotation_of(state, i) * p.arm - p.arm);
+    take(p.to - p.from, centre(i) + turned(i, p.arm));
   }
   for (std::size_t i = 0; i < std::max(pattern.nodes_from.size(), pattern.nodes_to.size()); i += node_width)
-    take(node_force(pattern.nodes_to, i) - node_force(pattern.nodes_from, i), Vec3(&state.fill.pose[i]));
+    take(node_force(pattern.nodes_to, i) - node_force(pattern.nodes_from, i), node(i));
 }
 
 }  // namespace
@@ -84,15 +87,14 @@ void set_share(const LoadsAtWork& pattern, double share, LoadsAtWork& loads) {
 }
 
 double pattern_force(const Model& model, const LoadsAtWork& pattern) {
-  const State reference = initial_state(model);
   double sum = 0.0;
-  for_each_load(model, reference, pattern, [&](const Vec3& force, const Vec3&) { sum += force.norm(); });
+  for_each_load(model, nullptr, pattern, [&](const Vec3& force, const Vec3&) { sum += force.norm(); });
   return sum;
 }
 
 double pattern_displacement(const Model& model, const State& state, const LoadsAtWork& pattern) {
   double work = 0.0, force = 0.0;
-  for_each_load(model, state, pattern, [&](const Vec3& f, const Vec3& u) { work += f.dot(u), force += f.norm(); });
+  for_each_load(model, &state, pattern, [&](const Vec3& f, const Vec3& u) { work += f.dot(u), force += f.norm(); });
   return force > 0.0 ? work / force : 0.0;
 }
 

@@ -177,6 +177,21 @@ TEST(QuasiStatic, LetsASupportSettle) {
   }
 }
 
+/// However far a support goes in one step of relaxation, what it carries along is no loss: the plate lifts the block by
+/// a twentieth of its size, which is more than the distance from which a motion is watched.
+TEST(QuasiStatic, CarriesABlockFarInOneStep) {
+  StageSettings gravity, steps;
+  steps.kind = StageSettings::Kind::quasi_static;
+  steps.method = StageSettings::Method::relaxation;
+  steps.duration = 1.0;
+  steps.drives = {{"plate", Vec3::Zero(), {0.0, 0.0, 0.05}}};
+  steps.quasi_static.steps = 1;
+  const Rows rows = rows_of(cube(0.5), {gravity, steps});
+  ASSERT_EQ(rows.all.size(), 2u) << "no step was halved";
+  EXPECT_EQ(rows.all.back().step.share, 1.0);
+  EXPECT_NEAR(rows.all.back().step.force, weight, 1e-5 * weight);
+}
+
 /// A machine on soil: of a Poisson's ratio of zero a column of it is a spring, E A / h, in series with its joints;
 /// loaded, unloaded and loaded again by relaxation.
 TEST(QuasiStatic, PushesAColumnOfSoil) {

@@ -27,6 +27,15 @@ std::vector<double> values_at(const History& history, const std::string& channel
   return values;
 }
 
+/// One channel over another, in these rows and units.
+ChartCurve curve_of(const std::string& name, const History& history, const std::vector<std::size_t>& rows,
+                    const std::string& x, double x_factor, const std::string& y, double y_factor) {
+  ChartCurve curve;
+  curve.name = name;
+  curve.x = values_at(history, x, rows, x_factor), curve.y = values_at(history, y, rows, y_factor);
+  return curve;
+}
+
 std::string stage_name(const std::vector<StageSettings>& stages, std::size_t number) {
   return fmt::format("{}. {}", number, stages[number - 1].label);
 }
@@ -91,11 +100,9 @@ LineChart capacity_chart(const std::vector<StageSettings>& stages, const History
   chart.title = "Capacity curve: each point an equilibrium";
   chart.x_label = "displacement since the stage began (mm)", chart.y_label = "force (kN)";
   for (const auto& [number, rows] : step_rows(stages, history)) {
-    ChartCurve curve;
-    curve.name = stage_name(stages, number), curve.dots = true;
-    curve.x = values_at(history, "steps/displacement", rows, 1e3);
-    curve.y = values_at(history, "steps/force", rows, 1e-3);
-    chart.curves.push_back(curve);
+    chart.curves.push_back(
+        curve_of(stage_name(stages, number), history, rows, "steps/displacement", 1e3, "steps/force", 1e-3));
+    chart.curves.back().dots = true;
   }
   number_curves(chart);
   return chart;
@@ -129,10 +136,8 @@ LineChart reaction_chart(const std::vector<StageSettings>& stages, const History
     for (const Channel& channel : history.channels()) {
       if (!channel.path.starts_with("reactions/") || !channel.path.ends_with("_z")) continue;
       const std::string group = channel.path.substr(10, channel.path.size() - 12);
-      ChartCurve curve;
-      curve.name = all.size() > 1 ? fmt::format("{}: {}", number, group) : group;
-      curve.x = values_at(history, "steps/share", rows, 1.0);
-      curve.y = values_at(history, channel.path, rows, 1e-3);
+      const std::string name = all.size() > 1 ? fmt::format("{}: {}", number, group) : group;
+      const ChartCurve curve = curve_of(name, history, rows, "steps/share", 1.0, channel.path, 1e-3);
       const bool acts = std::ranges::any_of(curve.y, [](double v) { return v != 0.0; });
       if (acts) chart.curves.push_back(curve);
     }

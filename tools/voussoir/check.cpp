@@ -96,8 +96,10 @@ std::vector<Step> steps_asked(const std::vector<std::string>& names) {
 
 /// Entry `key` of a list, counted from 0; null where it has none.
 const nlohmann::json* entry_of(const nlohmann::json& list, const std::string& key) {
-  if (!list.is_array() || key.empty() || key.find_first_not_of("0123456789") != std::string::npos) return nullptr;
-  const std::size_t index = std::stoul(key.substr(0, 6));
+  constexpr std::size_t most_digits = 6;
+  if (!list.is_array() || key.empty() || key.size() > most_digits) return nullptr;
+  if (key.find_first_not_of("0123456789") != std::string::npos) return nullptr;
+  const std::size_t index = std::stoul(key);
   return index < list.size() ? &list[index] : nullptr;
 }
 
