@@ -24,6 +24,7 @@ TEST(CommandLine, HelpOfEachVerbHasAnExample) {
     for (const char* option : {"--help", "--threads", "--quiet"})
       EXPECT_NE(help.out.find(option), std::string::npos) << verb << " " << option;
     EXPECT_EQ(help.err, "");
+    EXPECT_FALSE(std::regex_search(help.out, std::regex("=[0-9.]{8,}"))) << "a default to the last bit: " << help.out;
   }
 }
 

@@ -87,7 +87,8 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "effects", whole_option("effects", 0, 100, &request.settings.effects)->default_value(3), "most that are added")(
       "fits", whole_option("fits", 1, 10000, &request.settings.fits)->default_value(request.settings.fits),
       "candidates that are fitted fully in a round")(
-      "model-error", real_option("model-error", 1e-9, 0.999, &request.model_error)->default_value(request.model_error),
+      "model-error",
+      real_option("model-error", 1e-9, 0.999, &request.model_error)->default_value(request.model_error, "0.005"),
       "of a right model's frequencies, share, beside its mesh")(
       "most-modes", whole_option("most-modes", 1, 30, &request.most_modes)->default_value(request.most_modes),
       "of those found in recordings: the lowest are used")(

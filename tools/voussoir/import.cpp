@@ -99,8 +99,8 @@ int import(const std::vector<std::string>& arguments) {
       "fixed", options::value<std::string>()->default_value("lowest"),
       "what moves with the ground: lowest, none, or names or numbers; unless given, as an assembly file, supports of a "
       "COMPAS file or the map say")("density", real_option("density", 1e-6, 1e5)->default_value(2000.0), "kg/m3")(
-      "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9), "Pa")(
-      "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9), "Pa")(
+      "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9, "4e9"), "Pa")(
+      "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9, "1.6e9"), "Pa")(
       "tension", real_option("tension", 0.0, 1e10)->default_value(0.0), "tensile strength of the joints, Pa")(
       "cohesion", real_option("cohesion", 0.0, 1e10)->default_value(0.0), "Pa")(
       "friction", real_option("friction", 0.0, 89.0)->default_value(30.0), "degrees")(
@@ -112,7 +112,7 @@ int import(const std::vector<std::string>& arguments) {
       ".msh: the fill's material, one of the assembly or a new one, of which what is not given is 1500 kg/m3, 4e8 and "
       "1.6e8 Pa, tension 0, cohesion 2e4 Pa, friction 40 degrees")(
       "dilation", real_option("dilation", 0.0, 89.0)->default_value(0.0), ".msh: of a new material, degrees")(
-      "interface-share", real_option("interface-share", 1e-6, 1e6)->default_value(0.2),
+      "interface-share", real_option("interface-share", 1e-6, 1e6)->default_value(0.2, "0.2"),
       ".msh: stiffness of the patches, share of E/dc and G/dc of the stones")(
       "interface-friction", real_option("interface-friction", 0.0, 89.0)->default_value(35.0),
       ".msh: friction of the patches, degrees");

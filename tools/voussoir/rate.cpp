@@ -226,7 +226,7 @@ int rate_bridge(const std::vector<std::string>& arguments) {
       "m across that bear a vehicle, with --strip (default: wheels + 1.5 m + cover)")(
       "most", real_option("most", 0.01, 1e6)->value_name("F")->default_value(30.0),
       "largest factor that is looked for")(
-      "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05), "of the factor")(
+      "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05, "0.05"), "of the factor")(
       "mexe", options::value<std::string>()->value_name("FILE"),
       "figures of the MEXE method for the arch (docs/rating.md); printed beside the rating")(
       "passages", whole_option("passages", 3, 10'000)->value_name("N"),
