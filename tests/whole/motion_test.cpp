@@ -195,7 +195,7 @@ TEST(Report, IsMadeFromARunsFilesAlone) {
   const Outcome outcome = voussoir({"report", "run"}, there);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string page = bytes_of(folder / "run/report.html");
-  for (const char* piece : {"Damage by joints", "Acceleration of the base", "Energy since the start", "Burland"})
+  for (const char* piece : {"Damage by parts", "Acceleration of the base", "Energy since the start", "Burland"})
     EXPECT_TRUE(has(page, piece)) << piece;
   for (const char* outside : {"<script", "src=\"http", "<link"}) EXPECT_FALSE(has(page, outside)) << outside;
   EXPECT_TRUE(summary(folder / "run")["damage"].front().contains("class"));

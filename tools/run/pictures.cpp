@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
-#include "io/records/curve.h"
+#include "solver/base/atomic_file.h"
 #include "tools/run/history_rows.h"
+#include "tools/run/plot_chart.h"
 #include "tools/run/run_session.h"
 #include "tools/run/steps_report.h"
+#include "viz/arrangement/arrangement.h"
 #include "viz/chart_picture.h"
 #include "viz/render.h"
 
@@ -110,7 +113,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 }
 
 void draw_charts(const std::string& images, const Assembly& assembly, const History& history) {
-  if (history.rows() < 2) return;
+  if (history.rows() < 2 || history.time().back() <= history.time().front()) return;
   const auto add = [&](LineChart& chart, const std::string& name, const std::string& path, double factor) {
     add_curve(chart, name, history.time(), scaled(history.values(path), factor));
   };
@@ -138,28 +141,19 @@ void draw_steps(const std::string& images, const Case& c, const History& history
     }
 }
 
-/// A label as given, or the channel with its unit.
-std::string axis_label(const std::string& label, const std::string& name, double factor, const History& history) {
-  if (!label.empty()) return label;
-  for (const Channel& channel : history.channels())
-    if (channel.path == name)
-      return factor == 1.0 ? fmt::format("{} ({})", name, channel.unit)
-                           : fmt::format("{} ({:g} {})", name, 1.0 / factor, channel.unit);
-  return name;
-}
-
 void draw_plot(const std::string& images, const PlotSpec& plot, const History& history) {
   if (history.rows() < 2) return;
-  LineChart chart = run_chart(plot.title, axis_label(plot.x_label, plot.x, plot.x_factor, history),
-                              axis_label(plot.y_label, plot.y, plot.y_factor, history));
-  for (const MeasuredCurve& measured : plot.measured)
-    if (!measured.text.empty()) {
-      Curve curve = parse_curve(measured.text, measured.file);
-      add_curve(chart, measured.label, std::move(curve.x), std::move(curve.y));
-    }
-  add_curve(chart, plot.label, scaled(history.values(plot.x), plot.x_factor),
-            scaled(history.values(plot.y), plot.y_factor));
+  LineChart chart = plot_chart(plot, history);
+  chart.width = run_chart("", "", "").width, chart.height = run_chart("", "", "").height;
   write_run_chart(chart, fmt::format("{}/{}.png", images, plot.name));
+}
+
+/// The drawing that the page of the run holds.
+void draw_arrangement(const std::string& images, const Case& c, const Assembly& assembly) {
+  const std::string name = std::filesystem::path(images).parent_path().filename().string();
+  const Arrangement drawing(assembly,
+                            {name, c.generator.empty() ? "assembly from a file" : "generator " + c.generator});
+  write_atomically(images + "/arrangement.svg", drawing.svg());
 }
 
 }  // namespace
@@ -175,6 +169,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
     draw_charts(images, run.assembly(), history);
     draw_steps(images, c, history);
     for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
+    draw_arrangement(images, c, run.assembly());
     return {};
   } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn
     return e.what();

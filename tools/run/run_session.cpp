@@ -20,6 +20,8 @@
 #include "solver/step/make_snapshot.h"
 #include "tools/run/gravity_report.h"
 #include "tools/run/history_rows.h"
+#include "tools/run/inventory.h"
+#include "tools/run/provenance.h"
 #include "tools/run/run_page.h"
 #include "tools/run/steps_report.h"
 #include "tools/run/summary.h"
@@ -285,6 +287,8 @@ void RunSession::write_summary(RunEnd end) {
     json["mass_scaling"] = {{"share", scaling.share},     {"blocks", scaling.bodies},
                             {"heavier", scaling.heavier}, {"nodes", scaling.nodes},
                             {"largest", scaling.largest}, {"largest_rotary", scaling.largest_rotary}};
+  json["inventory"] = inventory_json(run);
+  json["provenance"] = provenance_json(request_.directory);
   json.update(summary_of_state(run, make_snapshot(run.model(), run.state()), history_));
   if (!json.contains("collapse"))
     if (const nlohmann::json before = summary_of(path("summary.json")); before.contains("collapse"))

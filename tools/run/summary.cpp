@@ -6,11 +6,14 @@
 
 #include "geometry/joint_counts.h"
 #include "solver/base/constants.h"
+#include "solver/effects/parts.h"
 #include "solver/statics/hinges.h"
 #include "solver/step/damage.h"
 #include "solver/step/loads.h"
 #include "tools/run/damage_words.h"
 #include "tools/run/history_rows.h"
+#include "tools/run/numbered_hinges.h"
+#include "tools/run/part_damage.h"
 
 namespace voussoir {
 
@@ -66,18 +69,26 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
 }
 
 /// Of ties: how many there are and have yielded, the largest force of any (N), the farthest that one has yielded (m);
-/// and of each the stones it holds, its force at the end and at most (N), and how far it has yielded (m).
-nlohmann::json ties_json(const Snapshot& snapshot) {
+/// and of each the stones it holds with their parts and its anchors as built (m), its force at the end and at most (N),
+/// and how far it has yielded (m).
+nlohmann::json ties_json(const Assembly& assembly, const Snapshot& snapshot) {
   nlohmann::json each = nlohmann::json::array();
   double force = 0.0, farthest = 0.0;
   int yielded = 0;
-  for (const PatchSnapshot& p : snapshot.patches) {
+  const std::vector<std::string> parts = parts_of_blocks(assembly);
+  const auto place = [](const Vec3& x) { return nlohmann::json{x.x(), x.y(), x.z()}; };
+  for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+    const PatchSnapshot& p = snapshot.patches[i];
     if (!p.tie) continue;
+    const std::array<Vec3, 2> anchors = tie_anchors(assembly.joints[i]);
     const double most = p.largest_tension * p.area;
     force = std::max(force, most), farthest = std::max(farthest, p.yielded);
     yielded += p.yielded > 1e-9;  // m: more than rounding
     each.push_back({{"a", p.a},
                     {"b", p.b},
+                    {"parts", {parts[std::size_t(p.a)], parts[std::size_t(p.b)]}},
+                    {"from", place(anchors[0])},
+                    {"to", place(anchors[1])},
                     {"force", p.normal_traction * p.area},
                     {"largest_force", most},
                     {"yielded", p.yielded}});
@@ -216,6 +227,16 @@ nlohmann::json collapse_json(const Simulation& run) {
                                  {"place", {joint.place.x(), joint.place.y(), joint.place.z()}},
                                  {"opening", joint.opening},
                                  {"slip", joint.slip}});
+  json["hinges"] = nlohmann::json::array();
+  for (const NumberedHinge& h : numbered_hinges(run.assembly(), c.mechanism, run.model().typical_size))
+    json["hinges"].push_back({{"number", h.number},
+                              {"kind", h.slides ? "slide" : "hinge"},
+                              {"edge", h.edge},
+                              {"where", h.where},
+                              {"place", {h.place.x(), h.place.y(), h.place.z()}},
+                              {"joints", h.joints},
+                              {"opening", h.opening},
+                              {"slip", h.slip}});
   return json;
 }
 
@@ -270,12 +291,13 @@ nlohmann::json joint_kinds_json(const Assembly& assembly) {
 
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
   nlohmann::json json = {
-      {"demand", demand_json(run.assembly(), history)},          {"sensors", sensors_json(run.assembly(), history)},
-      {"reactions", reactions_json(run.held_groups(), history)}, {"stages", stages_json(run, history)},
-      {"damage", damage_json(run.assembly(), snapshot)},         {"hinges", hinges_json(run.assembly(), snapshot)}};
+      {"demand", demand_json(run.assembly(), history)},           {"sensors", sensors_json(run.assembly(), history)},
+      {"reactions", reactions_json(run.held_groups(), history)},  {"stages", stages_json(run, history)},
+      {"damage", damage_json(run.assembly(), snapshot)},          {"hinges", hinges_json(run.assembly(), snapshot)},
+      {"part_damage", part_damage_json(run.assembly(), snapshot)}};
   if (nlohmann::json places = places_json(run.assembly(), history); !places.empty()) json["places"] = std::move(places);
   if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
-  if (nlohmann::json ties = ties_json(snapshot); !ties.empty()) json["ties"] = std::move(ties);
+  if (nlohmann::json ties = ties_json(run.assembly(), snapshot); !ties.empty()) json["ties"] = std::move(ties);
   if (!run.collapse().tries.empty()) json["collapse"] = collapse_json(run);
   return json;
 }

@@ -1,6 +1,7 @@
 // voussoir: one program, one verb a job. Exit status 0 done, 1 the work failed, 2 the input is wrong.
 #include <fmt/format.h>
 
+#include "solver/base/build_info.h"
 #include "solver/base/error.h"
 #include "solver/base/program.h"
 #include "solver/base/suggestion.h"
@@ -12,7 +13,7 @@ void print_help() {
   fmt::print(
       "voussoir {}: masonry arch bridges, stone by stone\n\nUsage: voussoir VERB …   (voussoir VERB --help says "
       "more)\n\n",
-      VOUSSOIR_VERSION);
+      voussoir::program_version());
   for (const voussoir::Verb& verb : voussoir::verbs())
     if (!verb.summary.empty()) fmt::print("  {:<10} {}\n", verb.name, verb.summary);
   fmt::print("\nExit status: 0 done, 1 the work failed, 2 the input is wrong.\n");
@@ -25,7 +26,8 @@ int run(int argc, char** argv) {
     return argc > 1 ? 0 : 2;
   }
   if (name == "--version") {
-    fmt::print("voussoir {}\n", VOUSSOIR_VERSION);
+    fmt::print("voussoir {}, commit {}, kernels for {}, compiled by {}\n", voussoir::program_version(),
+               voussoir::build_commit(), voussoir::build_kernels(), voussoir::build_compiler());
     return 0;
   }
   for (const voussoir::Verb& verb : voussoir::verbs())

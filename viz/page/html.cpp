@@ -28,7 +28,7 @@ dl { display: grid; grid-template-columns: max-content 1fr; gap: 2px 16px; margi
 dt { font-weight: bold; } dd { margin: 0; overflow-wrap: anywhere; }
 figure { margin: 10px 0; }
 figcaption { margin-bottom: 4px; overflow-wrap: anywhere; }
-.wide { overflow-x: auto; } svg { display: block; }
+.wide { overflow-x: auto; } svg { display: block; } .sheet svg { width: 100%; height: auto; border: 1px solid #dcdce0; }
 .many { display: flex; flex-wrap: wrap; gap: 10px 26px; } .many figure { max-width: 100%; min-width: 240px; }
 table { border-collapse: collapse; margin: 10px 0; font-size: 14px; }
 th, td { padding: 3px 10px 3px 0; text-align: left; vertical-align: top; border-bottom: 1px solid #dcdce0; }
@@ -37,13 +37,19 @@ th { vertical-align: bottom; } .number { text-align: right; white-space: nowrap;
 pre { background: #f6f6f8; padding: 10px 14px; font-size: 13px; line-height: 1.4; overflow-x: auto; }
 pre .added { display: block; background: #dcebf6; border-left: 4px solid #0072b2; margin-left: -14px; padding-left: 10px; }
 summary { cursor: pointer; margin: 8px 0; }
-.pictures { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 16px; } .pictures img { width: 100%; height: auto; }
+.pictures { display: grid; grid-template-columns: minmax(0, 1fr); gap: 16px; max-width: 860px; } .pictures img { width: 100%; height: auto; }
 .key { display: flex; align-items: center; gap: 8px; font-size: 13px; flex-wrap: wrap; }
+pre.case { font-size: 11px; } table.small { font-size: 12px; } code { font-size: 11px; overflow-wrap: anywhere; }
+@page { size: A4; margin: 16mm 15mm 18mm; @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #55555c; } }
+@page sheet { size: A4 landscape; margin: 8mm; }
 @media print {
-  main { max-width: none; padding: 0; } body { font-size: 11pt; -webkit-print-color-adjust: exact;
+  main { max-width: none; padding: 0; } body { font-size: 10pt; line-height: 1.4; -webkit-print-color-adjust: exact;
     print-color-adjust: exact; }
   figure, tr, .verdict { break-inside: avoid; } h2, h3, figcaption { break-after: avoid; }
-  svg, img { max-width: 100%; height: auto; } .wide { overflow: visible; } pre { white-space: pre-wrap; }
+  h1 { font-size: 16pt; } h2 { font-size: 13pt; margin-top: 18pt; } h3 { font-size: 11pt; } .verdict { font-size: 11pt; }
+  table { font-size: 8.5pt; } table.small, pre.case, code { font-size: 7pt; } .note { font-size: 8.5pt; }
+  .sheet { page: sheet; margin: 0; } .sheet svg { border: none; max-height: 190mm; } pre.case { columns: 2; column-gap: 8mm; }
+  .pictures { display: block; max-width: none; } svg, img { max-width: 100%; height: auto; } .wide { overflow: visible; } pre { white-space: pre-wrap; }
 }
 )";
 
@@ -121,6 +127,10 @@ Cell words_cell(std::string_view words) {
 }
 Cell number_cell(double value, const char* none) {
   return {std::isfinite(value) ? fmt::format("{:.2f}", value) : std::string(none), true};
+}
+
+Cell formatted_cell(double value, const char* format) {
+  return {std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("none"), true};
 }
 
 Cell signed_cell(double value) {

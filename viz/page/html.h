@@ -21,6 +21,8 @@ struct Cell {
 Cell words_cell(std::string_view words);
 /// Two decimals; `none` where it is not finite.
 Cell number_cell(double value, const char* none = "none");
+/// As `format` has it: "{:.3f}"; "none" where it is not finite.
+Cell formatted_cell(double value, const char* format);
 /// "+1.2".
 Cell signed_cell(double value);
 /// `tag` is td or th; `kind` the class of the row, may be empty.

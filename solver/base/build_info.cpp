@@ -1,0 +1,38 @@
+#include "solver/base/build_info.h"
+
+#include <fmt/format.h>
+
+#include "commit.h"  // made by tools/commit.cmake
+
+namespace voussoir {
+
+std::string program_version() {
+  return VOUSSOIR_VERSION;
+}
+
+std::string build_commit() {
+  return VOUSSOIR_COMMIT;
+}
+
+std::string build_compiler() {
+#if defined(__clang__)
+  return fmt::format("clang++ {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  return fmt::format("g++ {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+}
+
+// As solver/base/lanes.h chooses.
+std::string build_kernels() {
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512BW__) && defined(__BMI2__)
+  return "AVX-512";
+#elif defined(__AVX2__)
+  return "AVX2";
+#elif defined(__SSE2__)
+  return "SSE2";
+#else
+  return "plain C++";
+#endif
+}
+
+}  // namespace voussoir

@@ -1,0 +1,17 @@
+// What this program is: for pages that are filed, and for --version.
+#pragma once
+#include <string>
+
+namespace voussoir {
+
+/// "0.1.0".
+std::string program_version();
+/// Of the sources it was built from, ten digits, with "-dirty" where they were changed since; "unknown" outside of a
+/// repository.
+std::string build_commit();
+/// "g++ 12.2.0".
+std::string build_compiler();
+/// The instructions that the kernels of the step use: "AVX-512", "AVX2", "SSE2" or "plain C++".
+std::string build_kernels();
+
+}  // namespace voussoir

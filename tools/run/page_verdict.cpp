@@ -1,0 +1,158 @@
+// What a page says first.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "solver/base/constants.h"
+#include "tools/run/damage_words.h"
+#include "tools/run/page_sections.h"
+#include "tools/run/part_damage.h"
+#include "tools/run/steps_report.h"
+#include "viz/page/svg.h"
+
+namespace voussoir {
+
+namespace {
+
+using nlohmann::json;
+
+std::string sentence(const std::string& head, const std::string& words) {
+  return fmt::format("<p><strong>{}</strong> {}</p>\n", escaped(head), escaped(words));
+}
+
+std::string collapse_sentence(const RunFiles& run) {
+  if (!run.summary.contains("collapse")) return "";
+  return sentence("Collapse load.", run.of("collapse").value("headline", std::string()));
+}
+
+std::string steps_sentence(const RunFiles& run) {
+  std::string text;
+  for (const json& one : steps_json(run.stages(), run.history)) {
+    const bool loaded = one.value("largest_force", 0.0) != 0.0;
+    std::string words = one.value("whole", false)
+                            ? "the bridge found an equilibrium at every step, to the end"
+                            : fmt::format("equilibrium is lost beyond the share {:.4g}", one.value("share", 0.0));
+    if (loaded)
+      words += fmt::format("; the force is largest, {:.4g} kN, at {:.4g} mm, and {:.4g} kN at the end, {:.4g} mm",
+                           1e-3 * one.value("largest_force", NAN), 1e3 * one.value("largest_force_at", NAN),
+                           1e-3 * one.value("force", NAN), 1e3 * one.value("displacement", NAN));
+    text += sentence(fmt::format("{}:", one.value("label", std::string())), words + ".");
+  }
+  return text;
+}
+
+/// Of a run that had nothing else to find: whether it stands, and how far it has gone down.
+std::string gravity_sentence(const RunFiles& run) {
+  const json gravity = run.summary.value("gravity", json::array());
+  if (run.stages().size() != 1 || gravity.empty()) return "";
+  const json* sunk = nullptr;
+  const json* pressed = nullptr;
+  for (const json& part : gravity.back()["parts"])
+    if (!sunk || part["settlement"] > (*sunk)["settlement"]) sunk = &part;
+  for (const json& family : gravity.back()["joints"])
+    if (!pressed || family["compression"] > (*pressed)["compression"]) pressed = &family;
+  std::string words = "The bridge stands.";
+  if (sunk)
+    words += fmt::format(" It has gone down by {:.2f} mm at most ({}).", 1e3 * (*sunk)["settlement"].get<double>(),
+                         (*sunk)["part"].get<std::string>());
+  if (pressed)
+    words += fmt::format(" Largest mean compression of a joint: {:.3f} MPa ({}).",
+                         1e-6 * (*pressed)["compression"].get<double>(), (*pressed)["joints"].get<std::string>());
+  return sentence("Under its own weight.", words);
+}
+
+/// The widest crack of masonry; that of joints with soil or loose infill apart.
+std::string damage_sentences(const RunFiles& run) {
+  const json* masonry = nullptr;
+  const json* loose = nullptr;
+  const json parts = run.summary.value("part_damage", json::array());
+  for (const json& entry : parts) {
+    const json*& worst = entry.value("fill", false) ? loose : masonry;
+    if (!worst) worst = &entry;
+  }
+  std::string text;
+  const auto add = [&](const json* entry, const char* where) {
+    if (!entry) return;
+    if (std::max((*entry)["largest_opening"].get<double>(), (*entry)["largest_slip"].get<double>()) < unmoved) {
+      text += sentence(where, "No joint has opened or slid.");
+      return;
+    }
+    std::string damage = damage_sentence(*entry);
+    text += sentence(where,
+                     fmt::format("Worst {}, {}: damage {}.", part_words(*entry), place_words((*entry)["at"]), damage));
+  };
+  add(masonry, "Masonry.");
+  add(loose, "Joints with infill or soil.");
+  const json fill = run.of("fill");
+  if (fill.contains("yielded_in_shear"))
+    text += sentence(
+        "Fill.", fmt::format("{:.1f} % of its volume has yielded in shear and {:.1f} % in tension; largest "
+                             "displacement {:.1f} mm.",
+                             100.0 * fill.value("yielded_in_shear", 0.0), 100.0 * fill.value("yielded_in_tension", 0.0),
+                             1e3 * fill.value("largest_displacement", 0.0)));
+  return text;
+}
+
+/// Of summaries without damage by parts, which earlier versions wrote.
+std::string family_sentence(const RunFiles& run) {
+  if (run.summary.contains("part_damage")) return "";
+  const json damage = run.of("damage");
+  std::string worst;
+  double most = -1.0;
+  for (const auto& [name, entry] : damage.items())
+    if (const double opening = entry.value("largest_opening", 0.0); opening > most) most = opening, worst = name;
+  return worst.empty()
+             ? ""
+             : sentence(fmt::format("Worst: joints {}.", worst), "Damage " + damage_sentence(damage[worst]) + ".");
+}
+
+/// What the ground did, and that the bridge has outlasted it.
+std::string motion_sentence(const RunFiles& run) {
+  std::string text;
+  for (const StageSettings& stage : run.stages()) {
+    if (stage.kind != StageSettings::Kind::motion) continue;
+    double peak = 0.0;
+    for (const Vec3& a : stage.motion.acceleration) peak = std::max(peak, a.cwiseAbs().maxCoeff());
+    text += sentence(fmt::format("{}.", stage.label),
+                     fmt::format("Largest acceleration of the ground {:.3g} m/s² ({:.3g} g) "
+                                 "along one axis.",
+                                 peak, peak / standard_gravity));
+  }
+  const bool stands = run.summary.value("finished", false) && !run.summary.contains("fallen");
+  if (text.empty() || !stands) return text;
+  constexpr double gone = 1.0;  // m, opening of a joint whose stone has fallen
+  const json parts = run.summary.value("part_damage", json::array());
+  const bool whole = std::ranges::none_of(parts, [](const json& p) { return p.value("largest_opening", 0.0) > gone; });
+  return text + (whole ? sentence("The bridge stands", "at the end of the run.")
+                       : sentence("Stones have fallen", "by the end of the run."));
+}
+
+std::string fallen_sentence(const RunFiles& run) {
+  if (!run.summary.contains("fallen")) return "";
+  const json fallen = run.of("fallen");
+  return sentence("The bridge fell",
+                  fmt::format("at {:.2f} s: {:.0f} % of the mass that can move had gone farther than the limit.",
+                              fallen.value("time", NAN), 100.0 * fallen.value("share_of_mass", NAN)));
+}
+
+std::string ties_sentence(const RunFiles& run) {
+  const json ties = run.of("ties");
+  if (!ties.contains("count")) return "";
+  return sentence("Ties.", fmt::format("{} of {} have yielded; largest force {:.1f} kN.", ties.value("have_yielded", 0),
+                                       ties.value("count", 0), 1e-3 * ties.value("largest_force", 0.0)));
+}
+
+}  // namespace
+
+std::string verdict_section(const RunFiles& run) {
+  std::string text = fallen_sentence(run);
+  if (!run.summary.value("finished", true) && !run.summary.contains("fallen"))
+    text +=
+        sentence("Not at its end.", fmt::format("The run has come to t = {:.3f} s; what stands here is of that moment.",
+                                                run.summary.value("end_time", 0.0)));
+  text += motion_sentence(run) + collapse_sentence(run) + steps_sentence(run) + gravity_sentence(run) +
+          damage_sentences(run) + family_sentence(run) + ties_sentence(run);
+  return text.empty() ? "" : fmt::format("<div class=\"verdict found\">\n{}</div>\n", text);
+}
+
+}  // namespace voussoir
