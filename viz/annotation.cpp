@@ -13,8 +13,8 @@ namespace {
 int scale_steps(double top) {
   const double leading = top / std::pow(10.0, std::floor(std::log10(top) + 1e-9));
   const auto is = [&](double value) { return std::abs(leading - value) < 1e-6; };
-  if (is(3) || is(6)) return 3;
-  return is(2) || is(4) || is(8) ? 4 : 5;
+  if (is(1.5) || is(3) || is(6)) return 3;
+  return is(1.2) || is(2) || is(4) || is(8) ? 4 : 5;
 }
 
 void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {

@@ -157,7 +157,7 @@ double nice_below(double limit) {
 
 double nice_above(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
-  for (const double step : {1.0, 2.0, 2.5, 5.0})
+  for (const double step : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (step * power >= value * (1 - 1e-9)) return step * power;
   return 10.0 * power;
 }

@@ -41,7 +41,8 @@ class Overlay {
 
 /// The largest of 1, 2, 5 × 10^n that is not above `limit` (> 0).
 double nice_below(double limit);
-/// The smallest of 1, 2, 2.5, 5 × 10^n that is not below `value` (> 0).
+/// The smallest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 × 10^n that is not below `value` (> 0): a scale up to it is used
+/// by two thirds at least.
 double nice_above(double value);
 
 }  // namespace voussoir

@@ -316,6 +316,16 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   write_png(window, png);
 }
 
+double picture_scale(const PictureFiles& files, const RenderOptions& options) {
+  const auto blocks = read_vtu(files.blocks);
+  const auto fill = files.fill.empty() ? nullptr : read_vtu(files.fill);
+  const PictureGrids grids{blocks, nullptr, fill};
+  const Hidden hidden(options.hide);
+  const std::optional<CutPlane> cut = find_cut(options.cut, find_view(options.view), visible_box(grids, hidden));
+  const Shapes now = shapes(grids, hidden, options.amplification, cut);
+  return colour_faces(now.stones, now.fill, options.colour, 0.0).top;
+}
+
 void render_picture(const Assembly& assembly, const Snapshot& snapshot, const RenderOptions& options,
                     const std::string& png) {
   const auto blocks = block_grid(assembly, snapshot);

@@ -65,4 +65,8 @@ void render_picture(const Assembly& assembly, const Snapshot& snapshot, const Re
 /// The same from a stored frame.
 void render_picture(const PictureFiles& files, const RenderOptions& options, const std::string& png);
 
+/// Top of the colour scale that a picture of this frame would choose by itself, in the scale's unit; 0 where the
+/// colours are a legend. For pictures that shall have one scale.
+double picture_scale(const PictureFiles& files, const RenderOptions& options);
+
 }  // namespace voussoir

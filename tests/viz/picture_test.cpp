@@ -459,12 +459,12 @@ TEST(Colours, TopOfTheScaleIsRoundAndAFallenStoneDoesNotSetIt) {
   };
   EXPECT_EQ(scale(0).top, 1.0);  // nothing opened
   for (auto& patch : snapshot.patches) patch.largest_opening = 3.1e-3;
-  EXPECT_EQ(scale(0).top, 5.0);
+  EXPECT_EQ(scale(0).top, 4.0);
   EXPECT_FALSE(scale(0).exceeded);
   EXPECT_EQ(scale(2.0).top, 2.0);
   EXPECT_TRUE(scale(2.0).exceeded);
   snapshot.patches[30].largest_opening = 4.0;
-  EXPECT_EQ(scale(0).top, 5.0);
+  EXPECT_EQ(scale(0).top, 4.0);
   EXPECT_TRUE(scale(0).exceeded);
 }
 
@@ -481,6 +481,15 @@ TEST(ChartAxis, TicksAreRound) {
   EXPECT_GT(constant.high, 5.0);
   EXPECT_EQ(tick_text(1e-17), "0");
   EXPECT_EQ(nice_below(0.7), 0.5);
+}
+
+TEST(NiceAbove, UsesTwoThirdsOfTheScaleAtLeast) {
+  EXPECT_EQ(nice_above(261.0), 300.0);
+  EXPECT_EQ(nice_above(0.04), 0.04);
+  for (double value = 1e-3; value < 1e4; value *= 1.013) {
+    EXPECT_GE(nice_above(value), value * (1 - 1e-9));
+    EXPECT_LE(nice_above(value), 1.5 * value * (1 + 1e-9)) << value;
+  }
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -1,28 +1,10 @@
 // The parts of a run's page, each made from what the run has left in its folder; empty where there is nothing to say.
 #pragma once
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/case/case.h"
-#include "io/hdf5/history_file.h"
+#include "tools/run/run_files.h"
 
 namespace voussoir {
-
-/// What a page is made from.
-struct RunFiles {
-  std::string directory, name;
-  Case c;
-  nlohmann::json summary;
-  History history;
-
-  /// A member of the summary, or an empty object.
-  const nlohmann::json& of(const char* key) const;
-  const std::vector<StageSettings>& stages() const { return c.settings.stages; }
-  /// The last stage ended in an equilibrium: what stands in the last row is at rest.
-  bool ends_at_rest() const {
-    return !stages().empty() && !stages().back().timed() && !of("collapse").value("found", false);
-  }
-};
 
 /// Below this (m) nothing has moved that a page would have to show.
 constexpr double unmoved = 5e-6;

@@ -20,23 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-RunFiles run_files(const std::string& directory) {
-  std::error_code ignored;
-  if (!fs::exists(directory + "/case.toml", ignored))
-    throw InputError("{} is no run directory: it has no case.toml; give the folder that voussoir run wrote", directory);
-  if (!fs::exists(directory + "/summary.json", ignored))
-    throw InputError("{} has no summary.json: the run has not ended; go on with: voussoir resume {}", directory,
-                     directory);
-  RunFiles files;
-  files.directory = directory;
-  files.name = fs::weakly_canonical(directory).filename().string();
-  files.c = read_case(directory + "/case.toml");
-  files.summary = json_if_any(directory + "/summary.json");
-  if (!files.summary.is_object()) throw InputError("{}/summary.json is damaged: run the case again", directory);
-  if (fs::exists(directory + "/history.h5", ignored)) files.history = History::load(directory + "/history.h5");
-  return files;
-}
-
 std::string row_of(const std::string& what, const std::string& value) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(what), escaped(value));
 }
@@ -112,14 +95,8 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
 
 }  // namespace
 
-const nlohmann::json& RunFiles::of(const char* key) const {
-  static const nlohmann::json nothing = nlohmann::json::object();
-  const auto found = summary.find(key);
-  return found != summary.end() && found->is_object() ? *found : nothing;
-}
-
 void write_run_page(const std::string& directory) {
-  const RunFiles run = run_files(directory);
+  const RunFiles run = read_run(directory);
   const std::string body = verdict_section(run) + facts(run) + remarks_section(run) + collapse_section(run) +
                            steps_section(run) + motion_section(run) + pictures_section(pictures_of(run)) +
                            reactions_section(run) + places_section(run) + ties_section(run) + damage_section(run) +

@@ -34,6 +34,7 @@ Verb campaign_verb();
 Verb campaign_run_verb();
 Verb fragility_verb();
 Verb rate_verb();
+Verb compare_verb();
 Verb vehicles_verb();
 
 namespace options = boost::program_options;

@@ -32,7 +32,8 @@ std::string table_row(const std::vector<Cell>& cells, const char* tag, const cha
 struct PagePicture {
   std::string title, caption, png;
 };
-/// Two beside each other, under a heading; empty without pictures. A file that is no PNG is said in its place.
+/// One below the other at full width, so that their legends can be read on paper too, under a heading; empty without
+/// pictures. A file that is no PNG is said in its place.
 std::string pictures_section(const std::vector<PagePicture>& pictures, std::string_view title = "Pictures");
 
 /// A self-contained page around html: no scripts, nothing from elsewhere.
