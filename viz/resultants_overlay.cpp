@@ -64,7 +64,7 @@ void draw_resultants_key(Overlay& overlay, const Sheet& sheet, double pixels_per
   x -= 3.2 * s;
   const double round = nice_below(largest), length = pixels_per_newton * round;
   word(round >= 1e6 ? fmt::format("{:g} MN", 1e-6 * round) : fmt::format("{:g} kN", 1e-3 * round));
-  draw_shaft(overlay, {x - length, y + 0.55 * s}, {1.0, 0.0}, length, s, kForce);
+  draw_shaft(overlay, {x - length, y + 0.55 * s}, {1.0, 0.0}, length, 0.8 * s, kForce);
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ void draw_resultants(Overlay& overlay, vtkRenderer* renderer, const Sheet& sheet
     const Spot along = pixels_per_newton * Spot(bed.force().dot(view.right), bed.force().dot(view.up));
     const double length = along.norm();
     if (length < 0.3 * s) continue;  // it points at the reader
-    draw_shaft(overlay, seen(bed.thrust()) - 0.5 * along, along / length, length, s, kForce);
+    draw_shaft(overlay, seen(bed.thrust()) - 0.5 * along, along / length, length, 0.8 * s, kForce);
   }
   draw_resultants_key(overlay, sheet, pixels_per_newton, largest);
 }

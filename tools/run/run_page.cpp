@@ -16,6 +16,7 @@
 #include "tools/run/damage_words.h"
 #include "tools/run/gravity_report.h"
 #include "tools/run/steps_report.h"
+#include "tools/run/stress_section.h"
 #include "viz/page/html.h"
 #include "viz/page/line_chart.h"
 #include "viz/page/palette.h"
@@ -312,8 +313,8 @@ void write_run_page(const std::string& directory) {
   const RunFiles run = run_files(directory);
   const std::string body = verdict(run) + facts(run) + remarks_section(run) +
                            gravity_section(run.summary.value("gravity", nlohmann::json::array())) + steps_section(run) +
-                           damage_section(run) + demand_section(run) + pictures_section(pictures_of(run)) +
-                           histories_section(run);
+                           stress_section(run.directory) + damage_section(run) + demand_section(run) +
+                           pictures_section(pictures_of(run)) + histories_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));
 }
 
