@@ -82,14 +82,20 @@ void draw_resultants(Overlay& overlay, vtkRenderer* renderer, const Sheet& sheet
   for (const BedJoint& bed : beds)
     if (has_thrust(bed)) largest = std::max(largest, bed.force().norm());
   if (largest == 0.0) return;
-  const double pixels_per_newton = std::clamp(0.9 * usual_distance(lines), 2.0 * s, 7.0 * s) / largest;
+  const double longest = std::clamp(0.9 * usual_distance(lines), 3.5 * s, 7.0 * s);
+  const double pixels_per_newton = longest / largest;
   draw_lines(overlay, lines, s);
+  const BedJoint* last = nullptr;  // with an arrow
   for (const BedJoint& bed : beds) {
     if (!has_thrust(bed)) continue;
+    const Spot at = seen(bed.thrust());
+    const bool beside = last && last->vault == bed.vault && last->ring == bed.ring;
+    if (beside && (at - seen(last->thrust())).norm() < longest) continue;
+    last = &bed;
     const Spot along = pixels_per_newton * Spot(bed.force().dot(view.right), bed.force().dot(view.up));
     const double length = along.norm();
     if (length < 0.3 * s) continue;  // it points at the reader
-    draw_shaft(overlay, seen(bed.thrust()) - 0.5 * along, along / length, length, 0.8 * s, kForce);
+    draw_shaft(overlay, at - 0.5 * along, along / length, length, 0.8 * s, kForce);
   }
   draw_resultants_key(overlay, sheet, pixels_per_newton, largest);
 }
