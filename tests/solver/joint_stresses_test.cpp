@@ -75,6 +75,24 @@ TEST(JointStresses, OfAnEccentricForceBeyondTheKern) {
   EXPECT_NEAR(frame.eccentricity, s.eccentricity_over_depth, 1e-5);
 }
 
+/// What frames have from the tractions is what the resultants give, of whole joints and of open ones.
+TEST(JointStresses, OfFramesAreTheSame) {
+  Bench bench(generated("arch", {{"rows", 3}, {"width", 1.5}, {"voussoirs", 15}}), undamped({0, 0, -9.81}));
+  ASSERT_TRUE(bench.balance(1e-8).converged);
+  const RestForces rest = forces_at_rest(bench.model, bench.state);
+  int by_points = 0, whole = 0;
+  for (const JointStress& s : joint_stresses(rest, bench.assembly.joints.size())) {
+    const PatchSnapshot& frame = rest.snapshot.patches[s.patch];
+    if (s.normal < 1.0) continue;  // N: of some hundred thousand
+    (frame.opening > 0.0 ? by_points : whole) += 1;
+    EXPECT_NEAR(-frame.normal_traction, s.mean_compression, 1e-6 * s.mean_compression + 1e-3);
+    EXPECT_NEAR(frame.eccentricity, s.eccentricity_over_depth, 1e-4) << s.patch;
+    EXPECT_NEAR(frame.utilisation, s.utilisation, 1e-4) << s.patch;
+  }
+  EXPECT_GT(by_points, 0) << "some joints have opened";
+  EXPECT_GT(whole, 0);
+}
+
 /// A square joint of one square metre in the plane z = 0, its block b above; `force` and moment act on a below.
 RestForces by_hand(const Vec3& force, double capacity) {
   RestForces rest;
