@@ -119,6 +119,22 @@ TEST_F(Stress, ResultantsAreThoseOfTheRunOrItsCheckpoint) {
   expect_error(render({"run", "--colour", "stress"}), 2, {"deformable fill"});
 }
 
+TEST_F(Stress, AfterACollapseThereIsNoEquilibriumToDraw) {
+  folder.write("falls.toml", std::string(arch) + R"([[stage]]
+kind = "collapse"
+load = [{ acceleration = [9.81, 0.0, 0.0] }]
+confirm = 0.0
+tolerance = 0.1
+)");
+  run_whole(folder, "falls.toml", "fallen");
+  EXPECT_TRUE(exists(folder / "fallen/stresses.csv")) << "of the last equilibrium";
+  expect_error(render({"fallen", "--resultants"}), 2, {"on their way down", "joints.csv", "stage before"});
+  const std::vector<std::string> names = names_in(folder / "fallen/checkpoints");
+  const auto gravity = std::ranges::find_if(names, [](const auto& name) { return name.starts_with("stage_01"); });
+  ASSERT_NE(gravity, names.end());
+  EXPECT_EQ(render({"fallen/checkpoints/" + *gravity, "--resultants"}).status, 0);
+}
+
 TEST(StressOfMotion, ResultantsTakeAStateAtRest) {
   Folder folder;
   write_wall(folder);

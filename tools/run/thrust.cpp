@@ -17,7 +17,12 @@ RestForces rest_at_end(const Simulation& run) {
 }
 
 std::vector<BedJoint> bed_joints_of_state(const Assembly& assembly, const Model& model, const State& state,
-                                          const std::string& file) {
+                                          StageSettings::Kind stage, const std::string& file) {
+  if (stage == StageSettings::Kind::collapse)
+    throw InputError(
+        "{} is what a collapse stage has left: stones on their way down, not an equilibrium; the last one is on the "
+        "run's page and in joints.csv, and stage_*.h5 of the stage before has resultants to draw",
+        file);
   constexpr double still = 1e-6;  // m/s: what an equilibrium leaves is zero, or next to it after damped motion
   const RestForces rest = forces_at_rest(model, state);
   double fastest = 0.0;

@@ -13,10 +13,10 @@ namespace voussoir {
 /// after a stage in which time passes.
 RestForces rest_at_end(const Simulation& run);
 
-/// Of a state from a checkpoint, which errors name `file`. Throws InputError where its stones move, and where there is
-/// no vault.
+/// Of a state from a checkpoint, which errors name `file`, and that a stage of this kind has left or is in. Throws
+/// InputError where its stones move or are on their way down after a collapse stage, and where there is no vault.
 std::vector<BedJoint> bed_joints_of_state(const Assembly& assembly, const Model& model, const State& state,
-                                          const std::string& file);
+                                          StageSettings::Kind stage, const std::string& file);
 
 /// joints.csv (docs/formats.md): a row a bed joint. Cells of what is not finite are empty.
 std::string bed_joint_table(const std::vector<BedJoint>& beds);

@@ -60,6 +60,13 @@ void render_frame(const std::string& directory, const options::variables_map& va
                  o, png);
 }
 
+/// The kind of the stage that a checkpoint was written in, or between two stages that of the one before.
+StageSettings::Kind stage_of(CheckpointHeader header, const SolverSettings& settings) {
+  const std::int64_t at = header.numbers["stage_begun"] > 0.0 ? header.stage : header.stage - 1;
+  if (settings.stages.empty()) return StageSettings::Kind::gravity;
+  return settings.stages[std::size_t(std::clamp(at, std::int64_t(0), std::int64_t(settings.stages.size()) - 1))].kind;
+}
+
 /// A checkpoint, or an assembly as built.
 void render_file(const std::string& file, RenderOptions o, bool resultants, const std::string& png) {
   const fs::path beside = fs::path(file).parent_path().parent_path();
@@ -84,7 +91,7 @@ void render_file(const std::string& file, RenderOptions o, bool resultants, cons
     throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
   state.unpack(model);
   take_joint_order(model, state);
-  if (resultants) o.resultants = bed_joints_of_state(assembly, model, state, file);
+  if (resultants) o.resultants = bed_joints_of_state(assembly, model, state, stage_of(header, c.settings), file);
   render_picture(assembly, make_snapshot(model, state), o, png);
 }
 
