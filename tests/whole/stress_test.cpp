@@ -111,6 +111,8 @@ TEST_F(Stress, ResultantsAreThoseOfTheRunOrItsCheckpoint) {
   const std::string plain = picture({"run", "--amplification", "1"}), with = picture({"run", "--resultants"});
   EXPECT_NE(plain, with);
   EXPECT_EQ(with, picture({stage_end(), "--resultants"}));
+  EXPECT_EQ(voussoir({"render", "run", "--resultants", "-v", "front"}, there).status, 0);
+  EXPECT_TRUE(exists(folder / "run/images/resultants_front.png")) << "no picture of the run is written over";
   expect_error(render({"run", "--resultants", "--time", "0"}), 2, {"--time", "checkpoint"});
   expect_error(render({"run", "--resultants", "--amplification", "5"}), 2, {"amplification 1"});
   expect_error(render({"run/assembly.h5", "--resultants"}), 2, {"assembly.h5", "no checkpoint"});

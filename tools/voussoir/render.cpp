@@ -135,14 +135,13 @@ int render(const std::vector<std::string>& arguments) {
   std::error_code ignored;  // a name that cannot be looked up names no file
   const bool directory = fs::is_directory(from, ignored);
   if (!directory && !fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
-  std::string png =
-      directory ? fmt::format("{}/images/{}_{}.png", from, o.colour, o.view) : fs::path(from).stem().string() + ".png";
+  const bool resultants = values.count("resultants") > 0;
+  const std::string name = fmt::format("{}_{}.png", resultants ? "resultants" : o.colour, o.view);
+  std::string png = directory ? from + "/images/" + name : fs::path(from).stem().string() + ".png";
   if (values.count("output")) png = values["output"].as<std::string>();
   // -o DIR, as every verb takes it: the picture goes in there.
-  if (fs::is_directory(png, ignored) || png.ends_with('/'))
-    png = (fs::path(png) / fmt::format("{}_{}.png", o.colour, o.view)).string();
+  if (fs::is_directory(png, ignored) || png.ends_with('/')) png = (fs::path(png) / name).string();
   check_ending(png, {".png"}, "a PNG picture");
-  const bool resultants = values.count("resultants") > 0;
   if (resultants && values.count("time"))
     throw InputError("--resultants takes the state of a checkpoint: give its file instead of --time");
   if (directory && !resultants)
