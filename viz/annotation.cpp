@@ -9,25 +9,20 @@
 namespace voussoir {
 namespace {
 
-/// How many parts give a scale from 0 to `top` round numbers.
-int scale_steps(double top) {
-  const double leading = top / std::pow(10.0, std::floor(std::log10(top) + 1e-9));
-  const auto is = [&](double value) { return std::abs(leading - value) < 1e-6; };
-  if (is(1.5) || is(3) || is(6)) return 3;
-  return is(1.2) || is(2) || is(4) || is(8) ? 4 : 5;
-}
-
 void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {
   const double s = sheet.letter, width = std::min(0.36 * sheet.width, 30 * s), height = 0.85 * s;
   const double left = 0.5 * (sheet.width - width), bottom = 2.0 * s;
   constexpr int steps = 200;
+  const auto at = [&](double share) { return colouring.bottom + share * (colouring.top - colouring.bottom); };
   for (int i = 0; i < steps; ++i)  // a hair wider than a step, so that no seams show
-    overlay.rectangle(left + width * i / steps, bottom, width / steps + 0.6, height, scale_colour((i + 0.5) / steps));
-  const int ticks = scale_steps(colouring.top);
+    overlay.rectangle(left + width * i / steps, bottom, width / steps + 0.6, height,
+                      colour_on_scale(colouring, at((i + 0.5) / steps)));
+  const double part = colouring.top / scale_steps(colouring.top);
+  const int below = int(std::lround(-colouring.bottom / part)), ticks = below + scale_steps(colouring.top);
   for (int i = 0; i <= ticks; ++i) {
     const double x = left + width * i / ticks;
     overlay.line(x, bottom - 0.25 * s, x, bottom, 1.2);
-    const std::string value = fmt::format("{:.4g}", colouring.top * i / ticks);
+    const std::string value = fmt::format("{:.4g}", part * (i - below));
     overlay.text(x, bottom - 1.45 * s, (colouring.exceeded && i == ticks ? "≥ " : "") + value, 0.9 * s, Align::centre);
   }
   const double right = left + width, top = bottom + height;

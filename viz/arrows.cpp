@@ -1,7 +1,5 @@
 #include "viz/arrows.h"
 
-#include <vtkMatrix4x4.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,31 +12,11 @@ namespace {
 
 constexpr double arrow_length = 2.6;  // letters
 
-using Spot = Eigen::Vector2d;  // pixels from the lower left
-
 struct Rectangle {
   Spot low, high;
   bool meets(const Rectangle& o) const {
     return (low.array() < o.high.array()).all() && (o.low.array() < high.array()).all();
   }
-};
-
-/// Where the camera sees points of the scene.
-class Projection {
- public:
-  Projection(vtkCamera* camera, const Sheet& sheet)
-      : sheet_(sheet),
-        matrix_(camera->GetCompositeProjectionTransformMatrix(double(sheet.width) / sheet.height, -1.0, 1.0)) {}
-  Spot operator()(const Vec3& x) const {
-    const double in[4] = {x.x(), x.y(), x.z(), 1.0};
-    double out[4];
-    matrix_->MultiplyPoint(in, out);
-    return {0.5 * (out[0] / out[3] + 1.0) * sheet_.width, 0.5 * (out[1] / out[3] + 1.0) * sheet_.height};
-  }
-
- private:
-  const Sheet& sheet_;
-  vtkMatrix4x4* matrix_;
 };
 
 /// Names that have been placed.
@@ -79,15 +57,6 @@ class Names {
   std::vector<Rectangle> taken_;
 };
 
-/// From `from`, `length` pixels along a unit vector on the sheet.
-void draw_shaft(Overlay& overlay, const Spot& from, const Spot& along, double length, double s, const Colour& colour) {
-  const Spot side(-along.y(), along.x()), neck = from + (length - 0.8 * s) * along, tip = from + length * along;
-  const Spot a = neck + 0.35 * s * side, b = neck - 0.35 * s * side;
-  overlay.line(from.x(), from.y(), tip.x() - 0.5 * s * along.x(), tip.y() - 0.5 * s * along.y(), 0.38 * s, {1, 1, 1});
-  overlay.line(from.x(), from.y(), neck.x(), neck.y(), 0.2 * s, colour);
-  overlay.polygon({{tip.x(), tip.y()}, {a.x(), a.y()}, {b.x(), b.y()}}, colour);
-}
-
 /// An arrow that is seen end on: its point, or its feathers.
 void draw_end_on(Overlay& overlay, const Spot& at, bool towards, double s, const Colour& colour) {
   overlay.disc(at.x(), at.y(), 0.65 * s, colour);
@@ -117,6 +86,16 @@ void draw_key(Overlay& overlay, const Sheet& sheet, const std::vector<Arrow>& ar
 }
 
 }  // namespace
+
+void draw_shaft(Overlay& overlay, const Spot& from, const Spot& along, double length, double s, const Colour& colour) {
+  const double head = std::min(0.8 * s, 0.6 * length);  // of a short arrow smaller
+  const Spot side(-along.y(), along.x()), neck = from + (length - head) * along, tip = from + length * along;
+  const Spot a = neck + 0.44 * head * side, b = neck - 0.44 * head * side;
+  overlay.line(from.x(), from.y(), tip.x() - 0.6 * head * along.x(), tip.y() - 0.6 * head * along.y(), 0.38 * s,
+               {1, 1, 1});
+  overlay.line(from.x(), from.y(), neck.x(), neck.y(), 0.2 * s, colour);
+  overlay.polygon({{tip.x(), tip.y()}, {a.x(), a.y()}, {b.x(), b.y()}}, colour);
+}
 
 Colour arrow_colour(const Vec3& direction) {
   constexpr double along = 0.999;

@@ -6,12 +6,17 @@
 #include <vector>
 
 #include "viz/annotation.h"
+#include "viz/projection.h"
 #include "viz/render.h"
 
 namespace voussoir {
 
 /// Colour of an arrow by the axis it lies along, of Okabe & Ito (2008): x blue, y vermilion, z green; ink for others.
 Colour arrow_colour(const Vec3& direction);
+
+/// A shaft with a head, from `from` and `length` pixels along a unit vector on the sheet; `s` is the letters' height,
+/// which its width goes by.
+void draw_shaft(Overlay& overlay, const Spot& from, const Spot& along, double length, double s, const Colour& colour);
 
 /// Height in pixels above the content that keeps arrows and their names off the strip above it.
 double arrow_strip(const Sheet& sheet);

@@ -9,10 +9,12 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "solver/base/error.h"
+#include "solver/step/principal_stress.h"
 #include "viz/overlay.h"
 
 namespace voussoir {
@@ -37,39 +39,12 @@ Colour varied(const Colour& colour, vtkIdType stone) {
   return {colour[0] * factor, colour[1] * factor, colour[2] * factor};
 }
 
-/// A round top of the scale. A few stones far beyond all others (fallen ones) do not set it: then it is cut at the 98th
-/// percentile of the values that are not zero.
-void set_top(Colouring& colouring, std::vector<double> values, double range) {
-  std::erase_if(values, [](double v) { return !(v > 0.0); });
-  std::sort(values.begin(), values.end());
-  const double largest = values.empty() ? 0.0 : values.back();
-  double top = range;
-  if (top <= 0.0 && largest < 1e-6)
-    top = 1.0;
-  else if (top <= 0.0) {
-    const double usual = values[std::size_t(0.98 * double(values.size() - 1))];
-    top = nice_above(largest > 3.0 * usual ? usual : largest);
-  }
-  colouring.top = top;
-  colouring.exceeded = largest > top * (1 + 1e-9);
-}
-
 std::vector<double> cell_values(vtkPolyData* faces, const char* field, double factor, const char* what) {
   vtkDataArray* values = faces->GetCellData()->GetArray(field);
   if (!values) throw InputError("pictures: the {} no field '{}'; give a file written by voussoir", what, field);
   std::vector<double> scaled;
   for (vtkIdType i = 0; i < faces->GetNumberOfPolys(); ++i) scaled.push_back(factor * values->GetComponent(i, 0));
   return scaled;
-}
-
-/// Every face in the colour that `colour` gives for its number.
-template <class F>
-void paint_cells(vtkPolyData* faces, const F& colour) {
-  if (!faces) return;
-  const vtkIdType n = faces->GetNumberOfPolys();
-  auto colours = make_colours(n);
-  for (vtkIdType i = 0; i < n; ++i) set_colour(colours, i, colour(i));
-  faces->GetCellData()->SetScalars(colours);
 }
 
 bool is_fixed(vtkPolyData* faces, vtkIdType i) {
@@ -81,9 +56,9 @@ Colouring colour_by_cell(vtkPolyData* faces, const char* field, const char* titl
   std::vector<double> mm = cell_values(faces, field, 1e3, "blocks have");
   for (std::size_t i = 0; i < mm.size(); ++i)
     if (is_fixed(faces, vtkIdType(i))) mm[i] = 0.0;
-  Colouring colouring{title, 0.0, false, {}};
+  Colouring colouring{.title = title};
   set_top(colouring, mm, range);
-  paint_cells(faces, [&](vtkIdType i) {
+  paint_faces(faces, [&](vtkIdType i) {
     return is_fixed(faces, i) ? kFixed : scale_colour(mm[std::size_t(i)] / colouring.top);
   });
   return colouring;
@@ -113,7 +88,7 @@ Colouring colour_by_displacement(vtkPolyData* stones, vtkPolyData* fill, double 
     const std::vector<double> mm = point_displacements(faces);
     all.insert(all.end(), mm.begin(), mm.end());
   }
-  Colouring colouring{"displacement relative to the base (mm)", 0.0, false, {}};
+  Colouring colouring{.title = "displacement relative to the base (mm)"};
   set_top(colouring, all, range);
   for (vtkPolyData* faces : {stones, fill}) {
     if (!faces) continue;
@@ -142,13 +117,13 @@ Colouring colour_plainly(vtkPolyData* stones, vtkPolyData* fill, bool by_compone
   vtkDataArray* component = stones->GetCellData()->GetArray("component");
   vtkDataArray* block = stones->GetCellData()->GetArray("block");
   std::set<Component> seen;
-  paint_cells(stones, [&](vtkIdType i) {
+  paint_faces(stones, [&](vtkIdType i) {
     const auto which = Component(int(component->GetComponent(i, 0)));
     seen.insert(which);
     const Colour tone = by_component ? component_colour(which) : is_fixed(stones, i) ? kFixed : kStone;
     return varied(tone, block ? vtkIdType(block->GetComponent(i, 0)) : i);
   });
-  paint_cells(fill, [](vtkIdType) { return component_colour(Component::backfill); });
+  paint_faces(fill, [](vtkIdType) { return component_colour(Component::backfill); });
   if (fill) seen.insert(Component::backfill);
   Colouring colouring;
   if (by_component)
@@ -159,15 +134,15 @@ Colouring colour_plainly(vtkPolyData* stones, vtkPolyData* fill, bool by_compone
 
 /// Stones beside a fill that is coloured: they take part in nothing that the colours say.
 void colour_aside(vtkPolyData* stones) {
-  paint_cells(stones, [&](vtkIdType i) { return is_fixed(stones, i) ? kFixed : kAside; });
+  paint_faces(stones, [&](vtkIdType i) { return is_fixed(stones, i) ? kFixed : kAside; });
 }
 
 Colouring colour_by_plastic_strain(vtkPolyData* stones, vtkPolyData* fill, double range) {
   colour_aside(stones);
   const std::vector<double> percent = cell_values(fill, "plastic_shear_strain", 100.0, "fill has");
-  Colouring colouring{"plastic shear strain of the fill (%)", 0.0, false, {}};
+  Colouring colouring{.title = "plastic shear strain of the fill (%)"};
   set_top(colouring, percent, range);
-  paint_cells(fill, [&](vtkIdType i) { return scale_colour(percent[std::size_t(i)] / colouring.top); });
+  paint_faces(fill, [&](vtkIdType i) { return scale_colour(percent[std::size_t(i)] / colouring.top); });
   return colouring;
 }
 
@@ -182,7 +157,7 @@ Colouring colour_by_yield(vtkPolyData* stones, vtkPolyData* fill) {
                       {"has yielded", kYielded},
                       {"yields in shear", kYieldsInShear},
                       {"yields in tension", kYieldsInTension}};
-  paint_cells(fill, [&](vtkIdType i) {
+  paint_faces(fill, [&](vtkIdType i) {
     const int bits = int(now[std::size_t(i)]);
     if (bits & tension) return kYieldsInTension;
     return bits ? kYieldsInShear : ever[std::size_t(i)] > 0.0 ? kYielded : kElastic;
@@ -190,10 +165,62 @@ Colouring colour_by_yield(vtkPolyData* stones, vtkPolyData* fill) {
   return colouring;
 }
 
+/// The largest compression: minus the least eigenvalue of the stress. kPa.
+Colouring colour_by_stress(vtkPolyData* stones, vtkPolyData* fill, double range) {
+  colour_aside(stones);
+  vtkDataArray* stress = fill->GetCellData()->GetArray("stress");
+  if (!stress) throw InputError("pictures: the fill has no field 'stress'; give a file written by voussoir");
+  std::vector<double> kpa;
+  for (vtkIdType i = 0; i < fill->GetNumberOfPolys(); ++i) {
+    std::array<double, 6> s;
+    stress->GetTuple(i, s.data());
+    kpa.push_back(1e-3 * largest_compression(s));
+  }
+  Colouring colouring{.title = "largest compression in the fill (kPa)"};
+  set_top(colouring, kpa, range);
+  paint_faces(fill, [&](vtkIdType i) { return scale_colour(kpa[std::size_t(i)] / colouring.top); });
+  return colouring;
+}
+
 }  // namespace
 
+Colour colour_on_scale(const Colouring& colouring, double value) {
+  return value < 0.0 && colouring.bottom < 0.0 ? other_side_colour(value / colouring.bottom)
+                                               : scale_colour(value / colouring.top);
+}
+
+int scale_steps(double top) {
+  const double leading = top / std::pow(10.0, std::floor(std::log10(top) + 1e-9));
+  const auto is = [&](double value) { return std::abs(leading - value) < 1e-6; };
+  if (is(1.5) || is(3) || is(6)) return 3;
+  return is(1.2) || is(2) || is(4) || is(8) ? 4 : 5;
+}
+
+void set_top(Colouring& colouring, std::vector<double> values, double range) {
+  std::erase_if(values, [](double v) { return !(v > 0.0); });
+  std::sort(values.begin(), values.end());
+  const double largest = values.empty() ? 0.0 : values.back();
+  double top = range;
+  if (top <= 0.0 && largest < 1e-6)
+    top = 1.0;
+  else if (top <= 0.0) {
+    const double usual = values[std::size_t(0.98 * double(values.size() - 1))];
+    top = nice_above(largest > 3.0 * usual ? usual : largest);
+  }
+  colouring.top = top;
+  colouring.exceeded = largest > top * (1 + 1e-9);
+}
+
+void paint_faces(vtkPolyData* faces, const std::function<Colour(vtkIdType)>& colour) {
+  if (!faces) return;
+  const vtkIdType n = faces->GetNumberOfPolys();
+  auto colours = make_colours(n);
+  for (vtkIdType i = 0; i < n; ++i) set_colour(colours, i, colour(i));
+  faces->GetCellData()->SetScalars(colours);
+}
+
 bool colours_fill(const std::string& by) {
-  return by == "plastic" || by == "yield";
+  return by == "plastic" || by == "yield" || by == "stress";
 }
 
 Colouring colour_faces(vtkPolyData* stones, vtkPolyData* fill, const std::string& by, double range) {
@@ -205,17 +232,18 @@ Colouring colour_faces(vtkPolyData* stones, vtkPolyData* fill, const std::string
         by);
   if (by == "plastic") return colour_by_plastic_strain(stones, fill, range);
   if (by == "yield") return colour_by_yield(stones, fill);
+  if (by == "stress") return colour_by_stress(stones, fill, range);
   if (by == "displacement") return colour_by_displacement(stones, fill, range);
   if (by == "mode") return colour_by_mode(stones, fill);
   if (by == "component" || by == "stone") return colour_plainly(stones, fill, by == "component");
   if (by == "opening" || by == "slip") {
-    paint_cells(fill, [](vtkIdType) { return component_colour(Component::backfill); });
+    paint_faces(fill, [](vtkIdType) { return component_colour(Component::backfill); });
     return by == "opening" ? colour_by_cell(stones, "max_joint_opening", "largest joint opening (mm)", range)
                            : colour_by_cell(stones, "max_joint_slip", "largest joint slip (mm)", range);
   }
   throw InputError(
-      "pictures: cannot colour by '{}'; give opening, slip, displacement, mode, component or stone, or of a deformable "
-      "fill plastic or yield",
+      "pictures: cannot colour by '{}'; give opening, slip, displacement, mode, component or stone, of the joints "
+      "normal, shear, utilisation or eccentricity, or of a deformable fill plastic, yield or stress",
       by);
 }
 

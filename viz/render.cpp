@@ -1,15 +1,11 @@
 #include "viz/render.h"
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
-#include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -20,91 +16,21 @@
 #include "io/vtk/files.h"
 #include "io/vtk/grid.h"
 #include "solver/base/error.h"
+#include "viz/actors.h"
 #include "viz/annotation.h"
 #include "viz/arrows.h"
 #include "viz/colouring.h"
 #include "viz/display.h"
+#include "viz/joint_colours.h"
 #include "viz/offscreen.h"
+#include "viz/resultants_overlay.h"
 #include "viz/scene.h"
 
 namespace voussoir {
 namespace {
 
 constexpr const char* kFillName = "backfill";
-
-/// Stones and fill: matt, flat-shaded.
-void add_faces(vtkRenderer* renderer, vtkPolyData* faces) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(faces);
-  mapper->SetColorModeToDirectScalars();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetInterpolationToFlat();
-  actor->GetProperty()->SetAmbient(0.4);
-  actor->GetProperty()->SetDiffuse(0.6);
-  renderer->AddActor(actor);
-}
-
-/// The same shape moved towards the reader by `lift` (m), so that lines lie before the faces they border. The picture
-/// of a point does not change: it moves along its own line of sight.
-vtkSmartPointer<vtkPolyData> lifted(vtkPolyData* shape, vtkCamera* camera, double lift) {
-  Vec3 eye, focus;
-  camera->GetPosition(eye.data());
-  camera->GetFocalPoint(focus.data());
-  const Vec3 along = (eye - focus).normalized();
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i) {
-    Vec3 x;
-    shape->GetPoint(i, x.data());
-    points->InsertNextPoint(Vec3(x + lift * (camera->GetParallelProjection() ? along : (eye - x).normalized())).data());
-  }
-  auto moved = vtkSmartPointer<vtkPolyData>::New();
-  moved->ShallowCopy(shape);
-  moved->SetPoints(points);
-  return moved;
-}
-
-void add_lines(vtkRenderer* renderer, vtkPolyData* lines, double width, const Colour& colour, double lift) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(lifted(lines, renderer->GetActiveCamera(), lift));
-  mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
-  actor->GetProperty()->SetLineWidth(float(width * kOversampling));
-  actor->GetProperty()->LightingOff();
-  renderer->AddActor(actor);
-}
-
-void add_crack_faces(vtkRenderer* renderer, vtkPolyData* cracks) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(cracks);
-  mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(kCrack[0], kCrack[1], kCrack[2]);
-  actor->GetProperty()->LightingOff();
-  renderer->AddActor(actor);
-}
-
-/// A lamp over the reader's left shoulder and a weak one from the right; together they show a face turned to the reader
-/// in its own colour, so that the colour scale can be read.
-void add_lights(vtkRenderer* renderer, const View& view) {
-  const auto add = [&](double x, double y, double z, double intensity) {
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToCameraLight();
-    light->SetPosition(x, y, z);
-    light->SetFocalPoint(0, 0, 0);
-    light->SetIntensity(intensity);
-    renderer->AddLight(light);
-  };
-  renderer->RemoveAllLights();
-  renderer->SetAutomaticLightCreation(0);
-  const double strength = view.perspective ? 1.3 : 1.0;  // seen obliquely, no face is square to the lamps
-  add(-0.5, 0.8, 1.2, 0.75 * strength);
-  add(0.8, -0.1, 1.2, 0.50 * strength);
-}
+constexpr Colour kPaleLine = {0.74, 0.74, 0.76};  // stones around the joints that are coloured
 
 /// What the picture is fitted to: all but the stones that are farther off the undeformed whole than a share of its
 /// size. One that fell off and is still falling would make a dot of the bridge.
@@ -184,7 +110,8 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
 
 /// What is kept free above the content, pixels.
 double above(const Sheet& sheet, const RenderOptions& options) {
-  return top_strip(sheet) + (options.arrows.empty() ? 0.0 : arrow_strip(sheet));
+  return top_strip(sheet) + (options.arrows.empty() ? 0.0 : arrow_strip(sheet)) +
+         (options.resultants.empty() ? 0.0 : resultants_strip(sheet));
 }
 
 Sheet make_sheet(const RenderOptions& options, const View& view, vtkPoints* points) {
@@ -214,6 +141,22 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
   if (cracks->GetNumberOfPolys() == 0) return;
   add_crack_faces(renderer, cracks);
   add_lines(renderer, borders(cracks), 2.2, kCrack, lift);
+}
+
+/// Joints as faces of their own, in the lines of the whole: what lies edge-on to the reader is a line in its colour.
+/// Returns what explains the colours.
+Colouring add_joints(vtkRenderer* renderer, const PictureGrids& grids, const Hidden& hidden,
+                     const std::optional<CutPlane>& cut, const RenderOptions& options, const View& view, double lift) {
+  if (!grids.joints)
+    throw InputError("pictures: to colour by {} takes joints, and this frame has none stored", options.colour);
+  const auto shown = [&](vtkIdType i) { return is_shown_as_joint(grids.joints, i); };
+  const auto faces = joint_faces(grids.joints, hidden, options.amplification, shown, cut);
+  const ColouredJoints joints = colour_joints(faces, options.colour, options.range);
+  add_faces(renderer, joints.faces, 0.75);  // they lie at all angles, and their colours are to be read
+  add_edge_on(renderer, joints.faces, view, 2.0 * lift);
+  add_lines(renderer, borders(joints.faces), 0.6, kOutline, lift);
+  add_lines(renderer, borders(joints.bare), 0.5, kPaleLine, 0.0);
+  return joints.colouring;
 }
 
 /// Thinner lines for more stones, so that a whole bridge does not turn black.
@@ -265,6 +208,9 @@ Content content_of(const Shapes& now, const Shapes& rest, bool outline) {
 
 void check_options(const RenderOptions& options) {
   if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
+  if (!options.resultants.empty() && options.amplification != 1.0)
+    throw InputError("pictures: resultants stand where the joints are: give amplification 1, not {:g}",
+                     options.amplification);
   if (!(options.range >= 0.0))
     throw InputError("pictures: the range of the colour scale is {}; give 0 or more", options.range);
   if (options.width < 200 || (options.height != 0 && options.height < 150))
@@ -285,9 +231,8 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   const Shapes now = shapes(grids, hidden, options.amplification, cut);
   if (now.faces() == 0)
     throw InputError("pictures: nothing is left to draw; hide fewer components than {}", fmt::join(options.hide, ", "));
-  Colouring colouring = colour_faces(now.stones, now.fill, options.colour, options.range);
-  if (!options.scale_title.empty()) colouring.title = options.scale_title;
-  const bool cracks = options.cracks && grids.joints;
+  const bool of_joints = colours_joints(options.colour);  // the stones would hide them
+  const bool cracks = options.cracks && grids.joints && !of_joints;
 
   const Display display;
   vtkNew<vtkRenderer> renderer;
@@ -298,11 +243,15 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   place_camera(renderer, view, content.points, options, sheet);
   add_lights(renderer, view);
   const double lift = 1e-3 * diagonal(content.points);
+  Colouring colouring = of_joints ? add_joints(renderer, grids, hidden, cut, options, view, lift)
+                                  : colour_faces(now.stones, now.fill, options.colour, options.range);
+  if (!options.scale_title.empty()) colouring.title = options.scale_title;
   for (vtkPolyData* faces : {now.stones.Get(), now.fill.Get()}) {
-    if (!faces) continue;
+    if (!faces || of_joints) continue;
     add_faces(renderer, faces);
     add_lines(renderer, outlines(faces), outline_width(now.faces()), kOutline, lift);
   }
+  if (of_joints) add_lines(renderer, outlines(now.stones), 0.5, kPaleLine, 0.0);
   if (options.undeformed) add_lines(renderer, outlines(rest.stones), 0.8, kFaint, -lift);
   if (options.outline && grids.joints) add_lines(renderer, outer_outline(rest.stones, grids.joints), 1.6, kInk, -lift);
   if (cracks) add_cracks(renderer, grids.joints, hidden, cut, options, 2.0 * lift);
@@ -311,6 +260,7 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   Overlay overlay(renderer);
   draw_annotation(overlay, sheet, view, colouring, words_of(grids, options, cut, cracks, content.gone.size()));
   if (!options.arrows.empty()) draw_arrows(overlay, renderer, sheet, view, options.arrows);
+  if (!options.resultants.empty()) draw_resultants(overlay, renderer, sheet, view, options.resultants);
   const auto window = offscreen_window(sheet.width, sheet.height);
   window->AddRenderer(renderer);
   write_png(window, png);

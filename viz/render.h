@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/assembly.h"
+#include "solver/statics/bed_joints.h"
 #include "solver/step/snapshot.h"
 
 class vtkPolyData;
@@ -22,7 +23,8 @@ struct Arrow {
 struct RenderOptions {
   double amplification = 2.0;      // of the displacements relative to the base; 1: true, 0: undeformed
   std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone;
-                                   // mode: displacement over the largest; of a deformable fill plastic, yield
+                                   // mode: displacement over the largest; of the joints normal, shear,
+                                   // utilisation, eccentricity; of a deformable fill plastic, yield, stress
   bool cracks = true;              // mark the joints that lost their bond, opened or slipped
   double crack_mm = 1.0;           // mm: a joint that opened or slipped more counts as cracked; 0: or lost its bond
   std::vector<std::string> hide = {"backfill"};  // components left out; backfill: a deformable fill, too
@@ -30,12 +32,13 @@ struct RenderOptions {
   std::string view = "oblique";                  // front, side, plan, oblique
   int width = 1800, height = 1000;               // pixels; height 0: as the content needs
   std::string scale_title;                       // of the colour scale; empty: what the colour is
-  double range = 0.0;                            // mm or %, top of the colour scale; 0: from the data
+  double range = 0.0;                            // mm, %, MPa or kPa, top of the colour scale; 0: from the data
   bool undeformed = false;                       // thin outlines of the undeformed stones
   bool outline = false;                          // or of the undeformed whole only (needs the joints)
   std::string title;
   std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
   std::vector<Arrow> arrows;         // drawn over everything
+  std::vector<BedJoint> resultants;  // arrows and lines of thrust over everything; true deformations only
 };
 
 /// Throws InputError for a size, range or amplification that cannot be.

@@ -126,21 +126,19 @@ vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces) {
   return edges->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hidden, double amplification,
-                                           const CrackRule& rule, const std::optional<CutPlane>& cut) {
+vtkSmartPointer<vtkPolyData> joint_faces(vtkPolyData* joints, const Hidden& hidden, double amplification,
+                                         const std::function<bool(vtkIdType)>& shown,
+                                         const std::optional<CutPlane>& cut) {
   Places places(joints, "joints");
-  const auto field = [&](const char* name) { return required(joints->GetCellData(), name, "joints"); };
-  vtkDataArray *opening = field("largest_opening"), *slip = field("largest_slip"), *bonded = field("bonded");
-  vtkDataArray *had_bond = field("had_bond"), *a = field("component_a"), *b = field("component_b");
+  vtkDataArray *a = required(joints->GetCellData(), "component_a", "joints"),
+               *b = required(joints->GetCellData(), "component_b", "joints");
   vtkDataArray* replaced = joints->GetCellData()->GetArray("replaced");  // its polygon lies where nothing is any more
   Faces faces;
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < joints->GetNumberOfPolys(); ++c) {
     if (replaced && replaced->GetComponent(c, 0) != 0.0) continue;
     if (hidden(int(a->GetComponent(c, 0))) || hidden(int(b->GetComponent(c, 0)))) continue;
-    const bool lost = had_bond->GetComponent(c, 0) != 0.0 && bonded->GetComponent(c, 0) < rule.bonded;
-    const bool moved = opening->GetComponent(c, 0) > rule.opening || slip->GetComponent(c, 0) > rule.slip;
-    if (!lost && !moved) continue;
+    if (!shown(c)) continue;
     joints->GetCellPoints(c, corners);
     Loop loop = loop_of(corners);
     if (cut && in_plane(loop, places, *cut)) continue;  // it would cover the section
@@ -148,6 +146,18 @@ vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hi
     if (loop.size() >= 3) faces.add(loop, c);
   }
   return polygons_of(joints, places, amplification, faces);
+}
+
+vtkSmartPointer<vtkPolyData> crack_patches(vtkPolyData* joints, const Hidden& hidden, double amplification,
+                                           const CrackRule& rule, const std::optional<CutPlane>& cut) {
+  const auto field = [&](const char* name) { return required(joints->GetCellData(), name, "joints"); };
+  vtkDataArray *opening = field("largest_opening"), *slip = field("largest_slip"), *bonded = field("bonded");
+  vtkDataArray* had_bond = field("had_bond");
+  const auto cracked = [&](vtkIdType c) {
+    const bool lost = had_bond->GetComponent(c, 0) != 0.0 && bonded->GetComponent(c, 0) < rule.bonded;
+    return lost || opening->GetComponent(c, 0) > rule.opening || slip->GetComponent(c, 0) > rule.slip;
+  };
+  return joint_faces(joints, hidden, amplification, cracked, cut);
 }
 
 vtkSmartPointer<vtkPolyData> borders(vtkPolyData* polygons) {

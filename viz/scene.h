@@ -6,6 +6,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces);
 /// The outline of the whole: of the edges of undeformed stones what has nothing but air on both its faces, so none of
 /// the edges between stones that join in one face. `faces` are those of the undeformed stones, `joints` all patches.
 vtkSmartPointer<vtkPolyData> outer_outline(vtkPolyData* faces, vtkPolyData* joints);
+
+/// The patches between visible stones that `shown` picks by their numbers, deformed and cut like the stones. Those that
+/// a contact has taken the place of are left out. Cell data: that of the joints.
+vtkSmartPointer<vtkPolyData> joint_faces(vtkPolyData* joints, const Hidden& hidden, double amplification,
+                                         const std::function<bool(vtkIdType)>& shown,
+                                         const std::optional<CutPlane>& cut = {});
 
 /// When a patch counts as cracked.
 struct CrackRule {

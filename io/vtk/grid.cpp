@@ -120,9 +120,12 @@ void add_patch_fields(vtkPolyData* data, const Assembly& assembly, const Snapsho
   number("largest_slip", [](const auto& p) { return p.largest_slip; });
   number("normal_traction", [](const auto& p) { return p.normal_traction; });
   number("shear_traction", [](const auto& p) { return p.shear_traction; });
+  number("eccentricity", [](const auto& p) { return p.eccentricity; });
+  number("utilisation", [](const auto& p) { return p.utilisation; });
   number("bonded", [](const auto& p) { return p.bonded; });
   number("area", [](const auto& p) { return p.area; });
   whole(make_array<vtkUnsignedCharArray>("had_bond", n), [](const auto& p) { return p.had_bond ? 1 : 0; });
+  whole(make_array<vtkUnsignedCharArray>("tie", n), [](const auto& p) { return p.tie ? 1 : 0; });
   whole(make_array<vtkUnsignedCharArray>("replaced", n), [](const auto& p) { return p.replaced ? 1 : 0; });
   whole(make_array<vtkTypeInt64Array>("block_a", n), [](const auto& p) { return p.a; });
   whole(make_array<vtkTypeInt64Array>("block_b", n), [](const auto& p) { return p.b; });

@@ -23,9 +23,9 @@ namespace voussoir {
 vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const Snapshot& snapshot);
 
 /// One polygon a patch, in patch order. Cell data: opening, slip, largest_opening, largest_slip (m), normal_traction,
-/// shear_traction (Pa, tension positive), bonded (share of the area), had_bond, area (m2), block_a, block_b,
-/// component_a, component_b (−1 where the second body is not a block). Point and field data as block_grid(); a corner's
-/// displacement is the mean over the two blocks.
+/// shear_traction (Pa, tension positive), eccentricity (over the depth), utilisation, bonded (share of the area),
+/// had_bond, area (m2), block_a, block_b, component_a, component_b (−1 where the second body is not a block). Point and
+/// field data as block_grid(); a corner's displacement is the mean over the two blocks.
 vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snapshot& snapshot);
 
 /// The deformable fill: its nodes and tetrahedra in the order of FillMesh, no cell without one. Point data:

@@ -36,14 +36,6 @@ double largest_compression(const RestPatch& p, const Model& model, const Jump<do
   return -p.patch.kn * least;
 }
 
-/// Mohr–Coulomb with the mean compression; what has lost its bond counts with the residual strength.
-double shear_capacity(const LawConstants& law, const PatchSnapshot& seen) {
-  const double bonded = seen.had_bond ? seen.bonded : 0.0;
-  const double tan_friction = bonded * law.tan_friction + (1.0 - bonded) * law.residual_tan_friction;
-  const double cohesion = bonded * law.cohesion + (1.0 - bonded) * law.residual_cohesion;
-  return seen.area * (cohesion + std::max(0.0, -seen.normal_traction) * tan_friction);
-}
-
 PatchForce force_of(const RestPatch& p, const Stepper& stepper, const PatchSnapshot& seen) {
   const Model& model = *stepper.model;
   const double* w = &stepper.wrenches[wrench_width * p.wrench];

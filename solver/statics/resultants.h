@@ -9,7 +9,7 @@ namespace voussoir {
 struct PatchForce {
   Vec3 force = Vec3::Zero();         // N
   Vec3 moment = Vec3::Zero();        // N m, about the origin of the world
-  double shear_capacity = 0.0;       // N: compression times tan φ and area times cohesion, of what is bonded and not
+  double shear_capacity = 0.0;       // N, see make_snapshot.h
   double largest_compression = 0.0;  // Pa, at an integration point or corner; positive
 };
 

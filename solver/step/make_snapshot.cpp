@@ -1,7 +1,9 @@
 #include "solver/step/make_snapshot.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "geometry/kern.h"
 #include "solver/contact/jump.h"
 #include "solver/contact/make_contact.h"
 #include "solver/fill/tet_stress.h"
@@ -19,12 +21,23 @@ Vec3 vector(const Triple<double>& x) {
   return {x.x, x.y, x.z};
 }
 
+/// Sums over a patch: m2, N, m2, and of the normal traction the first moments along s and t (N m); opening and slip, m.
 struct Tractions {
   double area = 0.0, normal = 0.0, s = 0.0, t = 0.0, bonded = 0.0, opening = 0.0, slip = 0.0;
+  double moment_s = 0.0, moment_t = 0.0;
 };
 
+PlaneCorners plane_corners(const Patch& p, const Array<double>& corners) {
+  PlaneCorners plane;
+  for (int c = 0; c < p.corner_count; ++c) {
+    const PatchPoint corner = patch_corner(p, corners, c);
+    plane.emplace_back(corner.s, corner.t);
+  }
+  return plane;
+}
+
 /// Elastic tractions and openings over the points of a patch.
-Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<double>& points,
+Tractions point_tractions(const LawConstants& law, const Patch& p, const Jump<double>& j, const Array<double>& points,
                           const PatchMemory& memory) {
   Tractions sum;
   for (int i = 0; i < p.point_count; ++i) {
@@ -38,9 +51,12 @@ Tractions point_tractions(const Patch& p, const Jump<double>& j, const Array<dou
     if (broken && u.x >= 0.0) continue;
     sum.slip =
         std::max(sum.slip, std::hypot(memory.point[point_index(p, i, 2, 0)], memory.point[point_index(p, i, 2, 1)]));
-    sum.normal += w * p.kn * u.x;
-    sum.s += w * p.ks * u.y;
-    sum.t += w * p.ks * u.z;
+    const double kept = kept_at(law, p, memory, i), normal = w * kept * p.kn * u.x;
+    sum.normal += normal;
+    sum.moment_s += normal * point.s;
+    sum.moment_t += normal * point.t;
+    sum.s += w * kept * p.ks * u.y;
+    sum.t += w * kept * p.ks * u.z;
   }
   return sum;
 }
@@ -64,6 +80,9 @@ Tractions intact_tractions(const Model& model, const State& state, const Patch& 
   sum.normal = p.area * p.kn * j.n;
   sum.s = p.area * p.ks * (j.s - slip[0]);
   sum.t = p.area * p.ks * (j.t - slip[lane_count]);
+  const SecondMoments m = second_moments(plane_corners(p, model.corners));
+  sum.moment_s = p.kn * (j.rs * m.xy - j.rt * m.xx);
+  sum.moment_t = p.kn * (j.rs * m.yy - j.rt * m.xy);
   return sum;
 }
 
@@ -86,7 +105,15 @@ PatchSnapshot patch_snapshot(const Model& model, const Patch& p, const Jump<doub
   s.normal_traction = sum.normal / sum.area;
   s.shear_traction = std::hypot(sum.s, sum.t) / sum.area;
   s.bonded = sum.bonded / sum.area;
-  s.had_bond = has_bond(model.laws[p.law]);
+  const LawConstants& law = model.laws[std::size_t(p.law)];
+  s.had_bond = has_bond(law);
+  if (sum.normal < 0.0)
+    s.eccentricity =
+        eccentricity_over_depth(plane_corners(p, corners), {sum.moment_s / sum.normal, sum.moment_t / sum.normal});
+  if (const double shear = s.shear_traction * s.area; shear > 0.0) {
+    const double capacity = shear_capacity(law, s);
+    s.utilisation = capacity > 0.0 ? shear / capacity : 1.0;
+  }
   return s;
 }
 
@@ -126,7 +153,7 @@ PatchSnapshot joint_snapshot(const Model& model, const State& state, std::size_t
     sum.area = p.area;
     sum.opening = std::max(0.0, j.n);
   } else if (state.joint.mode[i] & mode_points) {
-    sum = point_tractions(p, j, model.points, state.joint);
+    sum = point_tractions(model.laws[std::size_t(p.law)], p, j, model.points, state.joint);
   } else {
     sum = intact_tractions(model, state, p, j, i);
   }
@@ -172,6 +199,14 @@ FillSnapshot fill_snapshot(const FillModel& fill, const FillMemory& memory) {
 
 }  // namespace
 
+double shear_capacity(const LawConstants& law, const PatchSnapshot& patch) {
+  if (law.kind == JointLaw::Kind::elastic) return std::numeric_limits<double>::infinity();
+  const double bonded = patch.had_bond ? patch.bonded : 0.0;
+  const double tan_friction = bonded * law.tan_friction + (1.0 - bonded) * law.residual_tan_friction;
+  const double cohesion = bonded * law.cohesion + (1.0 - bonded) * law.residual_cohesion;
+  return patch.area * (cohesion + std::max(0.0, -patch.normal_traction) * tan_friction);
+}
+
 Snapshot make_snapshot(const Model& model, const State& state) {
   Snapshot snapshot;
   snapshot.time = state.time();
@@ -190,7 +225,7 @@ Snapshot make_snapshot(const Model& model, const State& state) {
     if (!state.has_contact(i)) continue;
     const Patch& p = state.contacts[i];
     const Jump<double> j = patch_jump(p, pose_of(state, p.a), pose_of(state, p.b));
-    const Tractions sum = point_tractions(p, j, state.contact_points, state.contact);
+    const Tractions sum = point_tractions(model.laws[std::size_t(p.law)], p, j, state.contact_points, state.contact);
     PatchSnapshot s = patch_snapshot(model, p, j, sum, state.contact_corners, state.contact);
     add_earlier_slip(state, i, s);
     // Faces that met during the run were never a joint: how far apart they are, or were when they were found, is no

@@ -5,6 +5,10 @@
 
 namespace voussoir {
 
+/// What a patch bears in shear, N: Mohr–Coulomb with the mean compression; what has lost its bond counts with the
+/// residual strength. Looks at area, normal traction and bond; infinite for an elastic law.
+double shear_capacity(const LawConstants& law, const PatchSnapshot& patch);
+
 /// Contacts found during the run follow the assembly's joints.
 Snapshot make_snapshot(const Model& model, const State& state);
 

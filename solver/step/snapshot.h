@@ -21,6 +21,10 @@ struct PatchSnapshot {
   double opening = 0.0, slip = 0.0;
   double largest_opening = 0.0, largest_slip = 0.0;    // m, since the start
   double normal_traction = 0.0, shear_traction = 0.0;  // Pa, mean over the patch; tension positive
+  // Where the normal tractions' resultant goes through it, as a share of the depth (geometry/kern.h); 0 where nothing
+  // is pressed. Shear over what friction and cohesion allow (shear_capacity()); 0 without shear, 1 where nothing is
+  // allowed.
+  double eccentricity = 0.0, utilisation = 0.0;
   double bonded = 1.0;    // share of the patch's area whose bond holds (0 for joints that never had one)
   bool had_bond = false;  // the joint started with tensile strength or cohesion
   bool tie = false;       // a bar: its strip from anchor to anchor; neither opens nor slips

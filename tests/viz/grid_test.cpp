@@ -126,11 +126,15 @@ TEST(JointPolydata, FieldsAndCornersBetweenTheStones) {
   patch.opening = patch.largest_opening = 0.1;
   patch.bonded = 0.0;
   patch.normal_traction = -2e5;
+  patch.eccentricity = 0.25, patch.utilisation = 0.5;
   const auto data = joint_polydata(assembly, snapshot);
   ASSERT_EQ(data->GetNumberOfPolys(), 1);
   const auto value = [&](const char* name) { return data->GetCellData()->GetArray(name)->GetComponent(0, 0); };
   EXPECT_EQ(value("opening"), 0.1);
   EXPECT_EQ(value("normal_traction"), -2e5);
+  EXPECT_EQ(value("eccentricity"), 0.25);
+  EXPECT_EQ(value("utilisation"), 0.5);
+  EXPECT_EQ(value("tie"), 0.0);
   EXPECT_EQ(value("bonded"), 0.0);
   EXPECT_EQ(value("had_bond"), 1.0);
   EXPECT_EQ(value("component_a"), double(Component::base));

@@ -14,6 +14,7 @@
 
 #include "io/vtk/series.h"
 #include "solver/base/error.h"
+#include "solver/step/principal_stress.h"
 #include "tests/folder.h"
 #include "tests/viz/scenes.h"
 #include "viz/arrows.h"
@@ -314,14 +315,29 @@ TEST(Colours, OfDisplacementsAreSharedByStonesAndFill) {
   EXPECT_NEAR(red(fill), scale_colour(1.0)[0], 0.01);
 }
 
+TEST(Colours, OfTheStressInAFillAreItsLargestCompression) {
+  const Assembly assembly = test::heap_on_cube();
+  const Snapshot snapshot = test::heap_flowing(assembly);
+  const auto stones = deformed_faces(block_grid(assembly, snapshot), Hidden({}), 1.0);
+  const auto fill = deformed_faces(fill_grid(assembly, snapshot), Hidden({}), 1.0);
+  const Colouring colouring = colour_faces(stones, fill, "stress", 0.0);
+  EXPECT_NE(colouring.title.find("kPa"), std::string::npos);
+  EXPECT_EQ(colouring.top, 10.0) << "6.03 kPa";
+  const double red = fill->GetCellData()->GetScalars()->GetComponent(0, 0) / 255.0;
+  EXPECT_NEAR(red, scale_colour(largest_compression(snapshot.fill.tets[0].stress) / 1e4)[0], 0.005);
+  EXPECT_EQ(colour_faces(stones, fill, "stress", 4.0).top, 4.0);
+  EXPECT_TRUE(colour_faces(stones, fill, "stress", 4.0).exceeded);
+}
+
 TEST(Colours, OfAFillNeedOne) {
   const Assembly assembly = test::heap_on_cube();
   const auto stones = deformed_faces(block_grid(assembly, rest_snapshot(assembly)), Hidden({}), 1.0);
-  for (const char* by : {"plastic", "yield"})
+  for (const char* by : {"plastic", "yield", "stress"})
     EXPECT_NE(message_of<InputError>([&] { colour_faces(stones, nullptr, by, 0.0); }).find("takes a deformable fill"),
               std::string::npos);
   EXPECT_EQ(usually_hidden("opening"), std::vector<std::string>{"backfill"});
   EXPECT_TRUE(usually_hidden("yield").empty());
+  EXPECT_TRUE(usually_hidden("stress").empty());
 }
 
 TEST_F(NoDisplay, ChartsShowTheirLines) {

@@ -134,7 +134,7 @@ TEST(Rate, DrawsTheThrustOfTheWorstPlace) {
       std::istringstream cells(lines[i]);
       std::vector<double> numbers;
       for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(cell.empty() ? 0.0 : std::stod(cell));
-      ASSERT_EQ(numbers.size(), 16u);
+      ASSERT_EQ(numbers.size(), 19u);
       EXPECT_EQ(numbers[2], double(i - 1));
       EXPECT_GT(numbers[6], 0.0) << "every joint is pressed";
       EXPECT_LT(std::abs(numbers[10]), 0.51) << "the thrust lies in the ring";

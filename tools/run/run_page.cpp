@@ -11,6 +11,7 @@
 #include "solver/base/json_file.h"
 #include "tools/run/gravity_report.h"
 #include "tools/run/page_sections.h"
+#include "tools/run/stress_section.h"
 #include "viz/page/html.h"
 #include "viz/page/svg.h"
 
@@ -100,7 +101,7 @@ void write_run_page(const std::string& directory) {
   const std::string body = verdict_section(run) + facts(run) + remarks_section(run) + collapse_section(run) +
                            steps_section(run) + motion_section(run) + pictures_section(pictures_of(run)) +
                            reactions_section(run) + places_section(run) + ties_section(run) + damage_section(run) +
-                           demand_section(run) +
+                           demand_section(run) + stress_section(run.directory) +
                            gravity_section(run.summary.value("gravity", nlohmann::json::array())) + plots_section(run) +
                            histories_section(run) + model_section(run) + provenance_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));

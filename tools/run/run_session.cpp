@@ -24,6 +24,7 @@
 #include "tools/run/provenance.h"
 #include "tools/run/run_page.h"
 #include "tools/run/steps_report.h"
+#include "tools/run/stress_table.h"
 #include "tools/run/summary.h"
 #include "tools/run/thrust.h"
 
@@ -300,13 +301,17 @@ void RunSession::write_summary(RunEnd end) {
     json["quasi_static"] = std::move(steps);
     write_atomically(path("steps.csv"), steps_table(case_.settings.stages, history_));
   }
-  if (const std::vector<BedJoint> beds = bed_joints(); !beds.empty())
-    write_atomically(path("joints.csv"), bed_joint_table(beds));
+  if (const RestForces rest = rest_at_end(run); !rest.empty()) {
+    write_atomically(path("stresses.csv"), joint_stress_table(assembly_, rest));
+    if (const std::vector<BedJoint> beds = voussoir::bed_joints(assembly_, rest); !beds.empty())
+      write_atomically(path("joints.csv"), bed_joint_table(beds));
+  }
   write_json(path("summary.json"), json);
 }
 
 std::vector<BedJoint> RunSession::bed_joints() const {
-  return bed_joints_at_end(*simulation_);
+  const RestForces rest = rest_at_end(*simulation_);
+  return rest.empty() ? std::vector<BedJoint>() : voussoir::bed_joints(assembly_, rest);
 }
 
 /// The simulation and its files; what cannot be written ends it with words on how to go on.

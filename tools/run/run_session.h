@@ -47,7 +47,7 @@ class RunSession {
   /// Share of the mass that can move which has gone farther than fall_displacement, relative to the ground and to where
   /// it stood under gravity.
   double fallen_share() const;
-  /// After run(): of its end, see bed_joints_at_end() in tools/run/thrust.h.
+  /// After run(): of its end, see rest_at_end() in tools/run/thrust.h. Empty without a vault.
   std::vector<BedJoint> bed_joints() const;
 
  private:

@@ -4,15 +4,37 @@
 
 #include <cmath>
 
+#include "solver/base/error.h"
 #include "viz/page/line_chart.h"
 
 namespace voussoir {
 
-std::vector<BedJoint> bed_joints_at_end(const Simulation& run) {
-  if (!run.collapse().last.empty()) return bed_joints(run.assembly(), run.collapse().last);
+RestForces rest_at_end(const Simulation& run) {
+  if (!run.collapse().last.empty()) return run.collapse().last;
   const auto ended = std::size_t(run.position().stage);
   if (ended == 0 || run.settings().stages[ended - 1].timed()) return {};
-  return bed_joints(run.assembly(), forces_at_rest(run.model(), run.state()));
+  return forces_at_rest(run.model(), run.state());
+}
+
+std::vector<BedJoint> bed_joints_of_state(const Assembly& assembly, const Model& model, const State& state,
+                                          StageSettings::Kind stage, const std::string& file) {
+  if (stage == StageSettings::Kind::collapse)
+    throw InputError(
+        "{} is what a collapse stage has left: stones on their way down, not an equilibrium; the last one is on the "
+        "run's page and in joints.csv, and stage_*.h5 of the stage before has resultants to draw",
+        file);
+  constexpr double still = 1e-6;  // m/s: what an equilibrium leaves is zero, or next to it after damped motion
+  const RestForces rest = forces_at_rest(model, state);
+  double fastest = 0.0;
+  for (const Vec3& v : rest.snapshot.velocity) fastest = std::max(fastest, v.norm());
+  if (fastest > still)
+    throw InputError(
+        "{} is not at rest: its stones move with up to {:.2g} m/s, and resultants are those of an equilibrium; give a "
+        "checkpoint that a gravity or quasi-static stage has left (checkpoints/stage_*.h5), or end the case with one",
+        file, fastest);
+  std::vector<BedJoint> beds = bed_joints(assembly, rest);
+  if (beds.empty()) throw InputError("{} has no vault (stones of the component arch), so no resultants of one", file);
+  return beds;
 }
 
 namespace {
@@ -76,16 +98,41 @@ void give_one_scale(LineChart& chart, const std::vector<BedJoint>& beds) {
 std::string bed_joint_table(const std::vector<BedJoint>& beds) {
   std::string text =
       "vault,ring,joint,x_m,y_m,z_m,normal_N,shear_N,shear_across_N,eccentricity_m,eccentricity_over_depth,"
-      "eccentricity_across_m,depth_m,width_m,utilisation,largest_compression_Pa\n";
+      "eccentricity_across_m,depth_m,width_m,utilisation,largest_compression_Pa,d_x,d_y,d_z\n";
   for (const BedJoint& b : beds) {
     text += fmt::format("{},{},{}", b.vault, b.ring, b.number);
-    for (const double value :
-         {b.centre.x(), b.centre.y(), b.centre.z(), b.normal, b.shear, b.shear_across, b.eccentricity,
-          b.eccentricity / b.depth, b.eccentricity_across, b.depth, b.width, b.utilisation, b.largest_compression})
+    for (const double value : {b.centre.x(), b.centre.y(), b.centre.z(), b.normal, b.shear, b.shear_across,
+                               b.eccentricity, b.eccentricity / b.depth, b.eccentricity_across, b.depth, b.width,
+                               b.utilisation, b.largest_compression, b.d.x(), b.d.y(), b.d.z()})
       text += fmt::format(",{}", number_text(value));
     text += "\n";
   }
   return text;
+}
+
+std::vector<BedJoint> bed_joints_from_table(const TextFile& file) {
+  const CsvTable table(file,
+                       {"vault", "ring", "joint", "x_m", "y_m", "z_m", "normal_N", "shear_N", "shear_across_N",
+                        "eccentricity_m", "eccentricity_over_depth", "eccentricity_across_m", "depth_m", "width_m",
+                        "utilisation", "largest_compression_Pa"},
+                       {"d_x", "d_y", "d_z"});
+  std::vector<BedJoint> beds;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto value = [&](const char* column) { return table.number(i, column).value_or(no_number); };
+    const auto axis = [&](const char* column) { return table.number(i, column).value_or(0.0); };
+    BedJoint b;
+    b.vault = std::int32_t(table.required_number(i, "vault")), b.ring = std::int32_t(table.required_number(i, "ring"));
+    b.number = std::int32_t(table.required_number(i, "joint"));
+    b.centre = {table.required_number(i, "x_m"), table.required_number(i, "y_m"), table.required_number(i, "z_m")};
+    b.d = {axis("d_x"), axis("d_y"), axis("d_z")};
+    b.depth = table.required_number(i, "depth_m"), b.width = table.required_number(i, "width_m");
+    b.normal = value("normal_N"), b.shear = value("shear_N"), b.shear_across = value("shear_across_N");
+    b.eccentricity = value("eccentricity_m"), b.eccentricity_across = value("eccentricity_across_m");
+    b.utilisation = value("utilisation"), b.largest_compression = value("largest_compression_Pa");
+    b.g = Vec3::Zero();  // what lies across is not drawn
+    beds.push_back(b);
+  }
+  return beds;
 }
 
 std::string thrust_chart(const std::vector<ThrustLine>& lines) {

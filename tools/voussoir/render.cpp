@@ -15,6 +15,7 @@
 #include "solver/base/error.h"
 #include "solver/contact/grouping.h"
 #include "solver/step/make_snapshot.h"
+#include "tools/run/thrust.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {
@@ -26,6 +27,7 @@ namespace {
 RenderOptions render_options(const options::variables_map& values) {
   RenderOptions o;
   o.amplification = values["amplification"].as<double>();
+  if (values.count("resultants") && values["amplification"].defaulted()) o.amplification = 1.0;
   o.colour = values["colour"].as<std::string>();
   o.view = values["view"].as<std::string>();
   o.hide = values.count("hide") ? words_in(values["hide"].as<std::string>()) : usually_hidden(o.colour);
@@ -58,10 +60,19 @@ void render_frame(const std::string& directory, const options::variables_map& va
                  o, png);
 }
 
+/// The kind of the stage that a checkpoint was written in, or between two stages that of the one before.
+StageSettings::Kind stage_of(CheckpointHeader header, const SolverSettings& settings) {
+  const std::int64_t at = header.numbers["stage_begun"] > 0.0 ? header.stage : header.stage - 1;
+  if (settings.stages.empty()) return StageSettings::Kind::gravity;
+  return settings.stages[std::size_t(std::clamp(at, std::int64_t(0), std::int64_t(settings.stages.size()) - 1))].kind;
+}
+
 /// A checkpoint, or an assembly as built.
-void render_file(const std::string& file, const RenderOptions& o, const std::string& png) {
+void render_file(const std::string& file, RenderOptions o, bool resultants, const std::string& png) {
   const fs::path beside = fs::path(file).parent_path().parent_path();
   if (!fs::exists(beside / "case.toml") || fs::path(file).parent_path().filename() != "checkpoints") {
+    if (resultants)
+      throw InputError("{} is no checkpoint: resultants take a run that ends at rest, or a checkpoint of it", file);
     const Assembly assembly = read_assembly(file);
     render_picture(assembly, rest_snapshot(assembly), o, png);
     return;
@@ -80,7 +91,15 @@ void render_file(const std::string& file, const RenderOptions& o, const std::str
     throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
   state.unpack(model);
   take_joint_order(model, state);
+  if (resultants) o.resultants = bed_joints_of_state(assembly, model, state, stage_of(header, c.settings), file);
   render_picture(assembly, make_snapshot(model, state), o, png);
+}
+
+/// The newest checkpoint of a run.
+std::string last_state(const std::string& directory) {
+  const std::vector<std::string> all = list_checkpoints(directory + "/checkpoints");
+  if (all.empty()) throw InputError("{} has no checkpoints: run it first", directory);
+  return all.front();
 }
 
 int render(const std::vector<std::string>& arguments) {
@@ -92,10 +111,9 @@ int render(const std::vector<std::string>& arguments) {
       "stored frame nearest to this time (s); default: the last")(
       "amplification,a", real_option("amplification", -1e6, 1e6)->default_value(2.0), "of the displacements")(
       "colour,c", options::value<std::string>()->default_value("opening"),
-      "opening, slip, displacement, mode (share of the largest), component or stone; of a deformable fill plastic "
-      "(shear "
-      "strain) or yield")("view,v", options::value<std::string>()->default_value("oblique"),
-                          "front, side, plan or oblique")(
+      "opening, slip, displacement, mode (share of the largest), component or stone; of the joints normal, shear, "
+      "utilisation or eccentricity; of a deformable fill plastic (shear strain), yield or stress")(
+      "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
       "hide", options::value<std::string>()->value_name("NAMES"),
       "components left out, by commas; none: show all; default: backfill, a deformable one too, unless it is coloured")(
       "cut", options::value<std::string>()->value_name("PLANE"),
@@ -103,7 +121,8 @@ int render(const std::vector<std::string>& arguments) {
       "no-cracks", "do not mark cracked joints")("crack", real_option("crack", 0.0, 1e6)->default_value(1.0),
                                                  "opening or slip that counts as a crack, mm; 0: a lost bond too")(
       "range", real_option("range", 0.0, 1e9)->default_value(0.0),
-      "top of the colour scale, mm (plastic: %); 0: from the data")(
+      "top of the colour scale, mm (plastic: %, stress: kPa, normal and shear: MPa); 0: from the data")(
+      "resultants", "arrows of the resultants in the bed joints of vaults, and their lines of thrust; a state at rest")(
       "width", whole_option("width", 200, 8000)->default_value(1800), "pixels")(
       "height", whole_option("height", 0, 8000)->default_value(1000), "pixels; 0: as needed")(
       "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""),
@@ -116,17 +135,19 @@ int render(const std::vector<std::string>& arguments) {
   std::error_code ignored;  // a name that cannot be looked up names no file
   const bool directory = fs::is_directory(from, ignored);
   if (!directory && !fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
-  std::string png =
-      directory ? fmt::format("{}/images/{}_{}.png", from, o.colour, o.view) : fs::path(from).stem().string() + ".png";
+  const bool resultants = values.count("resultants") > 0;
+  const std::string name = fmt::format("{}_{}.png", resultants ? "resultants" : o.colour, o.view);
+  std::string png = directory ? from + "/images/" + name : fs::path(from).stem().string() + ".png";
   if (values.count("output")) png = values["output"].as<std::string>();
   // -o DIR, as every verb takes it: the picture goes in there.
-  if (fs::is_directory(png, ignored) || png.ends_with('/'))
-    png = (fs::path(png) / fmt::format("{}_{}.png", o.colour, o.view)).string();
+  if (fs::is_directory(png, ignored) || png.ends_with('/')) png = (fs::path(png) / name).string();
   check_ending(png, {".png"}, "a PNG picture");
-  if (directory)
+  if (resultants && values.count("time"))
+    throw InputError("--resultants takes the state of a checkpoint: give its file instead of --time");
+  if (directory && !resultants)
     render_frame(from, values, o, png);
   else
-    render_file(from, o, png);
+    render_file(directory ? last_state(from) : from, o, resultants, png);
   if (!values.count("quiet")) fmt::print("{}\n", png);
   return 0;
 }

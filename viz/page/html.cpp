@@ -39,6 +39,7 @@ pre .added { display: block; background: #dcebf6; border-left: 4px solid #0072b2
 summary { cursor: pointer; margin: 8px 0; }
 .pictures { display: grid; grid-template-columns: minmax(0, 1fr); gap: 16px; max-width: 860px; } .pictures img { width: 100%; height: auto; }
 .key { display: flex; align-items: center; gap: 8px; font-size: 13px; flex-wrap: wrap; }
+@media screen and (max-width: 700px) { table { display: block; overflow-x: auto; } }
 pre.case { font-size: 11px; } table.small { font-size: 12px; } code { font-size: 11px; overflow-wrap: anywhere; }
 @page { size: A4; margin: 16mm 15mm 18mm; @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #55555c; } }
 @page sheet { size: A4 landscape; margin: 8mm; }
@@ -130,7 +131,11 @@ Cell number_cell(double value, const char* none) {
 }
 
 Cell formatted_cell(double value, const char* format) {
-  return {std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("none"), true};
+  if (!std::isfinite(value)) return {"none", true};
+  std::string text = fmt::format(fmt::runtime(format), value);
+  // What rounds to nothing has no sign.
+  if (text.starts_with('-') && text.find_first_of("123456789") == std::string::npos) text.erase(0, 1);
+  return {text, true};
 }
 
 Cell signed_cell(double value) {

@@ -57,6 +57,12 @@ Colour component_colour(Component component) {
   return kStone;
 }
 
+Colour other_side_colour(double share) {
+  constexpr Colour vermilion = {0.835, 0.369, 0.0}, shade = {0.42, 0.10, 0.0};
+  share = std::clamp(share, 0.0, 1.0);
+  return share < 0.5 ? mixture(kStone, vermilion, 2.0 * share) : mixture(vermilion, shade, 2.0 * share - 1.0);
+}
+
 Colour scale_colour(double share) {
   static constexpr std::array<Colour, 11> viridis = {{{0.993, 0.906, 0.144},
                                                       {0.741, 0.873, 0.150},

@@ -32,4 +32,8 @@ constexpr Colour kCrack = {0.80, 0.08, 0.08};
 /// light end to its dark end, so that lightness falls steadily with the value.
 Colour scale_colour(double share);
 
+/// Colour of a share 0…1 of a scale for values of the other sign: from stone through the vermilion of Okabe & Ito
+/// (2008) to its shade; nothing of scale_colour() is near it.
+Colour other_side_colour(double share);
+
 }  // namespace voussoir
