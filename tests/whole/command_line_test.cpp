@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <regex>
 
 #include "tests/whole/cases.h"
 
@@ -11,7 +12,7 @@ namespace VOUSSOIR_FILE {
 
 const std::vector<std::string> verb_names = {
     "generate", "import",   "export", "info",   "run",    "resume",   "modal",     "render",   "check", "step",
-    "effects",  "diagnose", "hide",   "motion", "report", "campaign", "fragility", "vehicles", "rate"};
+    "effects",  "diagnose", "hide",   "motion", "report", "campaign", "fragility", "vehicles", "rate",  "cracks"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

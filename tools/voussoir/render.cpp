@@ -7,14 +7,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
-#include "io/hdf5/checkpoint_file.h"
 #include "io/vtk/grid.h"
 #include "io/vtk/series.h"
 #include "solver/base/error.h"
-#include "solver/contact/grouping.h"
 #include "solver/step/make_snapshot.h"
+#include "tools/run/stored_state.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {
@@ -60,27 +58,13 @@ void render_frame(const std::string& directory, const options::variables_map& va
 
 /// A checkpoint, or an assembly as built.
 void render_file(const std::string& file, const RenderOptions& o, const std::string& png) {
-  const fs::path beside = fs::path(file).parent_path().parent_path();
-  if (!fs::exists(beside / "case.toml") || fs::path(file).parent_path().filename() != "checkpoints") {
+  if (!is_checkpoint_of_run(file)) {
     const Assembly assembly = read_assembly(file);
     render_picture(assembly, rest_snapshot(assembly), o, png);
     return;
   }
-  const Case c = read_case((beside / "case.toml").string(), CaseUse::geometry);
-  const Assembly assembly = read_assembly((beside / "assembly.h5").string());
-  Model model = build_model(assembly, c.settings);
-  State state = initial_state(model);
-  CheckpointHeader header;
-  try {
-    read_checkpoint(file, header, state.arrays());
-  } catch (const RunError& error) {  // damage met by someone who only looks is wrong input, not failed work
-    throw InputError("{}", error.what());
-  }
-  if (header.assembly_hash != assembly_hash(assembly))
-    throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
-  state.unpack(model);
-  take_joint_order(model, state);
-  render_picture(assembly, make_snapshot(model, state), o, png);
+  const StoredState stored = read_stored_state(file);
+  render_picture(stored.assembly, make_snapshot(stored.model, stored.state), o, png);
 }
 
 int render(const std::vector<std::string>& arguments) {
