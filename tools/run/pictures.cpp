@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "io/records/curve.h"
+#include "solver/base/atomic_file.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/run_session.h"
 #include "tools/run/steps_report.h"
 #include "viz/chart_picture.h"
+#include "viz/crack_map/crack_files.h"
 #include "viz/render.h"
 
 namespace voussoir {
@@ -73,6 +76,17 @@ void draw_way(const std::string& file, const Simulation& run, const Snapshot& sn
     o.title +=
         fmt::format("{} {}", body == run.moving().front() ? " blocks" : ",", model.block_of_body[std::size_t(body)]);
   render_picture(run.assembly(), snapshot, o, file);
+}
+
+/// The crack map and the table of cracks, where there are any.
+void draw_cracks(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot) {
+  const std::string name = std::filesystem::weakly_canonical(directory).filename().string();
+  const CrackMap map(assembly, snapshot, {name, fmt::format("state at {:.3f} s", snapshot.time)});
+  if (map.cracks().empty()) return;
+  std::vector<CrackState> states = {CrackState::ever};
+  if (map.has_changed()) states.push_back(CrackState::now);
+  write_crack_map(map, states, {"svg", "pdf"}, directory + "/images/crack_map");
+  write_atomically(directory + "/cracks.csv", crack_table(map.cracks()));
 }
 
 /// The size of all charts of a run.
@@ -168,6 +182,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
                           const History& history) {
   const std::string images = directory + "/images";
   try {
+    draw_cracks(directory, run.assembly(), snapshot);
     draw_state(images, run.assembly(), snapshot);
     if (!snapshot.fill.empty()) draw_fill(images, run.assembly(), snapshot);
     if (run.collapse().found) draw_mechanism(images, run, snapshot);

@@ -13,6 +13,7 @@
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "solver/motion/intensity.h"
+#include "tools/run/crack_section.h"
 #include "tools/run/damage_words.h"
 #include "tools/run/gravity_report.h"
 #include "tools/run/steps_report.h"
@@ -312,8 +313,8 @@ void write_run_page(const std::string& directory) {
   const RunFiles run = run_files(directory);
   const std::string body = verdict(run) + facts(run) + remarks_section(run) +
                            gravity_section(run.summary.value("gravity", nlohmann::json::array())) + steps_section(run) +
-                           damage_section(run) + demand_section(run) + pictures_section(pictures_of(run)) +
-                           histories_section(run);
+                           damage_section(run) + crack_section(run.directory, run.summary) + demand_section(run) +
+                           pictures_section(pictures_of(run)) + histories_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));
 }
 
