@@ -1,6 +1,7 @@
 // The pictures every finished run leaves behind.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -81,6 +82,8 @@ void draw_way(const std::string& file, const Simulation& run, const Snapshot& sn
 /// The crack map and the table of cracks, where there are any.
 void draw_cracks(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot) {
   const std::string name = std::filesystem::weakly_canonical(directory).filename().string();
+  const std::vector<JointGaps> gaps = joint_gaps(assembly, snapshot);
+  if (std::ranges::none_of(gaps, [](const JointGaps& g) { return g.ever.width() >= kCrackThreshold; })) return;
   const CrackMap map(assembly, snapshot, {name, fmt::format("state at {:.3f} s", snapshot.time)});
   if (map.cracks().empty()) return;
   std::vector<CrackState> states = {CrackState::ever};

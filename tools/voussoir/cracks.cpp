@@ -63,7 +63,8 @@ int cracks(const std::vector<std::string>& arguments) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("STEM"),
                                "files STEM.svg, .pdf, .png and .csv (default: RUN/images/crack_map, or named after the "
                                "checkpoint)")(
-      "threshold", real_option("threshold", 0.001, 1000.0)->default_value(1e3 * kCrackThreshold)->value_name("MM"),
+      "threshold",
+      real_option("threshold", 0.001, 1000.0)->default_value(1e3 * kCrackThreshold, "0.3")->value_name("MM"),
       "opening or slip that counts as a crack, mm")("now", "only what is open now")(
       "ever", "only the largest since the start; default: both where they differ")(
       "format", options::value<std::string>()->default_value("svg,pdf,png")->value_name("LIST"),

@@ -14,7 +14,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr double kPatternWidths[kLineKinds] = {0.08, 0.13, 0.3};  // mm
+constexpr double kPatternWidths[kLineKinds] = {0.1, 0.14, 0.3};  // mm
 constexpr const char* kPatternInks[kLineKinds] = {"#b9b5b0", "#96918b", "#55524e"};
 
 ViewSize size_of(const CrackView& view) {

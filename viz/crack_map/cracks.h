@@ -11,7 +11,7 @@
 namespace voussoir {
 
 constexpr double kCrackThreshold = 3e-4;  // m: what the eye finds from nearby
-constexpr double kStoneFell = 1.0;        // m of opening: how far a stone goes on falling says nothing
+constexpr double kStoneFell = 1.0;        // m: how far a stone goes on falling says nothing
 
 enum class CrackState { ever, now };  // the largest since the start; at present
 
@@ -20,7 +20,7 @@ struct JointGap {
   double opening = 0.0, slip = 0.0;
   double width() const { return std::max(opening, slip); }
   bool slides() const { return slip > opening; }
-  bool fallen() const { return opening >= kStoneFell; }
+  bool fallen() const { return width() >= kStoneFell; }
 };
 struct JointGaps {
   JointGap ever, now;
