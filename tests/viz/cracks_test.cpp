@@ -102,6 +102,32 @@ TEST(Cracks, JointsThatTouchMakeOneSteppedCrack) {
   EXPECT_EQ(cracks[1].joints.size(), 1u);
 }
 
+TEST(Cracks, AnAngleIsNoNetwork) {
+  const Assembly assembly = wall();
+  Snapshot snapshot = rest_snapshot(assembly);
+  const double y = middle_y(assembly);
+  open(snapshot, joint_at(assembly, {0.6, y, 0.25}), 1e-3);
+  for (const double x : {0.75, 1.05}) open(snapshot, joint_at(assembly, {x, y, 0.5}), 1e-3);
+  const std::vector<Crack> cracks = find_cracks(assembly, snapshot);
+  ASSERT_EQ(cracks.size(), 1u);
+  EXPECT_EQ(cracks[0].direction, "stepped, 40°") << "half a metre high, 0.6 m long";
+  EXPECT_NEAR(cracks[0].length, std::hypot(0.5, 0.6), 1e-9);
+}
+
+TEST(Cracks, ManyJointsOfOnePartAreANetwork) {
+  for (const Component component : {Component::wall, Component::block}) {
+    Assembly assembly = wall();
+    for (Block& block : assembly.blocks) block.component = component, block.part = 0;
+    Snapshot snapshot = rest_snapshot(assembly);
+    for (std::size_t i = 0; i < assembly.joints.size(); ++i) open(snapshot, i, 2e-3);
+    const std::vector<Crack> cracks = find_cracks(assembly, snapshot);
+    ASSERT_EQ(cracks.size(), 1u);
+    EXPECT_EQ(cracks[0].joints.size(), assembly.joints.size());
+    EXPECT_EQ(cracks[0].direction, "network");
+    EXPECT_TRUE(cracks[0].where.starts_with(component == Component::wall ? "wall, x" : "blocks, x")) << cracks[0].where;
+  }
+}
+
 TEST(Cracks, AJointThatSlidIsACrackToo) {
   const Assembly assembly = wall();
   Snapshot snapshot = rest_snapshot(assembly);

@@ -12,9 +12,10 @@ namespace voussoir {
 
 namespace {
 
-constexpr double kNetwork = 0.4;     // width over length from which a crack has no direction
+constexpr double kNetwork = 1.5;     // trace over length; one that steps in one sense has √2 at most
 constexpr double kLevel = 20.0;      // degrees: less than this from a direction is that direction
 constexpr double kLeafNormal = 0.7;  // |n_y| of a joint that lies parallel to the faces of a wall
+constexpr double kMixed = 0.1;       // of the area: less is none
 constexpr double kBedNormal = 0.7;   // |n_z| of a bed joint of a wall
 
 bool is_wall(Component c) {
@@ -22,6 +23,9 @@ bool is_wall(Component c) {
 }
 bool is_over_vaults(Component c) {
   return c == Component::spandrel || c == Component::backing || c == Component::infill;
+}
+bool lies_on_extrados(const Crack& crack) {
+  return crack.parts[0].component == Component::arch && is_over_vaults(crack.parts[1].component);
 }
 bool is_leaf(const Joint& joint) {
   return std::abs(joint.normal.y()) > kLeafNormal;
@@ -108,7 +112,9 @@ double CrackWords::share_of_area(const Crack& crack, bool (*counts)(const Joint&
 CrackWords::Frame CrackWords::frame_of(const Crack& crack) const {
   if (vault_of(crack)) return Frame::vault;
   const bool wall = is_wall(crack.parts[0].component) || is_wall(crack.parts[1].component);
-  return wall && share_of_area(crack, is_leaf) < 0.5 ? Frame::wall : Frame::space;
+  const double leaves = share_of_area(crack, is_leaf), beds = share_of_area(crack, is_bed);
+  if (wall && leaves < 0.5) return Frame::wall;
+  return leaves == 0.0 && kMixed < beds && beds < 1.0 - kMixed ? Frame::wall : Frame::space;
 }
 
 std::string CrackWords::where(const Crack& crack, Frame frame) const {
@@ -139,14 +145,30 @@ std::string CrackWords::direction(const Crack& crack, Frame frame, const Vec3& w
            : degrees > 90.0 - kLevel ? "along the span"
                                      : inclined("oblique", degrees);
   }
-  if (crack.parts[0].component == Component::arch && is_over_vaults(crack.parts[1].component))
-    return "along the extrados";
   if (frame == Frame::space && share_of_area(crack, is_leaf) > 0.5) return "parallel to the faces";
   const double degrees = std::asin(std::min(std::abs(way.z()), 1.0)) * 180.0 / pi;
   if (degrees < kLevel) return "horizontal";
   if (degrees > 90.0 - kLevel) return "vertical";
   const double beds = share_of_area(crack, is_bed);
-  return inclined(beds > 0.1 && beds < 0.9 ? "stepped" : "diagonal", degrees);
+  return inclined(beds > kMixed && beds < 1.0 - kMixed ? "stepped" : "diagonal", degrees);
+}
+
+/// Length of all its lines on the surface, m: in a vault along the edges that its intrados shows, in a wall so that its
+/// area is that of lines through the thickness.
+double CrackWords::trace(const Crack& crack, Frame frame) const {
+  if (frame == Frame::wall) return crack.area / (crack.box.high.y() - crack.box.low.y());
+  const Intrados& vault = *vault_of(crack);
+  double length = 0.0;
+  for (const std::size_t i : crack.joints) {
+    const Polygon& corners = assembly_.joints[i].polygon;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3 &p = corners[k], &q = corners[(k + 1) % corners.size()];
+      if (!vault.holds(p) || !vault.holds(q)) continue;
+      const Intrados::Place from = vault.unrolled(p), to = vault.unrolled(q);
+      length += std::hypot(to.s - from.s, to.w - from.w);
+    }
+  }
+  return length;
 }
 
 void CrackWords::describe(Crack& crack) const {
@@ -176,11 +198,11 @@ void CrackWords::describe(Crack& crack) const {
     if (crack.length > 0.0) way = from_end_to_end / crack.length;
   }
   crack.where = where(crack, frame);
-  // Across the surface; of cracks in space, out of their plane.
-  const double beside = reach(edges, axes.col(frame == Frame::space ? 2 : 1));
-  crack.direction = separates                                                     ? "ring separation"
-                    : crack.joints.size() > 3 && beside > kNetwork * crack.length ? "network"
-                                                                                  : direction(crack, frame, way);
+  const double traced = frame == Frame::space ? crack.area / reach(edges, axes.col(1)) : trace(crack, frame);
+  crack.direction = separates                          ? "ring separation"
+                    : lies_on_extrados(crack)          ? "along the extrados"
+                    : traced > kNetwork * crack.length ? "network"
+                                                       : direction(crack, frame, way);
 }
 
 }  // namespace voussoir

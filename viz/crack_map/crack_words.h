@@ -19,6 +19,7 @@ class CrackWords {
   Frame frame_of(const Crack& crack) const;
   std::string where(const Crack& crack, Frame frame) const;
   std::string direction(const Crack& crack, Frame frame, const Vec3& way) const;
+  double trace(const Crack& crack, Frame frame) const;
   double share_of_area(const Crack& crack, bool (*counts)(const Joint&)) const;
 
   const Assembly& assembly_;
