@@ -102,6 +102,19 @@ TEST(Cracks, JointsThatTouchMakeOneSteppedCrack) {
   EXPECT_EQ(cracks[1].joints.size(), 1u);
 }
 
+TEST(Cracks, ThroughAMassRunAsTheirPlaneDoes) {
+  Assembly assembly = wall();
+  for (Block& block : assembly.blocks) block.component = Component::backing;
+  const double y = middle_y(assembly);
+  for (const auto& [at, direction] : {std::pair{Vec3(0.6, y, 0.25), "vertical"}, {Vec3(1.05, y, 1.0), "horizontal"}}) {
+    Snapshot snapshot = rest_snapshot(assembly);
+    open(snapshot, joint_at(assembly, at), 1e-3);
+    const std::vector<Crack> cracks = find_cracks(assembly, snapshot);
+    ASSERT_EQ(cracks.size(), 1u);
+    EXPECT_EQ(cracks[0].direction, direction);
+  }
+}
+
 TEST(Cracks, AnAngleIsNoNetwork) {
   const Assembly assembly = wall();
   Snapshot snapshot = rest_snapshot(assembly);

@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr double kTitleWidth = 104.0, kTableWidth = 193.0, kRow = 4.2, kInset = 2.5;  // mm
+constexpr double kTitleWidth = 104.0, kTableWidth = 203.0, kRow = 4.2, kInset = 2.5;  // mm
 constexpr const char* kMapInk = "#1f1f24";
 
 struct ClassRow {
@@ -106,10 +106,10 @@ void draw_crack_table(DrawingSheet& sheet, const SheetBox& box, const std::vecto
   double y = box.y + 3.0;
   const auto row = [&](const std::array<std::string, 8>& cells, bool bold) {
     sheet.text(x + 4.0, y, cells[0], kSmallText, Align::end, bold);
-    sheet.text(x + 6.0, y, DrawingSheet::fitting(cells[1], 88.0), kSmallText, Align::start, bold);
-    sheet.text(x + 96.0, y, DrawingSheet::fitting(cells[2], 28.0), kSmallText, Align::start, bold);
+    sheet.text(x + 6.0, y, DrawingSheet::fitting(cells[1], 98.0), kSmallText, Align::start, bold);
+    sheet.text(x + 106.0, y, DrawingSheet::fitting(cells[2], 28.0), kSmallText, Align::start, bold);
     for (std::size_t k = 3; k < cells.size(); ++k)
-      sheet.text(x + 137.0 + 14.0 * double(k - 3), y, cells[k], kSmallText, Align::end, bold);
+      sheet.text(x + 147.0 + 14.0 * double(k - 3), y, cells[k], kSmallText, Align::end, bold);
   };
   row({"", "widest cracks: where", "direction", "m long", "mm open", "slid", "open now", "slid now"}, true);
   sheet.line(x, y + 1.2, right, y + 1.2);

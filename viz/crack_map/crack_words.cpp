@@ -117,6 +117,19 @@ CrackWords::Frame CrackWords::frame_of(const Crack& crack) const {
   return leaves == 0.0 && kMixed < beds && beds < 1.0 - kMixed ? Frame::wall : Frame::space;
 }
 
+/// Sine of the angle from the horizontal: of the plane in which a crack lies, or of its main axis where it lies in
+/// none.
+double CrackWords::steepness(const Crack& crack, const Vec3& way) const {
+  constexpr double plane = 0.9;  // share of the area with one normal
+  Mat3 normals = Mat3::Zero();
+  for (const std::size_t i : crack.joints) {
+    const Joint& joint = assembly_.joints[i];
+    normals += joint.area / crack.area * joint.normal * joint.normal.transpose();
+  }
+  const auto axes = eigen_solution(Eigen::MatrixXd(normals));
+  return axes.values[2] > plane ? std::hypot(axes.vectors(0, 2), axes.vectors(1, 2)) : std::abs(way.z());
+}
+
 std::string CrackWords::where(const Crack& crack, Frame frame) const {
   std::string text = crack.parts[0] == crack.parts[1]
                          ? part_words(crack.parts[0])
@@ -146,7 +159,8 @@ std::string CrackWords::direction(const Crack& crack, Frame frame, const Vec3& w
                                      : inclined("oblique", degrees);
   }
   if (frame == Frame::space && share_of_area(crack, is_leaf) > 0.5) return "parallel to the faces";
-  const double degrees = std::asin(std::min(std::abs(way.z()), 1.0)) * 180.0 / pi;
+  const double sine = frame == Frame::space ? steepness(crack, way) : std::abs(way.z());
+  const double degrees = std::asin(std::min(sine, 1.0)) * 180.0 / pi;
   if (degrees < kLevel) return "horizontal";
   if (degrees > 90.0 - kLevel) return "vertical";
   const double beds = share_of_area(crack, is_bed);

@@ -20,6 +20,7 @@ class CrackWords {
   std::string where(const Crack& crack, Frame frame) const;
   std::string direction(const Crack& crack, Frame frame, const Vec3& way) const;
   double trace(const Crack& crack, Frame frame) const;
+  double steepness(const Crack& crack, const Vec3& way) const;
   double share_of_area(const Crack& crack, bool (*counts)(const Joint&)) const;
 
   const Assembly& assembly_;
