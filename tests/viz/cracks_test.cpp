@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "io/case/case.h"
 #include "io/vtk/grid.h"

@@ -1,5 +1,6 @@
 // One view of a crack map: the stones' pattern and the edges of cracked joints that are seen in it.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 

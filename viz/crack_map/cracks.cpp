@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "solver/base/csv.h"
 #include "solver/base/disjoint_sets.h"

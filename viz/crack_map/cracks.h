@@ -1,5 +1,6 @@
 // Cracks: joints that have opened or slid and hang together (docs/theory/crack-map.md).
 #pragma once
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
