@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A room includes only rooms up-river of it, and none in a circle; VTK stays in io/vtk and viz, OpenMP in solver/base,
-# Gmsh and CGAL in one file each. No type
+# Gmsh, CGAL and cairo in one file each. No type
 # has the name of another.
 # Usage: check_rooms.sh SOURCE_DIR
 set -u
@@ -25,6 +25,9 @@ forbid "geometry solver io/toml io/case io/hdf5 io/info io/msh io/records io/mea
 forbid "geometry solver/[!b]* io viz tools" "omp\.h" "OpenMP belongs in solver/base"
 if grep -rnE '^#include [<"]gmsh' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^geometry/gmsh/mesher\.cpp:'; then
   echo "Gmsh belongs in geometry/gmsh/mesher.cpp"; bad=1
+fi
+if grep -rnE '^#include [<"]cairo' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^viz/page/cairo_drawing\.cpp:' | grep -v '"viz/'; then
+  echo "cairo belongs in viz/page/cairo_drawing.cpp"; bad=1
 fi
 if grep -rnE '^#include [<"]CGAL' geometry solver io viz tools --include='*.h' --include='*.cpp' | grep -v '^geometry/cgal/cutter\.cpp:'; then
   echo "CGAL belongs in geometry/cgal/cutter.cpp"; bad=1

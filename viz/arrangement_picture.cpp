@@ -3,7 +3,7 @@
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
-#include "viz/chart_picture.h"
+#include "viz/page/cairo_drawing.h"
 
 namespace voussoir {
 
@@ -12,8 +12,9 @@ void write_arrangement(const Assembly& assembly, const ArrangementNotes& notes, 
   const Arrangement arrangement(assembly, notes);
   make_folder_of(stem + ".svg");
   write_atomically(stem + ".svg", arrangement.svg());
-  write_picture([&](Drawing& drawing) { arrangement.draw(drawing); }, arrangement.width(), arrangement.height(),
-                stem + ".png", arrangement.pixels());
+  const DrawOn draw_on = [&](Drawing& drawing) { arrangement.draw(drawing); };
+  write_pdf({draw_on}, arrangement.width(), arrangement.height(), stem + ".pdf");
+  write_png(draw_on, arrangement.width(), arrangement.height(), stem + ".png", arrangement.pixels());
 }
 
 }  // namespace voussoir

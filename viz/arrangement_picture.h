@@ -6,9 +6,8 @@
 
 namespace voussoir {
 
-/// Writes STEM.svg, and the same drawing as STEM.png, which takes longer and needs what viz/display.h says. Throws
-/// RunError when a file cannot be written, InputError when there is no display to draw the PNG on; the SVG is there
-/// then.
+/// Writes STEM.svg, STEM.pdf and STEM.png, the same drawing each; SVG and PDF are printed true to scale. Throws
+/// InputError when there is nothing to draw, RunError when a file cannot be written.
 void write_arrangement(const Assembly& assembly, const ArrangementNotes& notes, const std::string& stem);
 
 }  // namespace voussoir

@@ -8,12 +8,16 @@
 #include "geometry/generator.h"
 #include "io/case/case.h"
 #include "solver/base/constants.h"
+#include "tests/viz/noted_drawing.h"
 #include "viz/arrangement/hidden_lines.h"
 #include "viz/arrangement/measure.h"
 #include "viz/arrangement/paper.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {
+
+using test::expect_readable;
+using test::Noted;
 
 constexpr const char* kTwoSpans = R"(
 [bridge]
@@ -49,54 +53,6 @@ height = 4.0
 
 Assembly built(const std::string& text) {
   return make_assembly(parse_case(text, "drawn.toml", CaseUse::geometry));
-}
-
-/// What was drawn.
-class Noted : public Drawing {
- public:
-  struct Words {
-    std::string text;
-    SheetBox box;  // mm
-  };
-  std::vector<Words> words;
-  std::size_t areas_drawn = 0, curves_drawn = 0;
-
-  void curve(const Path&, const std::string&, double, const char*) override { ++curves_drawn; }
-  void area(const Path&, const std::string&) override { ++areas_drawn; }
-  void rectangle(double, double, double, double, const ShapeStyle&, std::string_view) override {}
-  void marker(Marker, double, double, const std::string&, std::string_view, double) override {}
-  void text(double x, double y, std::string_view what, const TextStyle& style) override {
-    const double size = style.size / kPixelsPerMm, width = DrawingSheet::width_of(std::string(what), size);
-    x /= kPixelsPerMm, y /= kPixelsPerMm;
-    const std::string anchor = style.anchor;
-    const double left = anchor == "start" ? x : anchor == "middle" ? x - 0.5 * width : x - width;
-    // Letters without those that reach below the line.
-    const SheetBox box = style.turn == 0.0 ? SheetBox{left, y - 0.7 * size, width, 0.7 * size}
-                                           : SheetBox{x - 0.7 * size, y - 0.5 * width, 0.7 * size, width};
-    words.push_back({std::string(what), box});
-  }
-  bool says(const std::string& text) const {
-    return std::ranges::any_of(words, [&](const Words& w) { return w.text == text; });
-  }
-  std::string all() const {
-    std::string text;
-    for (const Words& w : words) text += w.text + "\n";
-    return text;
-  }
-};
-
-void expect_readable(const Arrangement& arrangement, const Noted& drawn, const std::string& of) {
-  const SheetBox paper = {8.0, 8.0, arrangement.width() / kPixelsPerMm - 16.0,
-                          arrangement.height() / kPixelsPerMm - 16.0};
-  for (std::size_t i = 0; i < drawn.words.size(); ++i) {
-    const SheetBox& box = drawn.words[i].box;
-    EXPECT_TRUE(box.x >= paper.x && box.y >= paper.y && box.x + box.width <= paper.x + paper.width &&
-                box.y + box.height <= paper.y + paper.height)
-        << of << ": " << drawn.words[i].text << " lies beyond the frame";
-    for (std::size_t j = 0; j < i; ++j)
-      EXPECT_FALSE(box.meets(drawn.words[j].box))
-          << of << ": " << drawn.words[i].text << " lies on " << drawn.words[j].text;
-  }
 }
 
 Block box_at(const Vec3& low, const Vec3& high) {

@@ -24,12 +24,13 @@ TEST_P(ArrangementsOf, AGenerator) {
   folder.write(name + ".toml", text);
   const Outcome outcome = voussoir({"generate", name + ".toml", "--picture"}, there);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("drawn in " + name + ".svg and " + name + ".png"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("drawn in " + name + ".svg, " + name + ".pdf and " + name + ".png"), std::string::npos) << outcome.out;
   const std::string svg = bytes_of(folder / (name + ".svg"));
   EXPECT_TRUE(svg.starts_with("<svg "));
   EXPECT_NE(svg.find("generator " + name), std::string::npos);
   EXPECT_NE(svg.find("Scale 1:"), std::string::npos);
   EXPECT_TRUE(is_png(folder / (name + ".png")));
+  EXPECT_TRUE(bytes_of(folder / (name + ".pdf")).starts_with("%PDF-"));
   EXPECT_TRUE(exists(folder / (name + ".h5")));
 }
 

@@ -10,9 +10,10 @@
 namespace voussoir::test {
 namespace VOUSSOIR_FILE {
 
-const std::vector<std::string> verb_names = {
-    "generate", "import",   "export", "info",   "run",    "resume",   "modal",     "render",   "check", "step",
-    "effects",  "diagnose", "hide",   "motion", "report", "campaign", "fragility", "vehicles", "rate", "compare"};
+const std::vector<std::string> verb_names = {"generate", "import",  "export", "info",     "run",       "resume",
+                                             "modal",    "render",  "check",  "step",     "effects",   "diagnose",
+                                             "hide",     "motion",  "report", "campaign", "fragility", "vehicles",
+                                             "rate",     "compare", "cracks"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

@@ -4,8 +4,6 @@
 
 #include <filesystem>
 
-#include "io/hdf5/assembly_file.h"
-#include "io/hdf5/checkpoint_file.h"
 #include "io/hdf5/h5.h"
 #include "solver/base/error.h"
 #include "solver/contact/grouping.h"
@@ -13,6 +11,7 @@
 #include "solver/run/simulation.h"
 #include "solver/statics/settle.h"
 #include "solver/step/loads.h"
+#include "tools/run/stored_state.h"
 #include "tools/run/terminal.h"
 
 namespace voussoir {
@@ -61,43 +60,16 @@ void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
     source.about += fmt::format(" ({} block{} in the air)", n, n == 1 ? "" : "s");
 }
 
-/// The newest readable checkpoint of a run directory.
-std::string newest_checkpoint(const std::string& directory) {
-  const std::vector<std::string> all = list_checkpoints(directory + "/checkpoints");
-  if (all.empty())
-    throw InputError("{} has no checkpoints: run it first, or give its case.toml for the intact bridge", directory);
-  return all.front();
-}
-
 void load_checkpoint(ModalSource& source, const std::string& file) {
-  const std::string run = fs::weakly_canonical(file).parent_path().parent_path().string();
-  const h5::File h5 = h5::File::open(file);
-  if (h5.has_attribute("/", "format") && h5.text("/", "format") == "voussoir-assembly")
-    throw InputError("{} is a block assembly; name it in a case ([bridge] assembly = \"{}\") and give that", file,
-                     file);
-  if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
-    throw InputError(
-        "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it", file);
-  source.c = read_case(run + "/case.toml", CaseUse::geometry);
-  source.assembly = read_assembly(run + "/assembly.h5");
-  source.model = build_model(source.assembly, source.c.settings);
-  source.state = initial_state(source.model);
-  CheckpointHeader header;
-  try {
-    read_checkpoint(file, header, source.state.arrays());
-  } catch (const RunError& error) {
-    throw InputError("{}", error.what());
-  }
-  if (header.assembly_hash != assembly_hash(source.assembly))
-    throw InputError("{} belongs to another assembly than {}/assembly.h5", file, run);
-  source.state.unpack(source.model);
-  take_joint_order(source.model, source.state);
+  StoredState stored = read_stored_state(file);
+  source.c = std::move(stored.c), source.assembly = std::move(stored.assembly);
+  source.model = std::move(stored.model), source.state = std::move(stored.state);
   source.tangent = PatchTangent::present;
   source.damaged = true;
-  source.name = fs::path(run).filename().string();
-  source.about = fmt::format("{} at t = {:.3f} s, joints as they are", source.name, header.time);
+  source.name = fs::path(stored.run).filename().string();
+  source.about = fmt::format("{} at t = {:.3f} s, joints as they are", source.name, stored.header.time);
   // Between two stages what acts is what the one before has left.
-  const std::int64_t at = header.numbers["stage_begun"] > 0.0 ? header.stage : header.stage - 1;
+  const std::int64_t at = stored.header.numbers["stage_begun"] > 0.0 ? stored.header.stage : stored.header.stage - 1;
   const auto stages = std::int64_t(source.c.settings.stages.size());
   if (at >= 0) source.loads = loads_after(source.c.settings.stages, std::size_t(std::min(at, stages - 1)));
 }
@@ -118,7 +90,7 @@ ModalSource modal_source(const std::string& from, const std::function<void(Modal
   std::error_code ignored;
   if (!fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
   if (fs::is_directory(from, ignored))
-    load_checkpoint(source, newest_checkpoint(from));
+    load_checkpoint(source, newest_checkpoint(from, "run it first, or give its case.toml for the intact bridge"));
   else if (h5::File::is_hdf5(from))
     load_checkpoint(source, from);
   else

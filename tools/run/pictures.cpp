@@ -1,6 +1,7 @@
 // The pictures every finished run leaves behind.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -11,6 +12,7 @@
 #include "tools/run/steps_report.h"
 #include "viz/arrangement/arrangement.h"
 #include "viz/chart_picture.h"
+#include "viz/crack_map/crack_files.h"
 #include "viz/render.h"
 
 namespace voussoir {
@@ -76,6 +78,19 @@ void draw_way(const std::string& file, const Simulation& run, const Snapshot& sn
     o.title +=
         fmt::format("{} {}", body == run.moving().front() ? " blocks" : ",", model.block_of_body[std::size_t(body)]);
   render_picture(run.assembly(), snapshot, o, file);
+}
+
+/// The crack map and the table of cracks, where there are any.
+void draw_cracks(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot) {
+  const std::string name = std::filesystem::weakly_canonical(directory).filename().string();
+  const std::vector<JointGaps> gaps = joint_gaps(assembly, snapshot);
+  if (std::ranges::none_of(gaps, [](const JointGaps& g) { return g.ever.width() >= kCrackThreshold; })) return;
+  const CrackMap map(assembly, snapshot, {name, fmt::format("state at {:.3f} s", snapshot.time)});
+  if (map.cracks().empty()) return;
+  std::vector<CrackState> states = {CrackState::ever};
+  if (map.has_changed()) states.push_back(CrackState::now);
+  write_crack_map(map, states, {"svg", "pdf"}, directory + "/images/crack_map");
+  write_atomically(directory + "/cracks.csv", crack_table(map.cracks()));
 }
 
 /// The size of all charts of a run.
@@ -162,6 +177,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
                           const History& history) {
   const std::string images = directory + "/images";
   try {
+    draw_cracks(directory, run.assembly(), snapshot);
     draw_state(images, run.assembly(), snapshot);
     if (!snapshot.fill.empty()) draw_fill(images, run.assembly(), snapshot);
     if (run.collapse().found) draw_mechanism(images, run, snapshot);

@@ -9,6 +9,7 @@
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
+#include "tools/run/crack_section.h"
 #include "tools/run/gravity_report.h"
 #include "tools/run/page_sections.h"
 #include "tools/run/stress_section.h"
@@ -98,12 +99,12 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
 
 void write_run_page(const std::string& directory) {
   const RunFiles run = read_run(directory);
-  const std::string body = verdict_section(run) + facts(run) + remarks_section(run) + collapse_section(run) +
-                           steps_section(run) + motion_section(run) + pictures_section(pictures_of(run)) +
-                           reactions_section(run) + places_section(run) + ties_section(run) + damage_section(run) +
-                           demand_section(run) + stress_section(run.directory) +
-                           gravity_section(run.summary.value("gravity", nlohmann::json::array())) + plots_section(run) +
-                           histories_section(run) + model_section(run) + provenance_section(run);
+  const std::string body =
+      verdict_section(run) + facts(run) + remarks_section(run) + collapse_section(run) + steps_section(run) +
+      motion_section(run) + pictures_section(pictures_of(run)) + reactions_section(run) + places_section(run) +
+      ties_section(run) + damage_section(run) + crack_section(run.directory, run.summary) + demand_section(run) +
+      stress_section(run.directory) + gravity_section(run.summary.value("gravity", nlohmann::json::array())) +
+      plots_section(run) + histories_section(run) + model_section(run) + provenance_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));
 }
 

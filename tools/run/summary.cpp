@@ -10,6 +10,7 @@
 #include "solver/statics/hinges.h"
 #include "solver/step/damage.h"
 #include "solver/step/loads.h"
+#include "tools/run/bridge_damage.h"
 #include "tools/run/damage_words.h"
 #include "tools/run/history_rows.h"
 #include "tools/run/numbered_hinges.h"
@@ -290,11 +291,14 @@ nlohmann::json joint_kinds_json(const Assembly& assembly) {
 }
 
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history) {
-  nlohmann::json json = {
-      {"demand", demand_json(run.assembly(), history)},           {"sensors", sensors_json(run.assembly(), history)},
-      {"reactions", reactions_json(run.held_groups(), history)},  {"stages", stages_json(run, history)},
-      {"damage", damage_json(run.assembly(), snapshot)},          {"hinges", hinges_json(run.assembly(), snapshot)},
-      {"part_damage", part_damage_json(run.assembly(), snapshot)}};
+  nlohmann::json json = {{"demand", demand_json(run.assembly(), history)},
+                         {"sensors", sensors_json(run.assembly(), history)},
+                         {"reactions", reactions_json(run.held_groups(), history)},
+                         {"stages", stages_json(run, history)},
+                         {"damage", damage_json(run.assembly(), snapshot)},
+                         {"hinges", hinges_json(run.assembly(), snapshot)},
+                         {"part_damage", part_damage_json(run.assembly(), snapshot)},
+                         {"bridge_damage", bridge_damage_json(run.assembly(), snapshot)}};
   if (nlohmann::json places = places_json(run.assembly(), history); !places.empty()) json["places"] = std::move(places);
   if (!snapshot.fill.empty()) json["fill"] = fill_json(run.assembly().fill, snapshot);
   if (nlohmann::json ties = ties_json(run.assembly(), snapshot); !ties.empty()) json["ties"] = std::move(ties);

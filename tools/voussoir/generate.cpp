@@ -73,17 +73,17 @@ FillAim fill_aim(const Case& c) {
           skew == c.generator_input.values.end() ? 0.0 : radians(skew->second)};
 }
 
-/// Draws the arrangement beside the assembly file, or where --picture says; says the names of both files.
+/// Draws the arrangement beside the assembly file, or where --picture says; says the names of the files.
 void draw(const Assembly& assembly, const ArrangementNotes& notes, const std::string& assembly_file,
           const options::variables_map& values) {
   if (!values.count("picture")) return;
   std::filesystem::path stem = values["picture"].as<std::string>();
   if (stem.empty()) stem = assembly_file;
   if (const std::string ending = stem.extension().string();
-      ending == ".svg" || ending == ".png" || ending == ".h5" || ending == ".hdf5")
+      ending == ".svg" || ending == ".pdf" || ending == ".png" || ending == ".h5" || ending == ".hdf5")
     stem.replace_extension();
   write_arrangement(assembly, notes, stem.string());
-  if (!values.count("quiet")) fmt::print("drawn in {0}.svg and {0}.png\n", stem.string());
+  if (!values.count("quiet")) fmt::print("drawn in {0}.svg, {0}.pdf and {0}.png\n", stem.string());
 }
 
 /// What a drawing is called: the file, or its folder where the file is just a case.
@@ -146,7 +146,7 @@ int generate(const std::vector<std::string>& arguments) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"),
                                "assembly file (default: the case's name with .h5)")(
       "picture", options::value<std::string>()->implicit_value("")->value_name("FILE"),
-      "draw the general arrangement as FILE.svg and FILE.png (default: named as the assembly file)")(
+      "draw the general arrangement as FILE.svg, FILE.pdf and FILE.png (default: named as the assembly file)")(
       "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave")(
       "template", "print a case for a bridge, with all keys, to begin with, and leave")(
       "spans", options::value<std::string>()->value_name("LIST"),

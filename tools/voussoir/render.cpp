@@ -7,14 +7,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/case/case.h"
 #include "io/hdf5/assembly_file.h"
-#include "io/hdf5/checkpoint_file.h"
 #include "io/vtk/grid.h"
 #include "io/vtk/series.h"
 #include "solver/base/error.h"
-#include "solver/contact/grouping.h"
 #include "solver/step/make_snapshot.h"
+#include "tools/run/stored_state.h"
 #include "tools/run/thrust.h"
 #include "tools/voussoir/options.h"
 
@@ -69,37 +67,18 @@ StageSettings::Kind stage_of(CheckpointHeader header, const SolverSettings& sett
 
 /// A checkpoint, or an assembly as built.
 void render_file(const std::string& file, RenderOptions o, bool resultants, const std::string& png) {
-  const fs::path beside = fs::path(file).parent_path().parent_path();
-  if (!fs::exists(beside / "case.toml") || fs::path(file).parent_path().filename() != "checkpoints") {
+  if (!is_checkpoint_of_run(file)) {
     if (resultants)
       throw InputError("{} is no checkpoint: resultants take a run that ends at rest, or a checkpoint of it", file);
     const Assembly assembly = read_assembly(file);
     render_picture(assembly, rest_snapshot(assembly), o, png);
     return;
   }
-  const Case c = read_case((beside / "case.toml").string(), CaseUse::geometry);
-  const Assembly assembly = read_assembly((beside / "assembly.h5").string());
-  Model model = build_model(assembly, c.settings);
-  State state = initial_state(model);
-  CheckpointHeader header;
-  try {
-    read_checkpoint(file, header, state.arrays());
-  } catch (const RunError& error) {  // damage met by someone who only looks is wrong input, not failed work
-    throw InputError("{}", error.what());
-  }
-  if (header.assembly_hash != assembly_hash(assembly))
-    throw InputError("{} belongs to another assembly than {}", file, (beside / "assembly.h5").string());
-  state.unpack(model);
-  take_joint_order(model, state);
-  if (resultants) o.resultants = bed_joints_of_state(assembly, model, state, stage_of(header, c.settings), file);
-  render_picture(assembly, make_snapshot(model, state), o, png);
-}
-
-/// The newest checkpoint of a run.
-std::string last_state(const std::string& directory) {
-  const std::vector<std::string> all = list_checkpoints(directory + "/checkpoints");
-  if (all.empty()) throw InputError("{} has no checkpoints: run it first", directory);
-  return all.front();
+  const StoredState stored = read_stored_state(file);
+  if (resultants)
+    o.resultants = bed_joints_of_state(stored.assembly, stored.model, stored.state,
+                                       stage_of(stored.header, stored.c.settings), file);
+  render_picture(stored.assembly, make_snapshot(stored.model, stored.state), o, png);
 }
 
 int render(const std::vector<std::string>& arguments) {
@@ -147,7 +126,7 @@ int render(const std::vector<std::string>& arguments) {
   if (directory && !resultants)
     render_frame(from, values, o, png);
   else
-    render_file(directory ? last_state(from) : from, o, resultants, png);
+    render_file(directory ? newest_checkpoint(from) : from, o, resultants, png);
   if (!values.count("quiet")) fmt::print("{}\n", png);
   return 0;
 }

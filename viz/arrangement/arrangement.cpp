@@ -11,21 +11,6 @@
 
 namespace voussoir {
 
-namespace {
-
-/// What would hide the elevation, or stand behind its openings: fixed blocks wholly before or behind all that can move,
-/// such as the smooth walls of a strip.
-std::vector<std::int64_t> at_the_faces(const Assembly& assembly, const Measures& m) {
-  std::vector<std::int64_t> blocks;
-  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
-    if (const Box box = block_box(assembly.blocks[i]); assembly.blocks[i].fixed)
-      if (box.high.y() <= m.moving.low.y() + 1e-6 || box.low.y() >= m.moving.high.y() - 1e-6)
-        blocks.push_back(std::int64_t(i));
-  return blocks;
-}
-
-}  // namespace
-
 void ArrangementParts::find_sections() {
   const auto add = [&](double x, double to, const std::string& of) -> SectionAt& {
     SectionAt section;
@@ -71,7 +56,7 @@ Content ArrangementParts::content(bool lengthwise_too) const {
 }
 
 void ArrangementParts::lay_out() {
-  left_out = at_the_faces(assembly, m);
+  left_out = fixed_at_faces(assembly, m);
   elevation = flat_view(assembly, seen_from_front(), std::nullopt, left_out);
   plan = flat_view(assembly, seen_from_above());
   along = cut_faces(assembly, seen_from_front(), m.middle);

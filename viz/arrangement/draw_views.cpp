@@ -59,21 +59,6 @@ void chain_of_places(DrawingSheet& sheet, const SheetPlace& place, double y, dou
   sheet.chain_along_x(y, chain.stops, chain.texts);
 }
 
-/// Where the content of a view begins, from the upper left of its box.
-SheetPlace place_in(const SheetBox& box, const ViewSize& size, const Box& content, double scale) {
-  SheetPlace place;
-  place.mm = 1000.0 / scale;
-  place.x0 = box.x + size.left_at(scale) - place.mm * content.low.x();
-  place.y0 = box.y + size.above + place.mm * content.high.y();
-  return place;
-}
-
-void draw_title(DrawingSheet& sheet, const SheetBox& box, double middle, const std::string& title) {
-  const double y = box.y + 5.0, half = 0.5 * DrawingSheet::width_of(title, kHeadText);
-  sheet.text(middle, y, title, kHeadText, DrawingSheet::Align::middle, true);
-  sheet.line(middle - half, y + 1.3, middle + half, y + 1.3, 0.25);
-}
-
 /// The convex outline of points (u, v), counter-clockwise (Andrew 1979).
 Polygon convex_outline(Polygon points) {
   std::ranges::sort(points, {}, [](const Vec3& p) { return std::pair(p.x(), p.y()); });
@@ -196,7 +181,7 @@ void ArrangementParts::draw_elevation(DrawingSheet& sheet, const SheetBox& box) 
   const Box content = extent_of(elevation.faces);
   const SheetPlace place = place_in(box, elevation_size(elevation), content, placement.scale);
   paint_view(sheet, elevation, place);
-  draw_title(sheet, box, place.x(0.5 * (content.low.x() + content.high.x())), "Elevation");
+  sheet.title(box, place.x(0.5 * (content.low.x() + content.high.x())), "Elevation");
   draw_section_marks(sheet, place, place.y(content.high.y()));
   const double left = place.x(content.low.x()), right = place.x(content.high.x());
   const double foot = place.y(content.low.y());
@@ -232,7 +217,7 @@ void ArrangementParts::draw_lengthwise(DrawingSheet& sheet, const SheetBox& box)
   const Box content = extent_of(lengthwise.faces);
   const SheetPlace place = place_in(box, lengthwise_size(lengthwise), content, placement.scale);
   paint_view(sheet, lengthwise, place);
-  draw_title(sheet, box, place.x(0.5 * (content.low.x() + content.high.x())), "Section along the middle");
+  sheet.title(box, place.x(0.5 * (content.low.x() + content.high.x())), "Section along the middle");
   for (const MeasuredSpan& s : m.spans) {
     if (!(s.deck > s.extrados + 1e-6)) continue;
     const double x = place.x(s.crown.x()), y = place.y(s.deck);
@@ -287,7 +272,7 @@ void ArrangementParts::draw_plan(DrawingSheet& sheet, const SheetBox& box) const
   const Box content = extent_of(plan.faces);
   const SheetPlace place = place_in(box, plan_size(plan), content, placement.scale);
   paint_view(sheet, plan, place);
-  draw_title(sheet, box, place.x(0.5 * (content.low.x() + content.high.x())), "Plan");
+  sheet.title(box, place.x(0.5 * (content.low.x() + content.high.x())), "Plan");
   draw_section_marks(sheet, place, place.y(content.high.y()));
   if (bridges_over()) draw_supports_below(sheet, place);
   const double right = place.x(content.high.x());
@@ -335,7 +320,7 @@ void ArrangementParts::draw_section(DrawingSheet& sheet, const SheetBox& box, co
   const std::string title = section_title(section.letter, section.of);
   const SheetPlace place = place_in(box, section_size(section.view, title), content, placement.across_scale);
   paint_view(sheet, section.view, place);
-  draw_title(sheet, box, place.x(0.5 * (content.low.x() + content.high.x())), title);
+  sheet.title(box, place.x(0.5 * (content.low.x() + content.high.x())), title);
   const double right = place.x(content.high.x());
   const double top = place.y(content.high.y()), foot = place.y(content.low.y());
   const auto& pieces = section.pieces;

@@ -118,6 +118,10 @@ SheetAxes seen_from_front() {
   return {};
 }
 
+SheetAxes seen_from_behind() {
+  return {-Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
+}
+
 SheetAxes seen_from_above() {
   return {Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitZ()};
 }

@@ -14,9 +14,10 @@ struct SheetAxes {
   double u(const Vec3& x) const { return right.dot(x); }
   double v(const Vec3& x) const { return up.dot(x); }
 };
-SheetAxes seen_from_front();  // along y, x to the right
-SheetAxes seen_from_above();  // along −z, x to the right
-SheetAxes seen_from_left();   // along x, −y to the right
+SheetAxes seen_from_front();   // along y, x to the right
+SheetAxes seen_from_behind();  // along −y, −x to the right
+SheetAxes seen_from_above();   // along −z, x to the right
+SheetAxes seen_from_left();    // along x, −y to the right
 
 /// A convex face that looks at the reader. Corners (u, v, 0) in m, counter-clockwise.
 struct FlatFace {

@@ -171,6 +171,15 @@ double measure_skew(const Assembly& assembly, const Measures& m) {
 
 }  // namespace
 
+std::vector<std::int64_t> fixed_at_faces(const Assembly& assembly, const Measures& m) {
+  std::vector<std::int64_t> blocks;
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
+    if (const Box box = block_box(assembly.blocks[i]); assembly.blocks[i].fixed)
+      if (box.high.y() <= m.moving.low.y() + 1e-6 || box.low.y() >= m.moving.high.y() - 1e-6)
+        blocks.push_back(std::int64_t(i));
+  return blocks;
+}
+
 double Measures::lowest_base() const {
   double lowest = 1e300;
   for (const MeasuredSupport& s : supports) lowest = std::min(lowest, s.base);

@@ -50,6 +50,10 @@ struct Measures {
 /// The stones of a vault are those of component arch and one part; its intrados is where nothing lies below them.
 Measures measure(const Assembly& assembly);
 
+/// Fixed blocks wholly before or behind all that can move, such as the smooth walls of a strip: they would hide an
+/// elevation, or stand behind its openings.
+std::vector<std::int64_t> fixed_at_faces(const Assembly& assembly, const Measures& measures);
+
 /// Highest z of the pieces of an upright section over a place along it, without parapets and what is fixed; none where
 /// there are none.
 double top_over(const std::vector<FlatFace>& section, double u);

@@ -77,12 +77,6 @@ std::string legend_text(const Assembly& assembly, const LegendRow& row) {
   return text + fmt::format(" ({})", row.blocks);
 }
 
-std::string fitting(std::string text, double room, double size) {
-  std::size_t most = characters(text);
-  while (most > 4 && DrawingSheet::width_of(shortened(text, most), size) > room) --most;
-  return shortened(text, most);
-}
-
 double moving_tonnes(const Assembly& assembly) {
   double mass = 0.0;
   for (const Block& block : assembly.blocks)
@@ -101,23 +95,6 @@ std::string counts_text(const Assembly& assembly) {
   if (!assembly.fill.empty()) text += fmt::format(", {} tetrahedra", assembly.fill.tets.size());
   const double mass = moving_tonnes(assembly);
   return text + fmt::format("; {:.{}f} t that can move", mass, mass < 1.0 ? 3 : mass < 1000.0 ? 1 : 0);
-}
-
-/// A bar of a round length, 30 to 75 mm long.
-void draw_scale_bar(DrawingSheet& sheet, double x, double y, double scale) {
-  const double most = 0.05 * scale;  // m that take 50 mm
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  double length = power;
-  for (const double step : {2.0, 5.0})
-    if (step * power <= most) length = step * power;
-  const double mm = 1000.0 * length / scale, half = 0.5 * mm;
-  sheet.rectangle({x, y, half, 1.4}, "#1f1f24", "#1f1f24");
-  sheet.rectangle({x + half, y, half, 1.4}, "#ffffff", "#1f1f24");
-  const auto label = [&](double at, double value) {
-    sheet.text(x + at, y + 4.4, fmt::format("{:g}", value), kSmallText, DrawingSheet::Align::middle);
-  };
-  label(0.0, 0.0), label(half, 0.5 * length), label(mm, length);
-  sheet.text(x + mm + 3.0, y + 1.7, "m", kSmallText);
 }
 
 using Row = std::vector<std::string>;
@@ -225,6 +202,22 @@ std::string scale_text(double scale) {
   return fmt::format("1:{:g}", scale);
 }
 
+void draw_scale_bar(DrawingSheet& sheet, double x, double y, double scale) {
+  const double most = 0.05 * scale;  // m that take 50 mm
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  double length = power;
+  for (const double step : {2.0, 5.0})
+    if (step * power <= most) length = step * power;
+  const double mm = 1000.0 * length / scale, half = 0.5 * mm;
+  sheet.rectangle({x, y, half, 1.4}, "#1f1f24", "#1f1f24");
+  sheet.rectangle({x + half, y, half, 1.4}, "#ffffff", "#1f1f24");
+  const auto label = [&](double at, double value) {
+    sheet.text(x + at, y + 4.4, fmt::format("{:g}", value), kSmallText, DrawingSheet::Align::middle);
+  };
+  label(0.0, 0.0), label(half, 0.5 * length), label(mm, length);
+  sheet.text(x + mm + 3.0, y + 1.7, "m", kSmallText);
+}
+
 SheetBox title_block_size(const Assembly& assembly) {
   const std::size_t materials = std::min(materials_used(assembly).size(), most_materials + 1);
   const auto rows = double((legend_rows(assembly).size() + 1) / 2 + materials);
@@ -243,7 +236,8 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const double left = x + (i % 2 == 0 ? 0.0 : 0.5 * room), top = y + kLine * double(i / 2);
     paint_patch(sheet, {left, top + 0.4, 6.0, 3.0}, legend[i].component, legend[i].fixed);
-    sheet.text(left + 7.5, top + 2.9, fitting(legend_text(assembly, legend[i]), 0.5 * room - 8.0, kSmallText));
+    sheet.text(left + 7.5, top + 2.9,
+               DrawingSheet::fitting(legend_text(assembly, legend[i]), 0.5 * room - 8.0, kSmallText));
   }
   y += kLine * double((legend.size() + 1) / 2) + 3.2;
   sheet.text(x, y, "Materials", kSmallText, DrawingSheet::Align::start, true);
@@ -253,20 +247,22 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
   for (const std::int32_t m : used) {
     const Material& material = assembly.materials[std::size_t(m)];
     y += kLine;
-    sheet.text(
-        x, y,
-        fitting(fmt::format("{}: {:.4g} kg/m³, E {}, ft {:.3g}, c {:.3g} MPa, friction {:.3g}°", material.name,
-                            material.density, modulus_text(material.youngs_modulus), material.tensile_strength / 1e6,
-                            material.cohesion / 1e6, material.friction_angle * 180.0 / pi),
-                room, kSmallText));
+    sheet.text(x, y,
+               DrawingSheet::fitting(
+                   fmt::format("{}: {:.4g} kg/m³, E {}, ft {:.3g}, c {:.3g} MPa, friction {:.3g}°", material.name,
+                               material.density, modulus_text(material.youngs_modulus), material.tensile_strength / 1e6,
+                               material.cohesion / 1e6, material.friction_angle * 180.0 / pi),
+                   room, kSmallText));
   }
   if (others > 0) sheet.text(x, y + kLine, fmt::format("and {} more", others));
   const double head = inner.y + inner.height - kTitleHeight;
   sheet.line(inner.x, head, inner.x + inner.width, head, 0.35);
-  sheet.text(x, head + 5.2, fitting(notes.name, room - 22.0, kHeadText), kHeadText, DrawingSheet::Align::start, true);
+  sheet.text(x, head + 5.2, DrawingSheet::fitting(notes.name, room - 22.0, kHeadText), kHeadText,
+             DrawingSheet::Align::start, true);
   sheet.text(right, head + 5.2, placement.paper.name, kPlainText, DrawingSheet::Align::end);
-  sheet.text(x, head + 9.8, fitting("General arrangement; " + notes.source, room, kPlainText), kPlainText);
-  sheet.text(x, head + 14.0, fitting(counts_text(assembly), room, kSmallText));
+  sheet.text(x, head + 9.8, DrawingSheet::fitting("General arrangement; " + notes.source, room, kPlainText),
+             kPlainText);
+  sheet.text(x, head + 14.0, DrawingSheet::fitting(counts_text(assembly), room, kSmallText));
   std::string scale = "Scale " + scale_text(placement.scale);
   if (placement.across_scale != placement.scale) scale += ", cross sections " + scale_text(placement.across_scale);
   sheet.text(x, head + 19.4, scale, kPlainText, DrawingSheet::Align::start, true);
@@ -274,7 +270,7 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
   sheet.text(x, head + 30.8, "Dimensions in m, measured from the blocks.", kSmallText);
   std::string remark;
   for (const std::string& more : remarks) remark += (remark.empty() ? "" : " ") + more;
-  sheet.text(x, head + 34.4, fitting(remark, room, kSmallText));
+  sheet.text(x, head + 34.4, DrawingSheet::fitting(remark, room, kSmallText));
 }
 
 SheetBox schedule_size(const Measures& measures) {

@@ -15,6 +15,9 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
 SheetBox schedule_size(const Measures& measures);
 void draw_schedule(DrawingSheet& sheet, const SheetBox& box, const Measures& measures);
 
+/// A bar of a round length, 20 to 50 mm long.
+void draw_scale_bar(DrawingSheet& sheet, double x, double y, double scale);
+
 /// "1:125", "1:12.5".
 std::string scale_text(double scale);
 

@@ -103,6 +103,14 @@ Drawing::Path outline_on_sheet(const FlatFace& face, const SheetPlace& place) {
 
 }  // namespace
 
+SheetPlace place_in(const SheetBox& box, const ViewSize& size, const Box& content, double scale) {
+  SheetPlace place;
+  place.mm = 1000.0 / scale;
+  place.x0 = box.x + size.left_at(scale) - place.mm * content.low.x();
+  place.y0 = box.y + size.above + place.mm * content.high.y();
+  return place;
+}
+
 void paint_view(DrawingSheet& sheet, const FlatView& view, const SheetPlace& place) {
   if (view.faces.empty()) return;
   const InFront front(view);

@@ -1,6 +1,7 @@
 // A view of an assembly on a sheet: areas in the colours of the components, hatches, lines of three widths.
 #pragma once
 #include "viz/arrangement/flat_view.h"
+#include "viz/arrangement/paper.h"
 #include "viz/arrangement/sheet.h"
 
 namespace voussoir {
@@ -13,6 +14,9 @@ struct SheetPlace {
   double y(double v) const { return y0 - mm * v; }
   Vec3 at(const Vec3& p) const { return {x(p.x()), y(p.y()), 0.0}; }
 };
+
+/// Where the content (u, v) of a view begins, from the upper left of its box.
+SheetPlace place_in(const SheetBox& box, const ViewSize& size, const Box& content, double scale);
 
 /// What is not cut stands behind a section in paler colours.
 void paint_view(DrawingSheet& sheet, const FlatView& view, const SheetPlace& place);

@@ -157,7 +157,7 @@ SheetPlan place_on_paper(const Content& content) {
     for (std::size_t i = 0; i < all.size() && (last || all[i] <= kSmallest); ++i) {
       std::optional<SheetPlan> best = any_placed(content, paper, all[i], all[i]);
       if (!best) continue;
-      for (std::size_t j = i; j-- > 0 && all[j] >= 0.5 * all[i];)
+      for (std::size_t j = i; !content.one_scale && j-- > 0 && all[j] >= 0.5 * all[i];)
         if (auto larger = any_placed(content, paper, all[i], all[j])) best = larger;
       return *best;
     }

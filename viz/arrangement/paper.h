@@ -30,6 +30,7 @@ struct ViewSize {
 struct Content {
   std::vector<ViewSize> stack, across;
   std::vector<SheetBox> notes;  // sizes only
+  bool one_scale = false;       // of the cross sections too
 };
 
 /// Upper left corners of all, mm from that of the sheet.
@@ -40,7 +41,8 @@ struct SheetPlan {
 };
 
 /// The largest scale in use on the smallest sheet on which it is not below 1 : 300; the largest sheet where there is
-/// none. Cross sections are drawn up to twice as large.
+/// none. Cross sections are drawn up to twice as large unless all has
+/// one scale.
 SheetPlan place_on_paper(const Content& content);
 
 }  // namespace voussoir

@@ -34,11 +34,18 @@ double DrawingSheet::width_of(const std::string& words, double size) {
   return size * width;
 }
 
+std::string DrawingSheet::fitting(std::string words, double room, double size) {
+  std::size_t most = characters(words);
+  while (most > 4 && width_of(shortened(words, most), size) > room) --most;
+  return shortened(words, most);
+}
+
 void DrawingSheet::line(double x1, double y1, double x2, double y2, double width, const char* dashes) {
   drawing_.line(px(x1), px(y1), px(x2), px(y2), ink, px(width), dashes);
 }
 
-void DrawingSheet::lines(const std::vector<std::pair<Vec3, Vec3>>& lines, double width, const std::string& colour) {
+void DrawingSheet::lines(const std::vector<std::pair<Vec3, Vec3>>& lines, double width, const std::string& colour,
+                         const char* dashes) {
   if (lines.empty()) return;
   Drawing::Path path;
   for (const auto& [from, to] : lines) {
@@ -46,7 +53,7 @@ void DrawingSheet::lines(const std::vector<std::pair<Vec3, Vec3>>& lines, double
     path.emplace_back(px(to.x()), px(to.y()));
     path.emplace_back(NAN, NAN);
   }
-  drawing_.curve(path, colour, px(width));
+  drawing_.curve(path, colour, px(width), dashes);
 }
 
 void DrawingSheet::areas(const std::vector<Drawing::Path>& outlines, const std::string& colour) {
@@ -93,6 +100,12 @@ bool DrawingSheet::try_text(double x, double y, const std::string& words, Align 
   rectangle({box.x - 0.2, box.y - 0.1, box.width + 0.4, box.height + 0.2}, "#ffffff", "none");
   put(x, y, words, kSmallText, align, false, upright);
   return true;
+}
+
+void DrawingSheet::title(const SheetBox& box, double middle, const std::string& words) {
+  const double y = box.y + 5.0, half = 0.5 * width_of(words, kHeadText);
+  text(middle, y, words, kHeadText, Align::middle, true);
+  line(middle - half, y + 1.3, middle + half, y + 1.3, 0.25);
 }
 
 void DrawingSheet::tick(double x, double y) {

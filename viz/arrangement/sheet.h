@@ -29,7 +29,8 @@ class DrawingSheet {
   explicit DrawingSheet(Drawing& drawing) : drawing_(drawing) {}
 
   void line(double x1, double y1, double x2, double y2, double width = 0.13, const char* dashes = "");
-  void lines(const std::vector<std::pair<Vec3, Vec3>>& lines, double width, const std::string& colour);
+  void lines(const std::vector<std::pair<Vec3, Vec3>>& lines, double width, const std::string& colour,
+             const char* dashes = "");
   void areas(const std::vector<Drawing::Path>& outlines, const std::string& colour);
   void rectangle(const SheetBox& box, const std::string& fill, const std::string& stroke, double width = 0.13);
 
@@ -41,7 +42,11 @@ class DrawingSheet {
   /// width_of().
   bool try_text(double x, double y, const std::string& words, Align align = Align::middle, bool upright = false);
   static double width_of(const std::string& words, double size = kSmallText);
+  /// The words, their end left out where they would take more room, mm.
+  static std::string fitting(std::string words, double room, double size = kSmallText);
 
+  /// Title of the view in a box, underlined, its middle at x.
+  void title(const SheetBox& box, double middle, const std::string& words);
   /// A chain of dimensions along x at height y, one text between each two stops (none where it is empty), and likewise
   /// along y. Texts that do not fit between their stops are put beside the line.
   void chain_along_x(double y, const std::vector<ChainStop>& stops, const std::vector<std::string>& texts);

@@ -1,0 +1,90 @@
+#include "tools/run/crack_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "solver/base/atomic_file.h"
+#include "solver/base/csv.h"
+#include "tools/run/bridge_damage.h"
+#include "viz/page/html.h"
+
+namespace voussoir {
+
+namespace {
+
+constexpr int kRows = 20;
+
+std::string text_if_any(const std::string& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored) ? read_text(file) : std::string();
+}
+
+/// As wide as the page.
+std::string map_figure(const std::string& directory) {
+  std::string svg = text_if_any(directory + "/images/crack_map.svg");
+  const std::string head = "<svg ";
+  if (!svg.starts_with(head)) return "";
+  svg.insert(head.size(), "style=\"width:100%;height:auto\" ");
+  return figure(svg) + note(
+                           "Largest since the start, on the stones as built. images/crack_map.pdf prints to scale and "
+                           "has the present "
+                           "state too where it differs.");
+}
+
+/// The first rows of cracks.csv.
+std::string crack_rows(const std::string& directory) {
+  const TextFile file{directory + "/cracks.csv", "cracks.csv", text_if_any(directory + "/cracks.csv")};
+  if (file.text.empty()) return "";
+  constexpr std::size_t columns = 9;  // without area and box
+  CsvReader reader(file);
+  const auto cell = [](std::string_view word, std::size_t k) { return Cell{words_cell(word).html, k != 1 && k != 2}; };
+  std::vector<Cell> cells;
+  for (const char* head :
+       {"", "where", "direction", "length (m)", "opened (mm)", "slid (mm)", "open now (mm)", "slid now (mm)", "joints"})
+    cells.push_back(cell(head, cells.size()));
+  std::string text = "<table>\n" + table_row(cells, "th");
+  int rows = 0;
+  while (reader.next_row()) {
+    cells.clear();
+    std::string_view word;
+    for (std::size_t k = 0; reader.next_cell(word); ++k)
+      if (k < columns) cells.push_back(cell(word, k));
+    if (++rows <= kRows) text += table_row(cells, "td");
+  }
+  text += "</table>\n";
+  return text + note(rows > kRows ? fmt::format("The widest {} of {}; all are in cracks.csv.", kRows, rows)
+                                  : std::string("The same in cracks.csv."));
+}
+
+std::string findings_table(const nlohmann::json& damage) {
+  const nlohmann::json findings = damage.value("findings", nlohmann::json::array());
+  if (!damage.contains("class")) return "";
+  std::string text = paragraph("As a bridge: " + damage.value("class", std::string()) +
+                               (findings.empty() ? " (nothing from the class \"slight\" on)." : "."));
+  if (!findings.empty()) {
+    text += "<table>\n" + table_row({words_cell("class"), words_cell("finding")}, "th");
+    int rows = 0;
+    for (const nlohmann::json& f : findings)
+      if (++rows <= kRows)
+        text +=
+            table_row({words_cell(f.value("class", std::string())), words_cell(f.value("words", std::string()))}, "td");
+    text += "</table>\n";
+    if (rows > kRows) text += note(fmt::format("{} more in summary.json.", rows - kRows));
+  }
+  return text + note(
+                    "Classes of voussoir's own, by the width of cracks and by what they do to the bearing of a bridge "
+                    "(docs/theory/crack-map.md). Burland's words above are for houses.");
+}
+
+}  // namespace
+
+std::string crack_section(const std::string& directory, const nlohmann::json& summary) {
+  const std::string text = findings_table(summary.value("bridge_damage", nlohmann::json::object())) +
+                           map_figure(directory) + crack_rows(directory);
+  return text.empty() ? text : heading("Cracks") + text;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,52 @@
+// The crack map of an assembly, as inspectors draw it: both elevations, the deck and the unrolled intrados of each
+// vault, to one scale, with the cracked joints by width; legend and a table of the widest cracks.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "viz/arrangement/paint_view.h"
+#include "viz/arrangement/paper.h"
+#include "viz/crack_map/crack_view.h"
+
+namespace voussoir {
+
+struct CrackMapNotes {
+  std::string name;    // of what is drawn: "demo"
+  std::string source;  // where it is from: "state at 12.5 s"
+};
+
+class CrackMap {
+ public:
+  /// Cracks are numbered by `by`, and those of at least `threshold` (m) then are drawn.
+  CrackMap(const Assembly& assembly, const Snapshot& snapshot, const CrackMapNotes& notes,
+           double threshold = kCrackThreshold, CrackState by = CrackState::ever);
+  /// The widest first; none where nothing exceeds the threshold.
+  const std::vector<Crack>& cracks() const { return cracks_; }
+  /// Whether a drawing of what is open now differs from that of what ever was.
+  bool has_changed() const;
+  double width() const;   // px of the drawing; printed at 96 to the inch it has its scale
+  double height() const;  // px
+  int pixels() const;     // width of a picture that can be read
+  void draw(Drawing& drawing, CrackState state) const;
+  std::string svg(CrackState state) const;
+
+ private:
+  void draw_view(DrawingSheet& sheet, const SheetBox& box, const CrackView& view, CrackState state) const;
+  void draw_traces(DrawingSheet& sheet, const SheetPlace& place, const CrackView& view, CrackState state) const;
+  void draw_numbers(DrawingSheet& sheet, const SheetPlace& place, const CrackView& view, CrackState state) const;
+  bool shown(const CrackTrace& trace, CrackState state) const;
+  JointGap gap(const CrackTrace& trace, CrackState state) const { return gaps_[trace.joint].in(state); }
+
+  const Assembly& assembly_;
+  CrackMapNotes notes_;
+  double threshold_;
+  CrackState by_;
+  std::vector<JointGaps> gaps_;  // of the assembly's joints
+  std::vector<Crack> cracks_;
+  std::vector<CrackView> stack_, across_;
+  std::vector<std::string> remarks_;
+  bool any_fell_ = false;
+  SheetPlan placement_;
+};
+
+}  // namespace voussoir

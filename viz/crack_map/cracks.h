@@ -1,0 +1,72 @@
+// Cracks: joints that have opened or slid and hang together (docs/theory/crack-map.md).
+#pragma once
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry/assembly.h"
+#include "solver/step/snapshot.h"
+#include "viz/crack_map/intrados.h"
+
+namespace voussoir {
+
+constexpr double kCrackThreshold = 3e-4;  // m: what the eye finds from nearby
+constexpr double kStoneFell = 1.0;        // m: how far a stone goes on falling says nothing
+
+enum class CrackState { ever, now };  // the largest since the start; at present
+
+/// Opening and slip of a joint, m.
+struct JointGap {
+  double opening = 0.0, slip = 0.0;
+  double width() const { return std::max(opening, slip); }
+  bool slides() const { return slip > opening; }
+  bool fallen() const { return width() >= kStoneFell; }
+};
+struct JointGaps {
+  JointGap ever, now;
+  const JointGap& in(CrackState state) const { return state == CrackState::ever ? ever : now; }
+};
+/// Of each of the assembly's joints, as the snapshot says; of those that a contact has taken the place of by how far
+/// the two stones have moved apart since they were built.
+std::vector<JointGaps> joint_gaps(const Assembly& assembly, const Snapshot& snapshot);
+/// By how much the joint's block b has gone farther than a at a point that both had as built, m.
+Vec3 moved_apart(const Assembly& assembly, const Snapshot& snapshot, const Joint& joint, const Vec3& at);
+
+/// What two stones belong to: "arch 0", "spandrel wall y−".
+struct CrackedPart {
+  Component component = Component::block;
+  std::int32_t part = 0;
+  auto operator<=>(const CrackedPart&) const = default;
+};
+std::string part_words(const CrackedPart& part);
+
+/// Joints over the threshold between the same two parts, each of which touches another.
+struct Crack {
+  int number = 0;                    // from 1, the widest first
+  std::vector<std::size_t> joints;   // of Assembly::joints, ascending
+  std::array<CrackedPart, 2> parts;  // ascending
+  std::string where, direction;      // words
+  Box box;                           // m
+  double length = 0.0;               // m, from end to end along the surface
+  double area = 0.0;                 // m2, of its joints
+  JointGap ever, now;                // greatest of any of its joints
+  double width() const { return ever.width(); }
+};
+
+/// The cracks whose joints have ever opened or slid by `threshold` (m) or more; widest first. Ties, and joints with
+/// blocks of backfill, which is soil, are none. The places are those as built.
+std::vector<Crack> find_cracks(const Assembly& assembly, const std::vector<JointGaps>& gaps,
+                               const std::vector<Intrados>& vaults, double threshold, CrackState state);
+
+/// The same with the vaults measured. `snapshot` must be of this assembly.
+std::vector<Crack> find_cracks(const Assembly& assembly, const Snapshot& snapshot, double threshold = kCrackThreshold,
+                               CrackState state = CrackState::ever);
+
+/// cracks.csv (docs/formats.md).
+std::string crack_table(const std::vector<Crack>& cracks);
+
+/// A length in mm, "0.42", "18": as many digits as an inspector would read.
+std::string width_text(double metres);
+
+}  // namespace voussoir
