@@ -90,10 +90,13 @@ void draw_words(Overlay& overlay, const Sheet& sheet, const Words& words) {
   if (!words.hidden.empty()) fitted(1.1 * s, words.hidden, s);
   const double top = sheet.height - 1.9 * s;
   overlay.text(1.2 * s, top, words.title, 1.25 * s, Align::left, kInk, true);
-  if (words.lines.empty()) return;
-  overlay.text(right, top, words.lines, 0.95 * s, Align::right);
-  const double x = right - Overlay::text_width(words.lines, 0.95 * s) - 1.0 * s;
-  overlay.line(x - 1.8 * s, top + 0.6 * s, x, top + 0.6 * s, 0.16 * s, words.line_colour);
+  double end = right;
+  for (const auto& [line, colour] : words.lines) {
+    overlay.text(end, top, line, 0.95 * s, Align::right);
+    const double x = end - Overlay::text_width(line, 0.95 * s) - 1.0 * s;
+    overlay.line(x - 1.8 * s, top + 0.6 * s, x, top + 0.6 * s, 0.16 * s, colour);
+    end = x - 3.3 * s;
+  }
 }
 
 }  // namespace

@@ -21,12 +21,11 @@ double top_strip(const Sheet& sheet);
 double bottom_strip(const Sheet& sheet);
 
 struct Words {
-  std::string title;   // may be empty
-  std::string time;    // "t = 12.50 s"
-  std::string deform;  // "deformations × 2"
-  std::string hidden;  // "hidden: backfill"; may be empty
-  std::string lines;   // what the lines mean that are drawn over the picture; empty: none drawn
-  Colour line_colour = kCrack;
+  std::string title;                                  // may be empty
+  std::string time;                                   // "t = 12.50 s"
+  std::string deform;                                 // "deformations × 2"
+  std::string hidden;                                 // "hidden: backfill"; may be empty
+  std::vector<std::pair<std::string, Colour>> lines;  // what the lines mean that are drawn over the picture
 };
 
 void draw_annotation(Overlay& overlay, const Sheet& sheet, const View& view, const Colouring& colouring,

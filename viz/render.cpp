@@ -22,6 +22,7 @@
 #include "viz/colouring.h"
 #include "viz/display.h"
 #include "viz/joint_colours.h"
+#include "viz/marks.h"
 #include "viz/offscreen.h"
 #include "viz/resultants_overlay.h"
 #include "viz/scene.h"
@@ -101,10 +102,13 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
   if (gone > 0)
     words.hidden +=
         fmt::format("{}{} {} far off", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
-  if (options.outline) words.lines = "outline at rest", words.line_colour = kInk;
+  if (options.outline) words.lines.emplace_back("outline at rest", kInk);
   if (cracks)
-    words.lines = options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
-                                         : std::string("bond lost, opened or slipped");
+    words.lines.emplace_back(options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
+                                                    : std::string("bond lost, opened or slipped"),
+                             kCrack);
+  if (grids.joints)
+    for (const auto& line : words_of_ties(grids.joints)) words.lines.push_back(line);
   return words;
 }
 
@@ -259,6 +263,8 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
 
   Overlay overlay(renderer);
   draw_annotation(overlay, sheet, view, colouring, words_of(grids, options, cut, cracks, content.gone.size()));
+  if (grids.joints) draw_ties(overlay, renderer, sheet, grids.joints, options.amplification);
+  draw_marks(overlay, renderer, sheet, options.marks);
   if (!options.arrows.empty()) draw_arrows(overlay, renderer, sheet, view, options.arrows);
   if (!options.resultants.empty()) draw_resultants(overlay, renderer, sheet, view, options.resultants);
   const auto window = offscreen_window(sheet.width, sheet.height);

@@ -20,6 +20,12 @@ struct Arrow {
   std::string name;
 };
 
+/// A number at a place of the picture, m as drawn (displacements included).
+struct Mark {
+  Vec3 at = Vec3::Zero();
+  std::string name;
+};
+
 struct RenderOptions {
   double amplification = 2.0;      // of the displacements relative to the base; 1: true, 0: undeformed
   std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone;
@@ -37,6 +43,7 @@ struct RenderOptions {
   bool outline = false;                          // or of the undeformed whole only (needs the joints)
   std::string title;
   std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
+  std::vector<Mark> marks;           // drawn over everything, too
   std::vector<Arrow> arrows;         // drawn over everything
   std::vector<BedJoint> resultants;  // arrows and lines of thrust over everything; true deformations only
 };

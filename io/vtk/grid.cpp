@@ -125,6 +125,7 @@ void add_patch_fields(vtkPolyData* data, const Assembly& assembly, const Snapsho
   number("bonded", [](const auto& p) { return p.bonded; });
   number("area", [](const auto& p) { return p.area; });
   whole(make_array<vtkUnsignedCharArray>("had_bond", n), [](const auto& p) { return p.had_bond ? 1 : 0; });
+  number("tie_yielded", [](const auto& p) { return p.yielded; });
   whole(make_array<vtkUnsignedCharArray>("tie", n), [](const auto& p) { return p.tie ? 1 : 0; });
   whole(make_array<vtkUnsignedCharArray>("replaced", n), [](const auto& p) { return p.replaced ? 1 : 0; });
   whole(make_array<vtkTypeInt64Array>("block_a", n), [](const auto& p) { return p.a; });

@@ -1,7 +1,9 @@
 // Joints coloured by what they carry, and resultants over pictures.
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
+#include <vtkImageData.h>
 #include <vtkPNGReader.h>
+#include <vtkPointData.h>
 
 #include "solver/base/error.h"
 #include "tests/folder.h"

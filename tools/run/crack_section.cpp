@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 
@@ -22,16 +23,24 @@ std::string text_if_any(const std::string& file) {
   return std::filesystem::exists(file, ignored) ? read_text(file) : std::string();
 }
 
-/// As wide as the page.
+/// As wide as the page; on paper a sheet of its own.
 std::string map_figure(const std::string& directory) {
-  std::string svg = text_if_any(directory + "/images/crack_map.svg");
-  const std::string head = "<svg ";
-  if (!svg.starts_with(head)) return "";
-  svg.insert(head.size(), "style=\"width:100%;height:auto\" ");
-  return figure(svg) + note(
-                           "Largest since the start, on the stones as built. images/crack_map.pdf prints to scale and "
-                           "has the present "
-                           "state too where it differs.");
+  const std::string svg = text_if_any(directory + "/images/crack_map.svg");
+  if (!svg.starts_with("<svg ")) return "";
+  return sheet_figure(svg) + note(
+                                 "Largest since the start, on the stones as built. images/crack_map.pdf prints to "
+                                 "scale and has the present "
+                                 "state too where it differs.");
+}
+
+/// A number of the table with as many digits as a reader wants; a word as it is.
+std::string shown_number(std::string_view word, std::size_t column) {
+  double value = 0.0;
+  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (column < 3 || failed != std::errc() || end != word.data() + word.size()) return std::string(word);
+  return column == 8   ? fmt::format("{:.0f}", value)
+         : column == 3 ? fmt::format("{:.2f}", value)
+                       : fmt::format("{:.{}f}", value, value < 9.95 ? 2 : 1);
 }
 
 /// The first rows of cracks.csv.
@@ -51,7 +60,7 @@ std::string crack_rows(const std::string& directory) {
     cells.clear();
     std::string_view word;
     for (std::size_t k = 0; reader.next_cell(word); ++k)
-      if (k < columns) cells.push_back(cell(word, k));
+      if (k < columns) cells.push_back(cell(shown_number(word, k), k));
     if (++rows <= kRows) text += table_row(cells, "td");
   }
   text += "</table>\n";

@@ -24,10 +24,7 @@ std::string file_text(const std::string& path) {
 
 /// The general arrangement as the run has drawn it.
 std::string drawing(const RunFiles& run) {
-  const std::string svg = file_text(run.directory + "/images/arrangement.svg");
-  const std::size_t begin = svg.find("<svg");
-  if (begin == std::string::npos) return "";
-  return fmt::format("<figure class=\"sheet\">{}</figure>\n", svg.substr(begin));
+  return sheet_figure(file_text(run.directory + "/images/arrangement.svg"));
 }
 
 std::string materials_table(const json& inventory) {

@@ -135,6 +135,16 @@ std::string fallen_sentence(const RunFiles& run) {
                               fallen.value("time", NAN), 100.0 * fallen.value("share_of_mass", NAN)));
 }
 
+/// What the damage does to the bearing of a bridge: the class and the first finding of it.
+std::string bridge_sentence(const RunFiles& run) {
+  const json damage = run.of("bridge_damage");
+  const json findings = damage.value("findings", json::array());
+  if (findings.empty()) return "";
+  return sentence(fmt::format("As a bridge: {}.", damage.value("class", std::string())),
+                  fmt::format("{}{}.", findings.front().value("words", std::string()),
+                              findings.size() > 1 ? fmt::format(", and {} more findings", findings.size() - 1) : ""));
+}
+
 std::string ties_sentence(const RunFiles& run) {
   const json ties = run.of("ties");
   if (!ties.contains("count")) return "";
@@ -151,7 +161,7 @@ std::string verdict_section(const RunFiles& run) {
         sentence("Not at its end.", fmt::format("The run has come to t = {:.3f} s; what stands here is of that moment.",
                                                 run.summary.value("end_time", 0.0)));
   text += motion_sentence(run) + collapse_sentence(run) + steps_sentence(run) + gravity_sentence(run) +
-          damage_sentences(run) + family_sentence(run) + ties_sentence(run);
+          damage_sentences(run) + bridge_sentence(run) + family_sentence(run) + ties_sentence(run);
   return text.empty() ? "" : fmt::format("<div class=\"verdict found\">\n{}</div>\n", text);
 }
 

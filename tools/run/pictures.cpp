@@ -7,6 +7,7 @@
 
 #include "solver/base/atomic_file.h"
 #include "tools/run/history_rows.h"
+#include "tools/run/numbered_hinges.h"
 #include "tools/run/plot_chart.h"
 #include "tools/run/run_session.h"
 #include "tools/run/steps_report.h"
@@ -44,6 +45,16 @@ void draw_fill(const std::string& images, const Assembly& assembly, const Snapsh
   }
 }
 
+/// Where a picture shows a point of a block, given as built.
+Vec3 drawn_at(const Assembly& assembly, const Snapshot& snapshot, std::int64_t block, const Vec3& x,
+              double amplification) {
+  const auto i = std::size_t(block);
+  const Vec3& centroid = assembly.blocks[i].centroid;
+  const Vec3 now =
+      centroid + snapshot.displacement[i] + snapshot.rotation[i] * (x - centroid) - snapshot.base_displacement;
+  return x + amplification * (now - x);
+}
+
 /// The assembly on its way down, displacements enlarged to a third of a block; with a fill in the section along its
 /// middle.
 void draw_mechanism(const std::string& images, const Simulation& run, const Snapshot& snapshot) {
@@ -58,6 +69,9 @@ void draw_mechanism(const std::string& images, const Simulation& run, const Snap
   o.undeformed = true;
   o.hide = {};
   if (!model.fill.empty()) o.cut = std::string("y");  // soil between walls of plane strain, or behind spandrels
+  for (const NumberedHinge& hinge : numbered_hinges(run.assembly(), run.collapse().mechanism, model.typical_size))
+    o.marks.push_back(
+        {drawn_at(run.assembly(), snapshot, hinge.a, hinge.place, o.amplification), std::to_string(hinge.number)});
   o.title = fmt::format("Beyond multiplier {:.4g}", run.collapse().multiplier);
   render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
 }

@@ -117,6 +117,12 @@ std::string figure(const std::string& svg) {
   return svg.empty() ? std::string() : fmt::format("<figure class=\"wide\">{}</figure>\n", svg);
 }
 
+std::string sheet_figure(std::string_view svg) {
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string_view::npos) return "";
+  return fmt::format("<figure class=\"sheet\">{}</figure>\n", svg.substr(begin));
+}
+
 std::string list(const std::vector<std::string>& items) {
   std::string text = "<ul>\n";
   for (const std::string& item : items) text += fmt::format("<li>{}</li>\n", escaped(item));

@@ -12,6 +12,8 @@ std::string note(std::string_view words);
 std::string heading(std::string_view words);
 /// Empty for an empty drawing.
 std::string figure(const std::string& svg);
+/// A drawing as wide as the page, on paper a landscape sheet of its own; empty for what is no SVG.
+std::string sheet_figure(std::string_view svg);
 std::string list(const std::vector<std::string>& items);
 
 struct Cell {
