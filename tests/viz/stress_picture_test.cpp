@@ -121,6 +121,41 @@ RenderOptions sized(const std::string& colour, const std::string& view) {
   return options;
 }
 
+TEST(Ties, AreDrawnOverEverythingAndSayWhatHasYielded) {
+  const Assembly assembly = two_cubes();
+  Snapshot snapshot = rest_snapshot(assembly);
+  PatchSnapshot& tie = snapshot.patches[0];
+  tie.tie = true;
+  tie.polygon = {{0.2, 0.4, 0.5}, {0.2, 0.6, 0.5}, {0.8, 0.6, 1.5}, {0.8, 0.4, 1.5}};  // inside of the cubes
+  const Colour holds = {0.0, 0.447, 0.698}, yielded = {0.835, 0.369, 0.0};
+  const Folder folder;
+  const auto share = [&](const Colour& colour) {
+    render_picture(assembly, snapshot, sized("stone", "front"), folder / "ties.png");
+    return share_of(folder / "ties.png", colour);
+  };
+  EXPECT_GT(share(holds), 1e-3);
+  EXPECT_LT(share(yielded), 1e-4);
+  tie.yielded = 2e-3;
+  EXPECT_GT(share(yielded), 1e-3);
+  EXPECT_LT(share(holds), 1e-4);
+  tie.tie = false;
+  EXPECT_LT(share(yielded), 1e-4);
+}
+
+TEST(Marks, AreWhiteDiscsAtTheirPlaces) {
+  const Assembly assembly = two_cubes();
+  const Snapshot snapshot = rest_snapshot(assembly);
+  RenderOptions options = sized("stone", "front");
+  const Folder folder;
+  const auto black = [&] {
+    render_picture(assembly, snapshot, options, folder / "marks.png");
+    return share_of(folder / "marks.png", kInk);
+  };
+  const double without = black();
+  options.marks = {{Vec3(0.5, 0.0, 1.5), "1"}, {Vec3(0.5, 0.0, 0.5), "12"}};
+  EXPECT_GT(black(), without + 1e-4);
+}
+
 /// Bed joints are seen as faces from above, and as lines from the front.
 TEST(StressPictures, JointsAreSeenFromAllSides) {
   const Folder folder;

@@ -120,6 +120,12 @@ TEST(Report, IsPrintedByTheBrowserThatIsThere) {
   EXPECT_NE(printed.out.find("run/report.pdf"), std::string::npos) << printed.out;
   EXPECT_TRUE(bytes_of(folder / "run/report.pdf").starts_with("%PDF-made"));
 
+  folder.write("page.html", "<p>of any verb</p>");
+  EXPECT_EQ(voussoir({"report", "page.html", "--pdf", "-q"}, there).status, 0);
+  EXPECT_TRUE(exists(folder / "page.pdf"));
+  expect_error(voussoir({"report", "page.html"}, there), 2, {"--pdf prints it"});
+  expect_error(voussoir({"report", "none.html", "--pdf"}, there), 2, {"no file none.html"});
+
   write_program(programs, "chromium", "exit 3\n");
   expect_error(voussoir({"report", "run", "--pdf"}, there), 1, {"chromium", "did not print", "exit status 3"});
   EXPECT_TRUE(bytes_of(folder / "run/report.pdf").starts_with("%PDF-made")) << "the earlier one is kept";

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "solver/base/error.h"
 #include "tools/campaign/campaign_page.h"
 #include "tools/run/run_page.h"
 #include "tools/voussoir/verb.h"
@@ -12,23 +13,34 @@ namespace voussoir {
 
 namespace {
 
+/// A page that is there, as a PDF beside it.
+void print_beside(const std::string& page, bool says) {
+  const std::string pdf = page.substr(0, page.rfind('.')) + ".pdf";
+  print_page(page, pdf);
+  if (says) fmt::print("{}\n", pdf);
+}
+
 int report(const std::vector<std::string>& arguments) {
-  CommandLine line("report", "report DIR [--pdf]", "voussoir report demo --pdf");
-  line.described.add_options()("pdf", "print the page as DIR/report.pdf, too (by Chromium)");
+  CommandLine line("report", "report DIR|PAGE.html [--pdf]", "voussoir report demo --pdf");
+  line.described.add_options()("pdf", "print the page as a PDF beside it, too (by Chromium)");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
-  const std::string directory = values["DIR"].as<std::string>();
+  const std::string from = values["DIR"].as<std::string>();
+  const bool says = !values.count("quiet"), prints = values.count("pdf") > 0;
   std::error_code ignored;
-  if (std::filesystem::exists(directory + "/table.csv", ignored))
-    write_campaign_page(directory);
+  if (from.ends_with(".html")) {  // of any verb
+    if (!std::filesystem::exists(from, ignored)) throw InputError("there is no file {}", from);
+    if (!prints) throw InputError("{} is a page already: --pdf prints it", from);
+    print_beside(from, says);
+    return 0;
+  }
+  if (std::filesystem::exists(from + "/table.csv", ignored))
+    write_campaign_page(from);
   else
-    write_run_page(directory);
-  const bool says = !values.count("quiet");
-  if (says) fmt::print("{}/report.html\n", directory);
-  if (!values.count("pdf")) return 0;
-  print_page(directory + "/report.html", directory + "/report.pdf");
-  if (says) fmt::print("{}/report.pdf\n", directory);
+    write_run_page(from);
+  if (says) fmt::print("{}/report.html\n", from);
+  if (prints) print_beside(from + "/report.html", says);
   return 0;
 }
 
