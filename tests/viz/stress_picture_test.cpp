@@ -43,10 +43,10 @@ void expect_bare(const ColouredJoints& joints) {
 }
 
 TEST(JointColours, NormalStressGoesFromTensionToCompression) {
-  const ColouredJoints pressed = colour_joints(joint_with(-0.8e6, 0.0), "normal", 0.0);
-  EXPECT_EQ(pressed.colouring.top, 1.0);
+  const ColouredJoints pressed = colour_joints(joint_with(-0.75e6, 0.0), "normal", 0.0);
+  EXPECT_EQ(pressed.colouring.top, 0.8);
   EXPECT_EQ(pressed.colouring.bottom, 0.0) << "no tension, no other side";
-  expect_colour(pressed, scale_colour(0.8));
+  expect_colour(pressed, scale_colour(0.75 / 0.8));
   const ColouredJoints pulled = colour_joints(joint_with(0.3e6, 0.0), "normal", 1.0);
   EXPECT_NEAR(pulled.colouring.bottom, -0.4, 1e-12) << "two parts of 0.2 MPa";
   EXPECT_NE(pulled.colouring.title.find("tension"), std::string::npos);
@@ -57,8 +57,8 @@ TEST(JointColours, NormalStressGoesFromTensionToCompression) {
 
 TEST(JointColours, ShearAndUtilisation) {
   const auto faces = joint_with(-1e6, 0.15e6, 0.0, 0.4);
-  EXPECT_EQ(colour_joints(faces, "shear", 0.0).colouring.top, 0.2);
-  expect_colour(colour_joints(faces, "shear", 0.0), scale_colour(0.75));
+  EXPECT_EQ(colour_joints(faces, "shear", 0.0).colouring.top, 0.15);
+  expect_colour(colour_joints(faces, "shear", 0.2), scale_colour(0.75));
   EXPECT_EQ(colour_joints(faces, "utilisation", 0.0).colouring.top, 1.0);
   expect_colour(colour_joints(faces, "utilisation", 0.0), scale_colour(0.4));
   expect_colour(colour_joints(faces, "utilisation", 0.5), scale_colour(0.8));
