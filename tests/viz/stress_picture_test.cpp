@@ -122,7 +122,7 @@ RenderOptions sized(const std::string& colour, const std::string& view) {
 }
 
 TEST(Ties, AreDrawnOverEverythingAndSayWhatHasYielded) {
-  const Assembly assembly = two_cubes();
+  const Assembly assembly = test::two_cubes();
   Snapshot snapshot = rest_snapshot(assembly);
   PatchSnapshot& tie = snapshot.patches[0];
   tie.tie = true;
@@ -143,7 +143,7 @@ TEST(Ties, AreDrawnOverEverythingAndSayWhatHasYielded) {
 }
 
 TEST(Marks, AreWhiteDiscsAtTheirPlaces) {
-  const Assembly assembly = two_cubes();
+  const Assembly assembly = test::two_cubes();
   const Snapshot snapshot = rest_snapshot(assembly);
   RenderOptions options = sized("stone", "front");
   const Folder folder;
