@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 
 #include "solver/base/build_info.h"
 #include "tools/voussoir/manual.h"
