@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "commit.h"  // made by tools/commit.cmake
+#include "built_with.h"  // made by CMakeLists.txt
+#include "commit.h"      // made by tools/commit.cmake
 
 namespace voussoir {
 
@@ -33,6 +34,10 @@ std::string build_kernels() {
 #else
   return "plain C++";
 #endif
+}
+
+std::string build_libraries() {
+  return VOUSSOIR_BUILT_WITH;
 }
 
 }  // namespace voussoir

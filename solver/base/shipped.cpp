@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "built_with.h"  // made by CMakeLists.txt
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -44,7 +45,7 @@ std::string shipped(const std::string& path) {
 }
 
 std::string shipped_library(const std::string& name) {
-  return found_in(folders_of_program(2, "lib/voussoir"), name);
+  return found_in(folders_of_program(2, VOUSSOIR_LIBRARY_FOLDER), name);
 }
 
 }  // namespace voussoir

@@ -10,7 +10,8 @@ namespace voussoir {
 std::string shipped(const std::string& path);
 
 /// Where a library is that the program loads ("libvoussoir_mesher.so"), as an absolute path: in the program's folder,
-/// in the one above it (test programs), or in lib/voussoir beside the program's folder. Never in the present folder:
+/// in the one above it (test programs), or in lib/voussoir beside the program's folder (where the system has
+/// them, in lib/x86_64-linux-gnu/voussoir). Never in the present folder:
 /// what is loaded is run. Throws RunError that names the folders that were searched.
 std::string shipped_library(const std::string& name);
 

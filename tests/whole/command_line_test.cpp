@@ -42,6 +42,12 @@ TEST(CommandLine, VersionIsSaid) {
   const Outcome outcome = voussoir({"--version"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_TRUE(outcome.out.starts_with("voussoir 0.")) << outcome.out;
+  // The commit, the kernels and each library with a number.
+  EXPECT_TRUE(std::regex_search(outcome.out, std::regex(", commit (unknown|[0-9a-f]{10}(-dirty)?), kernels for \\S")))
+      << outcome.out;
+  for (const char* library : {"Eigen", "CHOLMOD", "Ceres", "HDF5", "VTK", "cairo", "Gmsh", "Boost", "fmt",
+                              "nlohmann-json", "toml\\+\\+", "OpenSSL"})
+    EXPECT_TRUE(std::regex_search(outcome.out, std::regex(std::string(" ") + library + " [0-9]+\\.[0-9]"))) << library;
 }
 
 TEST(CommandLine, WorksWhateverTheThreadsAreToldToDoWhileTheyWait) {

@@ -26,8 +26,9 @@ int run(int argc, char** argv) {
     return argc > 1 ? 0 : 2;
   }
   if (name == "--version") {
-    fmt::print("voussoir {}, commit {}, kernels for {}, compiled by {}\n", voussoir::program_version(),
-               voussoir::build_commit(), voussoir::build_kernels(), voussoir::build_compiler());
+    fmt::print("voussoir {}, commit {}, kernels for {}, compiled by {}\nbuilt with {}\n", voussoir::program_version(),
+               voussoir::build_commit(), voussoir::build_kernels(), voussoir::build_compiler(),
+               voussoir::build_libraries());
     return 0;
   }
   for (const voussoir::Verb& verb : voussoir::verbs())

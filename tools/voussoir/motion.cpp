@@ -25,30 +25,29 @@ const char* const axis_word[3] = {"x", "y", "z"};
 
 namespace {
 
-struct Part {
-  const char *name, *summary;
-  int (*run)(const std::vector<std::string>&);
-};
-constexpr Part parts[] = {
-    {"info", "what records hold, and their measures", motion_info},
-    {"spectrum", "response spectra, beside a code's if wanted", motion_spectrum},
-    {"process", "joins components; taper, band-pass, baseline, resampling", motion_process},
-    {"select", "n of N records whose mean spectrum fits a code's", motion_select},
-    {"synthesize", "artificial records with the spectrum of a code", motion_synthesize},
-};
+const std::vector<Verb>& motion_parts() {
+  static const std::vector<Verb> list = {
+      {"info", "what records hold, and their measures", motion_info},
+      {"spectrum", "response spectra, beside a code's if wanted", motion_spectrum},
+      {"process", "joins components; taper, band-pass, baseline, resampling", motion_process},
+      {"select", "n of N records whose mean spectrum fits a code's", motion_select},
+      {"synthesize", "artificial records with the spectrum of a code", motion_synthesize},
+  };
+  return list;
+}
 
 int motion(const std::vector<std::string>& arguments) {
   const std::string asked = arguments.empty() ? "--help" : arguments.front();
   if (asked == "--help" || asked == "-h") {
     fmt::print("Usage: voussoir motion PART …\n\n");
-    for (const Part& part : parts) fmt::print("  {:<12}{}\n", part.name, part.summary);
+    for (const Verb& part : motion_parts()) fmt::print("  {:<12}{}\n", part.name, part.summary);
     fmt::print(
         "\nvoussoir motion PART --help says more; all take --help, --threads N, --quiet.\n\nExample: voussoir motion "
         "info records -o measures\n");
     return 0;
   }
   std::vector<std::string> names;
-  for (const Part& part : parts) {
+  for (const Verb& part : motion_parts()) {
     if (asked == part.name) return part.run({arguments.begin() + 1, arguments.end()});
     names.emplace_back(part.name);
   }
@@ -58,7 +57,7 @@ int motion(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb motion_verb() {
-  return {"motion", "ground motions: measures, spectra, processing, selection, synthesis", motion};
+  return {"motion", "ground motions: measures, spectra, processing, selection, synthesis", motion, motion_parts()};
 }
 
 void add_columns_options(CommandLine& line) {

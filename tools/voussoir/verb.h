@@ -11,6 +11,7 @@ struct Verb {
   std::string name;
   std::string summary;                                      // one line; empty: for the program itself, not listed
   std::function<int(const std::vector<std::string>&)> run;  // arguments after the verb; returns the exit status
+  std::vector<Verb> parts = {};  // those of a verb that is several: "info", "select" … of motion
 };
 
 const std::vector<Verb>& verbs();
@@ -37,6 +38,7 @@ Verb fragility_verb();
 Verb rate_verb();
 Verb compare_verb();
 Verb vehicles_verb();
+Verb manual_verb();
 
 namespace options = boost::program_options;
 
@@ -48,9 +50,13 @@ struct CommandLine {
   std::vector<std::string> required;    // those that must be there
   std::string rest;                     // name of the list of all further positional arguments; empty: none allowed
   CommandLine(std::string verb_name, std::string usage_text, std::string example_text);
-  /// False when help was asked for (and printed). Throws InputError for anything that does not fit.
+  /// False when help was asked for (and printed). Throws InputError for anything that does not fit, and the command
+  /// line itself where command_line_of() asks.
   bool parse(const std::vector<std::string>& arguments, options::variables_map& values);
 };
+
+/// What `verb --help` prints from, without running it. Not for a verb of several parts, which has none of its own.
+CommandLine command_line_of(const Verb& verb);
 
 /// The words of a list with commas; "none" is none.
 std::vector<std::string> words_in(const std::string& list);

@@ -11,12 +11,19 @@
 
 namespace voussoir {
 
+namespace {
+
+// Holds a character that no argument of a program can hold.
+const std::string describe_yourself(1, '\0');
+
+}  // namespace
+
 const std::vector<Verb>& verbs() {
   static const std::vector<Verb> list = {
       generate_verb(), import_verb(), export_verb(),  info_verb(),     run_verb(),          resume_verb(),
       modal_verb(),    render_verb(), check_verb(),   step_verb(),     effects_verb(),      diagnose_verb(),
       hide_verb(),     motion_verb(), report_verb(),  campaign_verb(), campaign_run_verb(), fragility_verb(),
-      vehicles_verb(), rate_verb(),   compare_verb(), cracks_verb()};
+      vehicles_verb(), rate_verb(),   compare_verb(), cracks_verb(),   manual_verb()};
   return list;
 }
 
@@ -28,6 +35,7 @@ CommandLine::CommandLine(std::string verb_name, std::string usage_text, std::str
 }
 
 bool CommandLine::parse(const std::vector<std::string>& arguments, options::variables_map& values) {
+  if (arguments == std::vector{describe_yourself}) throw CommandLine(*this);
   options::positional_options_description places;
   options::options_description all;
   all.add(described);
@@ -59,6 +67,15 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
       throw InputError("{}{} is missing; usage: voussoir {}", has_place ? "" : "--", name, usage);
   }
   return true;
+}
+
+CommandLine command_line_of(const Verb& verb) {
+  try {
+    verb.run({describe_yourself});
+  } catch (const CommandLine& line) {
+    return line;
+  }
+  throw RunError("the verb {} does not say which options it has", verb.name);
 }
 
 std::vector<std::string> words_in(const std::string& list) {

@@ -1,0 +1,100 @@
+# cpack: the Debian packages voussoir and libvoussoir-dev (-G DEB), and an archive of everything that runs from wherever it
+# is unpacked (-G TZST). Read after install.cmake.
+set(CPACK_PACKAGE_NAME voussoir)
+set(CPACK_PACKAGE_VENDOR "The voussoir authors")
+# The address leads nowhere: whoever publishes packages says who answers for them.
+set(VOUSSOIR_MAINTAINER "The voussoir authors <voussoir@example.org>" CACHE STRING "Who answers for the Debian packages: NAME <ADDRESS>")
+set(CPACK_PACKAGE_CONTACT "${VOUSSOIR_MAINTAINER}")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "masonry arch bridges, stone by stone")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB TZST)
+set(CPACK_PACKAGE_CHECKSUM SHA256)
+set(CPACK_THREADS 2)
+# A name that shows where a package is for processors like the one it was made on only.
+string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" system)
+set(CPACK_SYSTEM_NAME ${system})
+if(VOUSSOIR_NATIVE)
+  string(APPEND CPACK_SYSTEM_NAME "-native")
+endif()
+set(CPACK_PACKAGE_FILE_NAME voussoir-${PROJECT_VERSION}-${CPACK_SYSTEM_NAME})
+
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Models masonry arch bridges: every stone is a rigid body, every joint can
+open, slide and break. Builds a bridge from its dimensions, brings it to rest
+under its weight, loads it or shakes it, and shows where it cracks. With
+cases, vehicles, tutorials and documentation.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers for programs that run such models themselves.
+Static libraries, headers and a CMake package, find_package(voussoir).")
+if(VOUSSOIR_NATIVE)
+  foreach(component RUNTIME DEVELOPMENT)
+    string(APPEND CPACK_COMPONENT_${component}_DESCRIPTION "
+This package was compiled for the processor of the machine that made it.")
+  endforeach()
+endif()
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME voussoir)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+# Pictures are part of every run: a display without a screen, and the letters of drawings.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "xvfb, libgl1-mesa-dri, fonts-liberation | fonts-dejavu-core")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libopenblas0-pthread, man-db, bash-completion")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "chromium, paraview, libvoussoir-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libvoussoir-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, pkg-config, libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, libssl-dev, libhdf5-dev, libceres-dev, libsuitesparse-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, voussoir")
+if(VOUSSOIR_NATIVE)
+  set(deb_end _native)
+endif()
+
+# Architecture and file names as Debian's own packages have them.
+find_program(DPKG dpkg)
+if(DPKG)
+  execute_process(COMMAND ${DPKG} --print-architecture OUTPUT_VARIABLE architecture OUTPUT_STRIP_TRAILING_WHITESPACE)
+  foreach(package voussoir libvoussoir-dev)
+    string(REPLACE "libvoussoir-dev" DEVELOPMENT component ${package})
+    string(REPLACE "voussoir" RUNTIME component ${component})
+    set(CPACK_DEBIAN_${component}_FILE_NAME ${package}_${PROJECT_VERSION}-1_${architecture}${deb_end}.deb)
+  endforeach()
+endif()
+
+# What Debian wants beside the documentation of each package: the licence in its form, and changelogs, compressed.
+file(READ LICENSE licence)
+string(REGEX REPLACE "^[^\n]*\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" terms "${licence}")
+set(holder "${CMAKE_MATCH_1}")
+string(STRIP "${terms}" terms)
+string(REGEX REPLACE "\n\n" "\n.\n" terms "${terms}")
+string(REGEX REPLACE "\n" "\n " terms "${terms}")
+set(debian ${CMAKE_CURRENT_BINARY_DIR}/debian)
+file(CONFIGURE OUTPUT ${debian}/copyright CONTENT "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: voussoir
+
+Files: *
+Copyright: ${holder}
+License: BSD-3-Clause
+ ${terms}
+")
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH where it is set
+foreach(package voussoir libvoussoir-dev)
+  file(CONFIGURE OUTPUT ${debian}/${package}/changelog.Debian CONTENT "voussoir (${PROJECT_VERSION}-1) unstable; urgency=medium
+
+  * Made from the sources by cpack; what has changed in the program stands in
+    /usr/share/doc/voussoir/changelog.gz.
+
+ -- ${VOUSSOIR_MAINTAINER}  ${date}
+")
+  configure_file(CHANGELOG.md ${debian}/${package}/changelog COPYONLY)
+  execute_process(COMMAND ${GZIP} -9nf ${debian}/${package}/changelog ${debian}/${package}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+install(FILES ${debian}/copyright ${debian}/voussoir/changelog.gz ${debian}/voussoir/changelog.Debian.gz
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES ${debian}/copyright ${debian}/libvoussoir-dev/changelog.gz ${debian}/libvoussoir-dev/changelog.Debian.gz
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libvoussoir-dev COMPONENT development)
+include(CPack)
