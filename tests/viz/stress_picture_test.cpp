@@ -57,7 +57,7 @@ TEST(JointColours, NormalStressGoesFromTensionToCompression) {
 
 TEST(JointColours, ShearAndUtilisation) {
   const auto faces = joint_with(-1e6, 0.15e6, 0.0, 0.4);
-  EXPECT_EQ(colour_joints(faces, "shear", 0.0).colouring.top, 0.15);
+  EXPECT_NEAR(colour_joints(faces, "shear", 0.0).colouring.top, 0.15, 1e-12);
   expect_colour(colour_joints(faces, "shear", 0.2), scale_colour(0.75));
   EXPECT_EQ(colour_joints(faces, "utilisation", 0.0).colouring.top, 1.0);
   expect_colour(colour_joints(faces, "utilisation", 0.0), scale_colour(0.4));
