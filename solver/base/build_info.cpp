@@ -23,19 +23,6 @@ std::string build_compiler() {
 #endif
 }
 
-// As solver/base/lanes.h chooses.
-std::string build_kernels() {
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512BW__) && defined(__BMI2__)
-  return "AVX-512";
-#elif defined(__AVX2__)
-  return "AVX2";
-#elif defined(__SSE2__)
-  return "SSE2";
-#else
-  return "plain C++";
-#endif
-}
-
 std::string build_libraries() {
   return VOUSSOIR_BUILT_WITH;
 }

@@ -11,8 +11,6 @@ std::string program_version();
 std::string build_commit();
 /// "g++ 12.2.0".
 std::string build_compiler();
-/// The instructions that the kernels of the step use: "AVX-512", "AVX2", "SSE2" or "plain C++".
-std::string build_kernels();
 /// The libraries and the versions it was built with: "Eigen 3.4.0, VTK 9.1.0, …".
 std::string build_libraries();
 

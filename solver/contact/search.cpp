@@ -8,6 +8,7 @@
 #include "solver/contact/interface_search.h"
 #include "solver/contact/pairs.h"
 #include "solver/contact/patch_energy.h"
+#include "solver/model/kernels.h"
 
 namespace voussoir {
 
@@ -63,7 +64,7 @@ class Search {
     find_moved();
     clip_joints(past);
     look_at_contacts(past);
-    if (any_stale_) list_pairs(model_, state_, stale_, threads_);
+    if (any_stale_) kernels().list_pairs(model_, state_, stale_, threads_);
     for (const NewContact& contact : clipped_) add(contact);
     examine(due_pairs(model_, state_, moved_, threads_));
     state_.clipped_energy() += energy_before_ - energy_after_;

@@ -7,6 +7,7 @@
 #include "solver/contact/jump.h"
 #include "solver/contact/make_contact.h"
 #include "solver/fill/tet_stress.h"
+#include "solver/model/kernels.h"
 #include "solver/step/damage.h"
 
 namespace voussoir {
@@ -187,7 +188,7 @@ FillSnapshot fill_snapshot(const FillModel& fill, const FillMemory& memory) {
     s.displacement.emplace_back(p[0], p[1], p[2]);
     s.velocity.emplace_back(v[0], v[1], v[2]);
   }
-  const std::vector<std::array<double, 6>> stress = cauchy_stress(fill, memory);
+  const std::vector<std::array<double, 6>> stress = kernels().cauchy_stress(fill, memory);
   for (std::size_t i = 0; i < fill.lane_of_tet.size(); ++i) {
     const auto slot = std::size_t(fill.lane_of_tet[i]);
     const double* plastic = &memory.plastic[plastic_index(slot / lane_count, 0) + slot % lane_count];

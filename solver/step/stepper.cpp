@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "solver/contact/search.h"
+#include "solver/model/kernels.h"
 #include "solver/step/drive.h"
 #include "solver/step/energy.h"
 #include "solver/step/look.h"
@@ -144,10 +145,12 @@ FillPass Stepper::fill_pass() const {
 }
 
 PassReport Stepper::tile_patches(const PatchPass& pass, std::size_t tile) const {
-  PassReport report = pass.joints(tile);
+  const Kernels& kernel = kernels();
+  PassReport report = kernel.joints(pass, tile);
   const std::int32_t* batches = contact_batches.data();
-  report.merge(pass.contacts(tile, batches + first_contact_batch[tile], batches + first_contact_batch[tile + 1]));
-  if (!state->interface.empty()) report.reclip |= pass.interface(tile);
+  report.merge(
+      kernel.contacts(pass, tile, batches + first_contact_batch[tile], batches + first_contact_batch[tile + 1]));
+  if (!state->interface.empty()) report.reclip |= kernel.interface(pass, tile);
   return report;
 }
 
@@ -195,18 +198,19 @@ void add_fill_work(RoundWork& work, FillPass& fill, std::size_t body_tiles, std:
         of_bodies(tile);
     };
   };
-  work.before_first = shared(nullptr, [&](std::size_t tile) { fill.volumes(tile); });
-  work.before_second = shared(nullptr, [&](std::size_t tile) { fill.means(tile); });
+  work.before_first = shared(nullptr, [&](std::size_t tile) { kernels().volumes(fill, tile); });
+  work.before_second = shared(nullptr, [&](std::size_t tile) { kernels().means(fill, tile); });
   const auto one_step = [](std::function<void(std::size_t, int)> of_bodies) {  // a fill has rounds of one step
     return [of_bodies = std::move(of_bodies)](std::size_t tile) { of_bodies(tile, 0); };
   };
   const auto any_step = [](std::function<void(std::size_t)> of_tile) {
     return [of_tile = std::move(of_tile)](std::size_t tile, int) { of_tile(tile); };
   };
-  std::function<void(std::size_t)> first = shared(
-      one_step(work.first), [&, body_tiles](std::size_t tile) { found[body_tiles + tile].fill = fill.stresses(tile); });
+  std::function<void(std::size_t)> first = shared(one_step(work.first), [&, body_tiles](std::size_t tile) {
+    found[body_tiles + tile].fill = kernels().stresses(fill, tile);
+  });
   std::function<void(std::size_t)> second = shared(one_step(work.second), [&, body_tiles](std::size_t tile) {
-    found[body_tiles + tile].fill.merge(fill.nodes(tile));
+    found[body_tiles + tile].fill.merge(kernels().nodes(fill, tile));
   });
   if (costs) {
     const auto timed_tile = [&, body_tiles, costs](auto of_bodies, double TileCost::*sum) {
@@ -251,10 +255,10 @@ PassReport Stepper::patches_only() {
   FillPass tets = fill_pass();
   tets.energies = fill_energies.data();
   const std::size_t fill_tiles = model->fill.tiles.size();
-  for (std::size_t tile = 0; tile < fill_tiles; ++tile) tets.volumes(tile);
-  for (std::size_t tile = 0; tile < fill_tiles; ++tile) tets.means(tile);
+  for (std::size_t tile = 0; tile < fill_tiles; ++tile) kernels().volumes(tets, tile);
+  for (std::size_t tile = 0; tile < fill_tiles; ++tile) kernels().means(tets, tile);
   for (std::size_t tile = 0; tile < model->tiles.size(); ++tile) report.merge(tile_patches(pass, tile));
-  for (std::size_t tile = 0; tile < fill_tiles; ++tile) tets.stresses(tile);
+  for (std::size_t tile = 0; tile < fill_tiles; ++tile) kernels().stresses(tets, tile);
   std::copy(contact_wrenches.begin(), contact_wrenches.begin() + std::ptrdiff_t(wrench_width * state->contacts.size()),
             wrenches.begin() + std::ptrdiff_t(wrench_width * model->joints.size()));
   return report;
@@ -345,7 +349,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
     const Tile& t = model->tiles[tile];
     const BodyPass& pass = bodies[std::size_t(step)];
     state->support_work[tile] += pass.support_work(t);
-    const BodyReport report = pass.bodies(std::size_t(t.first_body), std::size_t(t.end_body));
+    const BodyReport report = kernels().bodies(pass, std::size_t(t.first_body), std::size_t(t.end_body));
     if (step == 0) found[tile].bodies = {};
     found[tile].bodies.merge(report);
   };
@@ -448,7 +452,7 @@ void serial_step(Stepper& s) {
   const BodyReport report = bodies.bodies(0, model.bodies.size());
   FillPass fill = s.fill_pass();
   s.load_fill(fill, bodies.load_share);
-  for (std::size_t tile = 0; tile < model.fill.tiles.size(); ++tile) fill.nodes(tile);
+  for (std::size_t tile = 0; tile < model.fill.tiles.size(); ++tile) kernels().nodes(fill, tile);
   finish_step(state, s.dt, bodies);
   if (bodies.looks) state.look_at() = look(report, state.step(), s.search_distance, s.dt).next;
 }

@@ -8,6 +8,7 @@
 #include "io/case/case.h"
 #include "solver/base/build_info.h"
 #include "solver/base/digest.h"
+#include "solver/model/kernels.h"
 
 namespace voussoir {
 
@@ -29,7 +30,7 @@ nlohmann::json provenance_json(const std::string& directory) {
           {"version", program_version()},
           {"commit", build_commit()},
           {"compiler", build_compiler()},
-          {"kernels", build_kernels()},
+          {"kernels", kernels().instructions},
           {"files", files}};
 }
 

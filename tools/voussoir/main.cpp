@@ -5,6 +5,7 @@
 #include "solver/base/error.h"
 #include "solver/base/program.h"
 #include "solver/base/suggestion.h"
+#include "solver/model/kernels.h"
 #include "tools/voussoir/verb.h"
 
 namespace {
@@ -20,6 +21,7 @@ void print_help() {
 }
 
 int run(int argc, char** argv) {
+  voussoir::kernels();  // a wish that cannot be met is said before any work
   const std::string name = argc > 1 ? argv[1] : "--help";
   if (name == "--help" || name == "-h" || name == "help") {
     print_help();
@@ -27,7 +29,7 @@ int run(int argc, char** argv) {
   }
   if (name == "--version") {
     fmt::print("voussoir {}, commit {}, kernels for {}, compiled by {}\nbuilt with {}\n", voussoir::program_version(),
-               voussoir::build_commit(), voussoir::build_kernels(), voussoir::build_compiler(),
+               voussoir::build_commit(), voussoir::kernels().instructions, voussoir::build_compiler(),
                voussoir::build_libraries());
     return 0;
   }
