@@ -1,4 +1,5 @@
 // voussoir hide and diagnose, as a user calls them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/base/json_file.h"
@@ -49,6 +50,18 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   for (const char* file : {"corrected.toml", "diagnosis.html", "images/sensors.png", "images/residual_before.png",
                            "images/mode_1_after.png"})
     EXPECT_TRUE(exists(folder / ("out/" + std::string(file)))) << file;
+  // Its modes before and after can be looked at, unless three.js was missing.
+  const Outcome view = voussoir({"view", "out"}, {.folder = folder.path()});
+  const bool built = view.err.find("built without three.js") == std::string::npos;
+  EXPECT_EQ(view.status == 0, built) << view.err;
+  if (built) {
+    const std::string page = bytes_of(folder / "out/view.html");
+    EXPECT_NE(page.find(fmt::format("\"mode {} before: ", json["modes"][0]["mode"].get<std::string>())),
+              std::string::npos);
+    EXPECT_NE(page.find(fmt::format("\"mode {} after: {:.3f} s", json["modes"][0]["mode"].get<std::string>(),
+                                    json["modes"][0]["after"].get<double>())),
+              std::string::npos);
+  }
   // The corrected case is a case.
   const Outcome modal =
       voussoir({"modal", "out/corrected.toml", "-n", "3", "--no-pictures"}, {.folder = folder.path()});

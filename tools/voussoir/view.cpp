@@ -44,16 +44,33 @@ ViewerScene modes_scene(const fs::path& folder) {
   return scene;
 }
 
+/// "mode 2 before: 0.412 s, transverse, 1st order (measured 0.398 s)"; the shape's time is the mode's number.
+std::string diagnosed_label(const nlohmann::json& modes, const PvdSeries::Frame& frame, const std::string& when) {
+  const auto number = std::size_t(frame.time);
+  if (number < 1 || number > modes.size())
+    throw InputError("diagnosis.json has {} modes and a shape is of mode {}: diagnose again", modes.size(), number);
+  const nlohmann::json& mode = modes[number - 1];
+  return fmt::format("mode {} {}: {:.3f} s, {} (measured {:.3f} s)", mode.value("mode", std::to_string(number)), when,
+                     mode.value(when, 0.0), mode.value("computed_" + when, std::string()), mode.value("measured", 0.0));
+}
+
 /// Of a diagnosis: each mode before and after.
 ViewerScene diagnosis_scene(const fs::path& folder) {
+  const nlohmann::json diagnosis = read_json((folder / "diagnosis.json").string());
   std::vector<ShapeSeries> series;
   for (const char* when : {"before", "after"}) {
-    ShapeSeries shapes{(folder / fmt::format("vtk/modes_{}.pvd", when)).string(), "", {}};
+    const auto file = [&](const char* what) {
+      return (folder / fmt::format("vtk/modes_{}{}.pvd", when, what)).string();
+    };
+    ShapeSeries shapes{file(""), file("_fill"), {}};
     if (!fs::exists(shapes.blocks))
-      throw InputError("{} holds no shapes of modes ({} is missing): diagnose again, without --no-pictures",
-                       folder.string(), shapes.blocks);
-    const nlohmann::json names = read_json((folder / fmt::format("vtk/modes_{}.json", when)).string());
-    for (const nlohmann::json& name : names) shapes.labels.push_back(name.get<std::string>());
+      throw InputError(
+          "{} holds no shapes of modes ({} is missing): no mode was found in both models, or an older "
+          "voussoir wrote it; then diagnose again",
+          folder.string(), shapes.blocks);
+    const PvdSeries stored(shapes.blocks);
+    for (const PvdSeries::Frame& frame : stored.frames())
+      shapes.labels.push_back(diagnosed_label(diagnosis.value("modes", nlohmann::json::array()), frame, when));
     series.push_back(std::move(shapes));
   }
   ViewerScene scene = shape_scene(series);

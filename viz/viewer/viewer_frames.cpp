@@ -141,7 +141,10 @@ class SceneBuilder {
       if (fill) scene.fill = surface_of(fill, name, nodes_), fill_points_ = fill->GetNumberOfPoints();
     }
     const vtkIdType points = fill ? fill->GetNumberOfPoints() : 0;
-    if (blocks->GetNumberOfCells() != vtkIdType(scene.stones.size()) || points != fill_points_)
+    if (scene.modes && blocks->GetNumberOfCells() > vtkIdType(scene.stones.size()))
+      scene.stones = stones_of(blocks, name);
+    const bool fewer = scene.modes && blocks->GetNumberOfCells() <= vtkIdType(scene.stones.size());
+    if ((blocks->GetNumberOfCells() != vtkIdType(scene.stones.size()) && !fewer) || points != fill_points_)
       throw InputError(
           "{}: has {} blocks and {} nodes of a fill, and the frame before it has {} and {}; remove the files of "
           "another run",
@@ -151,7 +154,7 @@ class SceneBuilder {
   void read_motion(ViewerFrame& frame, vtkCellData* cells, const char* displacement, const char* rotation,
                    const Vec3& base, const std::string& name) {
     vtkDataArray *u = field_of(cells, displacement, name), *r = field_of(cells, rotation, name);
-    for (vtkIdType i = 0; i < vtkIdType(scene.stones.size()); ++i) {
+    for (vtkIdType i = 0; i < u->GetNumberOfTuples(); ++i) {
       frame.displacement.push_back(row(u, i) - base);
       frame.rotation.push_back(row(r, i));
     }
@@ -254,8 +257,13 @@ ViewerScene shape_scene(const std::vector<ShapeSeries>& series) {
         throw InputError("{} has {} shapes, and {} are named beside it: write both again", s.blocks,
                          blocks.frames().size(), s.labels.size());
       const std::string file = blocks.file_path(blocks.frames()[i]), of_fill = fill.file_at(blocks.frames()[i].time);
-      builder.add_shape(read_vtu(file), of_fill.empty() ? nullptr : read_vtu(of_fill), s.labels[i], file);
+      const auto shape = read_vtu(file), nodes = of_fill.empty() ? nullptr : read_vtu(of_fill);
+      builder.add_shape(shape, nodes, s.labels[i], file);
     }
+  for (ViewerFrame& frame : builder.scene.frames) {
+    frame.displacement.resize(builder.scene.stones.size(), Vec3::Zero());
+    frame.rotation.resize(builder.scene.stones.size(), Vec3::Zero());
+  }
   return std::move(builder.scene);
 }
 

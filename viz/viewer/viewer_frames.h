@@ -19,7 +19,8 @@ struct ShapeSeries {
   std::vector<std::string> labels;  // of the frames in order
 };
 /// One frame a shape, those of several series one after the other by turns. Throws InputError for a file that is
-/// missing, and where the series have other stones.
+/// missing, and where the series have other stones; one may have more after those of the others, which stand still
+/// there (a support that an effect brings).
 ViewerScene shape_scene(const std::vector<ShapeSeries>& series);
 
 }  // namespace voussoir

@@ -62,7 +62,7 @@ function stoneRows(scene, frame, item) {
   const turn = Math.hypot(...[3, 4, 5].map((c) => valueIn(scene.motion, frame, item, c)));
   const rows = [];
   if (scene.modes) {
-    rows.push(["displacement x, y, z (share of the largest)", u.map(digits).join(", ")]);
+    rows.push(["x, y, z (share of the largest)", u.map(digits).join(", ")]);
     return rows;
   }
   if (scene.fields.some((f) => f.value < 0)) {

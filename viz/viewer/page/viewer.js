@@ -64,7 +64,11 @@ class Viewer {
     for (const id of ["axis", "place", "other"]) on(id, "input", () => this.cut());
     on("edges", "change", () => this.draw());
     on("helpbutton", "click", () => element("help").showModal());
-    on("open", "click", () => element("open").setAttribute("aria-expanded", element("panel").classList.toggle("shown")));
+    on("open", "click", () => {
+      const shown = element("panel").classList.toggle("shown");
+      element("open").setAttribute("aria-expanded", shown);
+      element("open").textContent = shown ? "Close" : "Controls";
+    });
     on("views", "click", (e) => e.target.dataset.view && this.orbit.see(e.target.dataset.view));
     window.addEventListener("resize", () => this.resize());
     window.addEventListener("keydown", (e) => this.key(e));
