@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "io/vtk/files.h"
 #include "io/vtk/series.h"
 #include "tests/folder.h"
 #include "tests/viz/scenes.h"
@@ -192,6 +193,38 @@ TEST(ViewerScene, OfARunHasAsManyFramesAsAskedFor) {
   other.time = 7.0;
   series.write(one, other);
   EXPECT_NE(message_of<InputError>([&] { run_scene(folder.path(), 9); }).find("blocks_000007.000.vtu: has 1 blocks"),
+            std::string::npos);
+}
+
+/// Before and after a diagnosis that adds a support: the stone of the support stands still before.
+TEST(ViewerScene, OfShapesMayHaveMoreStonesInOneSeries) {
+  const Assembly two = two_cubes();
+  Assembly three = two;
+  three.blocks.push_back(make_block(make_box({0, 0, 2}, {1, 1, 3}), Component::restraint));
+  three.joints.clear();
+  finish_blocks(three);
+  Folder folder;
+  std::vector<ShapeSeries> both;
+  for (const Assembly* assembly : std::array<const Assembly*, 2>{&two, &three}) {
+    Mode mode;
+    mode.shape = BlockMotions::Constant(Eigen::Index(assembly->blocks.size()), 6, 0.25);
+    const std::string name = assembly == &two ? "before" : "after";
+    write_vtu(mode_grid(*assembly, mode), folder / (name + ".vtu"));
+    PvdSeries series(folder / (name + ".pvd"));
+    series.add(1.0, name + ".vtu");
+    both.push_back({folder / (name + ".pvd"), "", {name}});
+  }
+  const ViewerScene scene = shape_scene(both);
+  EXPECT_TRUE(scene.modes);
+  ASSERT_EQ(scene.stones.size(), 3U);
+  ASSERT_EQ(scene.frames.size(), 2U);
+  EXPECT_EQ(scene.frames[0].label, "before");
+  EXPECT_EQ(scene.frames[0].displacement[1], Vec3::Constant(0.25));
+  EXPECT_EQ(scene.frames[0].displacement[2], Vec3::Zero());
+  EXPECT_EQ(scene.frames[1].displacement[2], Vec3::Constant(0.25));
+  EXPECT_FALSE(viewer_data(scene).bytes.empty());
+  both[0].labels.push_back("another");
+  EXPECT_NE(message_of<InputError>([&] { shape_scene(both); }).find("before.pvd has 1 shapes, and 2 are named"),
             std::string::npos);
 }
 

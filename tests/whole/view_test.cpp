@@ -141,6 +141,50 @@ TEST_F(ViewOfARun, AClickNamesTheStone) {
   }
 }
 
+/// Keys and two fingers, as events of the page: what the controls say after each, and whether a place of the picture
+/// that was beside the wall shows it once the fingers have spread.
+TEST_F(ViewOfARun, KeysAndFingersAreObeyed) {
+  const std::string script = R"(<script>
+const poll = setInterval(() => {
+  if (document.body.dataset.ready !== "yes") return;
+  clearInterval(poll);
+  const told = [], text = (id) => document.getElementById(id).textContent, canvas = document.getElementById("view");
+  const key = (name) => document.body.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
+  const point = (kind, id, x, y) => canvas.dispatchEvent(new PointerEvent(kind, {
+    pointerId: id, isPrimary: id === 1, pointerType: "touch", clientX: x, clientY: y, bubbles: true }));
+  key("Home"); told.push(text("label"));
+  key("ArrowRight"); told.push(text("label"));
+  key("End"); key("ArrowLeft"); key("ArrowRight"); key("ArrowRight"); told.push(text("label"));
+  for (let k = 0; k < 9; ++k) key("-");
+  told.push(text("amplified")); key("+"); told.push(text("amplified"));
+  const colour = document.getElementById("colour"), first = colour.value;
+  key("c"); told.push(colour.value !== first);
+  key(" "); told.push(document.getElementById("play").getAttribute("aria-label")); key(" ");
+  key("h"); told.push(document.getElementById("help").open); document.getElementById("help").close();
+  key("1"); key("Home");
+  const x = canvas.clientWidth / 2, y = canvas.clientHeight / 2;
+  const tap = () => { point("pointerdown", 1, x, 4); point("pointerup", 1, x, 4); return document.getElementById("stone").hidden; };
+  told.push(tap() ? "air" : "stone");
+  point("pointerdown", 1, x - 20, y); point("pointerdown", 2, x + 20, y);
+  for (let k = 1; k <= 20; ++k) { point("pointermove", 1, x - 20 - 9 * k, y); point("pointermove", 2, x + 20 + 9 * k, y); }
+  point("pointerup", 2, x + 200, y); point("pointerup", 1, x - 200, y);
+  told.push(tap() ? "air" : "stone");
+  key("Escape"); told.push(document.getElementById("stone").hidden ? "none" : "picked");
+  document.getElementById("report").textContent = told.join("; ");
+}, 50);
+</script>)";
+  const std::string page = bytes_of(*folder / "run/view.html");
+  folder->write("driven.html", page.substr(0, page.rfind("</body>")) + script + "</body>\n</html>\n");
+  try {
+    const Looked looked = look_at(*folder / "driven.html", "", software);
+    EXPECT_EQ(looked.console, "");
+    EXPECT_EQ(between(looked.page, "<output id=\"report\" hidden=\"\">", "</output>"),
+              "t = 0.000 s; t = 0.200 s; t = 0.600 s; × 0; × 1; true; Stop; true; air; stone; none");
+  } catch (const RunError& error) {
+    GTEST_SKIP() << error.what();
+  }
+}
+
 TEST_F(ViewOfARun, WithoutWebGLThePageSaysSo) {
   try {
     const Looked looked = look_at(*folder / "run/view.html", "", {"--disable-3d-apis"});

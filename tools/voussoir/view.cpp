@@ -150,6 +150,7 @@ int view(const std::vector<std::string>& arguments) {
   if (values.count("output")) html = values["output"].as<std::string>();
   if (fs::is_directory(html, ignored) || html.ends_with('/')) html = (fs::path(html) / name).string();
   check_ending(html, {".html"}, "a page");
+  require_viewer();
   ViewerScene scene = directory ? folder_scene(from, std::size_t(values["frames"].as<int>())) : file_scene(from);
   scene.title = values["title"].as<std::string>();
   if (scene.title.empty()) scene.title = name_of(from);

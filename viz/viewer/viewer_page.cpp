@@ -11,11 +11,16 @@ bool has_viewer() {
   return !viewer_files::three.empty();
 }
 
-std::string viewer_page(const ViewerScene& scene) {
+void require_viewer() {
   if (!has_viewer())
     throw RunError(
         "this voussoir was built without three.js, which shows pages of this kind: install Debian's libjs-three, or "
-        "give its three.min.js by cmake -DVOUSSOIR_THREE=FILE, and build again");
+        "give its three.min.js and licence by cmake -DVOUSSOIR_THREE=FILE "
+        "-DVOUSSOIR_THREE_LICENCE=FILE, and build again");
+}
+
+std::string viewer_page(const ViewerScene& scene) {
+  require_viewer();
   const ViewerData data = viewer_data(scene);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

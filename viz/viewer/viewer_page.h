@@ -9,7 +9,10 @@ namespace voussoir {
 /// Whether three.js was there when the program was built.
 bool has_viewer();
 
-/// The page. Throws RunError where the program was built without three.js (see has_viewer()), InputError for a scene
+/// Throws RunError, which says what to install, where it was not.
+void require_viewer();
+
+/// The page. Throws as require_viewer(), InputError for a scene
 /// without stones or without frames.
 std::string viewer_page(const ViewerScene& scene);
 

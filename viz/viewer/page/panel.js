@@ -66,18 +66,19 @@ function stoneRows(scene, frame, item) {
     return rows;
   }
   if (scene.fields.some((f) => f.value < 0)) {
-    rows.push(["displacement x, y, z", u.map((v) => digits(1e3 * v)).join(", ") + " mm"]);
+    rows.push(["displaced x, y, z (mm)", u.map((v) => digits(1e3 * v)).join(", ")]);
     if (item < scene.stones) rows.push(["turned by", withUnit((turn * 180) / Math.PI, "°")]);
   }
   if (item < scene.stones)
     for (const field of scene.fields.filter((f) => f.value >= 0))
-      rows.push([field.title.replace(" of the stone", ""), withUnit(fieldValue(scene, field, frame, item), field.unit)]);
+      rows.push([`largest ${field.name}`, withUnit(fieldValue(scene, field, frame, item), field.unit)]);
   return rows;
 }
 
 function showStone(scene, frame, item, close) {
   const box = element("stone");
   box.hidden = item < 0;
+  document.body.classList.toggle("asked", item >= 0);
   box.replaceChildren();
   if (item < 0) return;
   const button = make("button", "×", "close");
@@ -91,7 +92,7 @@ function showStone(scene, frame, item, close) {
   const pairs = pairsOf(scene, frame, item), most = 12;
   box.append(tableOf(
     pairs.slice(0, most).map((p) => [
-      p.other < scene.stones ? nameOf(scene, p.other) : "the fill",
+      p.other < scene.stones ? `${p.other} ${scene.components[scene.kinds[3 * p.other]]}` : "the fill",
       digits(p.normal / 1e3), digits(p.shear / 1e3), digits(p.opening * 1e3)]),
     ["joint with", "normal (kN)", "shear (kN)", "open (mm)"]));
   if (pairs.length > most) box.append(make("p", `and ${pairs.length - most} more that bear less`));

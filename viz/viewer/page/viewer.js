@@ -251,7 +251,7 @@ async function main() {
   if (!context)
     return say("This browser offers no WebGL 2, by which the model is drawn. Update it, or switch on hardware acceleration in its settings; pictures by `voussoir render` need neither.");
   if (typeof DecompressionStream === "undefined")
-    return say("This browser cannot unpack the numbers of the page (DecompressionStream): take Chrome or Edge 80, Firefox 113, Safari 16.4 or later.");
+    return say("This browser cannot unpack the numbers of the page (DecompressionStream): take Chrome or Edge 86, Firefox 113, Safari 16.4 or later.");
   let scene;
   try {
     scene = await unpacked();
@@ -259,7 +259,8 @@ async function main() {
     return say(`The numbers of the page cannot be read; the file may be damaged: ${error.message}`);
   }
   const viewer = new Viewer(scene, context);
-  viewer.play(scene.modes && !location.hash);
+  const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  viewer.play(scene.modes && !location.hash && !still);
   obey(viewer, new URLSearchParams(location.hash.slice(1)));
   document.body.dataset.ready = "yes";
 }
