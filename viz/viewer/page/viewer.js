@@ -193,8 +193,7 @@ class Viewer {
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
-    this.renderer.setSize(width, height, false);
+    this.setPixels();
     this.names.setSize(width, height);
     this.orbit.resize(width, height);
   }
@@ -203,17 +202,40 @@ class Viewer {
   draw() {
     if (this.waiting) return;
     this.waiting = true;
+    const asked = performance.now();
     requestAnimationFrame((now) => {
       this.waiting = false;
+      this.keepPace(performance.now() - asked);
       if (this.playing) this.advance(now);
       this.drawNow();
       if (this.playing) this.draw();
     });
   }
 
+  /// Where pictures come late one after the other, those in motion have fewer pixels and no edges until all rests.
+  keepPace(late) {
+    this.lateOnes = late > 60 ? (this.lateOnes || 0) + 1 : 0;
+    if (this.lateOnes >= 3) this.setCoarse(true);
+    clearTimeout(this.resting);
+    if (this.coarse) this.resting = setTimeout(() => this.setCoarse(false), Math.max(500, 4 * late));
+  }
+
+  setCoarse(coarse) {
+    if (coarse === this.coarse) return;
+    this.coarse = coarse;
+    this.lateOnes = 0;
+    this.setPixels();
+    if (!coarse) this.draw();
+  }
+
+  setPixels() {
+    this.renderer.setPixelRatio(this.coarse ? 0.5 : Math.min(2, window.devicePixelRatio || 1));
+    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+  }
+
   drawNow() {
     this.model.uniforms.amplification.value = this.steps[this.step] * this.phase;
-    this.model.lines.visible = element("edges").checked;
+    this.model.lines.visible = element("edges").checked && !this.coarse;
     this.renderer.render(this.model.world, this.orbit.camera);
   }
 
