@@ -98,7 +98,8 @@ TEST(ViewerPack, WhatIsNoNumberIsShownAsNothing) {
 TEST(ViewerScene, StonesStandWhereTheStateHasThem) {
   const Assembly assembly = arch_and_wall();
   const Snapshot snapshot = damaged(assembly);
-  const ViewerData data = viewer_data(snapshot_scene(assembly, snapshot));
+  const ViewerScene scene = snapshot_scene(assembly, snapshot);
+  const ViewerData data = viewer_data(scene);
   const Unpacked read(data);
   const auto centres = read.numbers<float>("centres"), sizes = read.numbers<float>("sizes");
   const auto corners = read.numbers<std::int16_t>("corners");
@@ -109,6 +110,9 @@ TEST(ViewerScene, StonesStandWhereTheStateHasThem) {
     const Block& block = assembly.blocks[i];
     ASSERT_EQ(counts[3 * i], block.cells[0].vertices.size());
     EXPECT_EQ(kinds[3 * i], std::uint32_t(block.component));
+    // Faces are seen from outside.
+    EXPECT_NEAR(mass_properties(Polyhedron{scene.stones[i].corners, scene.stones[i].faces}).volume,
+                mass_properties(block.cells).volume, 1e-9);
     EXPECT_EQ(kinds[3 * i + 2], block.fixed ? 1U : 0U);
     Vec3 u, turn, centre;
     for (int c = 0; c < 3; ++c) {

@@ -134,6 +134,11 @@ TEST(Diagnose, FindsWhatABridgeWithADeformableFillLacks) {
   ASSERT_GE(json["effects"].size(), 1u);
   EXPECT_EQ(json["effects"][0]["name"], "abutment_restraint");
   EXPECT_EQ(json["effects"][0]["where"], "both");
+  // The fill moves in the shapes that are kept.
+  for (const char* file : {"modes_before.pvd", "modes_after.pvd", "modes_before_fill.pvd", "mode_01_after_fill.vtu"})
+    EXPECT_TRUE(exists(folder / ("out/vtk/" + std::string(file)))) << file;
+  const Outcome view = voussoir({"view", "out", "-o", "view.html"}, {.folder = folder.path()});
+  EXPECT_EQ(view.status == 0, view.err.find("built without three.js") == std::string::npos) << view.err;
   double all = 0.0;  // the fill's part is among them
   for (const auto& part : json["modes"][0]["sensitivity"]) all += part["stiffness"].get<double>();
   EXPECT_NEAR(all, 0.5, 1e-6);

@@ -43,7 +43,7 @@ function geometry(v, index) {
   return g;
 }
 
-/// Everything that is drawn: { world, uniforms, lines, showFrame, paint }.
+/// Everything that is drawn: { world, uniforms, lines, insides, showFrame, paint }.
 function buildModel(scene) {
   const textures = {
     centres: itemTexture(scene.items, THREE.FloatType),
@@ -64,16 +64,21 @@ function buildModel(scene) {
     ink: { value: new THREE.Color(scene.colours.outline) },
   };
   for (const name of Object.keys(textures)) uniforms[name] = { value: textures[name] };
-  const material = (lines) =>
-    new THREE.ShaderMaterial({
-      vertexShader, fragmentShader, side: THREE.DoubleSide,
-      uniforms: Object.assign({ lines: { value: lines }, nearer: { value: lines ? 2e-5 : 0 } }, uniforms),
-    });
+  const material = (lines, inside, options) =>
+    new THREE.ShaderMaterial(Object.assign({
+      vertexShader, fragmentShader,
+      uniforms: Object.assign({ lines: { value: lines }, inside: { value: inside }, nearer: { value: lines ? 2e-5 : 0 } }, uniforms),
+    }, options));
   const v = vertices(scene);
   const world = new THREE.Scene();
-  const faces = new THREE.Mesh(geometry(v, v.triangles), material(false));
-  const lines = new THREE.LineSegments(geometry(v, v.edges), material(true));
-  for (const object of [faces, lines]) {
+  const shape = geometry(v, v.triangles);
+  const faces = new THREE.Mesh(shape, material(false, false));
+  // What a section opens. Where the inside of a cut stone lies on the face of its neighbour, the inside is seen.
+  const insides = new THREE.Mesh(shape, material(false, true, {
+    side: THREE.BackSide, polygonOffset: true, polygonOffsetFactor: 0, polygonOffsetUnits: -100 }));
+  insides.visible = false;
+  const lines = new THREE.LineSegments(geometry(v, v.edges), material(true, false));
+  for (const object of [faces, insides, lines]) {
     object.frustumCulled = false;  // three.js does not know where the shader puts the stones
     world.add(object);
   }
@@ -96,7 +101,7 @@ function buildModel(scene) {
     }
     textures.colours.needsUpdate = true;
   };
-  return { world, uniforms, lines, showFrame, paint };
+  return { world, uniforms, lines, insides, showFrame, paint };
 }
 
 /// Where the centre of an item is drawn (metres about the scene's origin).

@@ -36,7 +36,7 @@ void main() {
 // What the section plane leaves open is shown from inside in one tone, so that cut stones look solid.
 const fragmentShader = `
 uniform vec4 section;
-uniform bool naming, lines;
+uniform bool naming, lines, inside;
 uniform vec3 ink;
 varying vec3 place;
 varying vec4 colour;
@@ -47,7 +47,7 @@ void main() {
     gl_FragColor = colour;
   } else if (lines) {
     gl_FragColor = vec4(mix(colour.rgb, ink, 0.6), 1.0);
-  } else if (gl_FrontFacing) {
+  } else if (!inside) {
     vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
     float light = 0.72 + 0.20 * normal.z + 0.08 * dot(normal, normalize(vec3(0.4, -0.9, 0.1)));
     gl_FragColor = vec4(colour.rgb * min(1.0, light + 0.08), 1.0);

@@ -159,6 +159,7 @@ class Viewer {
   cut() {
     const axis = element("axis").value, section = this.model.uniforms.section.value;
     element("cut").hidden = axis === "";
+    this.model.insides.visible = axis !== "";
     if (axis === "") section.set(0, 0, 0, 1);
     else {
       const share = element("place").value / 1000 - 0.5, at = share * this.scene.size[axis];
