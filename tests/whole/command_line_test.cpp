@@ -13,7 +13,7 @@ namespace VOUSSOIR_FILE {
 const std::vector<std::string> verb_names = {"generate", "import",  "export", "info",     "run",       "resume",
                                              "modal",    "render",  "check",  "step",     "effects",   "diagnose",
                                              "hide",     "motion",  "report", "campaign", "fragility", "vehicles",
-                                             "rate",     "compare", "cracks"};
+                                             "rate",     "compare", "cracks", "view"};
 
 TEST(CommandLine, HelpOfEachVerbHasAnExample) {
   const Outcome all = voussoir({"--help"});

@@ -1,4 +1,5 @@
 // voussoir hide and diagnose, as a user calls them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/base/json_file.h"
@@ -49,6 +50,18 @@ TEST(Diagnose, FindsWhatIsHiddenAndWritesACaseThatHasIt) {
   for (const char* file : {"corrected.toml", "diagnosis.html", "images/sensors.png", "images/residual_before.png",
                            "images/mode_1_after.png"})
     EXPECT_TRUE(exists(folder / ("out/" + std::string(file)))) << file;
+  // Its modes before and after can be looked at, unless three.js was missing.
+  const Outcome view = voussoir({"view", "out"}, {.folder = folder.path()});
+  const bool built = view.err.find("built without three.js") == std::string::npos;
+  EXPECT_EQ(view.status == 0, built) << view.err;
+  if (built) {
+    const std::string page = bytes_of(folder / "out/view.html");
+    EXPECT_NE(page.find(fmt::format("\"mode {} before: ", json["modes"][0]["mode"].get<std::string>())),
+              std::string::npos);
+    EXPECT_NE(page.find(fmt::format("\"mode {} after: {:.3f} s", json["modes"][0]["mode"].get<std::string>(),
+                                    json["modes"][0]["after"].get<double>())),
+              std::string::npos);
+  }
   // The corrected case is a case.
   const Outcome modal =
       voussoir({"modal", "out/corrected.toml", "-n", "3", "--no-pictures"}, {.folder = folder.path()});
@@ -121,6 +134,11 @@ TEST(Diagnose, FindsWhatABridgeWithADeformableFillLacks) {
   ASSERT_GE(json["effects"].size(), 1u);
   EXPECT_EQ(json["effects"][0]["name"], "abutment_restraint");
   EXPECT_EQ(json["effects"][0]["where"], "both");
+  // The fill moves in the shapes that are kept.
+  for (const char* file : {"modes_before.pvd", "modes_after.pvd", "modes_before_fill.pvd", "mode_01_after_fill.vtu"})
+    EXPECT_TRUE(exists(folder / ("out/vtk/" + std::string(file)))) << file;
+  const Outcome view = voussoir({"view", "out", "-o", "view.html"}, {.folder = folder.path()});
+  EXPECT_EQ(view.status == 0, view.err.find("built without three.js") == std::string::npos) << view.err;
   double all = 0.0;  // the fill's part is among them
   for (const auto& part : json["modes"][0]["sensitivity"]) all += part["stiffness"].get<double>();
   EXPECT_NEAR(all, 0.5, 1e-6);

@@ -7,6 +7,7 @@
 
 #include "io/vtk/grid.h"
 #include "solver/base/error.h"
+#include "tools/diagnosis/diagnosis_shapes.h"
 #include "viz/mode_picture.h"
 #include "viz/render.h"
 #include "viz/sensor_picture.h"
@@ -47,22 +48,6 @@ PagePicture residual_map(const Assembly& assembly, const Location& location, con
   return {options.title, options.notes[0], png};
 }
 
-Mode as_mode(const Evaluation& e, int computed) {
-  Mode mode;
-  mode.frequency = std::exp(e.response.log_frequency[computed]);
-  mode.shape = BlockMotions::Zero(Eigen::Index(e.assembly.blocks.size()), 6);
-  const Eigen::VectorXd vector = e.response.vectors.col(computed);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < e.assembly.blocks.size(); ++i) {
-    const Vector6 part = part_of(vector, e.model.unknowns, i);
-    mode.shape.row(Eigen::Index(i)) = part;
-    largest = std::max(largest, part.head<3>().norm());
-  }
-  mode.shape /= largest;
-  mode.words = e.response.words[std::size_t(computed)];
-  return mode;
-}
-
 PagePicture shape_picture(const Fit& fit, const ModeComparison& mode, std::size_t index, const std::string& when,
                           const std::string& png) {
   const int computed = fit.best.pairing.computed[index];
@@ -70,7 +55,9 @@ PagePicture shape_picture(const Fit& fit, const ModeComparison& mode, std::size_
   const double period = std::exp(-fit.best.response.log_frequency[computed]);
   options.title = fmt::format("Mode {} {}: {:.3f} s ({:.3f} Hz), {}", mode.name, when, period, 1.0 / period,
                               fit.best.response.words[std::size_t(computed)].text());
-  draw_mode(fit.best.assembly, as_mode(fit.best, computed), options,
+  Mode shape = computed_mode(fit.best, computed);
+  shape.nodes.resize(0, 3);  // of the stones alone
+  draw_mode(fit.best.assembly, shape, options,
             {fmt::format("measured {:.3f} s ± {:.3f} s ({:.3f} Hz)", mode.measured, mode.std, 1.0 / mode.measured), ""},
             png);
   return {options.title, fmt::format("measured {:.3f} s ({:.3f} Hz)", mode.measured, 1.0 / mode.measured), png};

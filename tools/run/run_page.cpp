@@ -95,16 +95,24 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
   return pictures;
 }
 
+/// To the page of voussoir view, where that lies beside this one.
+std::string view_link(const RunFiles& run) {
+  std::error_code ignored;
+  if (!fs::exists(run.directory + "/view.html", ignored)) return "";
+  return "<p><a href=\"view.html\">The run in three dimensions</a>, to turn and to ask (view.html).</p>\n";
+}
+
 }  // namespace
 
 void write_run_page(const std::string& directory) {
   const RunFiles run = read_run(directory);
-  const std::string body =
-      verdict_section(run) + facts(run) + remarks_section(run) + collapse_section(run) + steps_section(run) +
-      motion_section(run) + pictures_section(pictures_of(run)) + reactions_section(run) + places_section(run) +
-      ties_section(run) + damage_section(run) + crack_section(run.directory, run.summary) + demand_section(run) +
-      stress_section(run.directory) + gravity_section(run.summary.value("gravity", nlohmann::json::array())) +
-      plots_section(run) + histories_section(run) + model_section(run) + provenance_section(run);
+  const std::string body = verdict_section(run) + view_link(run) + facts(run) + remarks_section(run) +
+                           collapse_section(run) + steps_section(run) + motion_section(run) +
+                           pictures_section(pictures_of(run)) + reactions_section(run) + places_section(run) +
+                           ties_section(run) + damage_section(run) + crack_section(run.directory, run.summary) +
+                           demand_section(run) + stress_section(run.directory) +
+                           gravity_section(run.summary.value("gravity", nlohmann::json::array())) + plots_section(run) +
+                           histories_section(run) + model_section(run) + provenance_section(run);
   write_atomically(directory + "/report.html", html_page("Run " + run.name, body));
 }
 

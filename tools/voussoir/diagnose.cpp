@@ -8,6 +8,7 @@
 #include "tools/diagnosis/diagnose_case.h"
 #include "tools/diagnosis/diagnosis_page.h"
 #include "tools/diagnosis/diagnosis_pictures.h"
+#include "tools/diagnosis/diagnosis_shapes.h"
 #include "tools/diagnosis/measured_features.h"
 #include "tools/diagnosis/plan.h"
 #include "tools/voussoir/options.h"
@@ -40,6 +41,7 @@ int diagnose_and_write(const DiagnosisRequest& request) {
   fs::create_directories(request.directory);
   write_corrected(result.corrected, result.corrected_text, request.directory);
   write_json(request.directory + "/diagnosis.json", diagnosis_json(input, result));
+  write_diagnosis_shapes(result, request.directory);
   if (request.page) {
     const std::vector<PagePicture> pictures = draw_diagnosis(input, result, request.directory, say);
     write_atomically(request.directory + "/diagnosis.html", diagnosis_page(input, result, pictures));

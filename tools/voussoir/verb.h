@@ -24,6 +24,7 @@ Verb run_verb();
 Verb resume_verb();
 Verb modal_verb();
 Verb render_verb();
+Verb view_verb();
 Verb cracks_verb();
 Verb check_verb();
 Verb step_verb();

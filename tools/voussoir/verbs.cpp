@@ -23,7 +23,7 @@ const std::vector<Verb>& verbs() {
       generate_verb(), import_verb(), export_verb(),  info_verb(),     run_verb(),          resume_verb(),
       modal_verb(),    render_verb(), check_verb(),   step_verb(),     effects_verb(),      diagnose_verb(),
       hide_verb(),     motion_verb(), report_verb(),  campaign_verb(), campaign_run_verb(), fragility_verb(),
-      vehicles_verb(), rate_verb(),   compare_verb(), cracks_verb(),   manual_verb()};
+      vehicles_verb(), rate_verb(),   compare_verb(), cracks_verb(),   view_verb(),         manual_verb()};
   return list;
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "viz/page/base64.h"
 #include "viz/page/svg.h"
 
 namespace voussoir {
@@ -53,20 +54,6 @@ pre.case { font-size: 11px; } table.small { font-size: 12px; } code { font-size:
   .pictures { display: block; max-width: none; } svg, img { max-width: 100%; height: auto; } .wide { overflow: visible; } pre { white-space: pre-wrap; }
 }
 )";
-
-std::string base64(const std::string& bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * (bytes.size() / 3 + 1));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? unsigned(static_cast<unsigned char>(bytes[i + k])) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
 
 /// Empty where it is no PNG file that can be read.
 std::string png_bytes(const std::string& path) {
