@@ -160,8 +160,9 @@ TEST(EndToEnd, OverwritingLeavesNothingOfTheEarlierRun) {
   Folder folder;
   write_wall(folder);
   run_whole(folder, "wall.toml", "run");
-  const std::vector<std::string> stale = {"report.html",  "modes/modes.txt", "collapse_curve.csv", "joints.csv",
-                                          "stresses.csv", "motion_7_y.txt",  "measured_2_10.txt"};
+  const std::vector<std::string> stale = {"report.html",    "modes/modes.txt",  "collapse_curve.csv", "joints.csv",
+                                          "stresses.csv",   "steps.csv",        "cracks.csv",         "report.pdf",
+                                          "motion_7_y.txt", "measured_2_10.txt"};
   std::filesystem::create_directory(folder / "run/modes");
   for (const std::string& name : stale) folder.write("run/" + name, "of another run");
   folder.write("run/motion_mine.txt", "kept");

@@ -29,10 +29,10 @@ void check_plots(const Case& c, const std::vector<Channel>& channels) {
 
 /// All that a run, its pages and its modes leave in their directory, and nothing else that may lie there.
 void remove_run(const fs::path& directory) {
-  std::vector<std::string> names = {"case.toml",    "assembly.h5", "history.h5",         "checkpoints",
-                                    "vtk",          "images",      "summary.json",       "run.log",
-                                    "report.html",  "view.html",   "collapse_curve.csv", "modes",
-                                    "gravity.json", "joints.csv",  "stresses.csv"};
+  std::vector<std::string> names = {
+      "case.toml",    "assembly.h5", "history.h5", "checkpoints",        "vtk",   "images",       "summary.json",
+      "run.log",      "report.html", "view.html",  "collapse_curve.csv", "modes", "gravity.json", "joints.csv",
+      "stresses.csv", "steps.csv",   "cracks.csv", "report.pdf"};
   std::error_code failed;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, failed))
     if (is_copy_for_case(entry.path().filename().string())) names.push_back(entry.path().filename().string());
