@@ -29,6 +29,7 @@ Vec3 base_acceleration(const GroundMotion* motion, double time) {
 }
 
 void Stepper::prepare() {
+  kernels();  // settled here: a wish that cannot be met is refused before a step, in which nothing throws
   body_batches = make_body_batches(*model);
   sums.resize(wrench_width * model->sums.size());
   tile_energies.resize(model->tiles.size());

@@ -7,6 +7,7 @@
 
 #include "io/vtk/grid.h"
 #include "solver/base/error.h"
+#include "tests/folder.h"
 #include "tests/viz/grid_shapes.h"
 
 namespace voussoir {

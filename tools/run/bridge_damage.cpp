@@ -26,10 +26,6 @@ enum Criterion : std::size_t {
 
 constexpr double kSeparated = 1e-3;  // m of opening or slip from which two parts no longer act as one
 
-bool is_wall(Component c) {
-  return c == Component::spandrel || c == Component::parapet || c == Component::wall;
-}
-
 CrackedPart part_of(const Assembly& assembly, std::int64_t block) {
   const Block& b = assembly.blocks[std::size_t(block)];
   return {b.component, b.part};

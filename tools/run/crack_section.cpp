@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
-#include "solver/base/atomic_file.h"
 #include "solver/base/csv.h"
 #include "tools/run/bridge_damage.h"
+#include "tools/run/run_files.h"
 #include "viz/page/html.h"
 
 namespace voussoir {
@@ -17,11 +16,6 @@ namespace voussoir {
 namespace {
 
 constexpr int kRows = 20;
-
-std::string text_if_any(const std::string& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored) ? read_text(file) : std::string();
-}
 
 /// As wide as the page; on paper a sheet of its own.
 std::string map_figure(const std::string& directory) {

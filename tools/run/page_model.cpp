@@ -3,9 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "tools/run/page_sections.h"
 #include "viz/page/html.h"
@@ -17,14 +14,9 @@ namespace {
 
 using nlohmann::json;
 
-std::string file_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// The general arrangement as the run has drawn it.
 std::string drawing(const RunFiles& run) {
-  return sheet_figure(file_text(run.directory + "/images/arrangement.svg"));
+  return sheet_figure(text_if_any(run.directory + "/images/arrangement.svg"));
 }
 
 std::string materials_table(const json& inventory) {
@@ -206,7 +198,7 @@ std::string provenance_section(const RunFiles& run) {
     text += "</table>\n";
   } else {
     text += paragraph("voussoir " + run.summary.value("program_version", std::string("?")) +
-                      ", which did not yet note the day, the commit and the digests of its files.");
+                      ", which did not yet note the date, the commit and the digests of its files.");
   }
   return text + "<h3>The case with every key written out</h3>\n<pre class=\"case\">" + escaped(run.c.text) + "</pre>\n";
 }

@@ -22,8 +22,8 @@ std::string balance_note(const RunFiles& run, double vertical) {
   const double other = vertical - all;
   return note(
       fmt::format("Together they bear {:.4g} kN upwards. What is free to move weighs {:.4g} kN (stones {:.4g}, "
-                  "deformable fill {:.4g}); the difference, {:.3g} kN ({:.2g} % of the weight), is what other "
-                  "loads press down{}.",
+                  "deformable fill {:.4g}); the difference, {:.3g} kN ({:.2g} % of the weight), is what other loads "
+                  "press down.",
                   1e-3 * vertical, 1e-3 * all, 1e-3 * weight.value("stones", 0.0), 1e-3 * weight.value("fill", 0.0),
                   1e-3 * other, 100.0 * other / all, run.ends_at_rest() ? "" : ", and what still moves"));
 }

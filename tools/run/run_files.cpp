@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 
@@ -24,6 +25,11 @@ RunFiles read_run(const std::string& directory) {
   if (!files.summary.is_object()) throw InputError("{}/summary.json is damaged: run the case again", directory);
   if (fs::exists(directory + "/history.h5", ignored)) files.history = History::load(directory + "/history.h5");
   return files;
+}
+
+std::string text_if_any(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored) ? read_text(path) : std::string();
 }
 
 const nlohmann::json& RunFiles::of(const char* key) const {

@@ -23,6 +23,9 @@ struct RunFiles {
   }
 };
 
+/// What a file holds; empty where there is none.
+std::string text_if_any(const std::string& path);
+
 /// Throws InputError when the directory is no run or has not been finished.
 RunFiles read_run(const std::string& directory);
 

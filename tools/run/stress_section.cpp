@@ -121,11 +121,10 @@ std::string stress_section(const std::string& directory) {
                                         "utilisation (-)", [](const BedJoint& bed) { return bed.utilisation; })));
   return text +
          note(
-             "Bed joints over the whole width of the vault, as the run ends; joints.csv has them, stresses.csv every "
-             "joint "
-             "by itself. e is the distance of the thrust from the middle of the joint, towards the extrados positive, "
-             "d "
-             "the depth of the ring. Between the dots the lines are drawn straight.") +
+             "Bed joints over the whole width of the vault, as the run ends; joints.csv has them, and stresses.csv has "
+             "every joint by itself. e is the distance of the thrust from the middle of the joint, positive towards "
+             "the "
+             "extrados, and d is the depth of the ring. The lines between the dots are drawn straight.") +
          (with_axes ? "" : note("The lines of thrust are missing: an earlier version wrote joints.csv."));
 }
 

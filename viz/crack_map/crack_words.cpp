@@ -18,9 +18,6 @@ constexpr double kLeafNormal = 0.7;  // |n_y| of a joint that lies parallel to t
 constexpr double kMixed = 0.1;       // of the area: less is none
 constexpr double kBedNormal = 0.7;   // |n_z| of a bed joint of a wall
 
-bool is_wall(Component c) {
-  return c == Component::spandrel || c == Component::parapet || c == Component::wall;
-}
 bool is_over_vaults(Component c) {
   return c == Component::spandrel || c == Component::backing || c == Component::infill;
 }

@@ -128,6 +128,10 @@ std::vector<JointGaps> joint_gaps(const Assembly& assembly, const Snapshot& snap
   return gaps;
 }
 
+bool is_wall(Component c) {
+  return c == Component::spandrel || c == Component::parapet || c == Component::wall;
+}
+
 std::string part_words(const CrackedPart& part) {
   static const char* const sides[] = {" y−", " y+", " inside"};
   const std::string name = component_names()[std::size_t(part.component)];

@@ -40,6 +40,8 @@ struct CrackedPart {
   auto operator<=>(const CrackedPart&) const = default;
 };
 std::string part_words(const CrackedPart& part);
+/// Spandrels, parapets and walls by themselves.
+bool is_wall(Component component);
 
 /// Joints over the threshold between the same two parts, each of which touches another.
 struct Crack {

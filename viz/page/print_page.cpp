@@ -1,8 +1,10 @@
 #include "viz/page/print_page.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -25,6 +27,19 @@ std::string browser() {
   throw InputError(
       "no browser to print with: install the package chromium, or open the page in a browser of yours and print it "
       "there");
+}
+
+/// The address of a file: what an address would read as something else is written by its bytes.
+std::string file_address(const std::string& path) {
+  std::string address = "file://";
+  for (const char c : fs::absolute(path).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || std::string_view("/-._~").find(c) != std::string_view::npos)
+      address += c;
+    else
+      address += fmt::format("%{:02X}", byte);
+  }
+  return address;
 }
 
 /// A folder for the browser's profile and what it writes, removed at the end.
@@ -70,7 +85,7 @@ void print_page(const std::string& html, const std::string& pdf) {
   Launch launch{.words = {name, "--headless", "--disable-gpu", "--no-first-run", "--no-pdf-header-footer",
                           "--user-data-dir=" + (here / "profile"), "--print-to-pdf=" + printed}};
   if (::geteuid() == 0) launch.words.push_back("--no-sandbox");  // Chromium does not start as root with it
-  launch.words.push_back("file://" + fs::absolute(html).string());
+  launch.words.push_back(file_address(html));
   launch.group = Launch::Group::own;
   launch.signal_at_our_end = SIGKILL;
   const LogFile said(here / "said.txt");

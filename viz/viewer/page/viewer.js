@@ -274,7 +274,7 @@ async function main() {
   if (!context)
     return say("This browser offers no WebGL 2, by which the model is drawn. Update it, or switch on hardware acceleration in its settings; pictures by `voussoir render` need neither.");
   if (typeof DecompressionStream === "undefined")
-    return say("This browser cannot unpack the numbers of the page (DecompressionStream): take Chrome or Edge 86, Firefox 113, Safari 16.4 or later.");
+    return say("This browser cannot unpack the numbers of the page (DecompressionStream): take a recent Chrome, Edge, Firefox or Safari.");
   let scene;
   try {
     scene = await unpacked();
