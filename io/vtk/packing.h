@@ -5,7 +5,7 @@
 namespace voussoir {
 
 /// VTK 8.1 and ParaView 5.5 or later read all of them, other readers (meshio) not LZ4. What each costs:
-/// docs/performance-log.md.
+/// docs/developer/performance-notes.md, "Output".
 enum class Packing { none, lz4, zlib_fast, zlib };
 constexpr Packing usual_packing = Packing::lz4;
 

@@ -31,7 +31,7 @@ template <class T>
 using Array = std::vector<T, CacheAligned<T>>;
 
 /// Asks for memory that will be needed soon. No more than a dozen cache lines at a time, and the next some hundred
-/// cycles later: asked for all at once, many do not come (docs/performance.md).
+/// cycles later: asked for all at once, many do not come (docs/developer/performance-notes.md).
 [[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
   for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<const char*>(from) + at);
 }

@@ -1,6 +1,6 @@
 // How many of eight lanes a long kernel takes at a time. Where registers hold four, or two, it goes through the lanes
 // register by register: less of what is in hand is kept in memory, and what is rare in a lane holds up three others, or
-// one, instead of seven (docs/performance.md). What it computes for a lane is the same.
+// one, instead of seven (docs/developer/performance-notes.md). What it computes for a lane is the same.
 #pragma once
 #include <type_traits>
 

@@ -1,6 +1,6 @@
 // Lanes of a processor whose registers hold four (AVX2) or two of them. Included by lanes.h. The compiler would split
-// vectors of eight by itself, but keep them in memory between one operation and the next (docs/performance.md): here
-// they are two halves, and those two quarters where need be.
+// vectors of eight by itself, but keep them in memory between one operation and the next: here they are two halves, and
+// those two quarters where need be (docs/developer/performance-notes.md).
 #pragma once
 #if defined(__SSE2__)
 #include <immintrin.h>

@@ -1,5 +1,5 @@
 // Numbers too small for all of their digits (below 1.2·10⁻³⁸ in single precision), which processors are slow to compute
-// with (docs/performance.md).
+// with (docs/developer/performance-notes.md).
 #pragma once
 #if defined(__SSE2__)
 #include <immintrin.h>

@@ -1,5 +1,5 @@
 // Products of 6 × 6 blocks, column by column as registers have them: quicker than Eigen's where many are added up
-// (docs/performance.md).
+// (docs/developer/performance-notes.md).
 #pragma once
 #include <cstring>
 

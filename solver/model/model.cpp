@@ -176,7 +176,7 @@ std::int32_t bodies_of_tile(std::size_t bodies) {
 }
 
 /// The assembly's joints in the order of their batches; returns their shapes in the same, without corners, which the
-/// model has by then, and rectangles without points: memory for each by itself takes time (docs/performance.md).
+/// model has by then, and rectangles without points: memory for each by itself takes time.
 std::vector<PatchShape> add_joints(const Assembly& assembly, Model& model) {
   // Tile, shape, law, direction faced, pair of bodies, pair of cells, index. Bed joints are pressed, head joints open:
   // in batches of their own those that go point by point hold up fewer of the others.
