@@ -331,7 +331,7 @@ double next_multiple(double time, double every) {
 
 /// Of a quasi-static stage: each of its steps sees to its own.
 void Simulation::impose_nothing() {
-  stepper_.loads = {};
+  load({});
   stepper_.loads_since = -1.0;
   stepper_.stage_duration = 0.0;  // loads act as a whole
   stepper_.drives.clear();
@@ -347,7 +347,7 @@ void Simulation::impose(const StageSettings& stage) {
   const Loads before = at > 0 ? loads_after(settings_.stages, at - 1) : Loads{};
   part_of_way_ = -1;
   if (stage.moving.empty()) {
-    stepper_.loads = places_.at_work(before, loads_after(settings_.stages, at));
+    load(places_.at_work(before, loads_after(settings_.stages, at)));
     stepper_.loads_since = -1.0;
   } else {
     follow_loads(stage);
@@ -377,11 +377,44 @@ double Simulation::follow_loads(const StageSettings& stage) {
     const auto at = std::size_t(position_.stage);
     const Loads before = at > 0 ? loads_after(settings_.stages, at - 1) : Loads{};
     const auto moved = [&](std::int64_t k) { return with_moving(before, stage.moving, duration * double(k)); };
-    stepper_.loads = places_.at_work(moved(part), moved(part + 1));
+    load(places_.at_work(moved(part), moved(part + 1)));
     stepper_.loads_since = begun + duration * double(part), stepper_.loads_duration = duration;
     part_of_way_ = part;
   }
   return begun + duration * double(part + 1);
+}
+
+/// The loads of the present stage; what is pushed acts beside them while time passes.
+void Simulation::load(LoadsAtWork loads) {
+  stage_loads_ = std::move(loads);
+  stepper_.loads = stage_loads_;
+  const auto at = std::size_t(position_.stage);
+  const bool time_passes = at < settings_.stages.size() && settings_.stages[at].timed();
+  if (time_passes && !pushed_.empty()) stepper_.loads.add(pushed_, model_.bodies.size());
+}
+
+void Simulation::push(std::vector<PointLoad> forces) {
+  for (const PointLoad& force : forces) {
+    const auto body = std::size_t(force.body);
+    if (model_.bodies[body].still())
+      throw InputError("a force is to act on {}, which is fixed: only blocks that can move can be pushed",
+                       block_label(*assembly_, model_.block_of_body[body]));
+  }
+  pushed_ = std::move(forces);
+  load(std::move(stage_loads_));
+}
+
+/// Asks for what acts from now on where it is due; the time (s) at which it is due next.
+double Simulation::control(const StageSettings& stage) {
+  if (!observers_.control) return 1e300;
+  const double every = std::max(observers_.control_every, stepper_.dt), slack = 1e-6 * stepper_.dt;
+  const double begun = position_.stage_start;
+  const auto number = [&](double time) { return std::floor((time - begun + slack) / every); };
+  if (controlled_ < begun || controlled_ > begun + stage.duration || number(state_.time()) > number(controlled_)) {
+    controlled_ = state_.time();
+    observers_.control(*this);
+  }
+  return begun + (number(state_.time()) + 1.0) * every;
 }
 
 RunEnd Simulation::timed(const StageSettings& stage, double until) {
@@ -397,7 +430,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     const auto every = std::max<std::int64_t>(1, std::llround(output.history_every / stepper_.dt));
     const double fields_at = next_multiple(state_.time(), output.fields_every);
     const double save_at = next_multiple(state_.time(), output.checkpoint_every);
-    const double next = std::min({stop_at, fields_at, save_at, follow_loads(stage)});
+    const double next = std::min({stop_at, fields_at, save_at, follow_loads(stage), control(stage)});
     // In pieces short enough for the progress line and the checkpoint by wall time.
     const auto left = std::max<std::int64_t>(1, std::int64_t(std::ceil((next - state_.time()) / stepper_.dt - 1e-6)));
     const std::int64_t piece =

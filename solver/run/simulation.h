@@ -59,6 +59,10 @@ struct Observers {
   /// A stage (its index in the settings) has just ended, and its end is not stored yet.
   std::function<void(const Simulation&, std::int64_t stage)> ended;
   std::function<void(Simulation&, bool stage_end)> checkpoint;
+  /// At the beginning of each stage with time and then every `control_every` s of it (0: at every time step): sees the
+  /// state and may call Simulation::push().
+  std::function<void(Simulation&)> control;
+  double control_every = 0.0;
   std::function<void(const Progress&)> progress;
   std::function<void(const std::string&)> log;
   const std::atomic<bool>* stop = nullptr;  // set by a signal: the run stops at the next step
@@ -90,12 +94,18 @@ class Simulation {
   /// `threads` as asked for; fewer are used where the model is too small to share.
   Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers);
 
+  /// Whom the run tells from now on.
+  void observe(Observers observers) { observers_ = std::move(observers); }
   /// Throws InputError for a step of the user's own that this assembly does not bear; before anything is written.
   void check();
   /// Goes on from a checkpoint: call after the state's arrays have been read into state() and unpacked.
   void restore(const RunPosition& position);
   /// Runs the remaining stages, to `until` (s of simulated time; negative: all).
   RunEnd run(double until = -1.0);
+  /// Dead forces that act beside those of the stages in all time steps to come, until the next call. They are no part
+  /// of the state: whoever goes on from a checkpoint has to push again. Throws InputError for a body that cannot move.
+  void push(std::vector<PointLoad> forces);
+  double time_step() const { return position_.dt; }  // s; 0 before the first stage with time
 
   const Assembly& assembly() const { return *assembly_; }
   const Model& model() const { return model_; }
@@ -140,6 +150,8 @@ class Simulation {
   void drive_to(const StageSettings& stage, double from, double to);
   void impose(const StageSettings& stage);
   void impose_nothing();
+  void load(LoadsAtWork loads);
+  double control(const StageSettings& stage);
   double follow_loads(const StageSettings& stage);
   void place(const StageSettings& stage);
   void start_from_rest();
@@ -178,6 +190,9 @@ class Simulation {
   ContactBound bound_;
   LoadPlaces places_;
   std::int64_t part_of_way_ = -1;  // of loads that move
+  LoadsAtWork stage_loads_;        // without what is pushed
+  std::vector<PointLoad> pushed_;
+  double controlled_ = -1.0;  // s: when control was last asked
   LostBonds lost_bonds_;
   LoadsAtWork step_pattern_;  // of a quasi-static stage
   StepRow step_row_;

@@ -30,6 +30,16 @@ void LoadsAtWork::act(const Model& model, const State& state, std::size_t body, 
   moment = {m.x(), m.y(), m.z()};
 }
 
+void LoadsAtWork::add(std::vector<PointLoad> more, std::size_t bodies) {
+  points.insert(points.end(), more.begin(), more.end());
+  if (points.empty()) return;
+  std::stable_sort(points.begin(), points.end(),
+                   [](const PointLoad& a, const PointLoad& b) { return a.body < b.body; });
+  first.assign(bodies + 1, 0);
+  for (const PointLoad& p : points) ++first[std::size_t(p.body) + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+}
+
 Loads with_moving(Loads loads, const std::vector<MovingLoad>& moving, double time) {
   for (const MovingLoad& load : moving) {
     RoadLoad now = load.start;
@@ -163,12 +173,7 @@ LoadsAtWork LoadPlaces::at_work(const Loads& from, const Loads& to) const {
   for (const ForceLoad& load : to.forces) add_points(*assembly_, *model_, load, true, work.points);
   for (const RoadLoad& load : from.road) add_road(load, false, work);
   for (const RoadLoad& load : to.road) add_road(load, true, work);
-  if (work.points.empty()) return work;
-  std::stable_sort(work.points.begin(), work.points.end(),
-                   [](const PointLoad& a, const PointLoad& b) { return a.body < b.body; });
-  work.first.assign(model_->bodies.size() + 1, 0);
-  for (const PointLoad& p : work.points) ++work.first[std::size_t(p.body) + 1];
-  for (std::size_t i = 1; i < work.first.size(); ++i) work.first[i] += work.first[i - 1];
+  work.add({}, model_->bodies.size());
   return work;
 }
 

@@ -29,6 +29,8 @@ struct LoadsAtWork {
   /// On one body at its present placement: force (N) and moment about its centroid (N m), world axes.
   void act(const Model& model, const State& state, std::size_t body, double share, Triple<double>& force,
            Triple<double>& moment) const;
+  /// Adds forces on points of some of the model's bodies.
+  void add(std::vector<PointLoad> more, std::size_t bodies);
 };
 
 /// Share of the way from rest to rest: the cycloid τ − sin 2πτ / 2π, τ = time / duration held between 0 and 1.
