@@ -1,5 +1,6 @@
 #include "solver/base/shipped.h"
 
+#include <dlfcn.h>
 #include <fmt/ranges.h>
 
 #include <filesystem>
@@ -14,15 +15,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The folder of a file and those above it, `count` in all.
+void add_folders(const fs::path& file, int count, std::vector<std::string>& folders) {
+  fs::path folder = file.parent_path();
+  for (int up = 0; up < count; ++up, folder = folder.parent_path()) folders.push_back(folder.string());
+}
+
 /// The program's folder and those above it, `count` in all, and a folder beside the program's; none where the system
-/// does not say which program runs.
+/// does not say which program runs. Before them those of the shared library that this is part of, where it is in one:
+/// the Python module, which lies one folder deeper and whose program is Python.
 std::vector<std::string> folders_of_program(int count, const char* installed) {
   std::error_code error;
-  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
   std::vector<std::string> folders;
-  folders.push_back((folder.parent_path() / installed).string());
-  for (int up = 0; up < count; ++up, folder = folder.parent_path()) folders.push_back(folder.string());
+  Dl_info us{};
+  static const char here = 0;
+  if (dladdr(&here, &us) != 0 && us.dli_fname != nullptr) {
+    const fs::path library = fs::canonical(us.dli_fname, error);
+    if (!error && library != program) {
+      add_folders(library, count + 1, folders);
+      // As installed: PREFIX/lib/pythonX/site-packages/voussoir.
+      const fs::path prefix = library.parent_path().parent_path().parent_path().parent_path().parent_path();
+      folders.push_back((prefix / installed).string());
+    }
+  }
+  folders.push_back((program.parent_path().parent_path() / installed).string());
+  add_folders(program, count, folders);
   return folders;
 }
 

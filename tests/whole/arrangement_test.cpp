@@ -24,7 +24,8 @@ TEST_P(ArrangementsOf, AGenerator) {
   folder.write(name + ".toml", text);
   const Outcome outcome = voussoir({"generate", name + ".toml", "--picture"}, there);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("drawn in " + name + ".svg, " + name + ".pdf and " + name + ".png"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("drawn in " + name + ".svg, " + name + ".pdf and " + name + ".png"), std::string::npos)
+      << outcome.out;
   const std::string svg = bytes_of(folder / (name + ".svg"));
   EXPECT_TRUE(svg.starts_with("<svg "));
   EXPECT_NE(svg.find("generator " + name), std::string::npos);
