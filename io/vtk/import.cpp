@@ -193,12 +193,20 @@ std::vector<NameRow> meanings(const std::vector<Shell>& shells, const ImportOpti
 Import import_blocks(const std::string& path, const ImportOptions& options) {
   check(options);
   if (h5::File::is_hdf5(path)) return import_assembly(path, options);
+  return import_surface(read_surface(path), path, options);
+}
+
+Import import_surface(const Surface& surface, const std::string& path, const ImportOptions& options,
+                      const std::function<NameRow(const Shell&)>& meaning) {
+  check(options);
   Import import;
-  const Surface surface = read_surface(path);
   import.notes = surface.notes;
   const auto shells = split_shells(surface, path, import.notes);
   import.assembly.generator = "import";
-  import.meant = meanings(shells, options, import);
+  if (meaning)
+    for (const Shell& shell : shells) import.meant.push_back(meaning(shell));
+  else
+    import.meant = meanings(shells, options, import);
   const Mat3 turn = options.scale * turn_of(options.up.empty() ? surface.up : options.up);
   Repairs repairs;
   for (std::size_t i = 0; i < shells.size(); ++i) {

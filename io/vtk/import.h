@@ -1,5 +1,6 @@
 // Stones modelled elsewhere: a surface file, or the assembly file of another program, to an assembly.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "io/case/name_map.h"
 
 namespace voussoir {
+
+struct Shell;
+struct Surface;
 
 /// Which closed shapes of a surface file are convex cells of one stone: none; those of one object; those of objects
 /// whose names differ only in a number behind the last point (corbel.1, corbel.2).
@@ -46,5 +50,9 @@ struct Import {
 /// names the object and the line for a shape that is not closed, not convex or without volume, for stones that overlap,
 /// and for an unknown stone in `fixed`.
 Import import_blocks(const std::string& path, const ImportOptions& options = {});
+/// The same of surfaces that are at hand; `path` is for messages, and `meaning`, where it is given, says of each closed
+/// shape what options.map would.
+Import import_surface(const Surface& surface, const std::string& path, const ImportOptions& options,
+                      const std::function<NameRow(const Shell&)>& meaning = {});
 
 }  // namespace voussoir
