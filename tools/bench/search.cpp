@@ -51,7 +51,7 @@ DiagnosisRequest measured_scene(const SearchScene& scene, const ScratchFolder& f
   hidden.modes = 10;
   hidden.mesh = 1.0;
   DiagnosisRequest request;
-  request.case_file = hidden.case_file;
+  request.c = read_case(hidden.case_file, CaseUse::geometry);
   request.measured = folder.path / "measured";
   write_measured(hide(hidden).measured, request.measured);
   return request;

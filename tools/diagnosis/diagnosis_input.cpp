@@ -125,7 +125,7 @@ DiagnosisProblem problem_of(const DiagnosisRequest& request, const DiagnosisInpu
 
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
   DiagnosisInput input;
-  input.c = read_case(request.case_file, CaseUse::geometry);
+  input.c = request.c;
   input.measured = read_measured(request.measured);
   input.without = request.settings.without;
   Assembly own = make_assembly(input.c);
@@ -139,7 +139,7 @@ DiagnosisInput diagnosis_input(const DiagnosisRequest& request) {
 
 DiagnosisInput planned_input(const DiagnosisRequest& request, const MeasurementPlan& plan) {
   DiagnosisInput input;
-  input.c = read_case(request.case_file, CaseUse::geometry);
+  input.c = request.c;
   input.measured.directory = plan.sensors;
   input.measured.sensors = read_sensors(plan.sensors);
   Assembly own = make_assembly(input.c);

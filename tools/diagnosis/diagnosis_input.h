@@ -6,7 +6,8 @@
 namespace voussoir {
 
 struct DiagnosisRequest {
-  std::string case_file, measured, directory;
+  Case c;                              // read for its geometry
+  std::string measured, directory;     // where the measurements are, and where to
   double model_error = 0.005;          // of frequencies, beside what the mesh does
   double shape_error = 0.005;          // of shapes, share of the largest component, beside what the mesh does
   std::vector<std::string> hold_back;  // names of modes
@@ -35,7 +36,7 @@ struct MeasurementPlan {
 /// As if the plan had been measured on the case itself, without errors but with their deviations. Throws InputError.
 DiagnosisInput planned_input(const DiagnosisRequest& request, const MeasurementPlan& plan);
 
-/// Reads both and measures what the mesh does. Throws InputError.
+/// Reads the measurements and finds what the mesh does. Throws InputError.
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request);
 
 }  // namespace voussoir

@@ -74,37 +74,28 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   if (at >= 0) source.loads = loads_after(source.c.settings.stages, std::size_t(std::min(at, stages - 1)));
 }
 
-void load_case(ModalSource& source, const std::string& file) {
-  source.c = read_case(file, CaseUse::geometry);
+void load_case(ModalSource& source, const Case& c) {
+  source.c = c;
   source.assembly = make_assembly(source.c);
   source.model = build_model(source.assembly, source.c.settings);
   source.state = initial_state(source.model);
-  source.name = fs::path(file).stem().string();
+  source.name = fs::path(c.path).stem().string();
 }
 
-}  // namespace
-
-ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool as_stored,
-                         int threads, bool quiet) {
-  ModalSource source;
-  std::error_code ignored;
-  if (!fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
-  if (fs::is_directory(from, ignored))
-    load_checkpoint(source, newest_checkpoint(from, "run it first, or give its case.toml for the intact bridge"));
-  else if (h5::File::is_hdf5(from))
-    load_checkpoint(source, from);
-  else
-    load_case(source, from);
+/// Rest where it is asked for, and the tangent of the state.
+ModalSource prepared(ModalSource source, const std::function<void(ModalSettings&)>& modal, bool as_stored, int threads,
+                     bool quiet) {
   ModalSettings& asked = source.c.settings.modal;
   modal(asked);
   const bool gravity = asked.state == ModalSettings::State::gravity;
   if (!source.damaged) {
-    if (as_stored) throw InputError("--as-stored is for the state of a run, and {} is a case", from);
+    if (as_stored) throw InputError("--as-stored is for the state of a run, and {} is a case", source.c.path);
     if (asked.geometric && !gravity)
       throw InputError("geometric stiffness needs the forces of a state: add --state gravity");
     if (gravity) rest_under_gravity(source, threads, quiet);
     source.tangent = gravity ? PatchTangent::present : PatchTangent::intact;
-    source.about = fmt::format("{}, {}", from, gravity ? "joints as they rest under gravity" : "all joints intact");
+    source.about =
+        fmt::format("{}, {}", source.c.path, gravity ? "joints as they rest under gravity" : "all joints intact");
   }
   for (const std::string& effect : source.assembly.effects) source.about += fmt::format(", effect {}", effect);
   if (source.tangent == PatchTangent::intact) return source;
@@ -123,6 +114,28 @@ ModalSource modal_source(const std::string& from, const std::function<void(Modal
     source.about += ", with geometric stiffness";
   }
   return source;
+}
+
+}  // namespace
+
+ModalSource modal_source(const Case& c, const std::function<void(ModalSettings&)>& modal, int threads, bool quiet) {
+  ModalSource source;
+  load_case(source, c);
+  return prepared(std::move(source), modal, false, threads, quiet);
+}
+
+ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool as_stored,
+                         int threads, bool quiet) {
+  ModalSource source;
+  std::error_code ignored;
+  if (!fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
+  if (fs::is_directory(from, ignored))
+    load_checkpoint(source, newest_checkpoint(from, "run it first, or give its case.toml for the intact bridge"));
+  else if (h5::File::is_hdf5(from))
+    load_checkpoint(source, from);
+  else
+    load_case(source, read_case(from, CaseUse::geometry));
+  return prepared(std::move(source), modal, as_stored, threads, quiet);
 }
 
 }  // namespace voussoir

@@ -24,5 +24,7 @@ struct ModalSource {
 /// damage kept, unless it is wanted `as_stored`. `modal` overrides what the case says. Throws InputError, RunError.
 ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool as_stored,
                          int threads, bool quiet);
+/// The same of a case that has been read. Throws InputError, RunError.
+ModalSource modal_source(const Case& c, const std::function<void(ModalSettings&)>& modal, int threads, bool quiet);
 
 }  // namespace voussoir

@@ -47,6 +47,10 @@ void time_is_up(int) {
 
 }  // namespace
 
+void RunSession::forget_stop() {
+  stop_flag.store(false), late_flag.store(false);
+}
+
 RunSession::RunSession(const RunRequest& request)
     : request_(request),
       case_(read_case(request.directory + "/case.toml")),
@@ -78,7 +82,10 @@ Observers RunSession::observers() {
     if (case_.settings.stages[std::size_t(stage)].kind == StageSettings::Kind::gravity) report_gravity();
   };
   o.checkpoint = [this](Simulation&, bool stage_end) { write_checkpoint(stage_end); };
-  o.progress = [this](const Progress& p) { progress_.show(p); };
+  o.progress = [this](const Progress& p) {
+    progress_.show(p);
+    if (request_.progress) request_.progress(p);
+  };
   o.log = [this](const std::string& text) { log(text); };
   o.stop = &stop_flag;
   return o;

@@ -19,11 +19,12 @@ struct RunRequest {
   int threads = 1;
   bool quiet = false;
   bool pictures = true;
-  Packing packing = usual_packing;  // of the files for ParaView
-  double until = -1.0;              // s of simulated time; negative: to the end
-  double time_limit = 0.0;          // s of wall time after which it stops with a checkpoint; 0: none
-  double fall_displacement = 0.0;   // m; the run ends once more than …
-  double fall_share = 0.0;          // … of the mass that can move has gone that far; 0: never
+  Packing packing = usual_packing;                // of the files for ParaView
+  double until = -1.0;                            // s of simulated time; negative: to the end
+  double time_limit = 0.0;                        // s of wall time after which it stops with a checkpoint; 0: none
+  std::function<void(const Progress&)> progress;  // beside the line on the terminal
+  double fall_displacement = 0.0;                 // m; the run ends once more than …
+  double fall_share = 0.0;                        // … of the mass that can move has gone that far; 0: never
 };
 
 enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };  // late: past its time limit
@@ -41,6 +42,8 @@ class RunSession {
   void begin_where(const std::string& other);
   /// Runs to the end (or `until`); returns the exit status.
   int run();
+  /// A request to stop (a signal, a time limit) holds for all runs of a process; from here on none has been made.
+  static void forget_stop();
   /// How run() ended, also when it threw: `failed` is the solver's failure, `none` anything else (a full disk).
   SessionEnd end() const { return end_; }
   double time() const { return simulation_->state().time(); }  // s, simulated

@@ -119,8 +119,8 @@ int diagnose_run(const std::vector<std::string>& arguments) {
           "--{} says what is counted on of a plan, and there is none; give --plan FILE instead of --measured, or leave "
           "it out",
           option);
-  request.case_file = values["CASE"].as<std::string>();
-  if (request.directory.empty()) request.directory = fs::path(request.case_file).stem().string() + "-diagnosis";
+  request.c = read_case(values["CASE"].as<std::string>(), CaseUse::geometry);
+  if (request.directory.empty()) request.directory = fs::path(request.c.path).stem().string() + "-diagnosis";
   request.settings.without = words_in(without);
   for (const std::string& name : request.settings.without) find_effect(name);
   request.hold_back = words_in(held);
