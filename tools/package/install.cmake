@@ -1,7 +1,7 @@
 # cmake --install: the program with what it reads (component runtime), and the libraries for other programs (component
 # development). Everything finds everything by relative paths, so that a prefix may be moved.
 include(CMakePackageConfigHelpers)
-set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the target voussoir is all that must be built: no tests, no benchmarks
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the target `installed` is all that must be built
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/voussoir)
 set(shipped_folder ${CMAKE_INSTALL_DATADIR}/voussoir)
@@ -27,6 +27,13 @@ file(GLOB pages \"${manual}/man1/*.1\")
 execute_process(COMMAND \"${GZIP}\" -9n \${pages} COMMAND_ERROR_IS_FATAL ANY)" COMPONENT runtime)
 install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
 install(DIRECTORY ${manual}/completions DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion COMPONENT runtime)
+
+# The Python package, for the Python that it was compiled for (component python).
+if(TARGET voussoir_python)
+  set(python_packages lib/python3/dist-packages)
+  install(TARGETS voussoir_python LIBRARY DESTINATION ${python_packages}/voussoir COMPONENT python)
+  install(FILES ${python_files} DESTINATION ${python_packages}/voussoir COMPONENT python)
+endif()
 
 # For other programs: what cases, assemblies and runs are made of. No pictures, for these need VTK.
 foreach(room flags base geometry solver io)

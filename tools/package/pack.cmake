@@ -21,14 +21,21 @@ endif()
 set(CPACK_PACKAGE_FILE_NAME voussoir-${PROJECT_VERSION}-${CPACK_SYSTEM_NAME})
 
 set(CPACK_COMPONENTS_ALL runtime development)
+set(debian_packages voussoir libvoussoir-dev)
+if(TARGET voussoir_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND debian_packages python3-voussoir)
+endif()
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Models masonry arch bridges: every stone is a rigid body, every joint can
 open, slide and break. Builds a bridge from its dimensions, brings it to rest
 under its weight, loads it or shakes it, and shows where it cracks. With
 cases, vehicles, tutorials and documentation.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers for programs that run such models themselves.
 Static libraries, headers and a CMake package, find_package(voussoir).")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python package that runs such models in process: cases as dictionaries,
+callbacks, the state as numpy arrays, modes, diagnosis, rating.")
 if(VOUSSOIR_NATIVE)
-  foreach(component RUNTIME DEVELOPMENT)
+  foreach(component RUNTIME DEVELOPMENT PYTHON)
     string(APPEND CPACK_COMPONENT_${component}_DESCRIPTION "
 This package was compiled for the processor of the machine that made it.")
   endforeach()
@@ -46,6 +53,13 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "xvfb, libgl1-mesa-dri, fonts-liberation | fonts-dejavu-core")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libopenblas0-pthread, man-db, bash-completion")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "chromium, paraview, libvoussoir-dev")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-voussoir)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, voussoir (= ${PROJECT_VERSION}-1)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/debian/postinst ${CMAKE_CURRENT_BINARY_DIR}/debian/prerm)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libvoussoir-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, pkg-config, libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, libssl-dev, libhdf5-dev, libceres-dev, libsuitesparse-dev")
@@ -58,8 +72,9 @@ endif()
 find_program(DPKG dpkg)
 if(DPKG)
   execute_process(COMMAND ${DPKG} --print-architecture OUTPUT_VARIABLE architecture OUTPUT_STRIP_TRAILING_WHITESPACE)
-  foreach(package voussoir libvoussoir-dev)
+  foreach(package ${debian_packages})
     string(REPLACE "libvoussoir-dev" DEVELOPMENT component ${package})
+    string(REPLACE "python3-voussoir" PYTHON component ${component})
     string(REPLACE "voussoir" RUNTIME component ${component})
     set(CPACK_DEBIAN_${component}_FILE_NAME ${package}_${PROJECT_VERSION}-1_${architecture}${deb_end}.deb)
   endforeach()
@@ -82,7 +97,7 @@ License: BSD-3-Clause
  ${terms}
 ")
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH where it is set
-foreach(package voussoir libvoussoir-dev)
+foreach(package ${debian_packages})
   file(CONFIGURE OUTPUT ${debian}/${package}/changelog.Debian CONTENT "voussoir (${PROJECT_VERSION}-1) unstable; urgency=medium
 
   * Made from the sources by cpack; what has changed in the program stands in
@@ -97,4 +112,12 @@ install(FILES ${debian}/copyright ${debian}/voussoir/changelog.gz ${debian}/vous
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(FILES ${debian}/copyright ${debian}/libvoussoir-dev/changelog.gz ${debian}/libvoussoir-dev/changelog.Debian.gz
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libvoussoir-dev COMPONENT development)
+if(TARGET voussoir_python)
+  install(FILES ${debian}/copyright ${debian}/python3-voussoir/changelog.gz ${debian}/python3-voussoir/changelog.Debian.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-voussoir COMPONENT python)
+  # Python compiles the package when it is installed, and what it compiled goes with it.
+  file(WRITE ${debian}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ] && command -v py3compile >/dev/null; then py3compile -p python3-voussoir; fi\n")
+  file(WRITE ${debian}/prerm "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null; then py3clean -p python3-voussoir; fi\n")
+  file(CHMOD ${debian}/postinst ${debian}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+endif()
 include(CPack)

@@ -1,0 +1,6 @@
+from typing import Any
+
+from . import Assembly, Snapshot
+
+def assembly_of(model: Any, **options: Any) -> Assembly: ...
+def results(assembly: Assembly, snapshot: Snapshot) -> dict[str, Any]: ...
