@@ -61,7 +61,8 @@ TEST_F(Arrangements, TemplateRunsAsItStands) {
 }
 
 TEST_F(Arrangements, RefusesWhatTheTemplateCannotBe) {
-  expect_error(voussoir({"generate", "--template", "--spans", "8,wide"}, there), 2, {"--spans has 'wide'", "8,10,8"});
+  expect_error(voussoir({"generate", "--template", "--spans", "8,wide"}, there), 2,
+               {"--spans contains 'wide'", "8,10,8"});
   expect_error(voussoir({"generate", "--template", "--spans", "8,0"}, there), 2, {"--spans has 0 m", "0.3 to 100 m"});
   expect_error(voussoir({"generate", "--template", "--shape", "segmentel"}, there), 2, {"did you mean 'segmental'"});
   expect_error(voussoir({"generate", "--template", "--shape", "surveyed"}, there), 2, {"needs its intrados"});

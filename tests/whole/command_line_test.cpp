@@ -85,7 +85,7 @@ TEST(CommandLine, WrongOptionsAreRefused) {
     expect_error(voussoir(words, there), 2, pieces);
   };
   refused({"run", "wall.toml", "--colour", "red"}, {"--colour", "run --help"});
-  refused({"run"}, {"CASE", "usage"});
+  refused({"run"}, {"CASE", "Usage"});
   refused({"run", "wall.toml", "second.toml"}, {"run --help"});
   refused({"run", "wall.toml", "--threads", "0"}, {"--threads", "0"});
   refused({"run", "wall.toml", "--threads", "many"}, {"many", "threads"});
@@ -137,10 +137,10 @@ TEST(CommandLine, NamesThatEndLikeAnotherKindOfFileAreRefused) {
   Folder folder;
   write_wall(folder);
   const Surroundings there{.folder = folder.path()};
-  expect_error(voussoir({"render", "wall.toml", "-o", "a.svg"}, there), 2, {"a.svg", "PNG", "let it end in .png"});
-  expect_error(voussoir({"generate", "wall.toml", "-o", "a.PNG"}, there), 2, {"a.PNG", "let it end in .h5 or .hdf5"});
-  expect_error(voussoir({"import", "a.obj", "-o", "b.obj"}, there), 2, {"b.obj", "let it end in .h5 or .hdf5"});
-  expect_error(voussoir({"step", "wall.toml", "-o", "a.csv"}, there), 2, {"a.csv", "let it end in .json"});
+  expect_error(voussoir({"render", "wall.toml", "-o", "a.svg"}, there), 2, {"a.svg", "PNG", "must end in .png"});
+  expect_error(voussoir({"generate", "wall.toml", "-o", "a.PNG"}, there), 2, {"a.PNG", "must end in .h5 or .hdf5"});
+  expect_error(voussoir({"import", "a.obj", "-o", "b.obj"}, there), 2, {"b.obj", "must end in .h5 or .hdf5"});
+  expect_error(voussoir({"step", "wall.toml", "-o", "a.csv"}, there), 2, {"a.csv", "must end in .json"});
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"wall.toml"});
 }
 

@@ -112,7 +112,7 @@ TEST(Diagnose, WantsMeasurementsOrAPlan) {
   const Outcome both =
       voussoir({"diagnose", "bridge.toml", "--measured", "a", "--plan", "b.csv"}, {.folder = folder.path()});
   EXPECT_EQ(both.status, 2);
-  EXPECT_NE(both.err.find("both are given"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("Both are given"), std::string::npos) << both.err;
 }
 
 /// A deformable fill is in what is measured and in what is compared with it.

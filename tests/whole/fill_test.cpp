@@ -65,7 +65,7 @@ TEST(Fill, TheStepNamesANode) {
   folder.write("c.toml", fine);
   const Outcome seen = voussoir({"step", "c.toml"}, {.folder = folder.path()});
   ASSERT_EQ(seen.status, 0) << seen.err;
-  expect_holds(seen.out, {"set by node", "of the fill at", "bodies and nodes that ask"});
+  expect_holds(seen.out, {"set by node", "of the fill at", "bodies and nodes that demand"});
 }
 
 TEST(Fill, ModesKnowIt) {
@@ -114,7 +114,7 @@ TEST(Fill, ImportAlone) {
   const Surroundings there = {.folder = folder.path()};
   const Outcome outcome = voussoir({"import", "heap.msh", "-o", "heap.h5"}, there);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  expect_holds(outcome.out, {"a fill alone", "4 nodes, 1 tetrahedra"});
+  expect_holds(outcome.out, {"holds only the fill", "4 nodes, 1 tetrahedra"});
   const Outcome seen = voussoir({"info", "heap.h5"}, there);
   EXPECT_EQ(seen.status, 0) << seen.err;
   expect_holds(seen.out, {"0 blocks", "deformable fill"});

@@ -176,17 +176,18 @@ TEST(Fragility, SaysWhatIsWrong) {
                {"--limit damage:spandrel:0.02", "no column 'edp.spandrel': did you mean 'edp.spandrel_y'"});
   expect_error(fragility(folder, {"--limit", "damage:im.pga:0.02"}), 2,
                {"the demand of limit state 'damage' is 'im.pga'"});
-  expect_error(fragility(folder, {"--limit", "damage"}), 2, {"expected NAME:DEMAND:THRESHOLD"});
-  expect_error(fragility(folder, {"--limit", "damage:spandrel_y:2 cm"}), 2, {"the threshold '2 cm' is not a number"});
+  expect_error(fragility(folder, {"--limit", "damage"}), 2, {"must be NAME:DEMAND:THRESHOLD"});
+  expect_error(fragility(folder, {"--limit", "damage:spandrel_y:2 cm"}), 2,
+               {"the threshold is '2 cm'", "must be a number"});
   expect_error(fragility(folder, {"--limit", "damage:spandrel_y:-1"}), 2, {"it must be above 0"});
   expect_error(fragility(folder, {"--im", "sa_0.3"}), 2, {"no column 'im.sa_0.3'", "im.sa_0.30"});
   expect_error(fragility(folder, {"--bootstrap", "-1"}), 2, {"--bootstrap is -1"});
   for (const auto& [json, piece] : std::vector<std::pair<std::string, std::string>>{
            {"{", "is no valid JSON"},
-           {R"({"limit_states": 3})", "'limit_states' is no list"},
+           {R"({"limit_states": 3})", "'limit_states' must be a list"},
            {R"({"limit_states": [3]})", "needs 'name', 'demand' and 'threshold'"},
-           {R"({"limit_states": [{"name": "d", "demand": "edp.keystone_x"}]})", "has no number 'threshold'"},
-           {R"({"limit_states": [{"name": 1, "demand": "edp.keystone_x"}]})", "'name' is no text"},
+           {R"({"limit_states": [{"name": "d", "demand": "edp.keystone_x"}]})", "needs a number 'threshold'"},
+           {R"({"limit_states": [{"name": 1, "demand": "edp.keystone_x"}]})", "'name' must be a text"},
            {R"({"limit_states": [{"name": "d", "demand": "edp.keystone_x", "threshold": 1, "case": "c"}]})",
             "is for case 'c'"}}) {
     folder.write("campaign/campaign.json", json);
@@ -196,7 +197,7 @@ TEST(Fragility, SaysWhatIsWrong) {
 
 TEST(Fragility, ACampaignWithoutResultsIsRefused) {
   const Campaign folder(heading + "a,c,r,,1,,failed,energy,3,1,1,1,,,\nb,c,r,,1,,missing,,,,,,,,\n");
-  expect_error(fragility(folder, {}), 2, {"none of 2 runs is done (1 failed, 1 not run yet)"});
+  expect_error(fragility(folder, {}), 2, {"none of the 2 runs is done (1 failed, 1 have not been run yet)"});
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -87,7 +87,7 @@ TEST(Modal, AfterDamageSaysTheFrequencyDrop) {
   }
   EXPECT_LT(least, -0.05) << outcome.out;
   expect_error(voussoir({"modal", "run", "--state", "intact"}, {.folder = folder.path()}), 2,
-               {"--state is for a case"});
+               {"--state applies to a case"});
   // A checkpoint of the intact beginning: no drop at all.
   std::string begin;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "run/checkpoints"))

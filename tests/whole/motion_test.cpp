@@ -41,7 +41,7 @@ TEST(Motion, SynthesizedRecordsAreSaidToBeAndCanBeSelected) {
   make_records(folder);
   const Surroundings there{.folder = folder.path()};
   EXPECT_TRUE(has(bytes_of(folder / "made/synthetic_0001_x.txt"), "# synthetic, not recorded: NTC 2018"));
-  EXPECT_TRUE(has(bytes_of(folder / "made/synthetic.html"), "They are no recordings"));
+  EXPECT_TRUE(has(bytes_of(folder / "made/synthetic.html"), "They were not recorded"));
   const nlohmann::json made = json_of(folder / "made/synthetic.json");
   ASSERT_EQ(made["records"].size(), 6u);
   for (const nlohmann::json& record : made["records"])
@@ -67,7 +67,7 @@ TEST(Motion, WithoutASolutionTheClosestIsWrittenAndTheRemedySaid) {
   const Outcome outcome = voussoir(with_target({"motion", "select", "made", "--count", "3", "--range", "0.15", "1.2",
                                                 "--bounds", "0.9999", "1.0001", "-o", "out"}),
                                    {.folder = folder.path()});
-  expect_error(outcome, 1, {"no set of 3 records", "widen --bounds"});
+  expect_error(outcome, 1, {"no set of 3 records", "Widen --bounds"});
   EXPECT_FALSE(json_of(folder / "out/selection.json")["found"]);
 }
 
@@ -107,8 +107,8 @@ TEST(Motion, RoundedStepsOfAt2AndComponentsOfUnequalLength) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "RSN1_MILL: PEER AT2")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "x = 000, y = 090, z = UP")) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "0.0696 s at 0.0024 s")) << outcome.out;  // the longest
-  EXPECT_TRUE(has(outcome.out, "right within 2.1 %")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "0.0696 s at time steps of 0.0024 s")) << outcome.out;  // the longest
+  EXPECT_TRUE(has(outcome.out, "wrong by up to 2.1 %")) << outcome.out;
 }
 
 TEST(Motion, SpectraBelowTenStepsAreRemarkedOn) {
@@ -118,8 +118,8 @@ TEST(Motion, SpectraBelowTenStepsAreRemarkedOn) {
   folder.write("a.txt", text);
   const Outcome outcome = voussoir({"motion", "spectrum", "a.txt", "-o", "o"}, {.folder = folder.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "below 0.5 s, ten of their steps (0.05 s)")) << outcome.err;
-  EXPECT_TRUE(has(bytes_of(folder / "o/spectra.html"), "ten of their steps"));
+  EXPECT_TRUE(has(outcome.err, "below 0.5 s, which is ten of their time steps (0.05 s)")) << outcome.err;
+  EXPECT_TRUE(has(bytes_of(folder / "o/spectra.html"), "ten of their time steps"));
 }
 
 TEST(Motion, WrongWordsAreExplained) {
@@ -136,9 +136,10 @@ TEST(Motion, WrongWordsAreExplained) {
                {"lower corner first"});
   for (const auto& [option, value] :
        {std::pair{"--step", "1e9"}, {"--step", "nan"}, {"--taper", "-1"}, {"--order", "99"}})
-    expect_error(voussoir({"motion", "process", "a_EW.txt", option, value, "-o", "o"}, there), 2, {option, "expected"});
+    expect_error(voussoir({"motion", "process", "a_EW.txt", option, value, "-o", "o"}, there), 2,
+                 {option, "It must be"});
   expect_error(voussoir({"motion", "process", "a_EW.txt", "--band", "1e-9", "1", "-o", "o"}, there), 2, {"0.001 Hz"});
-  expect_error(voussoir({"motion", "info", "a_EW.txt", "--columns", "t", "up"}, there), 2, {"--columns has 'up'"});
+  expect_error(voussoir({"motion", "info", "a_EW.txt", "--columns", "t", "up"}, there), 2, {"--columns contains 'up'"});
   expect_error(voussoir({"motion", "info", "a_EW.txt", "--units", "gal"}, there), 2, {"'gal'", "m/s2, g or cm/s2"});
 }
 
@@ -199,7 +200,7 @@ TEST(Report, IsMadeFromARunsFilesAlone) {
     EXPECT_TRUE(has(page, piece)) << piece;
   for (const char* outside : {"<script", "src=\"http", "<link"}) EXPECT_FALSE(has(page, outside)) << outside;
   EXPECT_TRUE(summary(folder / "run")["damage"].front().contains("class"));
-  expect_error(voussoir({"report", "."}, there), 2, {"no run directory"});
+  expect_error(voussoir({"report", "."}, there), 2, {"not a run directory"});
   std::filesystem::remove(folder / "run/summary.json");
   expect_error(voussoir({"report", "run"}, there), 2, {"has not ended", "voussoir resume run"});
 }

@@ -123,7 +123,7 @@ TEST(Report, IsPrintedByTheBrowserThatIsThere) {
   folder.write("page.html", "<p>of any verb</p>");
   EXPECT_EQ(voussoir({"report", "page.html", "--pdf", "-q"}, there).status, 0);
   EXPECT_TRUE(exists(folder / "page.pdf"));
-  expect_error(voussoir({"report", "page.html"}, there), 2, {"--pdf prints it"});
+  expect_error(voussoir({"report", "page.html"}, there), 2, {"Give --pdf to print it"});
   expect_error(voussoir({"report", "none.html", "--pdf"}, there), 2, {"no file none.html"});
 
   write_program(programs, "chromium", "exit 3\n");

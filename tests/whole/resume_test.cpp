@@ -253,7 +253,7 @@ TEST(Resume, WhatIsNoRunDirectoryIsSaid) {
   write_wall(folder);
   expect_error(resume(folder, "nowhere"), 2, {"nowhere"});
   expect_error(resume(folder, "wall.toml"), 2, {"wall.toml"});
-  expect_error(resume(folder, "."), 2, {"no run directory"});
+  expect_error(resume(folder, "."), 2, {"not a run directory"});
   std::filesystem::copy(folder / "wall.toml", folder / "case.toml");  // a folder with a case only
   expect_error(resume(folder, "."), 2, {"assembly.h5"});
 }

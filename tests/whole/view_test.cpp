@@ -113,8 +113,8 @@ TEST_F(ViewOfARun, WrongWishesAreRefused) {
   refused({"nowhere"}, {"no file or folder nowhere"});
   refused({"empty"}, {"empty has nothing to view", "frames of a run", "modes.h5", "diagnosis.json"});
   refused({"still"}, {"still has no frames", "fields_every"});
-  refused({"found"}, {"found holds no shapes", "modes_before.pvd", "diagnose again"});
-  refused({"wall.toml"}, {"wall.toml is nothing to view", "voussoir generate"});
+  refused({"found"}, {"found has no mode shapes", "modes_before.pvd", "diagnose again"});
+  refused({"wall.toml"}, {"wall.toml cannot be viewed", "voussoir generate"});
   refused({"run/history.h5"}, {"history.h5"});
   refused({"run", "--frames", "0"}, {"--frames"});
   refused({"run", "-o", "page.png"}, {"page.png", ".html"});
@@ -210,7 +210,7 @@ TEST(ViewOfModes, SwingsTheirShapes) {
   EXPECT_NE(page.find("\"mode 1: "), std::string::npos);
   EXPECT_EQ(voussoir({"view", "modes", "-o", "same.html", "--title", "modes"}, there).status, 0);
   std::filesystem::remove(folder / "modes/vtk/modes.pvd");
-  expect_error(voussoir({"view", "modes"}, there), 2, {"modes.h5 holds no shapes", "modes.pvd"});
+  expect_error(voussoir({"view", "modes"}, there), 2, {"modes.h5 has no mode shapes", "modes.pvd"});
 }
 
 }  // namespace VOUSSOIR_FILE

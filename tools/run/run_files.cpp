@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 RunFiles read_run(const std::string& directory) {
   std::error_code ignored;
   if (!fs::exists(directory + "/case.toml", ignored))
-    throw InputError("{} is no run directory: it has no case.toml; give the folder that voussoir run wrote", directory);
+    throw InputError("{} is not a run directory: it has no case.toml. Give the folder that voussoir run wrote",
+                     directory);
   if (!fs::exists(directory + "/summary.json", ignored))
     throw InputError("{} has no summary.json: the run has not ended; go on with: voussoir resume {}", directory,
                      directory);

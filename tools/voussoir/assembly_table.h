@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-/// Counts and masses by component, smallest and largest block, what is fixed, and the deformable fill.
+/// Prints counts and masses by component, the smallest and largest block, the fixed blocks, and the deformable fill.
 void print_assembly_table(const Assembly& assembly, const FillAim& aim = {});
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// voussoir campaign: many runs, here or on a cluster, and one table of them.
+// voussoir campaign: many runs on this machine or a cluster, and one table of their results.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ constexpr std::size_t most_listed = 20;  // failures
 
 struct Request {
   std::string file, directory;
-  bool from_folder = false;  // go on with a campaign's folder; its file is not needed
+  bool from_folder = false;  // continue the campaign of a folder; its file is not needed
   bool quiet = false, plan_only = false;
 };
 
@@ -36,11 +36,11 @@ Request request_of(const options::variables_map& values) {
   r.from_folder = fs::is_directory(r.file, ignored);
   r.directory = r.from_folder ? r.file : fs::path(r.file).stem().string();
   if (values.count("output") && r.from_folder)
-    throw InputError("{} is a campaign's folder already: leave out -o, or name the campaign's file", r.file);
+    throw InputError("{} is the folder of a campaign. Leave out -o, or give the campaign file", r.file);
   if (values.count("output")) r.directory = values["output"].as<std::string>();
   if (r.from_folder && !holds_plan(r.directory))
-    throw InputError("{} is a folder without a campaign in it: give a campaign file, or the folder of an earlier one",
-                     r.file);
+    throw InputError(
+        "{} is a folder that holds no campaign. Give a campaign file, or the folder of an earlier campaign", r.file);
   r.directory = fs::absolute(r.directory).lexically_normal().string();
   while (r.directory.size() > 1 && r.directory.back() == '/') r.directory.pop_back();
   return r;
@@ -48,7 +48,7 @@ Request request_of(const options::variables_map& values) {
 
 Draft draft_of(const Request& wanted) {
   const Settings settings = read_settings(wanted.file);
-  if (!wanted.quiet && !wanted.plan_only)  // the plan says it itself
+  if (!wanted.quiet && !wanted.plan_only)  // print_plan prints these lines itself
     for (const std::string& record : settings.left_out) fmt::print(stderr, "left out: {}\n", record);
   return make_draft(settings);
 }
@@ -81,7 +81,7 @@ void print_status(const Plan& plan, const std::string& directory) {
   fmt::print("{}\n", counts_text(tally(directory, plan)));
 }
 
-/// A word that a shell takes as it is: what is said to be typed must do no harm.
+/// A word quoted for a shell, because the user may paste the printed command.
 std::string for_shell(const std::string& word) {
   const std::string plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-/+,@:=";
   if (word.find_first_not_of(plain) == std::string::npos) return word;
@@ -102,7 +102,7 @@ void list_failures(const Plan& plan, const std::string& directory) {
   }
   if (t.failed > most_listed) fmt::print(stderr, "… and {} more; --status lists all\n", t.failed - most_listed);
   if (t.failed > 0)
-    fmt::print(stderr, "what is left of a failed run is in its folder, {}/runs/…; --retry-failed tries them again\n",
+    fmt::print(stderr, "The files of the failed runs are in {}/runs/…. Give --retry-failed to run them once more\n",
                directory);
 }
 
@@ -115,7 +115,7 @@ const Engine& engine_named(const std::string& name) {
   throw InputError("--engine is '{}'{}", name, suggestion(name, names));
 }
 
-/// The progress line with what is left of the time, judged by the runs since it was started.
+/// The progress line with the time left, estimated from the runs that have ended since the start.
 class Watch {
  public:
   Watch(std::size_t todo, bool quiet) : todo_(todo), quiet_(quiet), line_(quiet) {}
@@ -157,7 +157,7 @@ WorkEnd compute(const Plan& plan, const Request& wanted, const options::variable
   work.say = [&](const std::string& text) { watch.say(text); };
   work.progress = [&](const Tally& t, std::size_t ended) { watch.show(t, ended); };
   if (work.todo.size() < plan.runs.size())
-    watch.say(fmt::format("{} of {} runs have ended before", plan.runs.size() - work.todo.size(), plan.runs.size()));
+    watch.say(fmt::format("{} of {} runs have already ended", plan.runs.size() - work.todo.size(), plan.runs.size()));
   watch_signals();
   const WorkEnd end = engine.run(work);
   watch.end();
@@ -174,26 +174,28 @@ int finish(const Plan& plan, const Request& wanted, WorkEnd end) {
   if (t.done + t.collapsed > 0) try {
       write_campaign_page(directory);
       if (!wanted.quiet) fmt::print(stderr, "page in {}/report.html\n", directory);
-    } catch (const std::exception& error) {  // the table is there
-      fmt::print(stderr, "no page: {}\n", error.what());
+    } catch (const std::exception& error) {  // the table has been written
+      fmt::print(stderr, "no page was written: {}\n", error.what());
     }
   if (end == WorkEnd::left) return 0;
   if (end == WorkEnd::stopped || t.missing > 0)
-    fmt::print(stderr, "{} runs have not ended; go on with: voussoir campaign {}\n", t.missing, for_shell(directory));
+    fmt::print(stderr, "{} runs have not ended. Continue with: voussoir campaign {}\n", t.missing,
+               for_shell(directory));
   return t.failed + t.missing > 0 || end == WorkEnd::stopped ? 1 : 0;
 }
 
 void add_options(CommandLine& line) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
-                               "the campaign's folder (default: the file's name)")(
-      "plan", "list the runs, write and run nothing")("status", "say how far each run is")(
-      "table", "write the table of what there is, run nothing")("retry-failed", "run what has failed once more")(
-      "engine", options::value<std::string>()->value_name("NAME"), "local or slurm, in place of the file's")(
-      "no-wait", "leave the runs to Slurm; start the campaign again to gather them");
+                               "folder of the campaign (default: the file's name)")(
+      "plan", "list the runs and what the folder of records leaves out; write and run nothing")(
+      "status", "say how far each run is, and why it failed")(
+      "table", "write the table of the present results; run nothing")("retry-failed", "run failed runs once more")(
+      "engine", options::value<std::string>()->value_name("NAME"), "local or slurm (default: the file's)")(
+      "no-wait", "leave the runs to Slurm; the same command without this option gathers them");
 }
 
 int run_campaign(const std::vector<std::string>& arguments) {
-  CommandLine line("campaign", "campaign FILE [-o DIR]   (or, to go on: campaign DIR)",
+  CommandLine line("campaign", "campaign FILE [-o DIR]   (to continue: campaign DIR)",
                    "voussoir campaign cases/campaigns/walls.toml -o walls");
   add_options(line);
   line.positional = line.required = {"FILE"};
@@ -217,7 +219,7 @@ int run_campaign(const std::vector<std::string>& arguments) {
   std::error_code failed;
   fs::create_directories(directory, failed);
   if (failed)
-    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+    throw InputError("cannot make the folder {}: {}. Choose another one with -o DIR", directory, failed.message());
   const DirectoryLock lock(directory);
   if (!wanted.from_folder) write_draft(draft, directory);
   if (values.count("retry-failed"))
@@ -229,7 +231,8 @@ int run_campaign(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb campaign_verb() {
-  return {"campaign", "many runs: cases, records, scales, sampled materials; here or on a Slurm cluster", run_campaign};
+  return {"campaign", "make many runs: cases, records, scales, sampled materials; on this machine or a Slurm cluster",
+          run_campaign};
 }
 
 }  // namespace voussoir

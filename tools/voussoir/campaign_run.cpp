@@ -1,4 +1,4 @@
-// One run of a campaign: what its engines start. Not listed among the verbs.
+// One run of a campaign. The engines of a campaign start this verb. It is not listed among the verbs.
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -25,15 +25,15 @@ using namespace campaign;
 
 namespace {
 
-constexpr int patience = 600;  // tenths of a second: for a run that another process is just leaving
+constexpr int patience = 600;  // 0.1 s, longest wait for another process to leave the run's folder
 
-/// Its process ends, with a checkpoint, when the campaign that started it does, however that ends.
+/// Makes this process end, with a checkpoint, when the campaign that started it ends for any reason.
 void end_with(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) throw RunError("the campaign that started this run has ended");
 }
 
-/// A folder once no other process holds it, however long that takes.
+/// Locks a folder. Waits without limit until no other process holds it.
 DirectoryLock locked(const std::string& folder) {
   while (true) try {
       return DirectoryLock(folder);
@@ -71,12 +71,12 @@ RunRequest request_of(const Job& job) {
   return r;
 }
 
-/// Thrown where a signal asks for the end: the run is to go on later.
+/// Thrown if a signal stops the run. The run can be continued later.
 struct Stopped {};
 
-/// What a run's stages without time make of its bridge is the same for all runs of one case and sample: the first that
-/// comes finds it, in DIR/gravity/…, and the others wait for it. The folder of that run; empty where a case does not
-/// begin so, or has nothing but such stages. Throws RunError where it cannot be found.
+/// The stages before the first motion give the same state for all runs of one case and sample. The first run computes
+/// them in DIR/gravity/…, and the others wait for it. Returns the folder of that computation; empty if the case does
+/// not begin with such stages or has no others. Throws RunError if the computation fails.
 std::string gravity_of(const Job& job, const Case& c) {
   const std::optional<Case> before = before_motion(c);
   if (!before) return "";
@@ -95,11 +95,12 @@ std::string gravity_of(const Job& job, const Case& c) {
   session.run();
   if (session.end() == SessionEnd::stopped) throw Stopped();
   if (session.end() == SessionEnd::late)
-    throw RunError("its time limit of {:g} s was over before gravity was found", job.plan.engine.time_limit);
+    throw RunError("the time limit of {:g} s was reached before equilibrium under gravity was found",
+                   job.plan.engine.time_limit);
   return run;
 }
 
-/// Goes on with what is there, or begins; what is there and cannot be gone on with is begun anew.
+/// Continues the run in the folder, or starts it. A run that cannot be continued starts again from its beginning.
 struct Held {
   std::optional<DirectoryLock> lock;
   std::optional<RunSession> session;
@@ -111,7 +112,7 @@ void begin(const Job& job, Held& held) {
       held.session->resume();
       return;
     } catch (const InputError& error) {
-      fmt::print(stderr, "{}; beginning anew\n", error.what());
+      fmt::print(stderr, "{}. The run starts again from its beginning\n", error.what());
       held.session.reset();
       held.lock.reset();
     }
@@ -122,7 +123,7 @@ void begin(const Job& job, Held& held) {
   if (!gravity.empty()) held.session->begin_where(gravity);
 }
 
-/// The end state's checkpoint stays, for modes and pictures.
+/// Removes all checkpoints except that of the end state, which modes and pictures need.
 void drop_checkpoints(const std::string& folder) {
   std::vector<fs::path> ends;
   std::error_code ignored;
@@ -155,8 +156,9 @@ Outcome outcome_of(const Job& job, const RunSession& session) {
       break;
     case SessionEnd::late:
       o.status = Status::failed;
-      o.reason = fmt::format("at t = {:.2f} s its time limit of {:g} s was over; --retry-failed goes on from there",
-                             session.time(), job.plan.engine.time_limit);
+      o.reason =
+          fmt::format("the time limit was reached at t = {:.2f} s (limit {:g} s). --retry-failed continues from there",
+                      session.time(), job.plan.engine.time_limit);
       o.seconds = job.plan.engine.time_limit;
       o.goes_on = true;
       break;
@@ -166,7 +168,7 @@ Outcome outcome_of(const Job& job, const RunSession& session) {
   return o;
 }
 
-/// The exit status. Whatever goes wrong is kept as the run's failure.
+/// Computes the run and returns the exit status. Every error is stored as the reason of the failure.
 int work(const Job& job) {
   const auto started = std::chrono::steady_clock::now();
   Held held;
@@ -177,7 +179,7 @@ int work(const Job& job) {
     o.status = Status::failed;
     o.reason = why;
     o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    // What the solver cannot do it will not do the second time; a full disk may have been emptied.
+    // A failure of the solver would occur again. Other failures, such as a full disk, may not.
     o.goes_on = held.session && held.session->end() != SessionEnd::failed;
   };
   try {
@@ -187,7 +189,7 @@ int work(const Job& job) {
   } catch (const Stopped&) {
     return 1;
   } catch (const std::bad_alloc&) {
-    fail("out of memory: let fewer runs go at once, or give the bridge fewer blocks");
+    fail("out of memory. Run fewer runs at once, or use fewer blocks");
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -197,21 +199,21 @@ int work(const Job& job) {
   return o.status == Status::failed ? 1 : 0;
 }
 
-/// Which run of a list that was given to Slurm.
+/// The identifier of a run in a list that was given to Slurm.
 std::string run_of_batch(const std::string& directory, const std::string& batch, int task) {
   const std::string file = directory + "/slurm/" + fs::path(batch).filename().string();
   const auto runs = need<std::vector<std::string>>(read_json(file), "runs", file);
   if (task < 0 || std::size_t(task) >= runs.size())
-    throw InputError("{} has {} runs, from 0: there is no {}", file, runs.size(), task);
+    throw InputError("{} has {} runs, counted from 0, but no run {}", file, runs.size(), task);
   return runs[std::size_t(task)];
 }
 
 int campaign_run(const std::vector<std::string>& arguments) {
   CommandLine line("campaign-run", "campaign-run DIR RUN", "voussoir campaign-run campaign cs1-f__aquila__x1");
   line.described.add_options()("batch", options::value<std::string>()->value_name("FILE"), "list of runs in DIR/slurm")(
-      "task", whole_option("task", 0, 1'000'000'000)->value_name("N"), "place in that list, from 0")(
+      "task", whole_option("task", 0, 1'000'000'000)->value_name("N"), "position in that list, from 0")(
       "parent", whole_option("parent", 1, std::numeric_limits<int>::max())->value_name("PID"),
-      "process with which this one ends");
+      "process that started this run; the run ends when that process ends");
   line.positional = {"DIR", "RUN"};
   line.required = {"DIR"};
   options::variables_map values;
@@ -219,7 +221,7 @@ int campaign_run(const std::vector<std::string>& arguments) {
   if (values.count("parent")) end_with(values["parent"].as<int>());
   const std::string directory = values["DIR"].as<std::string>();
   if (values.count("RUN") == values.count("batch") || values.count("batch") != values.count("task"))
-    throw InputError("give a run, or --batch and --task; usage: voussoir {}", line.usage);
+    throw InputError("give a run, or --batch and --task. Usage: voussoir {}", line.usage);
   const std::string id = values.count("RUN")
                              ? values["RUN"].as<std::string>()
                              : run_of_batch(directory, values["batch"].as<std::string>(), values["task"].as<int>());

@@ -1,5 +1,5 @@
-// voussoir check: climbs the validation ladder, whose rungs are elements of the method (tools/ladder) and cases that
-// say what they should give, and compares.
+// voussoir check: runs the validation ladder and compares its results with the expected values. The rungs are elements
+// of the method (tools/ladder) and cases with [[check]].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,13 +25,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the rungs of the ladder are, and the bridges of the literature, some of which are rungs too.
+/// The folder of the rungs that are cases. Some bridges of the literature (cases/bridges) are rungs too.
 std::string ladder_folder() {
   return shipped("cases/validation");
 }
 constexpr const char* bridges = "bridges";
 
-/// A rung's name is its file's; case.toml stands for its folder, and a bridge of the literature is called one.
+/// The name of a rung: that of its file. case.toml has the name of its folder; a bridge of the literature begins with
+/// "bridge-".
 std::string rung_name(const std::string& file) {
   const fs::path path(file);
   std::error_code ignored;
@@ -57,7 +58,7 @@ std::vector<std::string> ladder_files() {
 /// One step of the ladder: an element of the method, or a case file with [[check]].
 struct Step {
   const ladder::Rung* rung = nullptr;
-  std::string file;  // where there is no rung
+  std::string file;  // used if `rung` is null
 };
 
 /// The whole ladder: elements of the method first, then cases.
@@ -66,7 +67,7 @@ std::vector<Step> all_steps() {
   for (const ladder::Rung& rung : ladder::rungs()) steps.push_back({&rung, {}});
   const std::vector<std::string> files = ladder_files();
   if (files.empty())
-    throw InputError("there is no validation case in {}; name a case file with [[check]]", ladder_folder());
+    throw InputError("there is no validation case in {}. Name a case file with [[check]]", ladder_folder());
   for (const std::string& file : files) steps.push_back({nullptr, file});
   return steps;
 }
@@ -83,7 +84,7 @@ Step find_step(const std::string& name) {
     if (rung_name(file) == name) return {nullptr, file};
     known.push_back(rung_name(file));
   }
-  throw InputError("there is no case file and no rung '{}' (voussoir check --list says what each is){}", name,
+  throw InputError("there is no case file and no rung '{}' (voussoir check --list names all rungs){}", name,
                    suggestion(name, known));
 }
 
@@ -103,7 +104,8 @@ const nlohmann::json* entry_of(const nlohmann::json& list, const std::string& ke
   return index < list.size() ? &list[index] : nullptr;
 }
 
-/// The number at a place like "collapse.multiplier" or "quasi_static.0.share"; true counts as 1, false as 0.
+/// The number at a path such as "collapse.multiplier" or "quasi_static.0.share". True counts as 1, false as 0, a list
+/// as its length.
 double value_at(const nlohmann::json& summary, const std::string& place) {
   const nlohmann::json* node = &summary;
   std::size_t from = 0;
@@ -119,17 +121,17 @@ double value_at(const nlohmann::json& summary, const std::string& place) {
       std::string known;
       if (node->is_object())
         for (const auto& [name, value] : node->items()) known += (known.empty() ? "" : ", ") + name;
-      throw InputError("summary.json has no '{}': '{}' is none of: {}", place, key, known);
+      throw InputError("summary.json has no '{}'. '{}' must be one of: {}", place, key, known);
     }
     node = &(*node)[key];
   }
   if (node->is_boolean()) return node->get<bool>() ? 1.0 : 0.0;
   if (node->is_array()) return double(node->size());
-  if (!node->is_number()) throw InputError("'{}' in summary.json is no number", place);
+  if (!node->is_number()) throw InputError("'{}' in summary.json is not a number", place);
   return node->get<double>();
 }
 
-/// Runs a case in a folder; a run that fails has a summary too.
+/// Runs a case in a folder and returns its summary. A run that fails writes a summary too.
 nlohmann::json run_summary(const std::string& text, const std::string& file, const std::string& directory,
                            int threads) {
   const Case c = parse_case(text, file);
@@ -150,20 +152,20 @@ nlohmann::json run_summary(const std::string& text, const std::string& file, con
   return summary;
 }
 
-/// How it is to be climbed.
+/// Settings for running the ladder.
 struct Climb {
   std::string folder;  // for the runs
   int threads = 1;
   bool slow_too = false;
 };
 
-/// All checks of one file; those with the same case share a run.
+/// Runs all checks of one file. Checks with the same case text share a run.
 std::vector<CheckRow> climb_case(const std::string& file, const Climb& how) {
   const std::string name = rung_name(file);
   std::vector<CheckRow> rows;
   std::map<std::string, nlohmann::json> summaries;
   const std::vector<Check> checks = read_checks(file);
-  if (checks.empty()) throw InputError("{} has no [[check]]: nothing to compare", file);
+  if (checks.empty()) throw InputError("{} has no [[check]], so there is nothing to compare", file);
   for (const Check& check : checks) {
     if (check.slow && !how.slow_too) continue;
     CheckRow row{name, {check}, {}};
@@ -195,7 +197,7 @@ std::vector<CheckRow> climb_rung(const ladder::Rung& rung, const Climb& how) {
   return rows;
 }
 
-/// A folder of its own that goes away, unless the user named one.
+/// A temporary folder that the destructor removes, or the folder of -o, which stays.
 struct RunsFolder {
   std::string path;
   bool keep = false;
@@ -207,7 +209,7 @@ struct RunsFolder {
       std::string pattern = (fs::temp_directory_path(failed) / "voussoir-check-XXXXXX").string();
       if (mkdtemp(pattern.data())) path = pattern;
     }
-    if (path.empty() || failed) throw InputError("cannot make a folder for the runs; name one with -o DIR");
+    if (path.empty() || failed) throw InputError("cannot make a folder for the runs. Name one with -o DIR");
   }
   ~RunsFolder() {
     std::error_code ignored;
@@ -239,26 +241,27 @@ std::vector<CheckRow> climb_all(const std::vector<Step>& steps, const Climb& how
       if (!quiet) print_check_row(row);
     }
   if (!quiet) fmt::print("{}\n", check_count(all));
-  if (!quiet && all.empty()) fmt::print("all of it is slow: --long runs it\n");
+  if (!quiet && all.empty()) fmt::print("All of these checks are slow. Give --long to run them\n");
   return all;
 }
 
-/// A table that cannot be written is said before an hour's climb, not after it.
+/// Reports a table that cannot be written before the runs, which may take an hour.
 void expect_folder_of(const std::string& table) {
   std::error_code ignored;
   const fs::path folder = fs::path(table).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
-    throw InputError("--table {}: there is no folder {}; make it first", table, folder.string());
+    throw InputError("--table {}: there is no folder {}. Make it first", table, folder.string());
 }
 
 int check(const std::vector<std::string>& arguments) {
   CommandLine line("check", "check [NAME|CASE …] [--long] [--table FILE] [-o DIR]",
                    "voussoir check joint-stiffness arch.toml");
-  line.described.add_options()("long", "the slow rungs too")("list", "name the rungs, run nothing")(
+  line.described.add_options()("long", "run the slow rungs too")(
+      "list", "name the rungs, and of cases the quantities with their sources; run nothing")(
       "table", options::value<std::string>()->value_name("FILE")->default_value(""),
-      "write what was found as a Markdown table")("output,o",
-                                                  options::value<std::string>()->value_name("DIR")->default_value(""),
-                                                  "keep the runs, and check.json, in this folder");
+      "write the results as a Markdown table")("output,o",
+                                               options::value<std::string>()->value_name("DIR")->default_value(""),
+                                               "keep the run directories, and write check.json, in this folder");
   line.rest = "NAME";
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -282,7 +285,7 @@ int check(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb check_verb() {
-  return {"check", "climbs the validation ladder: compares results with what they should be", check};
+  return {"check", "compare results with known values: the validation ladder, or the expectations of a case", check};
 }
 
 }  // namespace voussoir

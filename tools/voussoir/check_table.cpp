@@ -31,12 +31,12 @@ std::string tolerance_text(const Check& check) {
   return check.absolute ? fmt::format("{:.3g}", check.tolerance) : fmt::format("{:.3g} %", 100.0 * check.tolerance);
 }
 
-/// A miss that is known is said quietly.
+/// The verdict of a row: a known miss is in lower case.
 const char* verdict(const CheckRow& row) {
   return row.pass() ? "ok" : row.known_miss() ? "miss" : "MISS";
 }
 
-/// What git says of a folder; empty where it says nothing. "-dirty" follows when a file it knows was changed.
+/// The commit of a folder, from git; empty if there is none. "-dirty" is appended if a tracked file was changed.
 std::string commit_of(const std::string& folder) {
   std::string quoted;
   for (char c : folder) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -50,7 +50,7 @@ std::string commit_of(const std::string& folder) {
   return failed ? "" : said;
 }
 
-/// Text that keeps its column: Markdown takes a bar as the end of it.
+/// Text with escaped bars, because a bar ends a column in Markdown.
 std::string cell(const std::string& text) {
   std::string safe;
   for (char c : text) safe += c == '|' ? std::string("\\|") : std::string(1, c);
@@ -85,7 +85,7 @@ void print_check_row(const CheckRow& row) {
   if (!row.trouble.empty()) fmt::print("  {}\n", row.trouble);
   if (row.known_miss()) fmt::print("  known: {}\n", c.miss);
   if (row.pass() && !c.miss.empty())
-    fmt::print("  within its tolerance now: its `miss` can be taken out (\"{}\")\n", c.miss);
+    fmt::print("  This known miss is within its tolerance now. Remove its `miss` (\"{}\")\n", c.miss);
   std::fflush(stdout);
 }
 

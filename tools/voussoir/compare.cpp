@@ -12,7 +12,7 @@ namespace {
 int compare(const std::vector<std::string>& arguments) {
   CommandLine line("compare", "compare RESULT RESULT … [-o DIR]", "voussoir compare before after -o retrofit");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR")->default_value("compared"),
-                               "folder to write to")("no-pictures", "tables and charts only");
+                               "folder to write to")("no-pictures", "leave out the pictures");
   line.rest = "RESULT";
   line.required = {"RESULT"};
   options::variables_map values;
@@ -29,7 +29,7 @@ int compare(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb compare_verb() {
-  return {"compare", "runs, modal analyses or campaigns side by side, with their differences", compare};
+  return {"compare", "put two or more runs, modal analyses or campaigns on one page, with their differences", compare};
 }
 
 }  // namespace voussoir

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Case and records so that the folder stands alone.
+/// Writes the corrected case with copies of its records and its assembly, so that the folder is self-contained.
 void write_corrected(const Case& corrected, const std::string& text, const std::string& directory) {
   const bool files = !corrected.assembly_file.empty() ||
                      std::any_of(corrected.motions.begin(), corrected.motions.end(),
@@ -50,7 +50,7 @@ int diagnose_and_write(const DiagnosisRequest& request) {
   return 0;
 }
 
-/// Before anything is measured.
+/// Evaluates a plan of sensors before anything is measured.
 int look_and_write(const DiagnosisRequest& request, const MeasurementPlan& plan) {
   const auto say = [&](const std::string& line) {
     if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
@@ -66,7 +66,7 @@ int look_and_write(const DiagnosisRequest& request, const MeasurementPlan& plan)
       pictures.push_back(
           sensor_picture(problem.base, problem.features.sensors, request.directory + "/images/sensors.png"));
     } catch (const RunError& error) {
-      say(fmt::format("no picture: {}", error.what()));
+      say(fmt::format("no picture was drawn: {}", error.what()));
     }
     write_atomically(request.directory + "/plan.html", plan_page(result, pictures));
   }
@@ -81,26 +81,29 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   MeasurementPlan plan;
   std::string without, held;
   line.described.add_options()("measured", options::value<std::string>(&request.measured)->value_name("DIR"),
-                               "folder with modes.csv, sensors.csv, shapes.csv, records/")(
+                               "folder of measurements: modes.csv, sensors.csv, shapes.csv, records/")(
       "output,o", options::value<std::string>(&request.directory)->value_name("DIR"),
-      "where to (default: CASE-diagnosis)")("hold-back", options::value<std::string>(&held),
-                                            "modes that are not fitted but predicted, by commas")(
-      "without", options::value<std::string>(&without), "effects that are not tried, by commas")(
-      "effects", whole_option("effects", 0, 100, &request.settings.effects)->default_value(3), "most that are added")(
+      "folder to write to (default: CASE-diagnosis)")(
+      "hold-back", options::value<std::string>(&held),
+      "names of modes that are predicted and not fitted, separated by commas")(
+      "without", options::value<std::string>(&without), "names of effects that are not tried, separated by commas")(
+      "effects", whole_option("effects", 0, 100, &request.settings.effects)->default_value(3),
+      "largest number of effects to add")(
       "fits", whole_option("fits", 1, 10000, &request.settings.fits)->default_value(request.settings.fits),
-      "candidates that are fitted fully in a round")(
+      "number of candidates that are fitted fully in a round")(
       "model-error",
       real_option("model-error", 1e-9, 0.999, &request.model_error)->default_value(request.model_error, "0.005"),
-      "of a right model's frequencies, share, beside its mesh")(
+      "error of the frequencies of a right model, share, in addition to the error of the mesh")(
       "most-modes", whole_option("most-modes", 1, 30, &request.most_modes)->default_value(request.most_modes),
-      "of those found in recordings: the lowest are used")(
+      "largest number of modes used of those identified from recordings, the lowest first")(
       "run-seconds", real_option("run-seconds", 0.0, 3600.0, &request.run_seconds)->default_value(request.run_seconds),
-      "of a recording with the ground's motion for which the explicit solver is run before and after; 0: not")(
-      "no-least-amounts", "do not say what least amount of each effect would have been found")(
+      "seconds of the first recording with the ground's motion for which the explicit solver is run, before and after; "
+      "0: no run")("no-least-amounts",
+                   "do not compute the least amounts of the effects that these data would have shown")(
       "plan", options::value<std::string>(&plan.sensors)->value_name("FILE"),
-      "instead of measurements: sensors like measured/sensors.csv; says what least amounts they would show")(
-      "plan-modes", whole_option("plan-modes", 1, 30, &plan.modes)->default_value(plan.modes),
-      "with --plan: so many of the lowest modes are counted on")(
+      "planned sensors, in place of measurements (format of sensors.csv): compute the least amounts that they would "
+      "show")("plan-modes", whole_option("plan-modes", 1, 30, &plan.modes)->default_value(plan.modes),
+              "with --plan: number of the lowest modes to count on")(
       "plan-noise", real_option("plan-noise", 1e-6, 0.5, &plan.noise)->default_value(plan.noise),
       "with --plan: standard deviation of periods, share; of shapes twice that")("no-page",
                                                                                  "no HTML page and no pictures");
@@ -110,14 +113,13 @@ int diagnose_run(const std::vector<std::string>& arguments) {
   if (!line.parse(arguments, values)) return 0;
   if (request.measured.empty() == plan.sensors.empty())
     throw InputError(
-        "voussoir diagnose wants one of --measured DIR, a folder with what was measured, and --plan FILE, "
-        "sensors that are not there yet; {} given",
-        plan.sensors.empty() ? "neither is" : "both are");
+        "voussoir diagnose needs either --measured DIR (a folder of measurements) or --plan FILE (planned sensors). {} "
+        "given",
+        plan.sensors.empty() ? "Neither is" : "Both are");
   for (const char* option : {"plan-modes", "plan-noise"})
     if (plan.sensors.empty() && !values[option].defaulted())
       throw InputError(
-          "--{} says what is counted on of a plan, and there is none; give --plan FILE instead of --measured, or leave "
-          "it out",
+          "--{} belongs to --plan, which is not given. Give --plan FILE instead of --measured, or leave the option out",
           option);
   request.c = read_case(values["CASE"].as<std::string>(), CaseUse::geometry);
   if (request.directory.empty()) request.directory = fs::path(request.c.path).stem().string() + "-diagnosis";
@@ -134,8 +136,7 @@ int diagnose_run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb diagnose_verb() {
-  return {"diagnose", "where model and measurement disagree, which effect is missing, the corrected case",
-          diagnose_run};
+  return {"diagnose", "compare a case with measurements and find the effect that it lacks", diagnose_run};
 }
 
 }  // namespace voussoir

@@ -35,12 +35,12 @@ LimitState limit_from_words(const std::string& words) {
   if (first != std::string::npos) limit.demand = words.substr(first + 1, second - first - 1);
   const bool falls = limit.demand == collapse_demand && second == std::string::npos;
   if (limit.demand.empty() || (second == std::string::npos && !falls))
-    throw InputError("--limit {}: expected NAME:DEMAND:THRESHOLD, such as damage:spandrel_y:0.02, or NAME:collapse",
-                     words);
+    throw InputError(
+        "--limit is {}. It must be NAME:DEMAND:THRESHOLD, such as damage:spandrel_y:0.02, or NAME:collapse", words);
   if (falls) return limit;
   const std::string number = words.substr(second + 1);
   if (parse_number(number, limit.threshold) != NumberTrouble::none)
-    throw InputError("--limit {}: the threshold '{}' is not a number, expected one in SI units", words, number);
+    throw InputError("--limit {}: the threshold is '{}'. It must be a number in SI units", words, number);
   return limit;
 }
 
@@ -48,27 +48,27 @@ LimitState limit_from_json(const nlohmann::json& json, const std::string& path) 
   LimitState limit;
   const auto text = [&](const char* key) {
     if (!json.is_object() || !json.contains(key) || json[key].is_null()) return std::string();
-    if (!json[key].is_string()) throw InputError("{}: limit_states: '{}' is no text", path, key);
+    if (!json[key].is_string()) throw InputError("{}: limit_states: '{}' must be a text", path, key);
     return json[key].get<std::string>();
   };
   limit.name = text("name"), limit.demand = text("demand"), limit.case_name = text("case");
   if (limit.name.empty() || limit.demand.empty())
-    throw InputError("{}: each of limit_states needs 'name', 'demand' and 'threshold'", path);
+    throw InputError("{}: each entry of limit_states needs 'name', 'demand' and 'threshold'", path);
   if (limit.demand == collapse_demand) return limit;
   if (!json.contains("threshold") || !json["threshold"].is_number())
-    throw InputError("{}: limit state '{}' has no number 'threshold'", path, limit.name);
+    throw InputError("{}: the limit state '{}' needs a number 'threshold'", path, limit.name);
   limit.threshold = json["threshold"].get<double>();
   return limit;
 }
 
-/// What campaign.json holds; none where there is none.
+/// The limit states of campaign.json; empty if there is no such file.
 std::vector<LimitState> limits_in(const std::string& path, const CampaignTable& table) {
   std::vector<LimitState> limits;
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return limits;
   const nlohmann::json json = read_json(path);
   if (!json.is_object() || !json.contains("limit_states")) return limits;
-  if (!json["limit_states"].is_array()) throw InputError("{}: 'limit_states' is no list", path);
+  if (!json["limit_states"].is_array()) throw InputError("{}: 'limit_states' must be a list", path);
   for (const auto& one : json["limit_states"]) {
     LimitState limit = limit_from_json(one, path);
     limit.demand = demand_column(limit.demand);
@@ -78,7 +78,8 @@ std::vector<LimitState> limits_in(const std::string& path, const CampaignTable& 
   return limits;
 }
 
-/// Those of campaign.json; those asked for take the place of others of the same name; and falling, where some fell.
+/// The limit states of campaign.json and of --limit, which replace those with the same name. Collapse is added if a run
+/// collapsed.
 std::vector<LimitState> all_limits(const CampaignTable& table, const std::string& directory,
                                    const std::vector<std::string>& asked) {
   std::vector<LimitState> limits = limits_in(directory + "/campaign.json", table), more;
@@ -107,11 +108,13 @@ void count_runs(const CampaignTable& table, FragilityReport& report) {
     report.missing += run.status == RunStatus::missing;
   }
   if (report.done + report.collapsed == 0)
-    throw InputError("{}: none of {} runs is done ({} failed, {} not run yet): nothing to make curves of", table.path,
-                     table.runs.size(), report.failed, report.missing);
+    throw InputError(
+        "{}: none of the {} runs is done ({} failed, {} have not been run yet), so there are no curves. Run the "
+        "campaign first",
+        table.path, table.runs.size(), report.failed, report.missing);
 }
 
-/// Where the records were scaled to levels of another intensity than the one in use.
+/// A remark if the records were scaled to levels of another intensity than the one in use; otherwise empty.
 std::string levels_remark(const CampaignTable& table, const std::string& im) {
   const auto has_levels = [&](const std::string& name) {
     std::vector<double> values = table.column(name).values;
@@ -122,7 +125,9 @@ std::string levels_remark(const CampaignTable& table, const std::string& im) {
   for (const std::string& name : intensities(table))
     if (has_levels(name))
       return fmt::format(
-          "Records were scaled to levels of {0}; over {1} they are a cloud. --im {0} counts at the levels.", name, im);
+          "The records were scaled to levels of {0}. Over {1} they form a cloud of points. Give --im {0} to count at "
+          "the levels.",
+          name, im);
   return "";
 }
 
@@ -139,7 +144,7 @@ void add_curves(const CampaignTable& table, const std::vector<LimitState>& limit
   }
   if (limits.empty())
     report.remarks.push_back(
-        "No limit state is given, so there are no curves: --limit NAME:DEMAND:THRESHOLD, such as "
+        "No limit state is given, so there are no curves. Give --limit NAME:DEMAND:THRESHOLD, such as "
         "damage:spandrel_y:0.02.");
 }
 
@@ -155,7 +160,7 @@ void add_rankings(const CampaignTable& table, const std::vector<LimitState>& lim
   }
 }
 
-/// A name that may stand in a file's name.
+/// A name in which all characters but letters, digits and '-' are replaced, for use in a file name.
 std::string plain(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
@@ -167,7 +172,7 @@ void write_report(const std::string& out, const std::string& title, const Fragil
   write_json(out + "/fragility.json", report_json(report));
   write_atomically(out + "/fragility.csv", report_csv(report));
   write_atomically(out + "/fragility.html", fragility_page(title, report));
-  std::map<std::string, int> written;  // a name may have other thresholds for other bridges
+  std::map<std::string, int> written;  // the same name may have different thresholds for different bridges
   for (const auto& group : by_limit(report.curves)) {
     const std::string svg = curves_chart(group);
     if (svg.empty()) continue;
@@ -186,12 +191,13 @@ int fragility(const std::vector<std::string>& arguments) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("OUT"),
                                "folder to write to (default: DIR)")(
       "limit", options::value<std::vector<std::string>>()->value_name("N:D:T"),
-      "limit state NAME:DEMAND:THRESHOLD in SI units, or NAME:collapse; may be repeated; beside those of "
-      "campaign.json")("im", options::value<std::string>()->value_name("NAME"),
-                       "measure of intensity (default: the most proficient)")(
+      "limit state NAME:DEMAND:THRESHOLD in SI units, or NAME:collapse; may be repeated; added to those of "
+      "campaign.json, replaces one with the same name")(
+      "im", options::value<std::string>()->value_name("NAME"),
+      "measure of intensity: a column im.NAME of the table (default: the most proficient)")(
       "bootstrap", whole_option("bootstrap", 0, 1'000'000)->value_name("N")->default_value(1000),
-      "resamples of the records; 0: no bands")(
-      "seed", options::value<std::uint64_t>()->value_name("S")->default_value(1), "of the resamples");
+      "number of resamples of the records for the bands; 0: no bands")(
+      "seed", options::value<std::uint64_t>()->value_name("S")->default_value(1), "seed of the resamples");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -220,8 +226,7 @@ int fragility(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb fragility_verb() {
-  return {"fragility", "from a campaign's table to fragility curves, and which intensity and demand serve best",
-          fragility};
+  return {"fragility", "compute fragility curves from the table of a campaign", fragility};
 }
 
 }  // namespace voussoir

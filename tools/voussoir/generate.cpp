@@ -61,7 +61,7 @@ void print_assembly_table(const Assembly& assembly, const FillAim& aim) {
 
 namespace {
 
-/// What the case asks of a deformable fill.
+/// The mesh that the case requires for a deformable fill.
 FillAim fill_aim(const Case& c) {
   const auto edge = c.generator_input.values.find("fill_edge");
   if (c.generator.empty() || edge == c.generator_input.values.end()) return {};
@@ -73,7 +73,7 @@ FillAim fill_aim(const Case& c) {
           skew == c.generator_input.values.end() ? 0.0 : radians(skew->second)};
 }
 
-/// Draws the arrangement beside the assembly file, or where --picture says; says the names of the files.
+/// Draws the general arrangement beside the assembly file or at the path of --picture. Prints the names of the files.
 void draw(const Assembly& assembly, const ArrangementNotes& notes, const std::string& assembly_file,
           const options::variables_map& values) {
   if (!values.count("picture")) return;
@@ -86,26 +86,24 @@ void draw(const Assembly& assembly, const ArrangementNotes& notes, const std::st
   if (!values.count("quiet")) fmt::print("drawn in {0}.svg, {0}.pdf and {0}.png\n", stem.string());
 }
 
-/// What a drawing is called: the file, or its folder where the file is just a case.
+/// The name on a drawing: that of the file, or that of its folder if the file is called case.toml.
 std::string drawn_name(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
   const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
   return stem == "case" && !folder.empty() ? folder : stem;
 }
 
-/// An assembly that another program wrote: what it leaves out is found, as when a case names it.
+/// Completes an assembly that another program wrote: the reader finds the joints that the file does not state.
 int complete(const std::string& file, const options::variables_map& values) {
   if (!values.count("output") && !values.count("picture"))
-    throw InputError(
-        "{} is an assembly: say with -o FILE where to write the whole one, or with --picture that it is to be drawn",
-        file);
+    throw InputError("{} is an assembly. Give -o FILE to write the complete assembly, or --picture to draw it", file);
   const bool stated = states_joints(file);
   const Assembly assembly = read_assembly(file);
   const std::string to = values.count("output") ? values["output"].as<std::string>() : "";
   if (!to.empty()) write_assembly(to, assembly);
   if (!values.count("quiet")) {
     print_assembly_table(assembly);
-    fmt::print("{}{}\n", stated ? "its joints are as the file states them" : "its joints were found",
+    fmt::print("{}{}\n", stated ? "the joints are those of the file" : "the program found the joints",
                to.empty() ? "" : "; written to " + to);
   }
   const std::filesystem::path path = file;
@@ -114,7 +112,7 @@ int complete(const std::string& file, const options::variables_map& values) {
   return 0;
 }
 
-/// The words of a list with commas as lengths.
+/// The lengths (m) in a list separated by commas.
 std::vector<double> spans_in(const std::string& list) {
   std::vector<double> spans;
   for (const std::string& word : words_in(list)) {
@@ -126,7 +124,8 @@ std::vector<double> spans_in(const std::string& list) {
       read = 0;
     }
     if (read == 0 || read != word.size())
-      throw InputError("--spans has '{}': give clear spans in m with commas between, such as 8,10,8", shown(word));
+      throw InputError("--spans contains '{}'. Give clear spans in m, separated by commas, for example 8,10,8",
+                       shown(word));
     spans.push_back(span);
   }
   return spans;
@@ -144,16 +143,16 @@ int generate(const std::vector<std::string>& arguments) {
   CommandLine line("generate", "generate CASE|ASSEMBLY [-o FILE] [--picture[=FILE]]",
                    "voussoir generate cases/cs1-f.toml -o cs1.h5 --picture");
   line.described.add_options()("output,o", options::value<std::string>()->value_name("FILE"),
-                               "assembly file (default: the case's name with .h5)")(
+                               "assembly file to write (default: the case's name with .h5)")(
       "picture", options::value<std::string>()->implicit_value("")->value_name("FILE"),
-      "draw the general arrangement as FILE.svg, FILE.pdf and FILE.png (default: named as the assembly file)")(
-      "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and leave")(
-      "template", "print a case for a bridge, with all keys, to begin with, and leave")(
+      "draw the general arrangement as FILE.svg, FILE.pdf and FILE.png (default: named after the assembly file)")(
+      "keys", options::value<std::string>()->value_name("NAME"), "print the keys of a generator and stop")(
+      "template", "print a case for a bridge with all keys and stop")(
       "spans", options::value<std::string>()->value_name("LIST"),
-      "of the template: clear spans, m, with commas between (default: 8,10,8)")(
-      "shape", options::value<std::string>()->value_name("NAME"),
-      "of the template: of the vaults (default: segmental)")("width", options::value<double>()->value_name("W"),
-                                                             "of the template: of the bridge, m");
+      "template: clear spans in m from left to right, separated by commas (default: 8,10,8)")(
+      "shape", options::value<std::string>()->value_name("NAME"), "template: shape of all vaults (default: segmental)")(
+      "width", options::value<double>()->value_name("W"),
+      "template: width of the bridge, m (default: the generator's)");
   line.positional = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -166,8 +165,8 @@ int generate(const std::vector<std::string>& arguments) {
     return 0;
   }
   for (const char* key : {"spans", "shape", "width"})
-    if (values.count(key)) throw InputError("--{} is an option of the template: give --template with it", key);
-  if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
+    if (values.count(key)) throw InputError("--{} is an option of the template. Give --template with it", key);
+  if (!values.count("CASE")) throw InputError("CASE is missing. Usage: voussoir {}", line.usage);
   const std::string file = values["CASE"].as<std::string>();
   if (values.count("output")) check_ending(values["output"].as<std::string>(), {".h5", ".hdf5"}, "an HDF5 assembly");
   if (h5::File::is_hdf5(file)) return complete(file, values);
@@ -193,7 +192,7 @@ int generate(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb generate_verb() {
-  return {"generate", "geometry to a block assembly, with its joints", generate};
+  return {"generate", "build the blocks and joints of a case, draw them, or print a template of a case", generate};
 }
 
 }  // namespace voussoir

@@ -15,7 +15,7 @@ namespace voussoir {
 
 namespace {
 
-/// "abutment_restraint both stiffness_share=0.5": what stands between the name and the parameters is the place.
+/// Reads "abutment_restraint both stiffness_share=0.5". The words between the name and the parameters are the place.
 EffectSetting parse_effect(const std::string& text) {
   std::istringstream words(text);
   EffectSetting effect;
@@ -30,7 +30,7 @@ EffectSetting parse_effect(const std::string& text) {
     try {
       effect.values[word.substr(0, at)] = std::stod(word.substr(at + 1));
     } catch (const std::exception&) {
-      throw InputError("--effect \"{}\": {} is no parameter=number", text, word);
+      throw InputError("--effect \"{}\": {} must have the form PARAMETER=NUMBER", text, word);
     }
   }
   complete(effect);
@@ -41,17 +41,17 @@ EffectSetting parse_effect(const std::string& text) {
 std::pair<std::string, std::string> parse_truth(const std::string& text) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0 || at + 1 == text.size())
-    throw InputError("--truth \"{}\": expected KEY=VALUE, such as backfill=deformable or width=7.3", text);
+    throw InputError("--truth \"{}\" must have the form KEY=VALUE, such as backfill=deformable or width=7.3", text);
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-/// What a case without a generator does not have: blocks and dimensions of its own. Default values do not act there.
+/// Refuses options that change blocks or dimensions if the case has no generator. Their defaults then have no effect.
 void keep_blocks(HideRequest& request, const options::variables_map& values) {
   if (!read_case(request.case_file, CaseUse::geometry).generator.empty()) return;
   for (const char* option : {"mesh", "defects"})
     if (!values[option].defaulted())
-      throw InputError("--{}: {} is made from an assembly file, whose blocks stay as they are; leave it out", option,
-                       request.case_file);
+      throw InputError("--{}: {} is made from an assembly file, whose blocks cannot change. Leave the option out",
+                       option, request.case_file);
   request.mesh = 1.0, request.defects = 0.0;
 }
 
@@ -59,9 +59,9 @@ void write(const HideRequest& request, const HiddenBridge& hidden) {
   std::filesystem::create_directories(request.directory);
   write_measured(hidden.measured, request.directory + "/measured");
   write_atomically(request.directory + "/answer.toml", hidden.answer);
-  fmt::print("{} at {} sensors in {}/measured; the answer is in {}/answer.toml\n",
+  fmt::print("{} at {} sensors in {}/measured; what was hidden is in {}/answer.toml\n",
              request.shaken > 0.0    ? fmt::format("{:g} s of an earthquake", request.shaken)
-             : request.minutes > 0.0 ? fmt::format("{:g} min of vibration", request.minutes)
+             : request.minutes > 0.0 ? fmt::format("{:g} min of ambient vibration", request.minutes)
                                      : fmt::format("{} modes", hidden.measured.modes.size()),
              hidden.measured.sensors.size(), request.directory, request.directory);
 }
@@ -72,46 +72,49 @@ int hide_run(const std::vector<std::string>& arguments) {
   HideRequest request;
   using Texts = std::vector<std::string>;
   line.described.add_options()("effect", options::value<Texts>()->composing(),
-                               "what the case lacks; may be repeated; none: nothing")(
+                               "effect that the case lacks; may be repeated; none: no effect")(
       "loosen", options::value<Texts>()->composing(),
-      "what the case lacks and no effect makes: \"x=12..14 z=9.. part=arch 1 factor=0.05\", on the stiffness of joints "
-      "whose centroids lie in the box (m), or density= on the mass of its blocks; may be repeated")(
-      "truth", options::value<Texts>()->composing(),
-      "KEY=VALUE, a key of the generator that the true bridge has otherwise, such as backfill=deformable; may be "
-      "repeated")("sensors", options::value<std::string>(&request.sensors)->default_value(request.sensors),
-                  "sparse, rich, none (periods alone), a number of channels from 5 to 40 drawn by the seed, or a file "
-                  "like measured/sensors.csv")(
-      "modes", whole_option("modes", 1, 1000, &request.modes)->default_value(6), "that are measured")(
+      "change that the case lacks and no effect makes, such as \"x=12..14 z=9.. part=arch 1 factor=0.05\": factor on "
+      "the stiffness of the joints whose centroids lie in the box (m), or density= on the mass of the blocks; may be "
+      "repeated")("truth", options::value<Texts>()->composing(),
+                  "KEY=VALUE: a key of the generator that differs in the true bridge, such as backfill=deformable; may "
+                  "be repeated")("sensors",
+                                 options::value<std::string>(&request.sensors)->default_value(request.sensors),
+                                 "plan of the sensors: sparse, rich, none (periods alone), a number of channels from 5 "
+                                 "to 40 drawn by the seed, or a file in the format of sensors.csv")(
+      "modes", whole_option("modes", 1, 1000, &request.modes)->default_value(6),
+      "number of measured modes: the lowest that are not local")(
       "minutes", real_option("minutes", 0.0, 600.0, &request.minutes)->default_value(0.0),
-      "of ambient vibration instead of modes; the noise of its channels is five times --noise")(
+      "minutes of ambient vibration instead of modes; the noise of its channels is five times --noise")(
       "shaken", real_option("shaken", 0.0, 3600.0, &request.shaken)->default_value(0.0),
-      "s of a synthetic earthquake, recorded on the ground too, instead of modes; noise as with --minutes")(
+      "seconds of a synthetic earthquake instead of modes, recorded on the ground too; noise as with --minutes")(
       "noise",
       real_option("noise", 0.0, 0.999, &request.noise)->default_value(request.noise, fmt::format("{}", request.noise)),
       "standard deviation of periods, share; of shapes twice that")(
       "noise-said", real_option("noise-said", 0.01, 100.0, &request.noise_said)->default_value(1.0),
-      "deviations as they are written over the true ones: 0.5 understates them by half")(
+      "ratio of the standard deviations that are written to the true ones; 0.5 understates them by half")(
       "scatter",
       real_option("scatter", 0.0, 0.999, &request.scatter)
           ->default_value(request.scatter, fmt::format("{}", request.scatter)),
-      "of the stiffness of each part (standard deviation of the logarithm)")(
+      "scatter of the stiffness of each part of the masonry, standard deviation of the logarithm")(
       "materials",
       real_option("materials", 0.0, 0.999, &request.materials)
           ->default_value(request.materials, fmt::format("{}", request.materials)),
-      "the same, of each material")("defects",
-                                    real_option("defects", 0.0, 0.999, &request.defects)
-                                        ->default_value(request.defects, fmt::format("{}", request.defects)),
-                                    "m, standard deviation of every dimension")(
+      "scatter of the stiffness of each material, standard deviation of the logarithm")(
+      "defects",
+      real_option("defects", 0.0, 0.999, &request.defects)
+          ->default_value(request.defects, fmt::format("{}", request.defects)),
+      "standard deviation of every dimension, m")(
       "mesh",
       real_option("mesh", 0.2, 5.0, &request.mesh)->default_value(request.mesh, fmt::format("{}", request.mesh)),
-      "size of the true bridge's blocks over the case's")(
+      "ratio of the block sizes of the true bridge to those of the case")(
       "parapet-gaps", whole_option("parapet-gaps", 0, 1000, &request.parapet_gaps)->default_value(0),
-      "movement joints in the parapets, at places drawn by the seed, that the case does not have")(
+      "number of movement joints in the parapets that the case lacks, at random places")(
       "trace",
-      "write to answer.toml how much of the effects shows in the modes: their sum of squares in standard "
-      "deviations that fitted materials leave")(
-      "seed", options::value<std::uint64_t>(&request.seed)->default_value(request.seed), "of all that is random")(
-      "output,o", options::value<std::string>(&request.directory)->value_name("DIR"), "where to");
+      "write to answer.toml how much of the effects shows in the modes: the sum of squares, in standard deviations, "
+      "that remains after the materials have been fitted")(
+      "seed", options::value<std::uint64_t>(&request.seed)->default_value(request.seed), "seed of everything random")(
+      "output,o", options::value<std::string>(&request.directory)->value_name("DIR"), "folder to write to");
   line.positional = {"CASE"};
   line.required = {"CASE", "output"};
   options::variables_map values;
@@ -130,7 +133,7 @@ int hide_run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb hide_verb() {
-  return {"hide", "measurements of a bridge that has what its case lacks: to try diagnose on", hide_run};
+  return {"hide", "make measurements of a bridge that has an effect its case lacks, to try diagnose", hide_run};
 }
 
 }  // namespace voussoir

@@ -21,7 +21,7 @@ bool given(const options::variables_map& values, const char* name) {
   return !values[name].defaulted();
 }
 
-/// A new material for the fill: what is not given is that of a loose gravel fill, not of a stone.
+/// A new material for the fill. The defaults are those of a loose gravel fill, not of a stone.
 Material new_material(const options::variables_map& values, const std::string& name) {
   Material m = {name, 1500.0, 4e8, 1.6e8, 0.0, 2e4, 40.0 * pi / 180.0};
   if (given(values, "density")) m.density = values["density"].as<double>();
@@ -32,12 +32,12 @@ Material new_material(const options::variables_map& values, const std::string& n
   if (given(values, "friction")) m.friction_angle = angle(values, "friction");
   m.dilation_angle = angle(values, "dilation");
   if (m.dilation_angle > m.friction_angle)
-    throw InputError("--dilation is {} degrees; it must not be more than the friction angle, {:g} degrees",
+    throw InputError("--dilation is {} degrees. It must be at most the friction angle, {:g} degrees",
                      values["dilation"].as<double>(), m.friction_angle * 180.0 / pi);
   return m;
 }
 
-/// The material of that name; a new one at the end of the list when there is none.
+/// Index of the material of that name. If there is none, a new one is added at the end of the list.
 std::int32_t find_material(const options::variables_map& values, Assembly& assembly) {
   const std::string name = values["material"].as<std::string>();
   for (std::size_t i = 0; i < assembly.materials.size(); ++i) {
@@ -46,8 +46,8 @@ std::int32_t find_material(const options::variables_map& values, Assembly& assem
          {"density", "youngs-modulus", "shear-modulus", "tension", "cohesion", "friction", "dilation"})
       if (given(values, number))
         throw InputError(
-            "--{} is given, but the assembly has a material \"{}\" with values of its own: leave it out, or "
-            "name a new one with --material",
+            "--{} is given, but the assembly already defines the material \"{}\". Leave the option out, or name a new "
+            "material with --material",
             number, name);
     return std::int32_t(i);
   }
@@ -74,7 +74,7 @@ double angle(const options::variables_map& values, const char* name) {
 double scale_asked(const options::variables_map& values) {
   if (!values.count("units")) return values["scale"].as<double>();
   const std::string unit = values["units"].as<std::string>();
-  if (given(values, "scale")) throw InputError("--units and --scale are both given; give one of them");
+  if (given(values, "scale")) throw InputError("--units and --scale are both given. Give only one of them");
   static const std::vector<std::pair<std::string, double>> units = {
       {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
   std::vector<std::string> known;
@@ -82,7 +82,7 @@ double scale_asked(const options::variables_map& values) {
     if (name == unit) return metres;
     known.push_back(name);
   }
-  throw InputError("--units is '{}'; it must be one of {}", shown(unit), fmt::join(known, ", "));
+  throw InputError("--units is '{}'. It must be one of {}", shown(unit), fmt::join(known, ", "));
 }
 
 bool is_fill_file(const std::string& path) {
@@ -115,9 +115,9 @@ int import_fill(const options::variables_map& values) {
                assembly.materials.back().density, assembly.materials.back().youngs_modulus,
                assembly.materials.back().shear_modulus);
   if (into)
-    fmt::print("gaps closed: {} patches, largest {:.3g} m\n", report.closed_gaps, report.largest_closed_gap);
+    fmt::print("gaps closed: {} patches, the largest {:.3g} m\n", report.closed_gaps, report.largest_closed_gap);
   else
-    fmt::print("a fill alone, without stones; --into ASSEMBLY puts it into an assembly\n");
+    fmt::print("The assembly holds only the fill. Give --into ASSEMBLY to put it between stones\n");
   print_assembly_table(assembly);
   fmt::print("written to {}\n", to);
   return 0;

@@ -6,13 +6,13 @@
 
 namespace voussoir {
 
-double angle(const options::variables_map& values, const char* name);  // rad, of an option in degrees
+double angle(const options::variables_map& values, const char* name);  // an option in degrees, converted to rad
 
-/// Metres per unit, of --units or --scale. Throws InputError when both are given, and for an unknown unit.
+/// Metres per unit, from --units or --scale. Throws InputError if both are given, and for an unknown unit.
 double scale_asked(const options::variables_map& values);
 
 bool is_fill_file(const std::string& path);
-/// Reads the fill, puts it into the assembly it is for and writes that; returns the exit status.
+/// Reads the fill, puts it into the assembly of --into, and writes that assembly. Returns the exit status.
 int import_fill(const options::variables_map& values);
 
 }  // namespace voussoir

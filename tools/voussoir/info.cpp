@@ -20,7 +20,7 @@ int info(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb info_verb() {
-  return {"info", "says what a case, assembly, checkpoint, history or record file holds", info};
+  return {"info", "say what a case, assembly, checkpoint, history or record file holds", info};
 }
 
 }  // namespace voussoir

@@ -1,4 +1,5 @@
-// voussoir: one program, one verb a job. Exit status 0 done, 1 the work failed, 2 the input is wrong.
+// The program voussoir: it calls the verb that its first argument names. Exit status: 0 the work is done, 1 the work
+// failed, 2 the input is wrong.
 #include <fmt/format.h>
 
 #include "solver/base/build_info.h"
@@ -12,16 +13,16 @@ namespace {
 
 void print_help() {
   fmt::print(
-      "voussoir {}: masonry arch bridges, stone by stone\n\nUsage: voussoir VERB …   (voussoir VERB --help says "
-      "more)\n\n",
+      "voussoir {}: masonry arch bridges, stone by stone\n\nUsage: voussoir VERB …   (voussoir VERB --help lists its "
+      "options)\n\n",
       voussoir::program_version());
   for (const voussoir::Verb& verb : voussoir::verbs())
     if (!verb.summary.empty()) fmt::print("  {:<10} {}\n", verb.name, verb.summary);
-  fmt::print("\nExit status: 0 done, 1 the work failed, 2 the input is wrong.\n");
+  fmt::print("\nExit status: 0 the work is done, 1 the work failed, 2 the input is wrong.\n");
 }
 
 int run(int argc, char** argv) {
-  voussoir::kernels();  // a wish that cannot be met is said before any work
+  voussoir::kernels();  // reports an unusable VOUSSOIR_KERNELS before any work
   const std::string name = argc > 1 ? argv[1] : "--help";
   if (name == "--help" || name == "-h" || name == "help") {
     print_help();
@@ -38,7 +39,8 @@ int run(int argc, char** argv) {
   std::vector<std::string> names;
   for (const voussoir::Verb& verb : voussoir::verbs())
     if (!verb.summary.empty()) names.push_back(verb.name);
-  throw voussoir::InputError("unknown verb '{}'{}; voussoir --help says more", name, voussoir::suggestion(name, names));
+  throw voussoir::InputError("unknown verb '{}'{}. voussoir --help lists all verbs", name,
+                             voussoir::suggestion(name, names));
 }
 
 }  // namespace

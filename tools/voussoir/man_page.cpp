@@ -12,8 +12,8 @@ namespace voussoir {
 
 namespace {
 
-/// The code point that begins at `at` of a text in UTF-8; moves `at` behind it. A byte that begins none stands for
-/// itself.
+/// Returns the code point that begins at `at` of a text in UTF-8, and moves `at` behind it. An invalid byte is returned
+/// as it is.
 char32_t code_point(const std::string& text, std::size_t& at) {
   const auto lead = static_cast<unsigned char>(text[at++]);
   const int more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
@@ -23,7 +23,7 @@ char32_t code_point(const std::string& text, std::size_t& at) {
   return point;
 }
 
-/// Text as roff source that prints it as it stands: no character of it is a request or an escape.
+/// Text as roff source: all characters that roff would interpret are escaped.
 std::string roff(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
@@ -40,7 +40,7 @@ std::string roff(const std::string& text) {
   return out.starts_with('.') ? "\\&" + out : out;
 }
 
-/// The argument of a macro: with the quotation marks that keep its spaces together.
+/// The argument of a macro, in quotation marks because it may contain spaces.
 std::string roff_argument(const std::string& text) {
   std::string out = roff(text);
   for (std::size_t at = 0; (at = out.find('"', at)) != std::string::npos; at += 4) out.replace(at, 1, "\\(dq");
@@ -98,13 +98,14 @@ std::string program_page(const std::vector<ManualEntry>& entries) {
   std::string page = page_heading(page_name(""), "masonry arch bridges, stone by stone");
   page += ".SH SYNOPSIS\nvoussoir \\fIVERB\\fR \\[u2026]\n.br\nvoussoir \\-\\-help\n.br\nvoussoir \\-\\-version\n";
   page +=
-      ".SH DESCRIPTION\nEvery stone of a bridge is a rigid body, every joint can open, slide and break. A case (a text "
-      "in TOML) says what the bridge is and what happens to it; a verb says what is to be done with the case or with "
-      "what an earlier verb has written.\n.SH VERBS\n";
+      ".SH DESCRIPTION\nThe program computes masonry arch bridges by the distinct element method. Every stone is a "
+      "rigid body, and every joint can open, slide and break. A case is a text file in TOML that describes the bridge, "
+      "its materials and what happens to it. A verb is one command of the program. It works on a case or on files that "
+      "another verb has written.\n.SH VERBS\n";
   for (const ManualEntry& entry : entries) page += entry_paragraph(entry);
   page +=
-      ".SH FILES\nCases, vehicles and tutorials lie in\n.I share/voussoir/cases\nbeside the program's folder, the "
-      "documentation in\n.IR share/doc/voussoir .\n";
+      ".SH FILES\nCases, vehicles and tutorials are in\n.I share/voussoir/cases\nnext to the program's folder. The "
+      "documentation is in\n.IR share/doc/voussoir .\n";
   return page + exit_status;
 }
 

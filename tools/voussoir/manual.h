@@ -1,4 +1,4 @@
-// The manual pages and the completion of the command line, made from what --help prints from.
+// Manual pages and completion of the command line, made from the same descriptions as the text of --help.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,10 +11,10 @@ struct ManualOption {
   std::string brief, name;  // "-o" (empty: none), "--output"
   std::string value;        // "DIR"; empty: it takes none
   std::string text;         // what it does
-  std::string otherwise;    // its value where it is not given, as --help says it; may be empty
+  std::string otherwise;    // default value as --help prints it; may be empty
 };
 
-/// What the manual says of a verb, or of a part of one.
+/// The manual's description of a verb or of a part of a verb.
 struct ManualEntry {
   std::string name;     // "run", "motion info"
   std::string summary;  // one line
@@ -24,19 +24,19 @@ struct ManualEntry {
   std::vector<ManualEntry> parts;
 };
 
-/// Of the listed verbs, in their order, with their parts.
+/// The entries of the listed verbs, in their order, with their parts.
 std::vector<ManualEntry> manual_entries();
-/// The entries and their parts, each before its parts.
+/// A flat list of the entries and their parts. Each entry comes before its parts.
 std::vector<ManualEntry> with_parts(const std::vector<ManualEntry>& entries);
 
-/// "voussoir-motion-info": the page of an entry; of an empty name the program's.
+/// Name of the page of an entry, such as "voussoir-motion-info". An empty entry gives the page of the program.
 std::string page_name(const std::string& entry);
-/// Source of the manual page of an entry, for man(7): the characters outside of ASCII are written as escapes.
+/// Source of the manual page of an entry, in the macros of man(7). Characters outside ASCII are written as escapes.
 std::string entry_page(const ManualEntry& entry);
 /// Source of the manual page of the program, which lists the entries.
 std::string program_page(const std::vector<ManualEntry>& entries);
 
-/// A script that bash reads to complete verbs, parts, options and names of files.
+/// A script for bash that completes verbs, parts, options and file names.
 std::string bash_completion(const std::vector<ManualEntry>& entries);
 
 }  // namespace voussoir

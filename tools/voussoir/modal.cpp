@@ -41,7 +41,7 @@ ModalSettings::State state_asked(const options::variables_map& values) {
   const std::string state = values["state"].as<std::string>();
   const auto& known = modal_states();
   const auto at = std::find(known.begin(), known.end(), state);
-  if (at == known.end()) throw InputError("--state is {}; give intact or gravity", state);
+  if (at == known.end()) throw InputError("--state is {}. It must be intact or gravity", state);
   return ModalSettings::State(at - known.begin());
 }
 
@@ -87,7 +87,7 @@ ModesFile modes_file(const ModalSource& source, const Modes& modes, const std::s
   return file;
 }
 
-/// The modes of an earlier analysis in the same folder, of which there may have been more.
+/// Removes the files of an earlier analysis in the same folder, which may have had more modes.
 void remove_earlier(const std::string& directory) {
   std::error_code ignored;
   for (const char* folder : {"vtk", "images"})
@@ -111,7 +111,7 @@ std::string percent(double share) {
   return fmt::format("{:.0f}", 100.0 * share);
 }
 
-/// Throws only for what the user asked and cannot be; a display that does not start is said and left.
+/// Draws the mode shapes. Throws only for wrong options; a display that does not start is reported and ignored.
 void draw_shapes(const std::string& directory, const ModalRequest& request, const ModalSource& source,
                  const Modes& modes) {
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
@@ -129,17 +129,17 @@ void draw_shapes(const std::string& directory, const ModalRequest& request, cons
   }
 }
 
-/// What has to be checked before the work begins: it may take a while.
+/// Checks the options before the analysis begins, because it may take a while.
 void check_request(const ModalRequest& request) {
   std::error_code ignored;
   if (request.state_asked && (fs::is_directory(request.from, ignored) || h5::File::is_hdf5(request.from)))
-    throw InputError("--state is for a case, and {} holds the state of a run", request.from);
+    throw InputError("--state applies to a case, but {} holds the state of a run. Leave the option out", request.from);
   find_view(request.picture.view);
   check_options(request.picture);
   Hidden hidden(request.picture.hide);
 }
 
-/// What an analysis says, and keeps.
+/// The results of an analysis.
 struct Findings {
   Modes modes;
   ModesFile file;
@@ -161,9 +161,9 @@ std::string counts_text(const Assembly& assembly) {
                      assembly.fill.tets.size());
 }
 
-/// The modes of the source, and of a damaged one those of the intact assembly beside them. Local modes of loosened
-/// stones come between those of the whole: the search goes on past the number asked for until each has its partner, or
-/// three times as far.
+/// The modes of the source. For a damaged one, also the modes of the intact assembly. Local modes of loosened stones
+/// lie between those of the whole. The search therefore continues beyond the requested number until each intact mode
+/// has a partner, up to three times that number.
 Findings find(const ModalSource& source) {
   const int count = source.c.settings.modal.modes;
   const Array<double>* wrenches = source.wrenches ? &*source.wrenches : nullptr;
@@ -234,39 +234,40 @@ int analyse(const ModalRequest& request) {
 int modal(const std::vector<std::string>& arguments) {
   CommandLine line("modal", "modal CASE|DIR|CHECKPOINT [-o DIR]",
                    "voussoir modal cases/cs1-r.toml -o cs1-r-modes --modes 6");
-  line.described.add_options()(
-      "output,o", options::value<std::string>()->value_name("DIR"),
-      "folder for tables, shapes and pictures (default: NAME-modes, or RUN/modes); with --paper "
-      "a Markdown file")("modes,n", whole_option("modes", 1, 10000)->value_name("N"),
-                         "how many modes (default: the case's, 10)")(
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
+                               "folder for tables, shapes and pictures (default: NAME-modes of a case, RUN/modes of a "
+                               "run); with --paper a Markdown file for its tables")(
+      "modes,n", whole_option("modes", 1, 10000)->value_name("N"), "number of modes (default: the case's, 10)")(
       "state", options::value<std::string>()->value_name("WORD"),
-      "of a case: intact (all joints elastic) or gravity (as they rest)")(
-      "geometric", "with the geometric stiffness of the joints' forces")(
+      "state of the joints of a case: intact (bonded and elastic) or gravity (as they rest under gravity) (default: "
+      "the case's, intact)")("geometric", "add the geometric stiffness of the forces in the joints")(
       "as-stored", "of a run: the state as it is, not brought to rest first")(
       "against", options::value<std::string>()->value_name("MODES.H5"),
       "pair the modes with those of another analysis")(
-      "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
-      "hide", options::value<std::string>()->default_value("none"), "components left out of the pictures, by commas")(
-      "width", whole_option("width", 200, 8000)->default_value(1800), "of the pictures, pixels")(
-      "height", whole_option("height", 0, 8000)->default_value(1000), "pixels; 0: as needed")("no-pictures",
-                                                                                              "tables and shapes only")(
-      "paper", "the published periods of the two bridges of the seed paper beside those of the cases");
+      "view,v", options::value<std::string>()->default_value("oblique"), "view: front, side, plan or oblique")(
+      "hide", options::value<std::string>()->default_value("none"),
+      "components left out of the pictures, separated by commas; none: show all")(
+      "width", whole_option("width", 200, 8000)->default_value(1800), "width of the pictures, pixels")(
+      "height", whole_option("height", 0, 8000)->default_value(1000),
+      "height of the pictures, pixels; 0: as the content needs")("no-pictures", "leave out the pictures")(
+      "paper", "compare the periods of the bridges cs1 and cs2 with the published ones");
   line.positional = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   if (values.count("paper")) {
-    if (values.count("CASE")) throw InputError("--paper takes no case: it reads the four bridges in cases/");
+    if (values.count("CASE"))
+      throw InputError("--paper takes no case, because it reads the four bridges in cases/. Leave the case out");
     const auto state = values.count("state") ? state_asked(values) : ModalSettings::State::intact;
     return modal_paper(values.count("output") ? values["output"].as<std::string>() : "", state, threads_asked(values));
   }
-  if (!values.count("CASE")) throw InputError("CASE is missing; usage: voussoir {}", line.usage);
+  if (!values.count("CASE")) throw InputError("CASE is missing. Usage: voussoir {}", line.usage);
   return analyse(modal_request(values));
 }
 
 }  // namespace
 
 Verb modal_verb() {
-  return {"modal", "eigenvalue analysis: periods, modes, effective masses, pictures", modal};
+  return {"modal", "compute natural frequencies, periods, effective masses and mode shapes", modal};
 }
 
 }  // namespace voussoir

@@ -27,11 +27,12 @@ namespace {
 
 const std::vector<Verb>& motion_parts() {
   static const std::vector<Verb> list = {
-      {"info", "what records hold, and their measures", motion_info},
-      {"spectrum", "response spectra, beside a code's if wanted", motion_spectrum},
-      {"process", "joins components; taper, band-pass, baseline, resampling", motion_process},
-      {"select", "n of N records whose mean spectrum fits a code's", motion_select},
-      {"synthesize", "artificial records with the spectrum of a code", motion_synthesize},
+      {"info", "print what records hold, and their measures", motion_info},
+      {"spectrum", "compute response spectra, and that of a code if --target is given", motion_spectrum},
+      {"process", "process records and join their components: taper, band-pass filter, baseline correction, resampling",
+       motion_process},
+      {"select", "select records whose mean spectrum fits that of a code", motion_select},
+      {"synthesize", "make artificial records with the spectrum of a code", motion_synthesize},
   };
   return list;
 }
@@ -42,8 +43,8 @@ int motion(const std::vector<std::string>& arguments) {
     fmt::print("Usage: voussoir motion PART …\n\n");
     for (const Verb& part : motion_parts()) fmt::print("  {:<12}{}\n", part.name, part.summary);
     fmt::print(
-        "\nvoussoir motion PART --help says more; all take --help, --threads N, --quiet.\n\nExample: voussoir motion "
-        "info records -o measures\n");
+        "\nvoussoir motion PART --help lists the options of a part. All parts take --help, --threads N and "
+        "--quiet.\n\nExample: voussoir motion info records -o measures\n");
     return 0;
   }
   std::vector<std::string> names;
@@ -51,43 +52,47 @@ int motion(const std::vector<std::string>& arguments) {
     if (asked == part.name) return part.run({arguments.begin() + 1, arguments.end()});
     names.emplace_back(part.name);
   }
-  throw InputError("motion: '{}' is none of its parts{}; see voussoir motion --help", asked, suggestion(asked, names));
+  throw InputError("motion: '{}' is not one of its parts{}. See voussoir motion --help", asked,
+                   suggestion(asked, names));
 }
 
 }  // namespace
 
 Verb motion_verb() {
-  return {"motion", "ground motions: measures, spectra, processing, selection, synthesis", motion, motion_parts()};
+  return {"motion", "measure, process, select and synthesize ground motions", motion, motion_parts()};
 }
 
 void add_columns_options(CommandLine& line) {
   line.described.add_options()("units", options::value<std::string>()->default_value("m/s2"),
-                               "of files of plain columns: m/s2, g or cm/s2")(
-      "dt", options::value<double>()->default_value(0.005), "s, time step of files without times")(
+                               "unit of files of plain columns: m/s2, g or cm/s2")(
+      "dt", options::value<double>()->default_value(0.005), "time step of files without times, s")(
       "columns", options::value<std::vector<std::string>>()->multitoken(),
-      "what the columns of a table are: t, x, y, z, or - for one that is passed over");
+      "names of the columns of a table: t, x, y, z, or - for a column to skip");
 }
 
 ColumnsMeaning columns_asked(const options::variables_map& values) {
   ColumnsMeaning meaning{values["units"].as<std::string>(), values["dt"].as<double>()};
   acceleration_unit(meaning.units);
-  if (!(meaning.dt >= 1e-5 && meaning.dt <= 1.0)) throw InputError("--dt is {} s: expected 1e-5 to 1", meaning.dt);
+  if (!(meaning.dt >= 1e-5 && meaning.dt <= 1.0))
+    throw InputError("--dt is {} s. It must be from 1e-5 to 1 s", meaning.dt);
   if (values.count("columns"))
     for (const std::string& word : values["columns"].as<std::vector<std::string>>()) {
       meaning.columns.push_back(word == "-" ? "" : word);
       if (std::ranges::find(column_words(), meaning.columns.back()) == column_words().end())
-        throw InputError("--columns has '{}': expected t, x, y, z, or - for one that is passed over", word);
+        throw InputError("--columns contains '{}'. Give t, x, y, z, or - for a column to skip", word);
     }
   return meaning;
 }
 
 void add_target_options(CommandLine& line) {
   line.described.add_options()("target", options::value<std::string>()->value_name("CODE"),
-                               "ntc2018, en1998-1 or en1998-2 (EN 1998-1, type 1 or 2)")(
-      "ag", options::value<double>(), "g, on rock")("f0", options::value<double>(), "NTC 2018: F0")(
-      "tc", options::value<double>(), "s, NTC 2018: Tc* on rock")("soil", options::value<char>(), "A to E")(
-      "topography", options::value<int>()->default_value(1), "1 to 4 (T1 to T4)")(
-      "damping", options::value<double>()->default_value(0.05), "ratio");
+                               "code of the target spectrum: ntc2018, en1998-1 or en1998-2 (EN 1998-1, type 1 or 2)")(
+      "ag", options::value<double>(), "peak ground acceleration on rock, g")(
+      "f0", options::value<double>(), "NTC 2018: largest spectral amplification F0 on rock")(
+      "tc", options::value<double>(), "NTC 2018: corner period Tc* on rock, s")(
+      "soil", options::value<char>(), "soil class, A to E")("topography", options::value<int>()->default_value(1),
+                                                            "topographic class, 1 to 4 (T1 to T4)")(
+      "damping", options::value<double>()->default_value(0.05), "damping ratio of the spectra");
 }
 
 std::optional<TargetSpectrum> target_asked(const options::variables_map& values) {
@@ -146,15 +151,18 @@ std::vector<RecordSet> records_asked(const std::vector<std::string>& paths, cons
     sets = std::move(folder.sets);
   } else {
     if (paths.size() > 3)
-      throw InputError("{} paths: give a folder of records, or up to three files for x, y, z", paths.size());
+      throw InputError("{} paths are given. Give a folder of records, or up to three files for x, y and z",
+                       paths.size());
     std::array<std::string, 3> files;
     std::ranges::copy(paths, files.begin());
     sets.push_back(read_record_set(files, meaning));
   }
   const auto told = [](const RecordSet& set) { return set.dt > 0.0; };
   if (!quiet && std::ranges::any_of(sets, [](const RecordSet& set) { return !set.units.empty(); }))
-    fmt::print(stderr, "files of plain columns are taken to be in {}{}\n", meaning.units,
-               std::ranges::any_of(sets, told) ? fmt::format(", with one column at steps of {:g} s", meaning.dt) : "");
+    fmt::print(stderr, "Files of plain columns are taken to be in {}{}\n", meaning.units,
+               std::ranges::any_of(sets, told)
+                   ? fmt::format(". Files with one column have a time step of {:g} s", meaning.dt)
+                   : "");
   return sets;
 }
 
@@ -168,8 +176,8 @@ std::string short_period_remark(const std::vector<RecordSet>& sets, double short
   }
   if (coarse == 0) return "";
   return fmt::format(
-      "spectra of {} of {} records may be too low at periods below {:g} s, ten of their steps ({:g} s): peaks between "
-      "samples are not recorded",
+      "The spectra of {} of {} records may be too low at periods below {:g} s, which is ten of their time steps ({:g} "
+      "s), because peaks between samples are not recorded",
       coarse, sets.size(), steps * longest, longest);
 }
 
@@ -236,11 +244,11 @@ std::string measures_table(const std::vector<std::string>& names, const std::vec
   std::string text = "<table>\n" + table_row({words_cell("record"),
                                               {"factor", true},
                                               words_cell("axis"),
-                                              {"PGA (g)", true},
-                                              {"PGV (m/s)", true},
-                                              {"Arias (m/s)", true},
-                                              {"D5–95 (s)", true},
-                                              {"CAV (m/s)", true}},
+                                              {"PGA, g", true},
+                                              {"PGV, m/s", true},
+                                              {"Arias intensity, m/s", true},
+                                              {"D5–95, s", true},
+                                              {"CAV, m/s", true}},
                                              "th");
   for (std::size_t r = 0; r < of.size(); ++r) {
     bool first = true;
@@ -262,11 +270,11 @@ std::string measures_table(const std::vector<std::string>& names, const std::vec
 
 std::string histories_figure(const std::string& name, const GroundMotion& motion) {
   std::string text = fmt::format("<h3>{}</h3>\n", escaped(name));
-  const char* const labels[] = {"acceleration (g)", "velocity (m/s)", "displacement (m)"};
+  const char* const labels[] = {"Acceleration, g", "Velocity, m/s", "Displacement, m"};
   std::array<LineChart, 3> charts;
   for (std::size_t k = 0; k < 3; ++k) {
     charts[k].height = 190.0;
-    charts[k].x_label = k == 2 ? "time (s)" : "";
+    charts[k].x_label = k == 2 ? "Time, s" : "";
     charts[k].y_label = labels[k];
   }
   std::vector<double> time(motion.acceleration.size());

@@ -1,4 +1,4 @@
-// What the parts of `voussoir motion` share: the records asked for, the target, what is said of motions.
+// Shared by the parts of `voussoir motion`: reading of records, target spectra, tables and figures of motions.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,29 +18,29 @@ int motion_process(const std::vector<std::string>& arguments);
 int motion_select(const std::vector<std::string>& arguments);
 int motion_synthesize(const std::vector<std::string>& arguments);
 
-/// --units, --dt, --columns: of plain columns.
+/// Options for files of plain columns: --units, --dt, --columns.
 void add_columns_options(CommandLine& line);
 ColumnsMeaning columns_asked(const options::variables_map& values);
-/// --target, --ag, --f0, --tc, --soil, --topography, --damping.
+/// Options of the target spectrum: --target, --ag, --f0, --tc, --soil, --topography, --damping.
 void add_target_options(CommandLine& line);
-/// None without --target. Throws InputError for what is missing or wrong.
+/// The target spectrum; empty without --target. Throws InputError if an option is missing or wrong.
 std::optional<TargetSpectrum> target_asked(const options::variables_map& values);
 std::string target_text(const TargetSpectrum& target);
 nlohmann::json target_json(const TargetSpectrum& target);
-/// m/s2 at these periods.
+/// Spectral accelerations of the target (m/s2) at these periods (s).
 std::vector<double> target_values(const TargetSpectrum& target, const std::vector<double>& periods);
 
-/// The sets of a folder, or one of up to three files for x, y, z. What was left out and what was assumed is printed on
-/// the error stream unless quiet.
+/// The record sets of a folder, or one set from up to three files for x, y and z. Unless quiet, prints to the error
+/// stream which files were left out and what was assumed.
 std::vector<RecordSet> records_asked(const std::vector<std::string>& paths, const ColumnsMeaning& meaning, bool quiet);
 
-/// What to mind of spectra that begin at this period (s): between samples peaks are cut off, which shows below ten
-/// steps. Empty where all records have shorter steps.
+/// A remark on spectra that begin at the period `shortest` (s): below ten time steps they may be too low, because peaks
+/// between samples are not recorded. Empty if the time steps of all records are short enough.
 std::string short_period_remark(const std::vector<RecordSet>& sets, double shortest);
 
-/// From 0.01 s to 4 s, evenly in the logarithm: for charts and tables of spectra.
+/// Periods for charts and tables of spectra: 0.01 s to 4 s, evenly spaced in the logarithm.
 std::vector<double> chart_periods();
-/// Of each component (of zeros: none) at the periods, m/s2.
+/// Spectral accelerations of each component at the periods, m/s2; empty for a component that is zero throughout.
 std::array<std::vector<double>, 3> spectra_of(const GroundMotion& motion, const std::vector<double>& periods,
                                               double damping);
 std::array<Intensity, 3> intensities_of(const GroundMotion& motion);
@@ -48,19 +48,20 @@ bool shaken(const GroundMotion& motion, int axis);
 
 nlohmann::json intensity_json(const Intensity& intensity);
 nlohmann::json record_json(const RecordSet& set, const std::string& relative_to);
-/// A row of measures for people and its heading; `factor` multiplies the motion.
+/// Rows of the printed table of measures, and its heading. `factor` multiplies the motion.
 std::string measures_heading();
 std::string measures_row(const std::string& name, const std::array<Intensity, 3>& of, double factor = 1.0);
-/// The same as a table of a page.
+/// The same measures as an HTML table.
 std::string measures_table(const std::vector<std::string>& names, const std::vector<std::array<Intensity, 3>>& of,
                            const std::vector<double>& factors);
-/// Acceleration, velocity and displacement of the three components, one chart below the other.
+/// Charts of acceleration, velocity and displacement of the three components, one below the other.
 std::string histories_figure(const std::string& name, const GroundMotion& motion);
 
 extern const char* const axis_colour[3];
 extern const char* const axis_word[3];
 
-/// DIR/NAME_x.txt, _y, _z: time and acceleration in columns, m/s2, `about` in their headings. The names of the files.
+/// Writes DIR/NAME_x.txt, _y, _z with columns of time (s) and acceleration (m/s2), and `about` in the heading. Returns
+/// the paths of the files.
 std::array<std::string, 3> write_motion_files(const std::string& directory, const std::string& name,
                                               const GroundMotion& motion, const std::string& about);
 

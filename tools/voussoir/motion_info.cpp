@@ -30,13 +30,13 @@ void take_paths(CommandLine& line) {
   add_columns_options(line);
 }
 
-/// What to mind of a step that its file gives with few digits: 1/409.6 s reads .0024 in some AT2 files.
+/// A remark on a time step that the file gives with few digits: some AT2 files give 1/409.6 s as .0024.
 std::string step_remark(const RecordSet& set) {
   const double rate = 1.0 / set.motion.dt;
   if (set.format != "PEER AT2" || std::abs(rate - std::round(rate)) < 1e-6 * rate) return "";
   return fmt::format(
-      "\n  its step may be rounded: times are right within {:.1f} %; in a case 'dt' replaces it, where the rate is "
-      "known",
+      "\n  The file may give a rounded time step, so times may be wrong by up to {:.1f} %. If you know the sampling "
+      "rate, give 'dt' in the case",
       100.0 * 0.5e-4 / set.motion.dt);
 }
 
@@ -46,7 +46,7 @@ std::string set_text(const RecordSet& set) {
     if (!set.files[axis].empty() || !set.components[axis].empty())
       components += fmt::format("{}{} = {}", components.empty() ? "" : ", ", axis_word[axis],
                                 set.components[axis].empty() ? "?" : set.components[axis]);
-  return fmt::format("{}: {}, event {}{}, {:.6g} s at {:.6g} s, {}{}", set.name, set.format, set.event,
+  return fmt::format("{}: {}, event {}{}, {:.6g} s at time steps of {:.6g} s, {}{}", set.name, set.format, set.event,
                      set.station.empty() ? "" : ", station " + set.station, set.motion.duration(), set.motion.dt,
                      components, step_remark(set));
 }
@@ -56,8 +56,8 @@ LineChart spectra_chart(const RecordSet& set, const std::optional<TargetSpectrum
                         double damping) {
   LineChart chart;
   chart.title = set.name;
-  chart.x_label = "period (s)";
-  chart.y_label = fmt::format("pseudo-acceleration, {:g} % damping (g)", 100.0 * damping);
+  chart.x_label = "Period, s";
+  chart.y_label = fmt::format("Pseudo-acceleration ({:g} % damping), g", 100.0 * damping);
   chart.log_x = true;
   chart.y_low = 0.0;
   const auto in_g = [](std::vector<double> values) {
@@ -71,7 +71,7 @@ LineChart spectra_chart(const RecordSet& set, const std::optional<TargetSpectrum
   return chart;
 }
 
-/// period, then x, y, z of each set, m/s2.
+/// CSV of the spectra: the period (s), then x, y, z of each set (m/s2).
 std::string spectra_csv(const std::vector<RecordSet>& sets, const std::vector<double>& periods,
                         const std::vector<std::array<std::vector<double>, 3>>& spectra,
                         const std::optional<TargetSpectrum>& target) {
@@ -102,7 +102,7 @@ int motion_info(const std::vector<std::string>& arguments) {
                    "voussoir motion info records -o measures");
   take_paths(line);
   line.described.add_options()("output,o", options::value<std::string>()->value_name("OUT"),
-                               "folder for motion.json and motion.html with the histories");
+                               "folder for motion.json and motion.html with the histories (default: no files)");
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const bool quiet = values.count("quiet") > 0;
@@ -148,7 +148,7 @@ int motion_spectrum(const std::vector<std::string>& arguments) {
   const bool quiet = values.count("quiet") > 0;
   const std::optional<TargetSpectrum> target = target_asked(values);
   const double damping = values["damping"].as<double>();
-  if (!(damping > 0.0 && damping < 1.0)) throw InputError("--damping is {}: expected above 0, below 1", damping);
+  if (!(damping > 0.0 && damping < 1.0)) throw InputError("--damping is {}. It must be above 0 and below 1", damping);
   const std::vector<RecordSet> sets = records_asked(paths_of(values), columns_asked(values), quiet);
   const std::vector<double> periods = chart_periods();
   std::vector<std::array<std::vector<double>, 3>> spectra(sets.size());
@@ -172,29 +172,31 @@ int motion_process(const std::vector<std::string>& arguments) {
   CommandLine line("motion process", "motion process DIR|FILE [FILE FILE] -o OUT [--taper …]",
                    "voussoir motion process a_EW.AT2 a_NS.AT2 a_UP.AT2 --band 0.1 25 --baseline -o OUT");
   take_paths(line);
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("OUT"), "folder of the results")(
-      "taper", options::value<double>()->default_value(0.0), "share of the record at each end")(
-      "band", options::value<std::vector<double>>()->multitoken(), "Hz, two corners; 0: that side open")(
-      "order", options::value<int>()->default_value(4), "of the band-pass")("baseline", "end at rest")(
-      "step", options::value<double>()->default_value(0.0), "s, of the result; 0: as it is");
+  line.described.add_options()("output,o", options::value<std::string>()->value_name("OUT"), "folder to write to")(
+      "taper", options::value<double>()->default_value(0.0), "taper at each end, as a share of the record")(
+      "band", options::value<std::vector<double>>()->multitoken(),
+      "two corner frequencies of the band-pass filter, Hz; 0: no limit on that side")(
+      "order", options::value<int>()->default_value(4), "order of the band-pass filter")(
+      "baseline", "correct the baseline, so that the motion ends at rest")(
+      "step", options::value<double>()->default_value(0.0), "time step of the result, s; 0: as recorded");
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
-  if (!values.count("output")) throw InputError("-o OUT is missing; usage: voussoir {}", line.usage);
+  if (!values.count("output")) throw InputError("-o OUT is missing. Usage: voussoir {}", line.usage);
   MotionProcessing asked;
   asked.taper = values["taper"].as<double>(), asked.order = values["order"].as<int>();
   asked.baseline = values.count("baseline") > 0, asked.dt = values["step"].as<double>();
   if (values.count("band")) {
     const auto band = values["band"].as<std::vector<double>>();
-    if (band.size() != 2) throw InputError("--band has {} numbers: expected two corners in Hz", band.size());
+    if (band.size() != 2) throw InputError("--band has {} numbers. Give two corner frequencies in Hz", band.size());
     asked.low = band[0], asked.high = band[1];
     for (const double corner : band)
-      if (!(corner >= 0.0 && corner <= 1e5)) throw InputError("--band has {} Hz: expected 0 (open) or more", corner);
+      if (!(corner >= 0.0 && corner <= 1e5)) throw InputError("--band has {} Hz. Give 0 (no limit) or more", corner);
   }
   if (!(asked.taper >= 0.0 && asked.taper <= 0.5))
-    throw InputError("--taper is {}: expected a share from 0 to 0.5", asked.taper);
-  if (asked.order < 1 || asked.order > 16) throw InputError("--order is {}: expected 1 to 16", asked.order);
+    throw InputError("--taper is {}. It must be a share from 0 to 0.5", asked.taper);
+  if (asked.order < 1 || asked.order > 16) throw InputError("--order is {}. It must be from 1 to 16", asked.order);
   if (asked.dt != 0.0 && !(asked.dt >= 1e-5 && asked.dt <= 1.0))
-    throw InputError("--step is {} s: expected 1e-5 to 1 s, or 0 to leave it as it is", asked.dt);
+    throw InputError("--step is {} s. It must be from 1e-5 to 1 s, or 0 to keep the recorded time step", asked.dt);
   const bool quiet = values.count("quiet") > 0;
   const std::string out = values["output"].as<std::string>();
   make_folder_of(out + "/motion.html");
@@ -208,7 +210,7 @@ int motion_process(const std::vector<std::string>& arguments) {
                        fmt::format("{}: taper {:g}, band {:g} to {:g} Hz of order {}, baseline {}", set.name,
                                    asked.taper, asked.low, asked.high, asked.order, asked.baseline ? "yes" : "no"));
     if (!quiet) fmt::print("{}", measures_row(set.name, intensities_of(done)));
-    body += histories_figure(set.name + ", processed", done) + histories_figure(set.name + ", as it was", set.motion);
+    body += histories_figure(set.name + ", processed", done) + histories_figure(set.name + ", as recorded", set.motion);
   }
   write_atomically(out + "/motion.html", html_page("Processed ground motions", body));
   return 0;

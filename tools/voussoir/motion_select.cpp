@@ -19,7 +19,7 @@
 namespace voussoir {
 
 namespace {
-constexpr double period_step = 0.01;  // s, between the periods that are compared
+constexpr double period_step = 0.01;  // s, distance of the periods that are compared
 
 struct SelectRequest {
   std::string folder, out;
@@ -33,9 +33,9 @@ struct SelectRequest {
 
 std::array<double, 2> pair_of(const options::variables_map& values, const char* key) {
   const auto list = values[key].as<std::vector<double>>();
-  if (list.size() != 2) throw InputError("--{} has {} numbers, expected 2: least and most", key, list.size());
+  if (list.size() != 2) throw InputError("--{} has {} numbers. Give two, the least and the largest", key, list.size());
   for (const double value : list)
-    if (!std::isfinite(value)) throw InputError("--{} has {}: expected finite numbers", key, value);
+    if (!std::isfinite(value)) throw InputError("--{} has {}. Give finite numbers", key, value);
   return {list[0], list[1]};
 }
 
@@ -59,7 +59,7 @@ std::vector<double> compared_periods(std::array<double, 2> range) {
   return periods;
 }
 
-/// What is shown and written of a selection.
+/// A selection with the data that its page and its files need.
 struct Selected {
   const SelectRequest& request;
   const std::vector<RecordSet>& sets;
@@ -107,8 +107,8 @@ std::string spectra_figure(const Selected& s) {
       horizontal_spectra(chosen, periods, s.request.target.damping, s.request.threads) / standard_gravity;
   LineChart chart;
   chart.title = "Spectra of the selection: mean of the two horizontal components at the record's factor";
-  chart.x_label = "period (s)";
-  chart.y_label = fmt::format("pseudo-acceleration, {:g} % damping (g)", 100.0 * s.request.target.damping);
+  chart.x_label = "Period, s";
+  chart.y_label = fmt::format("Pseudo-acceleration ({:g} % damping), g", 100.0 * s.request.target.damping);
   chart.height = 470.0, chart.log_x = true, chart.y_low = 0.0;
   std::vector<double> target = target_values(s.request.target, periods), mean(periods.size(), 0.0);
   for (double& v : target) v /= standard_gravity;
@@ -141,8 +141,8 @@ std::string spectra_figure(const Selected& s) {
 
 std::string ratio_figure(const Selected& s) {
   LineChart chart;
-  chart.title = "Mean over target";
-  chart.x_label = "period (s)", chart.y_label = "ratio";
+  chart.title = "Ratio of the mean to the target";
+  chart.x_label = "Period, s", chart.y_label = "ratio";
   chart.height = 240.0;
   const std::vector<double> low(s.periods.size(), s.request.problem.low),
       high(s.periods.size(), s.request.problem.high);
@@ -160,15 +160,15 @@ std::string measures_figure(const Selected& s) {
     double (*of)(const Intensity&);
     bool scales;
   };
-  const Measure measures[] = {{"PGA (g)", [](const Intensity& i) { return i.pga / standard_gravity; }, true},
-                              {"PGV (m/s)", [](const Intensity& i) { return i.pgv; }, true},
-                              {"D5–95 (s)", [](const Intensity& i) { return i.significant(); }, false}};
+  const Measure measures[] = {{"PGA, g", [](const Intensity& i) { return i.pga / standard_gravity; }, true},
+                              {"PGV, m/s", [](const Intensity& i) { return i.pgv; }, true},
+                              {"D5–95, s", [](const Intensity& i) { return i.significant(); }, false}};
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle};
   for (const Measure& measure : measures) {
     LineChart chart;
     chart.width = 480.0, chart.height = 250.0;
     chart.title = measure.title;
-    chart.x_label = "record, in the table's order", chart.y_label = measure.title;
+    chart.x_label = "Record, in the order of the table", chart.y_label = measure.title;
     chart.y_low = 0.0;
     chart.x_low = 0.5, chart.x_high = double(s.names.size()) + 0.5;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -191,12 +191,13 @@ std::string selection_page(const Selected& s, const std::string& spectra) {
   const auto [low, high] = std::ranges::minmax(s.selection.mean);
   std::string body = paragraph("Target: " + target_text(s.request.target) + ".");
   body += paragraph(fmt::format(
-      "{} of {} records, at most {} of an event, factors between {:g} and {:g}; mean over target {:.3f} to {:.3f} "
-      "between {:g} and {:g} s ({:g} to {:g} allowed). {} sets were tried{}.",
+      "{} of {} records are selected, at most {} of one event, with factors from {:g} to {:g}. The ratio of their mean "
+      "to the target is {:.3f} to {:.3f} at periods from {:g} to {:g} s ({:g} to {:g} is allowed). {} sets were "
+      "tried{}.",
       p.count, s.sets.size(), p.per_event, p.least, p.most, low, high, s.request.range[0], s.request.range[1], p.low,
-      p.high, s.selection.tried, s.selection.all_tried ? ", all that there are" : ""));
-  if (!s.selection.found) body += paragraph("No set keeps all bounds: this one comes closest.");
-  body += figure(spectra) + ratio_figure(s) + heading("Measures at the factors") + measures_figure(s);
+      p.high, s.selection.tried, s.selection.all_tried ? ", which is all possible sets" : ""));
+  if (!s.selection.found) body += paragraph("No set keeps all bounds. This is the closest one.");
+  body += figure(spectra) + ratio_figure(s) + heading("Measures, multiplied by the factors") + measures_figure(s);
   body += measures_table(s.names, s.measures, s.selection.factors) + heading("Histories, as recorded");
   for (const std::size_t r : s.selection.records) body += histories_figure(s.sets[r].name, s.sets[r].motion);
   return html_page("Selection of ground motions", body);
@@ -213,10 +214,11 @@ std::string selection_text(const Selected& s, double seconds) {
         fmt::format("{:<24} {:<16} {:>7.3f} {:>6.3f}{:>6.3f}{:>6.3f}\n", set.name, set.event, s.selection.factors[i],
                     f * s.measures[i][0].pga, f * s.measures[i][1].pga, f * s.measures[i][2].pga);
   }
-  return text +
-         fmt::format("\nmean over target {:.3f} to {:.3f} between {:g} and {:g} s; {:.0f} sets tried{}, {:.1f} s\n",
-                     low, high, s.request.range[0], s.request.range[1], s.selection.tried,
-                     s.selection.all_tried ? " (all)" : "", seconds);
+  return text + fmt::format(
+                    "\nratio of the mean to the target {:.3f} to {:.3f} at periods from {:g} to {:g} s; {:.0f} sets "
+                    "tried{}, {:.1f} s\n",
+                    low, high, s.request.range[0], s.request.range[1], s.selection.tried,
+                    s.selection.all_tried ? " (all)" : "", seconds);
 }
 
 SelectRequest select_request(const options::variables_map& values) {
@@ -224,11 +226,11 @@ SelectRequest select_request(const options::variables_map& values) {
   r.folder = values["DIR"].as<std::string>();
   r.out = values.count("output") ? values["output"].as<std::string>() : "selection";
   const std::optional<TargetSpectrum> target = target_asked(values);
-  if (!target) throw InputError("--target is missing: ntc2018, en1998-1 or en1998-2");
+  if (!target) throw InputError("--target is missing. Give ntc2018, en1998-1 or en1998-2");
   r.target = *target;
   const auto whole = [&](const char* key) {
     const int value = values[key].as<int>();
-    if (value < 1) throw InputError("--{} is {}: expected 1 or more", key, value);
+    if (value < 1) throw InputError("--{} is {}. It must be 1 or more", key, value);
     return std::size_t(value);
   };
   SelectionProblem& p = r.problem;
@@ -236,7 +238,7 @@ SelectRequest select_request(const options::variables_map& values) {
   p.seed = std::uint64_t(values["seed"].as<int>());
   r.range = pair_of(values, "range");
   if (!(r.range[0] > 0.0 && r.range[0] < r.range[1] && r.range[1] <= 20.0))
-    throw InputError("--range {} {}: expected 0 < first < second <= 20 s", r.range[0], r.range[1]);
+    throw InputError("--range is {} {}. It must be two periods in s: 0 < first < second <= 20", r.range[0], r.range[1]);
   std::tie(p.low, p.high) = std::tuple_cat(pair_of(values, "bounds"));
   std::tie(p.least, p.most) = std::tuple_cat(pair_of(values, "factors"));
   r.columns = columns_asked(values);
@@ -276,10 +278,10 @@ int select(SelectRequest& request) {
   if (selection.found) return 0;
   const auto [low, high] = std::ranges::minmax(selection.mean);
   throw RunError(
-      "no set of {} records keeps the mean within {:g} to {:g} of the target from {:g} to {:g} s{}; the closest, "
-      "written "
-      "to {}/selection.json with \"found\": false, has {:.3f} to {:.3f}: widen --bounds, --factors or --range, allow "
-      "more of an event with --per-event, or give more records",
+      "no set of {} records keeps its mean spectrum within {:g} to {:g} times the target at periods from {:g} to {:g} "
+      "s{}. The closest set is written to {}/selection.json with \"found\": false; its ratio is {:.3f} to {:.3f}. "
+      "Widen --bounds or --factors, narrow --range, allow more records of one event with --per-event, or give more "
+      "records",
       request.problem.count, request.problem.low, request.problem.high, request.range[0], request.range[1],
       selection.all_tried ? "" : " among those tried", request.out, low, high);
 }
@@ -294,16 +296,17 @@ int motion_select(const std::vector<std::string>& arguments) {
   add_columns_options(line);
   using Numbers = std::vector<double>;
   line.described.add_options()("output,o", options::value<std::string>()->value_name("OUT"),
-                               "folder for selection.json and selection.html (default: selection)")(
-      "count,n", options::value<int>()->default_value(7), "records")(
-      "range", options::value<Numbers>()->multitoken()->default_value({0.15, 2.0}, "0.15 2"), "s, periods compared")(
+                               "folder to write to (default: selection)")(
+      "count,n", options::value<int>()->default_value(7), "number of records")(
+      "range", options::value<Numbers>()->multitoken()->default_value({0.15, 2.0}, "0.15 2"),
+      "range of the periods that are compared, s")(
       "bounds", options::value<Numbers>()->multitoken()->default_value({0.9, 1.3}, "0.9 1.3"),
-      "of the mean over the target")("factors",
-                                     options::value<Numbers>()->multitoken()->default_value({0.3, 3.0}, "0.3 3"),
-                                     "bounds of each record's factor")(
-      "per-event", options::value<int>()->default_value(3), "most records of one event")(
-      "tries", options::value<int>()->default_value(1'000'000), "sets tried at most")(
-      "seed", options::value<int>()->default_value(1), "of the search where there are more sets");
+      "bounds on the ratio of the mean spectrum to the target")(
+      "factors", options::value<Numbers>()->multitoken()->default_value({0.3, 3.0}, "0.3 3"),
+      "bounds on the factor of each record")("per-event", options::value<int>()->default_value(3),
+                                             "largest number of records of one event")(
+      "tries", options::value<int>()->default_value(1'000'000), "largest number of sets to try")(
+      "seed", options::value<int>()->default_value(1), "seed of the search, used if there are more sets than --tries");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;

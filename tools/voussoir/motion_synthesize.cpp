@@ -21,7 +21,7 @@ double target_at(const TargetSpectrum& target, int axis, double period) {
   return axis == 2 ? vertical_spectral_acceleration(target, period) : spectral_acceleration(target, period);
 }
 
-/// Periods at which the fit is judged: between those at which it was made, to what a duration allows.
+/// Periods at which the fit is judged. They differ from those of the fit and end at a quarter of the duration.
 std::vector<double> judged_periods(const SyntheticSettings& settings) {
   std::vector<double> periods;
   for (double period = 0.05; period < std::min(3.0, settings.duration / 4.0); period *= 1.05) periods.push_back(period);
@@ -31,8 +31,8 @@ std::vector<double> judged_periods(const SyntheticSettings& settings) {
 LineChart fit_chart(const SyntheticSettings& settings, const GroundMotion& motion) {
   LineChart chart;
   chart.title = fmt::format("Response spectra, seed {}", settings.seed);
-  chart.x_label = "period (s)";
-  chart.y_label = fmt::format("pseudo-acceleration, {:g} % damping (g)", 100.0 * settings.spectrum->damping);
+  chart.x_label = "Period, s";
+  chart.y_label = fmt::format("Pseudo-acceleration ({:g} % damping), g", 100.0 * settings.spectrum->damping);
   chart.log_x = true, chart.y_low = 0.0;
   const std::vector<double> periods = chart_periods();
   const auto spectra = spectra_of(motion, periods, settings.spectrum->damping);
@@ -53,7 +53,7 @@ LineChart fit_chart(const SyntheticSettings& settings, const GroundMotion& motio
   return chart;
 }
 
-/// Least and most of response over target.
+/// The smallest and the largest ratio of the response spectrum to the target.
 std::pair<double, double> fit_of(const SyntheticSettings& settings, const GroundMotion& motion, int axis) {
   const std::vector<double> periods = judged_periods(settings);
   const std::vector<double> response =
@@ -74,18 +74,20 @@ int motion_synthesize(const std::vector<std::string>& arguments) {
                    "--seed 1 -o synthetic");
   add_target_options(line);
   line.described.add_options()("output,o", options::value<std::string>()->value_name("OUT"),
-                               "folder of the records, synthetic.json and synthetic.html (default: synthetic)")(
-      "count,n", options::value<int>()->default_value(1), "records of three components")(
-      "seed", options::value<int>()->default_value(1), "of the first; each further one has the next")(
+                               "folder to write to (default: synthetic)")(
+      "count,n", options::value<int>()->default_value(1), "number of records, each of three components")(
+      "seed", options::value<int>()->default_value(1),
+      "seed of the first record; each further record has the next number")(
       "duration", options::value<double>()->default_value(25.0), "s")(
       "step", options::value<double>()->default_value(0.005), "s");
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::optional<TargetSpectrum> target = target_asked(values);
-  if (!target) throw InputError("--target is missing: ntc2018, en1998-1 or en1998-2");
+  if (!target) throw InputError("--target is missing. Give ntc2018, en1998-1 or en1998-2");
   const int count = values["count"].as<int>(), seed = values["seed"].as<int>();
   if (count < 1 || count > 1000 || seed < 0)
-    throw InputError("--count {} --seed {}: expected 1 to 1000 records and a seed of 0 or more", count, seed);
+    throw InputError("--count is {} and --seed is {}. The count must be from 1 to 1000, and the seed 0 or more", count,
+                     seed);
   const bool quiet = values.count("quiet") > 0;
   std::vector<SyntheticSettings> settings(static_cast<std::size_t>(count));
   std::vector<GroundMotion> motions(settings.size());
@@ -95,7 +97,7 @@ int motion_synthesize(const std::vector<std::string>& arguments) {
     settings[i].seed = std::uint64_t(seed) + i;
     settings[i].duration = values["duration"].as<double>(), settings[i].dt = values["step"].as<double>();
   }
-  motions[0] = synthesize(settings[0]);  // what is wrong is said here, before the threads
+  motions[0] = synthesize(settings[0]);  // before the threads start, so that wrong options are reported here
   for_each(settings.size() - 1, threads_asked(values), 1,
            [&](std::size_t i) { motions[i + 1] = synthesize(settings[i + 1]); });
 
@@ -106,8 +108,8 @@ int motion_synthesize(const std::vector<std::string>& arguments) {
                          {"synthetic", true},
                          {"target", target_json(*target)},
                          {"records", nlohmann::json::array()}};
-  std::string body = paragraph("Artificial motions made to have the spectrum of " + target_text(*target) +
-                               ". They are no recordings: no faults, paths or sites are behind them.");
+  std::string body = paragraph("These are artificial motions that have the spectrum of " + target_text(*target) +
+                               ". They were not recorded in an earthquake.");
   if (!quiet) fmt::print("{}", measures_heading());
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const std::string name = fmt::format("synthetic_{:04}", settings[i].seed);

@@ -14,13 +14,13 @@ namespace voussoir {
 options::typed_value<double>* real_option(const std::string& name, double low, double high, double* to) {
   return options::value<double>(to)->notifier([=](double value) {
     if (!(value >= low && value <= high))
-      throw InputError("--{} is {}; it must be from {:g} to {:g}", name, value, low, high);
+      throw InputError("--{} is {}. It must be from {:g} to {:g}", name, value, low, high);
   });
 }
 
 options::typed_value<int>* whole_option(const std::string& name, int low, int high, int* to) {
   return options::value<int>(to)->notifier([=](int value) {
-    if (value < low || value > high) throw InputError("--{} is {}; it must be from {} to {}", name, value, low, high);
+    if (value < low || value > high) throw InputError("--{} is {}. It must be from {} to {}", name, value, low, high);
   });
 }
 
@@ -32,8 +32,9 @@ void check_ending(const std::string& path, const std::vector<std::string>& endin
   std::string ending = std::filesystem::path(path).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   if (std::ranges::find(known, ending) == known.end() || std::ranges::find(endings, ending) != endings.end()) return;
-  throw InputError("-o {}: {} is written, and '{}' is the ending of another kind of file; let it end in {}",
-                   shown(path, 300), kind, ending, fmt::join(endings, " or "));
+  throw InputError(
+      "-o {}: the program writes {}, but '{}' is the ending of another kind of file. The name must end in {}",
+      shown(path, 300), kind, ending, fmt::join(endings, " or "));
 }
 
 }  // namespace voussoir

@@ -32,7 +32,7 @@ Words list_of(const options::variables_map& values, const char* name) {
   return values.count(name) ? values[name].as<Words>() : Words{};
 }
 
-/// The vehicle itself, one of its variants, or, of "all", each and itself.
+/// The vehicle itself, or one of its variants; for "all", the vehicle and each variant.
 std::vector<Vehicle> with_variants(const Vehicle& vehicle, const std::string& variant) {
   if (variant.empty()) return {vehicle};
   if (variant != "all") return {variant_named(vehicle, variant)};
@@ -42,16 +42,16 @@ std::vector<Vehicle> with_variants(const Vehicle& vehicle, const std::string& va
 }
 
 struct Amplification {
-  std::string name;  // of a factor of the vehicle's; empty: none
+  std::string name;  // name of a dynamic factor of the vehicle; empty: none
   double span = 0.0, cover = -1.0;
 };
 
-/// A factor of the critical axle alone is tried on each.
+/// The vehicle with the factor. A factor of the critical axle alone gives one vehicle for each axle.
 std::vector<Vehicle> with_factor(const Vehicle& vehicle, const Amplification& by) {
   if (by.name.empty()) return {vehicle};
   const DynamicFactor& factor = factor_named(vehicle, by.name);
   if (factor.formula != DynamicFactor::Formula::value && (by.span <= 0.0 || by.cover < 0.0))
-    throw InputError("--factor {} follows from span and cover: give --span and --cover, in m", by.name);
+    throw InputError("--factor {} depends on span and cover. Give --span and --cover, in m", by.name);
   const double value = dynamic_factor(factor, by.span, by.cover);
   std::vector<Vehicle> all;
   if (!factor.critical_axle_only) {
@@ -73,7 +73,7 @@ std::vector<Vehicle> vehicles_asked(const options::variables_map& values) {
   if (values.count("cover")) by.cover = values["cover"].as<double>();
   const std::string variant = values.count("variant") ? values["variant"].as<std::string>() : std::string();
   const Words names = list_of(values, "vehicle");
-  if (names.empty()) throw InputError("--vehicle NAME is missing: 'voussoir vehicles' lists them");
+  if (names.empty()) throw InputError("--vehicle NAME is missing. 'voussoir vehicles' lists the names");
   std::vector<Vehicle> all;
   for (const std::string& name : names)
     for (const Vehicle& v : with_variants(read_vehicle(name), variant))
@@ -83,19 +83,19 @@ std::vector<Vehicle> vehicles_asked(const options::variables_map& values) {
 
 std::vector<double> lanes_asked(const std::vector<double>& lanes) {
   for (const double y : lanes)
-    if (!(std::abs(y) <= 100.0)) throw InputError("--lane {}: must be a number from -100 to 100, in m", y);
+    if (!(std::abs(y) <= 100.0)) throw InputError("--lane is {}. It must be from -100 to 100 m", y);
   return lanes;
 }
 
-/// Dynamic factors, and figures of the vehicles that nobody has looked up.
+/// Remarks on the dynamic factor, and on figures of the vehicles that nobody has checked.
 std::vector<std::string> vehicle_remarks(const options::variables_map& values, const std::vector<Vehicle>& vehicles) {
-  std::vector<std::string> remarks = {values.count("factor")
-                                          ? fmt::format("dynamic factor \"{}\"", values["factor"].as<std::string>())
-                                          : std::string("no dynamic factor acts: --factor NAME applies one")};
+  std::vector<std::string> remarks = {
+      values.count("factor") ? fmt::format("The dynamic factor \"{}\" is applied", values["factor"].as<std::string>())
+                             : std::string("No dynamic factor is applied. --factor NAME applies one")};
   for (const Vehicle& vehicle : vehicles)
     if (!vehicle.not_checked.empty())
-      remarks.push_back(
-          fmt::format("{}: not looked up in its source: {}", vehicle.name, fmt::join(vehicle.not_checked, ", ")));
+      remarks.push_back(fmt::format("{}: nobody has checked these figures against the source: {}", vehicle.name,
+                                    fmt::join(vehicle.not_checked, ", ")));
   return remarks;
 }
 
@@ -105,10 +105,10 @@ double widest(const std::vector<Vehicle>& vehicles) {
   return width;
 }
 
-/// The case as it is loaded, and what was assumed for it.
+/// The case that is rated: without its loading test, or as a strip. Adds the assumptions to `remarks`.
 Case loaded_case(const Case& c, const options::variables_map& values, RateRequest& request,
                  std::vector<std::string>& remarks) {
-  const char* const beam = "without the beam of its loading test, and without the stages from that test on";
+  const char* const beam = "The beam of the loading test, and all stages from that test on, are left out";
   if (!values.count("strip")) {
     if (is_loading_test(c)) remarks.push_back(beam);
     return without_loading_test(c);
@@ -121,9 +121,9 @@ Case loaded_case(const Case& c, const options::variables_map& values, RateReques
   request.effective_width = values.count("effective-width")
                                 ? values["effective-width"].as<double>()
                                 : effective_width(widest(request.vehicles), cover, c.generator_input("width"));
-  remarks.push_back(fmt::format("a strip in plane strain; a vehicle's load is spread over {:.3g} m across{}",
-                                *request.effective_width,
-                                values.count("effective-width") ? "" : " (wheels + 1.5 m + cover, CS 454)"));
+  remarks.push_back(fmt::format(
+      "The model is a strip in plane strain. The load of a vehicle is spread over {:.3g} m of width{}",
+      *request.effective_width, values.count("effective-width") ? "" : " (wheels + 1.5 m + cover, CS 454)"));
   return strip;
 }
 
@@ -148,13 +148,13 @@ std::string draw_working(const Case& c, const std::string& folder) {
   return png;
 }
 
-/// What the runs of the worst place show.
+/// Results of the runs at the worst position.
 struct WorstRuns {
   std::vector<PagePicture> pictures;
   std::vector<ThrustLine> thrust;  // under the vehicle as it is, then under the largest load found
 };
 
-/// The worst place of all once more, as runs with their pictures and pages.
+/// Runs the worst position of all again, to collapse and at factor 1, with pictures and pages.
 WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rating, const std::string& out,
                     bool quiet) {
   const RatedPlace& at = rating.places[worst_of_all(rating)];
@@ -166,7 +166,8 @@ WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rat
     run.directory = folder, run.threads = request.threads, run.quiet = true;
     const DirectoryLock lock = prepare_directory(more, folder, true);
     if (!quiet)
-      fmt::print("{}: {}\n", folder, to_collapse ? "to collapse at the worst place" : "under the vehicle as it is");
+      fmt::print("{}: {}\n", folder,
+                 to_collapse ? "run to collapse at the worst position" : "under the vehicle as it is");
     RunSession session(run);
     session.run();
     all.thrust.insert(all.thrust.begin(),
@@ -174,11 +175,12 @@ WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rat
     const std::string file = to_collapse ? folder + "/images/mechanism_front.png" : draw_working(more, folder);
     std::error_code ignored;
     if (fs::exists(file, ignored))
-      all.pictures.push_back({to_collapse ? "Beyond the collapse load" : "Under the vehicle as it is",
-                              to_collapse
-                                  ? "worst: displacements, and joints of the mechanism in red"
-                                  : "working: displacements; joints that opened or slipped more than 0.1 mm in red",
-                              read_text(file)});
+      all.pictures.push_back(
+          {to_collapse ? "Beyond the collapse load" : "Under the vehicle as it is",
+           to_collapse
+               ? "Run directory worst: displacements, and joints of the mechanism in red"
+               : "Run directory working: displacements, and joints that opened or slipped more than 0.1 mm in red",
+           read_text(file)});
   }
   return all;
 }
@@ -205,33 +207,35 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
                                "folder to write to (default: rate-CASE)")(
       "vehicle", options::value<Words>()->value_name("NAME"),
-      "a vehicle of 'voussoir vehicles', or the file of one; may be repeated")(
+      "a vehicle that 'voussoir vehicles' lists, or a vehicle file; may be repeated")(
       "variant", options::value<std::string>()->value_name("NAME"),
-      "a variant of the vehicles, such as lift-off; all: each of them and the vehicle itself")(
-      "factor", options::value<std::string>()->value_name("NAME"), "a dynamic factor of the vehicles")(
-      "span", real_option("span", 0.1, 1000.0)->value_name("L"), "m, for factors that follow from it")(
-      "cover", real_option("cover", 0.0, 100.0)->value_name("H"), "m, over the crown, likewise")(
+      "a variant of the vehicles, such as lift-off; all: each variant, and the vehicle itself")(
+      "factor", options::value<std::string>()->value_name("NAME"),
+      "name of a dynamic factor of the vehicles (default: none is applied)")(
+      "span", real_option("span", 0.1, 1000.0)->value_name("L"), "span for dynamic factors that depend on it, m")(
+      "cover", real_option("cover", 0.0, 100.0)->value_name("H"),
+      "cover over the crown for dynamic factors that depend on it, m")(
       "lane", options::value<std::vector<double>>()->value_name("Y"),
-      "m, y of the vehicle's middle line; may be repeated (default: 0)")(
+      "y of the centre line of the vehicle, m; may be repeated (default: 0)")(
       "step", real_option("step", 0.01, 100.0)->value_name("M"),
-      "m from place to place (default: a tenth of the shortest span)")(
+      "distance between positions, m (default: a tenth of the shortest span)")(
       "from", real_option("from", -1e4, 1e4)->value_name("X"),
-      "m, least x of the middle of the axles (default: all vaults)")(
-      "to", real_option("to", -1e4, 1e4)->value_name("X"), "m, and the greatest")(
+      "smallest x of the middle of the axles, m (default: all vaults)")(
+      "to", real_option("to", -1e4, 1e4)->value_name("X"),
+      "largest x of the middle of the axles, m (default: all vaults)")(
       "refine", whole_option("refine", 0, 10)->value_name("N")->default_value(2),
-      "halvings of the step about the worst place")("one-way", "only towards the right")(
+      "number of halvings of the distance around the worst position")("one-way", "the vehicle faces right only")(
       "strip", real_option("strip", 0.05, 5.0)->value_name("W"),
-      "a strip of this width (m) in plane strain instead of the whole bridge")(
+      "model a strip of this width, m, in plane strain (default: the whole bridge)")(
       "effective-width", real_option("effective-width", 0.1, 100.0)->value_name("B"),
-      "m across that bear a vehicle, with --strip (default: wheels + 1.5 m + cover)")(
-      "most", real_option("most", 0.01, 1e6)->value_name("F")->default_value(30.0),
-      "largest factor that is looked for")(
-      "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05, "0.05"), "of the factor")(
-      "mexe", options::value<std::string>()->value_name("FILE"),
-      "figures of the MEXE method for the arch (docs/rating.md); printed beside the rating")(
+      "with --strip: width that carries one vehicle, m (default: wheels + 1.5 m + cover)")(
+      "most", real_option("most", 0.01, 1e6)->value_name("F")->default_value(30.0), "largest factor of the search")(
+      "tolerance", real_option("tolerance", 1e-6, 1e3)->value_name("T")->default_value(0.05, "0.05"),
+      "tolerance of the factor")("mexe", options::value<std::string>()->value_name("FILE"),
+                                 "input of the MEXE method (docs/rating.md); its result is printed as well")(
       "passages", whole_option("passages", 3, 10'000)->value_name("N"),
-      "drive the first vehicle over so many times, with shares of its adequacy factor: what settles, what grows")(
-      "no-runs", "leave out the runs of the worst place and their pictures");
+      "move the first vehicle over the bridge N times with 0.3 to 0.9 of its adequacy factor")(
+      "no-runs", "leave out the two runs of the worst position and their pictures");
   line.positional = line.required = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -285,7 +289,7 @@ int rate_bridge(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb rate_verb() {
-  return {"rate", "which vehicles a bridge bears: adequacy factors at their worst places", rate_bridge};
+  return {"rate", "find which vehicles a bridge can carry (adequacy factors at the worst positions)", rate_bridge};
 }
 
 }  // namespace voussoir

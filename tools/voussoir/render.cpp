@@ -40,13 +40,14 @@ RenderOptions render_options(const options::variables_map& values) {
   return o;
 }
 
-/// The stored frame nearest to the time asked for (default: the last).
+/// Renders the stored frame nearest to --time (default: the last).
 void render_frame(const std::string& directory, const options::variables_map& values, const RenderOptions& o,
                   const std::string& png) {
   const VtkSeries series(directory);
   const auto& frames = series.blocks().frames();
   if (frames.empty())
-    throw InputError("{} has no frames in vtk/blocks.pvd: give a checkpoint, or a run with output", directory);
+    throw InputError("{} has no frames in vtk/blocks.pvd. Give a checkpoint, or a run that has written frames",
+                     directory);
   auto best = frames.end() - 1;
   if (values.count("time"))
     best =
@@ -58,7 +59,7 @@ void render_frame(const std::string& directory, const options::variables_map& va
                  o, png);
 }
 
-/// The kind of the stage that a checkpoint was written in, or between two stages that of the one before.
+/// The kind of the stage in which a checkpoint was written. Between two stages it is that of the earlier one.
 StageSettings::Kind stage_of(CheckpointHeader header, const SolverSettings& settings) {
   const std::int64_t at = header.numbers["stage_begun"] > 0.0 ? header.stage : header.stage - 1;
   if (settings.stages.empty()) return StageSettings::Kind::gravity;
@@ -69,7 +70,8 @@ StageSettings::Kind stage_of(CheckpointHeader header, const SolverSettings& sett
 void render_file(const std::string& file, RenderOptions o, bool resultants, const std::string& png) {
   if (!is_checkpoint_of_run(file)) {
     if (resultants)
-      throw InputError("{} is no checkpoint: resultants take a run that ends at rest, or a checkpoint of it", file);
+      throw InputError("{} is not a checkpoint. --resultants needs a run that ends at rest, or a checkpoint of it",
+                       file);
     const Assembly assembly = read_assembly(file);
     render_picture(assembly, rest_snapshot(assembly), o, png);
     return;
@@ -84,34 +86,40 @@ void render_file(const std::string& file, RenderOptions o, bool resultants, cons
 int render(const std::vector<std::string>& arguments) {
   CommandLine line("render", "render DIR|CHECKPOINT|ASSEMBLY [-o PNG]",
                    "voussoir render demo --view front --colour slip --amplification 20 -o slip.png");
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("PNG"),
-                               "picture (default: DIR/images/…, or beside the file)")(
+  line.described.add_options()(
+      "output,o", options::value<std::string>()->value_name("PNG"),
+      "picture, or a folder for it (default: DIR/images/COLOUR_VIEW.png, or named after the file)")(
       "time,t", real_option("time", -1e9, 1e9)->value_name("T"),
-      "stored frame nearest to this time (s); default: the last")(
-      "amplification,a", real_option("amplification", -1e6, 1e6)->default_value(2.0), "of the displacements")(
+      "stored frame nearest to this time, s (default: the last)")(
+      "amplification,a", real_option("amplification", -1e6, 1e6)->default_value(2.0),
+      "factor on the displacements relative to the base")(
       "colour,c", options::value<std::string>()->default_value("opening"),
-      "opening, slip, displacement, mode (share of the largest), component or stone; of the joints normal, shear, "
-      "utilisation or eccentricity; of a deformable fill plastic (shear strain), yield or stress")(
-      "view,v", options::value<std::string>()->default_value("oblique"), "front, side, plan or oblique")(
+      "quantity shown in colour: opening, slip, displacement, mode (displacement as a share of the largest), "
+      "component, stone; of the joints: normal, shear, utilisation, eccentricity; of a deformable fill: plastic (shear "
+      "strain), yield, stress")("view,v", options::value<std::string>()->default_value("oblique"),
+                                "view: front, side, plan or oblique")(
       "hide", options::value<std::string>()->value_name("NAMES"),
-      "components left out, by commas; none: show all; default: backfill, a deformable one too, unless it is coloured")(
+      "components left out of the picture, separated by commas; none: show all (default: backfill, including a "
+      "deformable one; nothing with plastic, yield and stress)")(
       "cut", options::value<std::string>()->value_name("PLANE"),
-      "leave out what lies before a plane: an axis and a place in m, such as y=0.5, or the axis alone for the middle")(
-      "no-cracks", "do not mark cracked joints")("crack", real_option("crack", 0.0, 1e6)->default_value(1.0),
-                                                 "opening or slip that counts as a crack, mm; 0: a lost bond too")(
+      "section: leave out everything on the viewer's side of a plane, given as an axis and a coordinate in m (y=0.5) "
+      "or as an axis alone for the middle")("no-cracks", "do not mark cracked joints")(
+      "crack", real_option("crack", 0.0, 1e6)->default_value(1.0),
+      "opening or slip that counts as a crack, mm; 0: a lost bond counts too")(
       "range", real_option("range", 0.0, 1e9)->default_value(0.0),
       "top of the colour scale, mm (plastic: %, stress: kPa, normal and shear: MPa); 0: from the data")(
-      "resultants", "arrows of the resultants in the bed joints of vaults, and their lines of thrust; a state at rest")(
+      "resultants", "draw the resultants of the bed joints of vaults and the lines of thrust; needs a state at rest")(
       "width", whole_option("width", 200, 8000)->default_value(1800), "pixels")(
-      "height", whole_option("height", 0, 8000)->default_value(1000), "pixels; 0: as needed")(
-      "undeformed", "thin outline of the undeformed stones")("title", options::value<std::string>()->default_value(""),
-                                                             "words above the picture");
+      "height", whole_option("height", 0, 8000)->default_value(1000),
+      "height of the picture, pixels; 0: as the content needs")("undeformed",
+                                                                "draw thin outlines of the undeformed stones")(
+      "title", options::value<std::string>()->default_value(""), "title above the picture");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::string from = values["DIR"].as<std::string>();
   const RenderOptions o = render_options(values);
-  std::error_code ignored;  // a name that cannot be looked up names no file
+  std::error_code ignored;  // a path that cannot be examined is not a file
   const bool directory = fs::is_directory(from, ignored);
   if (!directory && !fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
   const bool resultants = values.count("resultants") > 0;
@@ -122,7 +130,7 @@ int render(const std::vector<std::string>& arguments) {
   if (fs::is_directory(png, ignored) || png.ends_with('/')) png = (fs::path(png) / name).string();
   check_ending(png, {".png"}, "a PNG picture");
   if (resultants && values.count("time"))
-    throw InputError("--resultants takes the state of a checkpoint: give its file instead of --time");
+    throw InputError("--resultants takes its state from a checkpoint. Give the checkpoint file and leave out --time");
   if (directory && !resultants)
     render_frame(from, values, o, png);
   else
@@ -134,7 +142,7 @@ int render(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb render_verb() {
-  return {"render", "off-screen pictures: deformed shape, damage, views", render};
+  return {"render", "draw pictures of a stored frame, a checkpoint or an assembly", render};
 }
 
 }  // namespace voussoir

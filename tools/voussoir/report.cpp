@@ -13,7 +13,7 @@ namespace voussoir {
 
 namespace {
 
-/// A page that is there, as a PDF beside it.
+/// Prints an existing page as a PDF beside it.
 void print_beside(const std::string& page, bool says) {
   const std::string pdf = page.substr(0, page.rfind('.')) + ".pdf";
   print_page(page, pdf);
@@ -22,7 +22,7 @@ void print_beside(const std::string& page, bool says) {
 
 int report(const std::vector<std::string>& arguments) {
   CommandLine line("report", "report DIR|PAGE.html [--pdf]", "voussoir report demo --pdf");
-  line.described.add_options()("pdf", "print the page as a PDF beside it, too (by Chromium)");
+  line.described.add_options()("pdf", "also print the page as a PDF beside it (needs Chromium)");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -31,7 +31,7 @@ int report(const std::vector<std::string>& arguments) {
   std::error_code ignored;
   if (from.ends_with(".html")) {  // of any verb
     if (!std::filesystem::exists(from, ignored)) throw InputError("there is no file {}", from);
-    if (!prints) throw InputError("{} is a page already: --pdf prints it", from);
+    if (!prints) throw InputError("{} is a page already. Give --pdf to print it", from);
     print_beside(from, says);
     return 0;
   }
@@ -47,7 +47,7 @@ int report(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb report_verb() {
-  return {"report", "the page of a run or a campaign, made again from its files; as a PDF, too", report};
+  return {"report", "write the page of a run or a campaign again from its files, also as a PDF", report};
 }
 
 }  // namespace voussoir

@@ -32,10 +32,11 @@ void add_run_options(CommandLine& line) {
                                "stop at this simulated time (s), with a checkpoint")(
       "no-pictures", "leave out the pictures at the end")(
       "compression", options::value<std::string>()->value_name("WORD")->default_value("lz4"),
-      "of the files for ParaView: lz4; zlib, which meshio reads, too (slower, smaller); none");
+      "compression of the files for ParaView: lz4; zlib (for readers without LZ4, such as meshio; slower, smaller); "
+      "none");
 }
 
-/// Said before the first second is over: large cases take longer to build.
+/// Printed at once, because large cases take a while to build.
 void say_begun(const RunRequest& wanted, const std::string& from) {
   if (!wanted.quiet) fmt::print(stderr, "reading {}\n", from);
 }
@@ -56,7 +57,7 @@ int run(const std::vector<std::string>& arguments) {
   say_begun(wanted, file);
   const Case c = read_case(file);
   if (!wanted.quiet && c.generator.empty() && !states_joints(c.assembly_file))
-    fmt::print(stderr, "{} states no joints: they are found where faces meet\n", c.assembly_file);
+    fmt::print(stderr, "{} states no joints. The program finds them where faces meet\n", c.assembly_file);
   const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0, remarks_to(wanted.quiet));
   return RunSession(wanted).run();
 }
@@ -68,9 +69,10 @@ int resume(const std::vector<std::string>& arguments) {
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::string directory = values["DIR"].as<std::string>();
-  std::error_code ignored;  // a name that cannot be looked up names no run
+  std::error_code ignored;  // a path that cannot be examined is not a run directory
   if (!fs::exists(directory + "/case.toml", ignored))
-    throw InputError("{} is no run directory: it has no case.toml; give the folder that voussoir run wrote", directory);
+    throw InputError("{} is not a run directory: it has no case.toml. Give the folder that voussoir run wrote",
+                     directory);
   const RunRequest wanted = request(values, directory);
   say_begun(wanted, directory);
   const DirectoryLock lock(directory);
@@ -82,10 +84,10 @@ int resume(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb run_verb() {
-  return {"run", "all stages of a case: equilibrium, motion, free vibration", run};
+  return {"run", "compute all stages of a case and write a run directory", run};
 }
 Verb resume_verb() {
-  return {"resume", "goes on with a run from its newest good checkpoint", resume};
+  return {"resume", "continue a run from its newest good checkpoint", resume};
 }
 
 }  // namespace voussoir

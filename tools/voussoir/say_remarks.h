@@ -1,4 +1,4 @@
-// Remarks on what was read, for people.
+// Printing of remarks on the input.
 #pragma once
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
-/// Prints a remark on a line of its own, to the error stream, so that a table on the other one stays whole; nothing
-/// when quiet.
+/// Prints each remark on its own line to the error stream, so that tables on the standard output stay intact. Prints
+/// nothing if quiet.
 inline std::function<void(const std::string&)> remarks_to(bool quiet) {
   return [quiet](const std::string& text) {
     if (!quiet) fmt::print(stderr, "remark: {}\n", text);

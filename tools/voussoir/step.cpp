@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<double, 8> shares = {0.0, 0.001, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9};
 constexpr std::array<double, 5> budgets = {1e-5, 1e-4, 1e-3, 1e-2, 5e-2};
 
-/// What a share of added mass would bring.
+/// The effect of a share of added mass on the time step.
 struct Budget {
   MassScaling scaling;
   double share = 0.0, step = 0.0;  // s, critical
@@ -38,13 +38,15 @@ std::vector<Budget> try_budgets(const Model& model, const State& state) {
 
 void print_report(const Assembly& assembly, const Model& model, const StepReport& report) {
   const char* what = model.fill.empty() ? "bodies" : "bodies and nodes";
-  fmt::print("\n{} that ask for the shortest steps (s): by what is around them; the assembly's with this one held\n",
-             what);
+  fmt::print(
+      "\n{} that demand the shortest time steps: time step that each demands, s; time step of the assembly if it is "
+      "held, s\n",
+      what);
   for (const StiffSite& row : report.stiffest)
     fmt::print("{:>10.4g} {:>10.4g}  {}\n", row.step, row.without, describe_stiff_site(assembly, model, row));
-  fmt::print("\nshare of the {} that ask for a shorter step than (s)\n", what);
+  fmt::print("\nshare of the {} that demand a shorter time step than, s\n", what);
   for (double share : shares) fmt::print("{:>9.1f} % {:>10.4g}\n", 100 * share, report.at_share(share));
-  fmt::print("\ncritical step (s) with the inertia of the stiffest {} raised to that of the next\n", what);
+  fmt::print("\ncritical time step, s, with the inertia of the stiffest {} raised to that of the next\n", what);
   fmt::print("{:>10} {:>10} {:>12} {:>8}\n", "raised", "step", "added mass", "gain");
   for (const StiffestRaised& row : report.raised)
     fmt::print("{:>10} {:>10.4g} {:>10.4f} % {:>8.3f}\n", row.count, row.step, 100 * row.share,
@@ -52,7 +54,7 @@ void print_report(const Assembly& assembly, const Model& model, const StepReport
 }
 
 void print_budgets(const std::vector<Budget>& rows, double before) {
-  fmt::print("\ncritical step (s) under mass scaling (mass_scaling_limit)\n");
+  fmt::print("\ncritical time step, s, with mass scaling (mass_scaling_limit)\n");
   fmt::print("{:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}\n", "limit", "step", "gain", "bodies", "heavier",
              "most mass", "most rot.");
   for (const Budget& row : rows)
@@ -98,8 +100,8 @@ nlohmann::json report_json(const Model& model, const StepReport& report, const s
 int step(const std::vector<std::string>& arguments) {
   CommandLine line("step", "step CASE [-o FILE]", "voussoir step cases/cs1-f.toml");
   line.described.add_options()("bodies", whole_option("bodies", 0, 1'000'000)->value_name("N")->default_value(8),
-                               "how many of the stiffest bodies to list")(
-      "output,o", options::value<std::string>()->value_name("FILE"), "also write it as JSON");
+                               "number of the stiffest bodies to list")(
+      "output,o", options::value<std::string>()->value_name("FILE"), "also write the result as JSON");
   line.positional = line.required = {"CASE"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -111,13 +113,13 @@ int step(const std::vector<std::string>& arguments) {
   const State state = initial_state(model);
   const StepReport report = report_step(model, state, bodies);
   if (report.critical.body < 0) {
-    fmt::print("no joint holds any block, so there is no critical step\n");
+    fmt::print("no joint holds any block, so there is no critical time step\n");
     return 0;
   }
   const std::vector<Budget> rows = try_budgets(model, state);
   const double factor = damping_step_factor(c.settings.damping, report.critical.highest);
   if (!values.count("quiet")) {
-    fmt::print("critical step {:.4g} s undamped, × {:.3f} for damping, × {} safety: {:.4g} s\nset by {}\n",
+    fmt::print("critical time step {:.4g} s undamped, × {:.3f} for damping, × {} safety: {:.4g} s\nset by {}\n",
                report.critical.step, factor, c.settings.step.safety,
                report.critical.step * factor * c.settings.step.safety,
                describe_fastest(assembly, model, report.critical));
@@ -131,7 +133,7 @@ int step(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb step_verb() {
-  return {"step", "which blocks set the time step, and what mass scaling would bring", step};
+  return {"step", "say which blocks limit the time step, and what mass scaling would gain", step};
 }
 
 }  // namespace voussoir

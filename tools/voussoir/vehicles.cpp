@@ -23,7 +23,9 @@ double tonnes(double force) {
 }
 
 void print_library(const std::vector<Vehicle>& vehicles) {
-  fmt::print("| vehicle | what | kind | axles | t | m | source |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "| vehicle | description | kind | axles | weight, t | length, m | source |\n| --- | --- | --- | --- | --- | --- "
+      "| --- |\n");
   for (const Vehicle& v : vehicles)
     fmt::print("| `{}` | {} | {} | {} | {:.1f} | {:.2f} | {} |\n", v.name, v.title, kind_of(v), v.axles.size(),
                tonnes(axle_weight(v)), vehicle_length(v), v.source);
@@ -35,11 +37,12 @@ std::string end_text(double end) {
 
 void print_axles(const Vehicle& v) {
   if (v.axles.empty()) return;
-  fmt::print("\n| axle | x, m | kN | t |\n| --- | --- | --- | --- |\n");
+  fmt::print("\n| axle | x, m | load, kN | load, t |\n| --- | --- | --- | --- |\n");
   for (std::size_t i = 0; i < v.axles.size(); ++i)
     fmt::print("| {} | {:.2f} | {:.1f} | {:.2f} |\n", i + 1, v.axles[i].x, v.axles[i].load / 1e3,
                tonnes(v.axles[i].load));
-  fmt::print("\n| patch of axle | x, m | y, m | length, m | width, m | kN |\n| --- | --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "\n| patch of axle | x, m | y, m | length, m | width, m | load, kN |\n| --- | --- | --- | --- | --- | --- |\n");
   for (const LoadPatch& p : v.patches)
     fmt::print("| {} | {:.2f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", p.axle + 1, p.x, p.y, p.length, p.width,
                p.force / 1e3);
@@ -47,7 +50,9 @@ void print_axles(const Vehicle& v) {
 
 void print_strips(const Vehicle& v) {
   if (v.strips.empty()) return;
-  fmt::print("\n| strip from, m | to, m | y, m | width, m | kN/m2 | kN/m |\n| --- | --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "\n| strip from, m | to, m | y, m | width, m | pressure, kN/m2 | line load, kN/m |\n| --- | --- | --- | --- | "
+      "--- | --- |\n");
   for (const LoadStrip& s : v.strips)
     fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", end_text(s.from), end_text(s.to), s.y, s.width,
                s.pressure / 1e3, s.pressure * s.width / 1e3);
@@ -55,12 +60,13 @@ void print_strips(const Vehicle& v) {
 
 std::string factor_text(const DynamicFactor& f) {
   if (f.formula == DynamicFactor::Formula::value) return fmt::format("{:g}", f.value);
-  return fmt::format("{}, determinant length {:g} of the span", factor_formulas()[std::size_t(f.formula) - 1],
+  return fmt::format("{}, determinant length {:g} times the span", factor_formulas()[std::size_t(f.formula) - 1],
                      f.determinant);
 }
 
 void print_choices(const Vehicle& v) {
-  if (!v.factors.empty()) fmt::print("\n| factor, if asked for | what | on | clause |\n| --- | --- | --- | --- |\n");
+  if (!v.factors.empty())
+    fmt::print("\n| factor, used if asked for | value | acts on | clause |\n| --- | --- | --- | --- |\n");
   for (const DynamicFactor& f : v.factors)
     fmt::print("| {} | {} | {} | {} |\n", f.name, factor_text(f),
                f.critical_axle_only ? "the critical axle" : "all loads", f.clause);
@@ -71,8 +77,8 @@ void print_choices(const Vehicle& v) {
 
 void print_vehicle(const Vehicle& v) {
   fmt::print("{}: {} ({})\nsource: {}\n", v.name, v.title, kind_of(v), v.source);
-  if (!v.not_checked.empty()) fmt::print("not checked: {}\n", fmt::join(v.not_checked, ", "));
-  fmt::print("axles: {:.1f} kN ({:.2f} t), {:.2f} m from first to last; {:.2f} m wide\n", axle_weight(v) / 1e3,
+  if (!v.not_checked.empty()) fmt::print("not checked against the source: {}\n", fmt::join(v.not_checked, ", "));
+  fmt::print("axles: {:.1f} kN ({:.2f} t), {:.2f} m from the first to the last, {:.2f} m wide\n", axle_weight(v) / 1e3,
              tonnes(axle_weight(v)), vehicle_length(v), vehicle_width(v));
   print_axles(v);
   print_strips(v);
@@ -88,7 +94,7 @@ void print_json(const std::vector<Vehicle>& vehicles) {
 int vehicles_verb_run(const std::vector<std::string>& arguments) {
   CommandLine line("vehicles", "vehicles [NAME|FILE …] [--json]", "voussoir vehicles lm71");
   line.rest = "NAME";
-  line.described.add_options()("json", "everything as JSON, in N and m");
+  line.described.add_options()("json", "print everything as JSON, in N and m");
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const bool all = !values.count("NAME");
@@ -110,7 +116,7 @@ int vehicles_verb_run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb vehicles_verb() {
-  return {"vehicles", "lorries, trains and load models that may cross: the library, or one of them", vehicles_verb_run};
+  return {"vehicles", "list the lorries, trains and load models of the library, or describe one", vehicles_verb_run};
 }
 
 }  // namespace voussoir

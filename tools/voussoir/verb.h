@@ -11,7 +11,7 @@ struct Verb {
   std::string name;
   std::string summary;                                      // one line; empty: for the program itself, not listed
   std::function<int(const std::vector<std::string>&)> run;  // arguments after the verb; returns the exit status
-  std::vector<Verb> parts = {};  // those of a verb that is several: "info", "select" … of motion
+  std::vector<Verb> parts = {};  // parts of a verb that has several: "info", "select" … of motion
 };
 
 const std::vector<Verb>& verbs();
@@ -43,23 +43,25 @@ Verb manual_verb();
 
 namespace options = boost::program_options;
 
-/// What every verb understands: --help, --threads N, --quiet, and its positional arguments.
+/// The command line of a verb: the options that all verbs have (--help, --threads N, --quiet), its own options, and its
+/// positional arguments.
 struct CommandLine {
   std::string verb, usage, example;  // usage without the program's name: "run CASE [-o DIR]"
   options::options_description described{"Options"};
   std::vector<std::string> positional;  // names of the positional arguments, in order
-  std::vector<std::string> required;    // those that must be there
+  std::vector<std::string> required;    // names of the arguments and options that must be given
   std::string rest;                     // name of the list of all further positional arguments; empty: none allowed
   CommandLine(std::string verb_name, std::string usage_text, std::string example_text);
-  /// False when help was asked for (and printed). Throws InputError for anything that does not fit, and the command
-  /// line itself where command_line_of() asks.
+  /// Reads the arguments. Returns false if help was asked for (and has been printed). Throws InputError for arguments
+  /// that do not fit. Throws the command line itself for command_line_of().
   bool parse(const std::vector<std::string>& arguments, options::variables_map& values);
 };
 
-/// What `verb --help` prints from, without running it. Not for a verb of several parts, which has none of its own.
+/// The command line of a verb (options, usage, example), without running the verb. A verb with parts has no command
+/// line.
 CommandLine command_line_of(const Verb& verb);
 
-/// The words of a list with commas; "none" is none.
+/// The words of a list separated by commas, without the word "none".
 std::vector<std::string> words_in(const std::string& list);
 /// --threads, or all that the machine offers.
 int threads_asked(const options::variables_map& values);

@@ -13,7 +13,8 @@ namespace voussoir {
 
 namespace {
 
-// Holds a character that no argument of a program can hold.
+// An argument that no user can give, because it holds a null character. A verb that receives it throws its command
+// line.
 const std::string describe_yourself(1, '\0');
 
 }  // namespace
@@ -29,9 +30,9 @@ const std::vector<Verb>& verbs() {
 
 CommandLine::CommandLine(std::string verb_name, std::string usage_text, std::string example_text)
     : verb(std::move(verb_name)), usage(std::move(usage_text)), example(std::move(example_text)) {
-  described.add_options()("help,h", "this text")(
+  described.add_options()("help,h", "print this help")(
       "threads,j", whole_option("threads", 1, std::numeric_limits<int>::max())->value_name("N"),
-      "threads (default: all the machine offers)")("quiet,q", "no progress, no tables");
+      "number of threads (default: all that the machine offers)")("quiet,q", "print no progress and no tables");
 }
 
 bool CommandLine::parse(const std::vector<std::string>& arguments, options::variables_map& values) {
@@ -53,7 +54,7 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
     options::store(options::command_line_parser(arguments).options(all).positional(places).run(), values);
     options::notify(values);
   } catch (const options::error& e) {
-    throw InputError("{}; see voussoir {} --help", shown(e.what(), 200), verb);
+    throw InputError("{}. See voussoir {} --help", shown(e.what(), 200), verb);
   }
   if (values.count("help")) {
     std::ostringstream list;
@@ -64,7 +65,7 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, options::vari
   for (const std::string& name : required) {
     const bool has_place = name == rest || std::ranges::count(positional, name) > 0;
     if (!values.count(name))
-      throw InputError("{}{} is missing; usage: voussoir {}", has_place ? "" : "--", name, usage);
+      throw InputError("{}{} is missing. Usage: voussoir {}", has_place ? "" : "--", name, usage);
   }
   return true;
 }
@@ -75,7 +76,7 @@ CommandLine command_line_of(const Verb& verb) {
   } catch (const CommandLine& line) {
     return line;
   }
-  throw RunError("the verb {} does not say which options it has", verb.name);
+  throw RunError("the verb {} does not describe its options", verb.name);
 }
 
 std::vector<std::string> words_in(const std::string& list) {

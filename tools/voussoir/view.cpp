@@ -31,12 +31,12 @@ std::string mode_label(std::size_t number, const Mode& mode) {
   return fmt::format("mode {}: {}, {}", number, period, mode.words.text());
 }
 
-/// Of an eigenvalue analysis: the shapes from ParaView's files, the words from modes.h5.
+/// The scene of an eigenvalue analysis: the shapes from the files for ParaView, the labels from modes.h5.
 ViewerScene modes_scene(const fs::path& folder) {
   const ModesFile file = read_modes((folder / "modes.h5").string());
   ShapeSeries series{(folder / "vtk/modes.pvd").string(), (folder / "vtk/modes_fill.pvd").string(), {}};
   if (!fs::exists(series.blocks))
-    throw InputError("{} holds no shapes of stones: {} must lie beside it, as voussoir modal writes both",
+    throw InputError("{} has no mode shapes of stones, because {} is missing. voussoir modal writes both files",
                      (folder / "modes.h5").string(), series.blocks);
   for (std::size_t i = 0; i < file.modes.size(); ++i) series.labels.push_back(mode_label(i + 1, file.modes[i]));
   ViewerScene scene = shape_scene({series});
@@ -48,13 +48,14 @@ ViewerScene modes_scene(const fs::path& folder) {
 std::string diagnosed_label(const nlohmann::json& modes, const PvdSeries::Frame& frame, const std::string& when) {
   const auto number = std::size_t(frame.time);
   if (number < 1 || number > modes.size())
-    throw InputError("diagnosis.json has {} modes and a shape is of mode {}: diagnose again", modes.size(), number);
+    throw InputError("diagnosis.json has {} modes, but there is a shape of mode {}. Run voussoir diagnose again",
+                     modes.size(), number);
   const nlohmann::json& mode = modes[number - 1];
   return fmt::format("mode {} {}: {:.3f} s, {} (measured {:.3f} s)", mode.value("mode", std::to_string(number)), when,
                      mode.value(when, 0.0), mode.value("computed_" + when, std::string()), mode.value("measured", 0.0));
 }
 
-/// Of a diagnosis: each mode before and after.
+/// The scene of a diagnosis: each mode before and after.
 ViewerScene diagnosis_scene(const fs::path& folder) {
   const nlohmann::json diagnosis = read_json((folder / "diagnosis.json").string());
   std::vector<ShapeSeries> series;
@@ -65,8 +66,8 @@ ViewerScene diagnosis_scene(const fs::path& folder) {
     ShapeSeries shapes{file(""), file("_fill"), {}};
     if (!fs::exists(shapes.blocks))
       throw InputError(
-          "{} holds no shapes of modes ({} is missing): no mode was found in both models, or an older "
-          "voussoir wrote it; then diagnose again",
+          "{} has no mode shapes ({} is missing). Either no mode was found in both models, or an older version wrote "
+          "the folder. In the latter case run voussoir diagnose again",
           folder.string(), shapes.blocks);
     const PvdSeries stored(shapes.blocks);
     for (const PvdSeries::Frame& frame : stored.frames())
@@ -91,16 +92,17 @@ ViewerScene folder_scene(const std::string& directory, std::size_t most) {
   if (fs::exists(folder / "diagnosis.json", ignored)) return diagnosis_scene(folder);
   if (fs::exists(folder / "modes.h5", ignored)) return modes_scene(folder);
   throw InputError(
-      "{} has nothing to view: no frames of a run (vtk/blocks.pvd), no modes (modes.h5), no diagnosis (diagnosis.json)",
+      "{} has nothing to view: it has no frames of a run (vtk/blocks.pvd), no modes (modes.h5) and no diagnosis "
+      "(diagnosis.json)",
       directory);
 }
 
 ViewerScene file_scene(const std::string& file) {
   if (!h5::File::is_hdf5(file))
     throw InputError(
-        "{} is nothing to view: give the folder of a run, of modes or of a diagnosis, an assembly (.h5) "
-        "or a checkpoint{}",
-        file, file.ends_with(".toml") ? "; voussoir generate makes an assembly of a case" : "");
+        "{} cannot be viewed. Give the folder of a run, of modes or of a diagnosis, an assembly (.h5) or a "
+        "checkpoint{}",
+        file, file.ends_with(".toml") ? ". voussoir generate makes an assembly from a case" : "");
   if (is_checkpoint_of_run(file)) {
     const StoredState stored = read_stored_state(file);
     ViewerScene scene = snapshot_scene(stored.assembly, make_snapshot(stored.model, stored.state));
@@ -123,7 +125,7 @@ std::string name_of(const std::string& from) {
   return path.extension() == ".h5" ? path.stem().string() : path.filename().string();
 }
 
-/// The page of a run that has one gets a link to this page, where the two lie side by side.
+/// Writes the page of the run again, with a link to this page, if both are in the same folder.
 void link_from_report(const std::string& directory, const std::string& html) {
   std::error_code ignored;
   if (fs::exists(directory + "/summary.json", ignored) && fs::exists(directory + "/report.html", ignored) &&
@@ -133,11 +135,13 @@ void link_from_report(const std::string& directory, const std::string& html) {
 
 int view(const std::vector<std::string>& arguments) {
   CommandLine line("view", "view RUN|MODEL|MODES|DIAGNOSIS [-o HTML]", "voussoir view demo -o view.html");
-  line.described.add_options()("output,o", options::value<std::string>()->value_name("HTML"),
-                               "the page (default: view.html in the folder, or named after the file)")(
-      "frames", whole_option("frames", 1, 100000)->default_value(60), "of a run with more, as many evenly apart")(
+  line.described.add_options()(
+      "output,o", options::value<std::string>()->value_name("HTML"),
+      "page to write, or a folder for it (default: view.html in the folder, or named after the file)")(
+      "frames", whole_option("frames", 1, 100000)->default_value(60),
+      "largest number of frames; of a run with more frames, the page has this many, evenly spaced")(
       "title", options::value<std::string>()->default_value(""),
-      "of the page (default: the name of the folder or file)");
+      "title of the page (default: the name of the folder or file)");
   line.positional = line.required = {"RUN"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
@@ -167,7 +171,7 @@ int view(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb view_verb() {
-  return {"view", "a page to turn and ask: stones, frames, modes in three dimensions", view};
+  return {"view", "write a page that shows a model in three dimensions in a browser", view};
 }
 
 }  // namespace voussoir
