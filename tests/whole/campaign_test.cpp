@@ -73,7 +73,7 @@ TEST(Campaign, PaysGravityOnce) {
   ASSERT_EQ(names_in(gravity).size(), 1u);
   for (const std::string& run : names_in(folder / "out/runs")) {
     const std::string log = bytes_of(folder / ("out/runs/" + run + "/run.log"));
-    EXPECT_NE(log.find("gravity as found in"), std::string::npos) << log;
+    EXPECT_NE(log.find("equilibrium under gravity taken from"), std::string::npos) << log;
     EXPECT_EQ(log.find("stage 1: gravity"), std::string::npos) << log;
     // The same case from its beginning.
     const std::string own = "out/runs/" + run;

@@ -17,14 +17,14 @@ TEST(Construction, IsReportedAndKnownToModal) {
   folder.write("bridge.toml", bridge("construction = \"staged\"\nlift = 3.0\n"));
   const Outcome outcome = voussoir({"run", "bridge.toml", "-o", "run"}, {.folder = folder.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* words : {"construction, step 1 of", "arch on centering", "centering struck", "what gravity did",
+  for (const char* words : {"construction, step 1 of", "arch on centering", "centering struck", "effects of gravity",
                             "arch-spandrel", "longitudinal, 1st order"})
     EXPECT_NE(outcome.err.find(words), std::string::npos) << words << "\n" << outcome.err;
   const nlohmann::json report = read_json(folder / "run/gravity.json")[0];
   EXPECT_EQ(report["construction"], "staged");
   EXPECT_EQ(report["periods"].size(), 3u);
   EXPECT_EQ(summary(folder / "run")["gravity"][0], report);
-  EXPECT_NE(bytes_of(folder / "run/report.html").find("What gravity did"), std::string::npos);
+  EXPECT_NE(bytes_of(folder / "run/report.html").find("Effects of gravity"), std::string::npos);
   for (const auto& part : report["parts"]) EXPECT_LT(std::abs(part["settlement"].get<double>()), 0.02) << part.dump();
   // The same state by two ways.
   ASSERT_EQ(voussoir({"modal", "bridge.toml", "--state", "gravity", "-o", "own", "-n", "3", "--no-pictures"},

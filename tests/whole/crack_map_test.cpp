@@ -68,7 +68,7 @@ TEST_F(CrackMapOfARun, IsOnThePageOfARunWithPictures) {
   EXPECT_TRUE(exists(folder / "seen/cracks.csv"));
   const std::string page = bytes_of(folder / "seen/report.html");
   EXPECT_NE(page.find("Crack map of seen"), std::string::npos);
-  EXPECT_NE(page.find("As a bridge: "), std::string::npos);
+  EXPECT_NE(page.find("Class of the bridge: "), std::string::npos);
   EXPECT_TRUE(summary(folder / "seen").at("bridge_damage").contains("class"));
 }
 

@@ -56,7 +56,7 @@ TEST(FullDiskElsewhere, PicturesThatCannotBeWrittenDoNotSpoilARun) {
   folder.write("run/images", "a file where the folder should be");
   const Outcome outcome = voussoir({"resume", "run"}, {.folder = folder.path()});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_NE(outcome.err.find("no pictures: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("no pictures were drawn: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("images"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("fault of the program"), std::string::npos) << outcome.err;
 }

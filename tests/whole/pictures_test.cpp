@@ -161,7 +161,7 @@ TEST_F(Pictures, PlotsOfTheCase) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(size_of(folder / "plotted/images/kinetic.png")[0], 500);
   EXPECT_TRUE(std::filesystem::exists(folder / "plotted/measured_1_1.txt"));
-  EXPECT_NE(bytes_of(folder / "plotted/run.log").find("kinetic.png goes without"), std::string::npos);
+  EXPECT_NE(bytes_of(folder / "plotted/run.log").find("kinetic.png is drawn without"), std::string::npos);
   expect_same_run(folder / "run", folder / "plotted");
 }
 

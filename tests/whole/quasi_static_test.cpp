@@ -66,7 +66,7 @@ TEST(QuasiStaticRun, SinksAPierAndSaysWhatItDid) {
   EXPECT_EQ(std::size_t(std::count(table.begin(), table.end(), '\n')), history.rows());
   EXPECT_NE(table.find("deck/"), std::string::npos);
   const std::string page = bytes_of(folder / "run/report.html");
-  for (const char* text : {"From equilibrium to equilibrium", "Capacity curve", "Settlement along the deck"})
+  for (const char* text : {"Quasi-static stages", "Capacity curve", "Settlement along the deck"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   for (const char* picture : {"capacity.png", "deck.png"})
     EXPECT_TRUE(exists(folder / ("run/images/" + std::string(picture)))) << picture;

@@ -130,7 +130,7 @@ tolerance = 0.1
 )");
   run_whole(folder, "falls.toml", "fallen");
   EXPECT_TRUE(exists(folder / "fallen/stresses.csv")) << "of the last equilibrium";
-  expect_error(render({"fallen", "--resultants"}), 2, {"on their way down", "joints.csv", "stage before"});
+  expect_error(render({"fallen", "--resultants"}), 2, {"Its stones are falling", "joints.csv", "stage before"});
   const std::vector<std::string> names = names_in(folder / "fallen/checkpoints");
   const auto gravity = std::ranges::find_if(names, [](const auto& name) { return name.starts_with("stage_01"); });
   ASSERT_NE(gravity, names.end());

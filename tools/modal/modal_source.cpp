@@ -82,7 +82,7 @@ void load_case(ModalSource& source, const Case& c) {
   source.name = fs::path(c.path).stem().string();
 }
 
-/// Rest where it is asked for, and the tangent of the state.
+/// Brings the source to rest if the settings ask for it, and chooses the tangent of its state.
 ModalSource prepared(ModalSource source, const std::function<void(ModalSettings&)>& modal, bool as_stored, int threads,
                      bool quiet) {
   ModalSettings& asked = source.c.settings.modal;
@@ -130,7 +130,7 @@ ModalSource modal_source(const std::string& from, const std::function<void(Modal
   std::error_code ignored;
   if (!fs::exists(from, ignored)) throw InputError("there is no file or folder {}", from);
   if (fs::is_directory(from, ignored))
-    load_checkpoint(source, newest_checkpoint(from, "run it first, or give its case.toml for the intact bridge"));
+    load_checkpoint(source, newest_checkpoint(from, "Run the case first, or give its case.toml for the intact bridge"));
   else if (h5::File::is_hdf5(from))
     load_checkpoint(source, from);
   else

@@ -39,13 +39,13 @@ double reach_of(const Block& block, const Vec3& way) {
   return high - low;
 }
 
-/// Whether one stone bears on the other there: bed joints of vaults, and joints that carry weight.
+/// Whether one stone is supported by the other at this joint: bed joints of vaults, and joints that carry weight.
 bool is_bearing(const Joint& joint, const CrackedPart& a, const CrackedPart& b) {
   if (a.component == Component::arch && a == b) return std::abs(joint.normal.y()) < 0.7;
   return std::abs(joint.normal.z()) > 0.5;
 }
 
-/// Slip over the depth of the shorter stone along it.
+/// Slip divided by the depth of the shorter of the two stones, measured along the slip.
 double seating_lost(const Assembly& assembly, const Snapshot& snapshot, const Joint& joint) {
   Vec3 slip = moved_apart(assembly, snapshot, joint, polygon_centroid(joint.polygon));
   slip -= joint.normal.dot(slip) * joint.normal;
@@ -93,7 +93,7 @@ void take_joints(Worst& worst, const Assembly& assembly, const Snapshot& snapsho
     const JointGap& ever = gaps[i].ever;
     const std::string where =
         a == b ? part_words(a) : "between " + part_words(std::min(a, b)) + " and " + part_words(std::max(a, b));
-    if (ever.fallen()) continue;  // the stones that fell are counted by themselves
+    if (ever.fallen()) continue;  // take_fallen() counts fallen stones
     worst.take(crack_width, where, ever.width());
     if (!between_rings(joint) && is_bearing(joint, a, b))
       worst.take(seating_share, where, seating_lost(assembly, snapshot, joint));
@@ -113,7 +113,7 @@ struct PlacedHinge {
   double y0 = 0.0, y1 = 0.0;  // m, of its joint
 };
 
-/// Of hinges along a line across which they follow one another: of those on one side one after the other one counts.
+/// Number of alternating hinges along a line. Consecutive hinges on the same side count as one.
 std::size_t alternating(const std::vector<PlacedHinge>& of_ring, double y) {
   std::size_t count = 0;
   std::string before;
@@ -122,7 +122,8 @@ std::size_t alternating(const std::vector<PlacedHinge>& of_ring, double y) {
   return count;
 }
 
-/// The least number in any ring and at any of some places across the vault: fewer are no hinges of the whole.
+/// The smallest number of alternating hinges over all rings and some positions across the vault. The vault as a whole
+/// has no more than these.
 void take_hinges(Worst& worst, const Assembly& assembly, const Snapshot& snapshot) {
   constexpr int places = 5;
   std::map<std::pair<std::int64_t, std::int64_t>, const Joint*> joints;
@@ -137,7 +138,7 @@ void take_hinges(Worst& worst, const Assembly& assembly, const Snapshot& snapsho
     auto& [low, high] = across.try_emplace(block.part, 1e300, -1e300).first->second;
     low = std::min(low, box.low.y()), high = std::max(high, box.high.y());
     for (std::uint32_t bit = 1, rings = std::max(1u, ring_joints.rings_of(std::int64_t(i))); bit <= rings; bit *= 2)
-      if (rings & bit) found[block.part][bit];  // a ring without hinges has none
+      if (rings & bit) found[block.part][bit];  // an entry without hinges for each ring
   }
   for (const Hinge& hinge : find_hinges(assembly, snapshot)) {
     const bool first = part_of(assembly, hinge.a).component == Component::arch;
@@ -158,8 +159,8 @@ void take_hinges(Worst& worst, const Assembly& assembly, const Snapshot& snapsho
   }
 }
 
-/// y-displacement of what walls stand on and enclose, on average in each metre along the bridge; the ground's
-/// elsewhere.
+/// Mean y-displacement, in each metre along the bridge, of the blocks that walls stand on and enclose. Where there are
+/// none, the displacement of the ground.
 class BridgeBody {
  public:
   BridgeBody(const Assembly& assembly, const Snapshot& snapshot) : ground_(snapshot.base_displacement.y()) {
@@ -181,8 +182,8 @@ class BridgeBody {
   std::map<std::int64_t, std::pair<double, double>> metres_;  // mass times displacement; mass
 };
 
-/// Displacement of stones of a wall across it, relative to the body of the bridge beside them, over the thickness of
-/// the wall (the middle one of its stones').
+/// Displacement of the stones of a wall across the wall, relative to the body of the bridge next to them, divided by
+/// the thickness of the wall (the median of its stones).
 void take_walls(Worst& worst, const Assembly& assembly, const Snapshot& snapshot) {
   struct Wall {
     std::vector<double> thickness;  // m
@@ -224,12 +225,16 @@ const std::vector<std::string>& bridge_classes() {
 
 const std::vector<BridgeCriterion>& bridge_criteria() {
   static const std::vector<BridgeCriterion> criteria = {
-      {"seating lost", "slip over the depth of the shorter stone", {0.02, 0.1, 0.25, 0.5}},
-      {"hinges", "number that alternate along the vault, over its whole width and in each ring", {1, 2, 3, 4}},
-      {"rings apart", "share of the area between the rings", {0.02, 0.1, 1.0 / 3.0, 0.9}},
-      {"spandrel wall apart from the vault", "share of the area between them", {0.02, 0.1, 1.0 / 3.0, INFINITY}},
+      {"seating lost", "slip divided by the depth of the shorter stone", {0.02, 0.1, 0.25, 0.5}},
+      {"hinges",
+       "number of hinges that alternate along the vault, over its whole width and in each ring",
+       {1, 2, 3, 4}},
+      {"rings apart", "separated share of the area between the rings", {0.02, 0.1, 1.0 / 3.0, 0.9}},
+      {"spandrel wall apart from the vault",
+       "separated share of the area between them",
+       {0.02, 0.1, 1.0 / 3.0, INFINITY}},
       {"wall moved out",
-       "displacement across it, against the masonry beside it, over its thickness",
+       "displacement across the wall, relative to the masonry next to it, divided by the thickness of the wall",
        {0.02, 0.1, 1.0 / 3.0, 1.0}},
       {"stones fell", "number", {1, 1, 1, 1}},
       {"crack", "width, m", {3e-4, 3e-3, 3e-2, INFINITY}}};
@@ -244,9 +249,9 @@ std::string BridgeFinding::sentence() const {
   if (what == all[hinge_count].what)
     return fmt::format("{}: {:.0f} hinge{}", where, measure, measure > 1.5 ? "s that alternate" : "");
   if (what == all[ring_share].what)
-    return fmt::format("{}: rings apart over {:.0f} % of their area", where, 100.0 * measure);
+    return fmt::format("{}: the rings have separated over {:.0f} % of their area", where, 100.0 * measure);
   if (what == all[spandrel_share].what)
-    return fmt::format("{}: apart from the vaults over {:.0f} % of the area between", where, 100.0 * measure);
+    return fmt::format("{}: separated from the vaults over {:.0f} % of the area between them", where, 100.0 * measure);
   if (what == all[lean_share].what)
     return fmt::format("{}: moved out by {:.0f} % of its thickness", where, 100.0 * measure);
   return fmt::format("{}: {:.0f} stone{} fell", where, measure, measure > 1.5 ? "s" : "");

@@ -1,5 +1,5 @@
-// Damage of a bridge by what it does to its bearing. The classes are voussoir's own (docs/theory/crack-map.md): those
-// of damage_words.h are for houses.
+// Damage of a bridge, classified by its consequences for the load-bearing structure. The classes are defined by this
+// program (docs/theory/crack-map.md). Those of damage_words.h are made for houses.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,7 +13,7 @@ namespace voussoir {
 /// Classes in their order: sound, slight, marked, serious, bearing lost.
 const std::vector<std::string>& bridge_classes();
 
-/// What is looked at, and from which measure on each class but the first begins; infinite where none does.
+/// A criterion, and the measure from which each class after the first begins; infinite for a class that it cannot give.
 struct BridgeCriterion {
   std::string what;     // "seating lost"
   std::string measure;  // "share of the joint's depth"
@@ -21,15 +21,15 @@ struct BridgeCriterion {
 };
 const std::vector<BridgeCriterion>& bridge_criteria();
 
-/// The worst of each criterion in each part.
+/// The worst finding of one criterion in one part of the bridge.
 struct BridgeFinding {
   std::string what, where;
-  double measure = 0.0;   // as its criterion says; widths in m
+  double measure = 0.0;   // the measure of its criterion; widths in m
   std::size_t grade = 0;  // of bridge_classes(), at least 1
   std::string sentence() const;
 };
-/// Worst first. Widths are the largest since the start; all else is as it is in the snapshot. Soil (backfill) and ties
-/// are left out; spans run along x.
+/// All findings, the worst first. Widths are the largest since the start; all other measures are those of the snapshot.
+/// Soil (backfill) and ties are left out. Spans run along x.
 std::vector<BridgeFinding> bridge_findings(const Assembly& assembly, const Snapshot& snapshot);
 
 /// For summary.json: `class` and `findings`, each with `what`, `where`, `measure`, `class`, `words`.

@@ -17,17 +17,17 @@ namespace {
 
 constexpr int kRows = 20;
 
-/// As wide as the page; on paper a sheet of its own.
+/// The map as wide as the page; printed on a separate sheet.
 std::string map_figure(const std::string& directory) {
   const std::string svg = text_if_any(directory + "/images/crack_map.svg");
   if (!svg.starts_with("<svg ")) return "";
-  return sheet_figure(svg) + note(
-                                 "Largest since the start, on the stones as built. images/crack_map.pdf prints to "
-                                 "scale and has the present "
-                                 "state too where it differs.");
+  return sheet_figure(svg) +
+         note(
+             "The map shows the largest openings and slips since the start, on the stones as built. "
+             "images/crack_map.pdf prints to scale. It also has the present state, if that differs.");
 }
 
-/// A number of the table with as many digits as a reader wants; a word as it is.
+/// A number of the table with few digits; text unchanged.
 std::string shown_number(std::string_view word, std::size_t column) {
   double value = 0.0;
   const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -46,7 +46,7 @@ std::string crack_rows(const std::string& directory) {
   const auto cell = [](std::string_view word, std::size_t k) { return Cell{words_cell(word).html, k != 1 && k != 2}; };
   std::vector<Cell> cells;
   for (const char* head :
-       {"", "where", "direction", "length (m)", "opened (mm)", "slid (mm)", "open now (mm)", "slid now (mm)", "joints"})
+       {"", "where", "direction", "length, m", "opened, mm", "slid, mm", "open now, mm", "slid now, mm", "joints"})
     cells.push_back(cell(head, cells.size()));
   std::string text = "<table>\n" + table_row(cells, "th");
   int rows = 0;
@@ -58,15 +58,16 @@ std::string crack_rows(const std::string& directory) {
     if (++rows <= kRows) text += table_row(cells, "td");
   }
   text += "</table>\n";
-  return text + note(rows > kRows ? fmt::format("The widest {} of {}; all are in cracks.csv.", kRows, rows)
-                                  : std::string("The same in cracks.csv."));
+  return text + note(rows > kRows
+                         ? fmt::format("These are the widest {} of {} cracks. All are in cracks.csv.", kRows, rows)
+                         : std::string("This table is also in cracks.csv."));
 }
 
 std::string findings_table(const nlohmann::json& damage) {
   const nlohmann::json findings = damage.value("findings", nlohmann::json::array());
   if (!damage.contains("class")) return "";
-  std::string text = paragraph("As a bridge: " + damage.value("class", std::string()) +
-                               (findings.empty() ? " (nothing from the class \"slight\" on)." : "."));
+  std::string text = paragraph("Class of the bridge: " + damage.value("class", std::string()) +
+                               (findings.empty() ? " (there is no damage of the class \"slight\" or worse)." : "."));
   if (!findings.empty()) {
     text += "<table>\n" + table_row({words_cell("class"), words_cell("finding")}, "th");
     int rows = 0;
@@ -75,11 +76,12 @@ std::string findings_table(const nlohmann::json& damage) {
         text +=
             table_row({words_cell(f.value("class", std::string())), words_cell(f.value("words", std::string()))}, "td");
     text += "</table>\n";
-    if (rows > kRows) text += note(fmt::format("{} more in summary.json.", rows - kRows));
+    if (rows > kRows) text += note(fmt::format("{} more findings are in summary.json.", rows - kRows));
   }
   return text + note(
-                    "Classes of voussoir's own, by the width of cracks and by what they do to the bearing of a bridge "
-                    "(docs/theory/crack-map.md). Burland's words above are for houses.");
+                    "The classes are defined by this program. They follow from the width of cracks and from their "
+                    "consequences for the load-bearing structure of a bridge (docs/theory/crack-map.md). The words of "
+                    "Burland's classification above are made for houses.");
 }
 
 }  // namespace

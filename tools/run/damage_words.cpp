@@ -8,7 +8,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr double fallen = 1.0;  // m: how far a stone goes on falling says nothing
+constexpr double fallen = 1.0;  // m, opening from which a stone counts as fallen
 
 /// "0.04 mm", "18 mm".
 std::string length_text(double metres) {
@@ -36,7 +36,7 @@ std::string damage_sentence(const nlohmann::json& damage) {
                broken = damage.value("broken_share", 0.0);
   std::string text = damage_word(opening);
   if (opening >= fallen) {
-    text += fmt::format(": joints opened by more than {:g} m: stones fell", fallen);
+    text += fmt::format(": joints opened by more than {:g} m, stones fell", fallen);
   } else {
     text += ": joints opened by up to " + length_text(opening);
     if (damage.contains("residual_opening"))

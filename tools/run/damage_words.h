@@ -1,4 +1,4 @@
-// Damage of a component in a word and a sentence.
+// The damage of a component as a word and as a sentence.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,8 +10,8 @@ struct DamageClass {
   const char* word;
   double below;  // m, largest opening
 };
-/// By the width of cracks, after Burland, Broms & de Mello (1977), table 1: negligible below 0.1 mm, very slight 1,
-/// slight 5, moderate 15, severe 25, very severe beyond.
+/// Classes by the width of cracks after Burland, Broms & de Mello (1977), table 1. Upper limits in mm: negligible 0.1,
+/// very slight 1, slight 5, moderate 15, severe 25; very severe has none.
 const std::vector<DamageClass>& damage_classes();
 const char* damage_word(double opening);
 

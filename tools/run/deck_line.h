@@ -1,18 +1,19 @@
-// The road's settlement along a bridge.
+// Settlement of the road along a bridge.
 #pragma once
 #include "geometry/road.h"
 #include "solver/model/state.h"
 
 namespace voussoir {
 
-/// Stations along the middle of the road, whose settlement a run with quasi-static stages keeps.
+/// Stations along the middle of the road. A run with quasi-static stages records their settlement.
 class DeckLine {
  public:
   DeckLine() = default;
-  explicit DeckLine(const Assembly& assembly);                       // no stations where there is no road
+  explicit DeckLine(const Assembly& assembly);                       // no stations if there is no road
   const std::vector<double>& stations() const { return stations_; }  // m, x
   static std::string channel(double station);                        // "deck/12.500"
-  /// Vertical displacements since all was built, m: means over a narrow strip of the road, weighted by area.
+  /// Vertical displacements of the stations since the blocks were built, m: means over a narrow strip of the road,
+  /// weighted by area.
   std::vector<double> displacements(const Model& model, const State& state) const;
 
  private:

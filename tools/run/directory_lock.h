@@ -1,11 +1,11 @@
-// One program at a time in a run directory.
+// A lock that lets only one program at a time work in a run directory.
 #pragma once
 #include <string>
 
 namespace voussoir {
 
-/// Holds a folder until it goes out of scope or the process ends, however it ends; leaves nothing behind. Throws
-/// InputError when another process holds it. Where the file system knows no locks there is none.
+/// Locks a folder until the object is destroyed or the process ends in any way. Leaves no file behind. Throws
+/// InputError if another process holds the lock. On a file system without locks it does nothing.
 class DirectoryLock {
  public:
   explicit DirectoryLock(const std::string& directory);

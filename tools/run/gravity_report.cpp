@@ -23,7 +23,7 @@ json place_json(const Vec3& x) {
   return {x.x(), x.y(), x.z()};
 }
 
-/// Of each part: how far it has sunk at most and on average over its stones, and the largest ways along and across,
+/// For each part: the largest and the mean settlement of its stones, and the largest displacements along and across,
 /// with their signs.
 json parts_json(const Assembly& assembly, const Snapshot& snapshot) {
   struct Part {
@@ -52,7 +52,7 @@ json parts_json(const Assembly& assembly, const Snapshot& snapshot) {
   return all;
 }
 
-/// Of each family of joints; the worst first.
+/// The entries of the families of joints, the worst first.
 json joints_json(const Assembly& assembly, const Snapshot& snapshot) {
   struct Worst {
     double value = 0.0;
@@ -91,11 +91,11 @@ json joints_json(const Assembly& assembly, const Snapshot& snapshot) {
   return all;
 }
 
-constexpr std::int32_t many_unknowns = 250000;  // more take minutes for their modes
+constexpr std::int32_t many_unknowns = 250000;  // beyond this the modes take minutes and are left out
 
-/// The lowest modes of the bridge as if all joints were bonded and elastic, and of what it is now, paired by shape.
+/// The lowest modes of the bridge with all joints bonded and elastic, and of its present state, paired by shape.
 json periods_json(const Simulation& run, int wanted) {
-  constexpr double alike = 0.5;  // modal assurance below which none is the same
+  constexpr double alike = 0.5;  // modal assurance criterion below which two modes are not paired
   constexpr int beyond = 12;
   json all = json::array();
   const Assembly& assembly = run.assembly();
@@ -119,7 +119,7 @@ json periods_json(const Simulation& run, int wanted) {
   return all;
 }
 
-/// The periods, or why there are none: a report does not end a run.
+/// Adds the periods, or the reason why there are none. An error here must not end the run.
 void add_periods(const Simulation& run, int wanted, json& report) {
   report["periods"] = json::array();
   try {
@@ -131,8 +131,8 @@ void add_periods(const Simulation& run, int wanted, json& report) {
   }
 }
 
-/// Where gravity alone has done more than a bridge that stands should have to bear: of the families of joints that have
-/// moved far, or have lost much bond and are no loose filling, the one that has lost most in all.
+/// A warning if gravity alone has damaged the bridge; otherwise empty. It names one family of joints: of those that
+/// have moved far, or have lost much bond and are not loose fill, the one with the largest area of lost bond.
 std::string warning_of(const json& joints, bool at_once) {
   constexpr double much = 0.1, far = 1e-3;  // of a family's bond; m
   std::string what;
@@ -148,12 +148,12 @@ std::string warning_of(const json& joints, bool at_once) {
   if (!worst) return "";
   const json& at = (*worst)[(*worst)["opening"] > (*worst)["slip"] ? "opening_at" : "slip_at"];
   return fmt::format(
-      "gravity alone has damaged it: {:.0f} % of the bond of the joints {} is lost, openings up to {:.1f} mm and slips "
-      "up to {:.1f} mm, the worst at ({:.2f}, {:.2f}, {:.2f}) m{}",
+      "gravity alone has damaged the bridge: {:.0f} % of the bond of the joints {} is lost, with openings up to {:.1f} "
+      "mm and slips up to {:.1f} mm. The worst place is at ({:.2f}, {:.2f}, {:.2f}) m{}",
       100.0 * (*worst)["lost"].get<double>(), (*worst)["joints"].get<std::string>(),
       1e3 * (*worst)["opening"].get<double>(), 1e3 * (*worst)["slip"].get<double>(), at[0].get<double>(),
       at[1].get<double>(), at[2].get<double>(),
-      at_once ? "; construction = \"staged\" in the gravity stage builds it step by step" : "");
+      at_once ? ". Use construction = \"staged\" in the gravity stage to build the bridge in construction steps" : "");
 }
 
 std::string mm(const json& metres) {
@@ -188,11 +188,11 @@ json gravity_report(const Simulation& run, const Snapshot& snapshot, int modes) 
 }
 
 std::string gravity_text(const json& report) {
-  std::string text = "what gravity did, since each part was built (mm down, along, across):";
+  std::string text = "effects of gravity: displacement of each part since it was built (mm down, along, across):";
   for (const json& part : report["parts"])
     text += fmt::format("\n  {:18} {:>7} {:>7} {:>7}", part["part"].get<std::string>(), mm(part["settlement"]),
                         mm(part["along"]), mm(part["across"]));
-  text += "\njoints: bond lost (%), opening, slip (mm), compression (MPa):";
+  text += "\njoints: bond lost (%), opening (mm), slip (mm), compression (MPa):";
   for (const json& family : report["joints"])
     text += fmt::format("\n  {:18} {:>7} {:>7} {:>7} {:>7.3f}", family["joints"].get<std::string>(),
                         share_text(family["lost"]), mm(family["opening"]), mm(family["slip"]),
@@ -200,7 +200,7 @@ std::string gravity_text(const json& report) {
   for (const json& mode : report["periods"])
     text += fmt::format("\n  {}: {} intact, {} now", mode["motion"].get<std::string>(), in_seconds(mode["intact"]),
                         in_seconds(mode["now"]));
-  if (report.contains("no_periods")) text += "\n  no periods: " + report["no_periods"].get<std::string>();
+  if (report.contains("no_periods")) text += "\n  no periods were computed: " + report["no_periods"].get<std::string>();
   if (const std::string warning = report["warning"]; !warning.empty()) text += "\nwarning: " + warning;
   return text;
 }
@@ -208,20 +208,24 @@ std::string gravity_text(const json& report) {
 std::string gravity_section(const json& reports) {
   std::string html;
   for (const json& report : reports) {
-    html += heading(fmt::format("What gravity did: stage {}, built {}", report["stage"].get<int>(),
+    html += heading(fmt::format("Effects of gravity: stage {}, built {}", report["stage"].get<int>(),
                                 report["construction"].get<std::string>()));
     if (const std::string warning = report["warning"]; !warning.empty())
       html += fmt::format("<div class=\"verdict unexplained\">\n<p><strong>Warning:</strong> {}.</p>\n</div>\n",
                           escaped(warning));
     const auto words = [](const json& text) { return words_cell(text.get<std::string>()); };
     const auto number = [](std::string text) { return Cell{std::move(text), true}; };
-    html += "<table>\n" +
-            table_row({{"part"}, {"sunk at most, mm"}, {"on average, mm"}, {"along, mm"}, {"across, mm"}}, "th");
+    html +=
+        "<table>\n" +
+        table_row({{"part"}, {"largest settlement, mm"}, {"mean settlement, mm"}, {"along, mm"}, {"across, mm"}}, "th");
     for (const json& part : report["parts"])
       html += table_row({words(part["part"]), number(mm(part["settlement"])), number(mm(part["settlement_mean"])),
                          number(mm(part["along"])), number(mm(part["across"]))},
                         "td");
-    html += "</table>\n" + note("Largest displacements of stones since each was built, relative to the ground.");
+    html +=
+        "</table>\n" + note(
+                           "Displacements along and across are the largest of the stones of a part. All displacements "
+                           "are relative to the ground and count from the moment at which the stone was built.");
     html +=
         "<table>\n" +
         table_row(
@@ -233,17 +237,18 @@ std::string gravity_section(const json& reports) {
                          number(fmt::format("{:.3f}", 1e-6 * f["compression"].get<double>()))},
                         "td");
     html += "</table>\n" + note(
-                               "Within a component, and between two. Largest opening and slip of a joint; largest mean "
-                               "compression of one.");
+                               "The rows are the joints within a component or between two components. Opening and slip "
+                               "are the largest of any joint; compression is the largest mean compression of a joint.");
     if (report.contains("no_periods"))
-      html += note("No periods: " + escaped(report["no_periods"].get<std::string>()) + ".");
+      html += note("No periods were computed: " + escaped(report["no_periods"].get<std::string>()) + ".");
     if (report["periods"].empty()) continue;
     html += "<table>\n" + table_row({{"mode"}, {"intact, s"}, {"now, s"}, {"MAC"}}, "th");
     for (const json& mode : report["periods"])
       html += table_row({words(mode["motion"]), number(period_text(mode["intact"])), number(period_text(mode["now"])),
                          number(fmt::format("{:.3f}", mode["mac"].get<double>()))},
                         "td");
-    html += "</table>\n" + note("Intact: every joint bonded and elastic. Now: joints as gravity has left them.");
+    html += "</table>\n" +
+            note("Intact: every joint is bonded and elastic. Now: the joints are as they rest under gravity.");
   }
   return html;
 }

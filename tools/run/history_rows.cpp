@@ -9,7 +9,7 @@ namespace voussoir {
 
 namespace {
 
-/// Mean over the group's blocks of the displacement of their centroids relative to base and gravity state.
+/// Mean displacement of the centroids of the group's blocks, relative to the base and to the state after gravity.
 double group_displacement(const Simulation& run, const DemandPoint& point) {
   const std::vector<std::int64_t>& blocks = run.assembly().groups.at(point.group);
   double sum = 0.0;

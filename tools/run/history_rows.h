@@ -1,4 +1,4 @@
-// The channels of a run's history, and the row that one sample fills.
+// The channels of a run's history, and the row of values of one sample.
 #pragma once
 #include "geometry/assembly.h"
 #include "io/hdf5/history_file.h"
@@ -17,14 +17,14 @@ std::vector<DemandPoint> demand_points(const Assembly& assembly);
 /// "demand/GROUP AXIS"
 std::string demand_channel(const DemandPoint& point);
 
-/// Places whose mean displacement and rotation are kept: groups named "keystone …", "quarter …" and "pier top …".
+/// Groups whose mean displacement and rotation are recorded: those named "keystone …", "quarter …" and "pier top …".
 std::vector<std::string> shown_places(const Assembly& assembly);
 
 /// All channels, in the order of a row.
 std::vector<Channel> history_channels(const Simulation& run);
 std::vector<double> history_row(const Simulation& run, const Sample& sample, const DeckLine& deck);
 
-/// "steps/share" and the like, of the rows of quasi-static stages; in the order of a row.
+/// The channels of the rows of quasi-static stages, such as "steps/share", in the order of a row.
 const std::vector<std::pair<const char*, double StepRow::*>>& step_channels();
 std::vector<double> history_row(const Simulation& run, const Sample& sample);
 

@@ -42,7 +42,7 @@ json materials_json(const Assembly& assembly) {
   return all;
 }
 
-/// What the page says of a law; numbers that a kind does not use are left out.
+/// The numbers of a joint law for the page. Numbers that a kind of law does not use are left out.
 json law_json(const JointLaw& law, double area) {
   json one = {{"kind", joint_law_kinds()[std::size_t(law.kind)]}, {"area", area}};
   if (law.kind == JointLaw::Kind::elastic) return one;
@@ -107,7 +107,7 @@ json supports_json(const Simulation& run, bool& each_once) {
   return all;
 }
 
-/// N, of what gravity moves unless it is held.
+/// Weight of the blocks that are free to move, N.
 json weight_json(const Model& model) {
   const double g = model.gravity.norm();
   double stones = 0.0, fill = 0.0;

@@ -1,4 +1,4 @@
-// The hinges and sliding joints of a mechanism as a reader counts them.
+// The hinges and sliding joints of a mechanism, joined and numbered for a reader.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,20 +7,21 @@
 
 namespace voussoir {
 
-/// Joints of a mechanism that move alike side by side: the width of a ring is one hinge.
+/// A group of neighbouring joints of a mechanism that move in the same way, such as the joints across the width of a
+/// ring.
 struct NumberedHinge {
   int number = 0;  // from 1, from left to right
   bool slides = false;
-  std::string edge;           // that stays closed: "intrados", "extrados" or empty
+  std::string edge;           // edge that stays closed: "intrados", "extrados" or empty
   std::string where;          // "arch 0", "between arch 0 and pier 1"
   Vec3 place = Vec3::Zero();  // m, as built: mean of the joints' places
-  std::int64_t a = 0;         // a block beside it
+  std::int64_t a = 0;         // a block next to it
   int joints = 0;
   double opening = 0.0, slip = 0.0;  // the largest, shares of the largest displacement
 };
 
-/// `size` (m) is that of a usual block: joints within a half of it in the plane x-z and one and a half across belong
-/// together where they do the same.
+/// `size` (m) is the size of a usual block. Joints that move in the same way belong together if they are closer than
+/// 0.5 of it in the plane x-z and 1.5 of it across.
 std::vector<NumberedHinge> numbered_hinges(const Assembly& assembly, const std::vector<MechanismJoint>& mechanism,
                                            double size);
 

@@ -1,4 +1,4 @@
-// The page's part on a collapse stage.
+// The section of a run's page on a collapse stage.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,11 +24,11 @@ std::string answer(const json& answer, const char* yes, const char* no, const ch
 std::string factor_table(const json& c) {
   std::string text = "<table>\n";
   text += row("largest multiplier with an equilibrium", fmt::format("{:.5g}", c.value("multiplier", NAN)));
-  text +=
-      row("least one at which it is lost", c["above"].is_number() ? fmt::format("{:.5g}", c["above"].get<double>())
-                                                                  : std::string("none up to the limit of the stage"));
+  text += row("smallest multiplier without an equilibrium", c["above"].is_number()
+                                                                ? fmt::format("{:.5g}", c["above"].get<double>())
+                                                                : std::string("none up to the limit of the stage"));
   if (c.contains("tilt_degrees"))
-    text += row("as an angle of tilt", fmt::format("{:.3f}°", c["tilt_degrees"].get<double>()));
+    text += row("this multiplier as an angle of tilt", fmt::format("{:.3f}°", c["tilt_degrees"].get<double>()));
   if (c.value("force", 0.0) > 0.0)
     text += row("forces of the pattern at that multiplier",
                 fmt::format("{:.4g} kN, {:.3g} of the weight", 1e-3 * c.value("force", NAN),
@@ -36,16 +36,18 @@ std::string factor_table(const json& c) {
   if (c.value("acceleration_over_gravity", 0.0) > 0.0)
     text += row("acceleration of the pattern", fmt::format("{:.4g} g", c.value("acceleration_over_gravity", NAN)));
   text += row("found by", fmt::format("relaxation to equilibrium at {} multipliers (static)", c.value("tries", 0)));
-  text += row("a dynamic run just below",
-              answer(c.value("stands_below", json()), "stands", "falls, against the static result", "not made"));
-  text += row("a dynamic run just above",
-              answer(c.value("falls_above", json()), "falls", "stands, against the static result", "not made"));
+  text +=
+      row("a dynamic run just below the multiplier",
+          answer(c.value("stands_below", json()), "stands", "falls, which contradicts the static result", "not made"));
+  text +=
+      row("a dynamic run just above the multiplier",
+          answer(c.value("falls_above", json()), "falls", "stands, which contradicts the static result", "not made"));
   if (c.contains("moving"))
-    text += row("what moves",
+    text += row("moving part",
                 fmt::format("{}, {:.1f} % of the mass that can move", c["moving"].value("part", std::string()),
                             100.0 * c["moving"].value("share_of_mass", NAN)));
   if (c.contains("rest_stands"))
-    text += row("with it held, the rest of the bridge", c["rest_stands"].get<bool>() ? "stands" : "falls, too");
+    text += row("rest of the bridge, if this part is held", c["rest_stands"].get<bool>() ? "stands" : "falls too");
   return text + "</table>\n";
 }
 
@@ -57,9 +59,9 @@ std::string hinge_table(const json& c) {
   text += table_row({{"number", true},
                      words_cell("kind"),
                      words_cell("where"),
-                     {"x (m)", true},
-                     {"y (m)", true},
-                     {"z (m)", true},
+                     {"x, m", true},
+                     {"y, m", true},
+                     {"z, m", true},
                      {"joints", true},
                      {"opening", true},
                      {"slip", true}},
@@ -79,14 +81,16 @@ std::string hinge_table(const json& c) {
   }
   return text + "</table>\n" +
          note(
-             "Places as built: of a hinge the middle of the edge that stays closed. Joints side by side count as one. "
-             "Opening and slip are shares of the largest displacement of the mechanism.");
+             "The coordinates are those of the bridge as built; for a hinge, of the middle of the edge that stays "
+             "closed. Neighbouring joints count as one. Opening and slip are shares of the largest displacement of the "
+             "mechanism.");
 }
 
 std::string curve(const json& c) {
   LineChart chart;
-  chart.title = "Equilibria on the way", chart.x_label = "displacement since the multiplier was zero (mm)";
-  chart.y_label = "multiplier (-)", chart.width = 760.0, chart.height = 340.0, chart.y_low = 0.0;
+  chart.title = "Equilibria on the way to the collapse load",
+  chart.x_label = "Displacement since the multiplier was zero, mm";
+  chart.y_label = "Multiplier", chart.width = 760.0, chart.height = 340.0, chart.y_low = 0.0;
   ChartCurve along{.name = "loaded points, along the load"}, largest{.name = "largest of any block"};
   for (const json& p : c.value("curve", json::array())) {
     along.x.push_back(1e3 * p.value("along", NAN)), along.y.push_back(p.value("multiplier", NAN));

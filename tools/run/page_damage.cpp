@@ -1,4 +1,4 @@
-// The page's part on damage: by structural parts, by families of joints, and the displacements that are demands.
+// The sections of a run's page on damage: by parts of the bridge, by families of joints, and the demands.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ std::string classes_note() {
     from = c.below;
   }
   return note(
-      "Words by the largest opening of a joint since the start, as widths of cracks after Burland, Broms & de Mello "
-      "(1977): " +
+      "The words follow from the largest opening of a joint since the start, compared with widths of cracks after "
+      "Burland, Broms & de Mello (1977): " +
       classes + ".");
 }
 
@@ -53,9 +53,12 @@ std::string parts_table(const RunFiles& run) {
   }
   if (rows.empty()) return "";
   return "<table>\n" +
-         table_row({words_cell("joints within, or between"), words_cell("damage"), words_cell("worst at (m)")}, "th") +
+         table_row(
+             {words_cell("joints within or between"), words_cell("damage"), words_cell("worst place (x, y, z), m")},
+             "th") +
          rows + "</table>\n" +
-         (count > most ? note(fmt::format("The {} worst of {}; all are in summary.json (part_damage).", most, count))
+         (count > most ? note(fmt::format("These are the {} worst of {} rows. All are in summary.json (part_damage).",
+                                          most, count))
                        : std::string());
 }
 
@@ -68,9 +71,9 @@ std::string families_table(const RunFiles& run) {
       whole += (whole.empty() ? "" : ", ") + name;
   std::string text;
   if (!rows.empty())
-    text = "<table>\n" + table_row({words_cell("joints within, or between"), words_cell("damage")}, "th") + rows +
+    text = "<table>\n" + table_row({words_cell("joints within or between"), words_cell("damage")}, "th") + rows +
            "</table>\n";
-  return text + (whole.empty() ? "" : note("Nothing has opened, slid or broken in joints of " + whole + "."));
+  return text + (whole.empty() ? "" : note("No joint has opened, slid or broken in " + whole + "."));
 }
 
 }  // namespace
@@ -86,7 +89,7 @@ std::string damage_section(const RunFiles& run) {
 
 std::string demand_section(const RunFiles& run) {
   const json demand = run.of("demand");
-  if (run.ends_at_rest()) return "";  // places_section() has what there is to say
+  if (run.ends_at_rest()) return "";  // places_section() reports the displacements
   std::string text;
   const json places = demand.value("places", json::object());
   for (const auto& [name, place] : places.items())
@@ -102,7 +105,7 @@ std::string demand_section(const RunFiles& run) {
                          millimetres(demand[kind].value("residual_mean", NAN))},
                         "td", "best");
   return heading("Displacements relative to the base") + "<table>\n" +
-         table_row({words_cell("place"), words_cell("axis"), {"largest (mm)", true}, {"at the end (mm)", true}}, "th") +
+         table_row({words_cell("place"), words_cell("axis"), {"largest, mm", true}, {"at the end, mm", true}}, "th") +
          text + "</table>\n";
 }
 

@@ -1,4 +1,4 @@
-// What a page needs to be filed: the model behind its figures, and where they come from.
+// The sections of a run's page that document it: the model, and the origin of the results.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The general arrangement as the run has drawn it.
+/// The general arrangement drawing of the run.
 std::string drawing(const RunFiles& run) {
   return sheet_figure(text_if_any(run.directory + "/images/arrangement.svg"));
 }
@@ -24,13 +24,13 @@ std::string materials_table(const json& inventory) {
   if (materials.empty()) return "";
   std::string text = "<h3>Materials</h3>\n<table>\n";
   text += table_row({words_cell("material"),
-                     {"mass (t)", true},
-                     {"density (kg/m³)", true},
-                     {"E (GPa)", true},
-                     {"G (GPa)", true},
-                     {"tensile strength (MPa)", true},
-                     {"cohesion (MPa)", true},
-                     {"friction (°)", true}},
+                     {"mass, t", true},
+                     {"density, kg/m³", true},
+                     {"E, GPa", true},
+                     {"G, GPa", true},
+                     {"tensile strength, MPa", true},
+                     {"cohesion, MPa", true},
+                     {"friction angle, °", true}},
                     "th");
   for (const json& m : materials)
     text +=
@@ -44,8 +44,8 @@ std::string materials_table(const json& inventory) {
                   "td");
   return text + "</table>\n" +
          note(
-             "Of rigid stones the moduli give the stiffness of the joints between them, and the strengths those of the "
-             "joints; of a deformable fill they are the soil's own.");
+             "For rigid stones the moduli give the stiffness of the joints between them, and the strengths are those "
+             "of the joints. For a deformable fill they are the properties of the soil.");
 }
 
 std::string law_words(const json& law) {
@@ -75,11 +75,11 @@ std::string joints_table(const json& inventory) {
   const json joints = inventory.value("joints", json::array());
   if (joints.empty()) return "";
   std::string text = "<h3>Joints</h3>\n<table>\n";
-  text += table_row({words_cell("within, or between"),
+  text += table_row({words_cell("joints within or between"),
                      {"number", true},
-                     {"area (m²)", true},
-                     {"kn (GPa/m)", true},
-                     {"ks (GPa/m)", true},
+                     {"area, m²", true},
+                     {"kn, GPa/m", true},
+                     {"ks, GPa/m", true},
                      words_cell("laws")},
                     "th");
   for (const json& f : joints) {
@@ -102,8 +102,8 @@ std::string joints_table(const json& inventory) {
   }
   return text + "</table>\n" +
          note(
-             "kn, ks: stiffness of a joint per area; ft, c, φ: tensile strength, cohesion and angle of friction; GI, "
-             "GII: fracture energies; fc: compressive strength; ψ: angle of dilatancy.");
+             "kn, ks: normal and shear stiffness of a joint per area; ft, c, φ: tensile strength, cohesion and "
+             "friction angle; GI, GII: fracture energies; fc: compressive strength; ψ: dilation angle.");
 }
 
 std::string supports_list(const RunFiles& run, const json& inventory) {
@@ -126,7 +126,7 @@ std::string supports_list(const RunFiles& run, const json& inventory) {
     const auto blocks = s.value("blocks", 0);
     items.push_back(fmt::format("{} ({} {}): {}", group, blocks, blocks == 1 ? "block" : "blocks", how));
   }
-  return "<h3>Supports: blocks that do not move freely</h3>\n" + list(items);
+  return "<h3>Supports: blocks that cannot move freely</h3>\n" + list(items);
 }
 
 std::string damping_words(const DampingSettings& d) {
@@ -134,12 +134,14 @@ std::string damping_words(const DampingSettings& d) {
     case DampingSettings::Kind::none:
       return "none";
     case DampingSettings::Kind::maxwell:
-      return fmt::format("{} Maxwell branches beside joints and fill, {:g} % of critical from {:g} to {:g} Hz",
-                         d.branches, 100.0 * d.ratio, d.band[0], d.band[1]);
+      return fmt::format(
+          "{} Maxwell branches parallel to joints and fill, {:g} % of critical damping from {:g} to {:g} Hz",
+          d.branches, 100.0 * d.ratio, d.band[0], d.band[1]);
     case DampingSettings::Kind::rayleigh:
-      return fmt::format("Rayleigh, {:g} % of critical at {:g} and {:g} Hz", 100.0 * d.ratio, d.band[0], d.band[1]);
+      return fmt::format("Rayleigh, {:g} % of critical damping at {:g} and {:g} Hz", 100.0 * d.ratio, d.band[0],
+                         d.band[1]);
     case DampingSettings::Kind::local:
-      return fmt::format("local (Cundall), {:g} of the out-of-balance force", d.coefficient);
+      return fmt::format("local (Cundall), {:g} times the out-of-balance force", d.coefficient);
   }
   return "";
 }
@@ -149,26 +151,26 @@ std::string assumptions(const RunFiles& run) {
   const bool timed = std::ranges::any_of(s.stages, [](const StageSettings& stage) { return stage.timed(); });
   const bool fill = run.of("fill").contains("tetrahedra");
   std::vector<std::string> items = {
-      "Stones are rigid. They meet in joints without thickness, which carry compression, bond and friction; all "
+      "Stones are rigid. They meet in joints without thickness, which carry compression, bond and friction. All "
       "deformation of the masonry is in the joints."};
-  items.push_back(fmt::format("Contact is followed at {} points a side of each quadrilateral joint; {}.",
-                              s.contact.points_per_side,
-                              s.contact.search ? "stones that come to touch later are found"
-                                               : "stones that come to touch later are not looked for"));
+  items.push_back(fmt::format(
+      "Contact is computed at {} points along each side of a quadrilateral joint; {}.", s.contact.points_per_side,
+      s.contact.search ? "the program finds contacts between stones that touch later"
+                       : "the program does not search for contacts between stones that touch later"));
   items.push_back(fill ? fmt::format("The fill is a continuum of {} tetrahedra, elastic and perfectly plastic "
                                      "(Mohr–Coulomb).",
                                      run.of("fill").value("tetrahedra", 0))
-                       : "There is no deformable fill: what fill there is consists of rigid blocks.");
+                       : "There is no deformable fill. Any fill consists of rigid blocks.");
   items.push_back(fmt::format("Gravity is ({:g}, {:g}, {:g}) m/s².", s.gravity.x(), s.gravity.y(), s.gravity.z()));
   if (!s.stages.empty() && s.stages.front().kind == StageSettings::Kind::gravity)
     items.push_back(
         s.stages.front().construction
-            ? "The bridge is built in stages: each part comes to rest on what stands before the next is laid."
-            : "The whole bridge is there at once when gravity begins to act.");
-  if (timed) items.push_back("Damping while time passes: " + damping_words(s.damping) + ".");
+            ? "The bridge is built in construction steps. Each step comes to rest before the next one begins."
+            : "The whole bridge is present when gravity begins to act.");
+  if (timed) items.push_back("Damping in stages with time steps: " + damping_words(s.damping) + ".");
   if (timed && s.step.mass_scaling_limit > 0.0)
-    items.push_back(
-        fmt::format("Mass scaling may add up to {:g} of the mass (to its inertia only).", s.step.mass_scaling_limit));
+    items.push_back(fmt::format("Mass scaling may add up to {:g} times the mass (to the inertia only).",
+                                s.step.mass_scaling_limit));
   for (const EffectSetting& effect : run.c.effects) items.push_back("Effect: " + effect.text() + ".");
   return "<h3>Assumptions</h3>\n" + list(items);
 }
@@ -183,7 +185,7 @@ std::string model_section(const RunFiles& run) {
 
 std::string provenance_section(const RunFiles& run) {
   const json p = run.of("provenance");
-  std::string text = heading("Where this comes from");
+  std::string text = heading("Origin of these results");
   if (!p.empty()) {
     text += paragraph(fmt::format("Computed on {} by voussoir {} (commit {}, {}, kernels for {}), {} thread(s).",
                                   p.value("date", std::string("?")), p.value("version", std::string("?")),
@@ -198,7 +200,7 @@ std::string provenance_section(const RunFiles& run) {
     text += "</table>\n";
   } else {
     text += paragraph("voussoir " + run.summary.value("program_version", std::string("?")) +
-                      ", which did not yet note the date, the commit and the digests of its files.");
+                      ". That version did not record the date, the commit and the digests of the input files.");
   }
   return text + "<h3>The case with every key written out</h3>\n<pre class=\"case\">" + escaped(run.c.text) + "</pre>\n";
 }

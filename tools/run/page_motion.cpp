@@ -1,4 +1,4 @@
-// The page's part on ground motions.
+// The section of a run's page on ground motions.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ bool moves(const std::vector<double>& a) {
 
 std::string scaling_text(const MotionSource& source) {
   std::string text = source.scale == 1.0 ? "as recorded" : fmt::format("times {:g}", source.scale);
-  if (source.kind != MotionSource::Kind::record && source.scale == 1.0) text = "as made";
+  if (source.kind != MotionSource::Kind::record && source.scale == 1.0) text = "as synthesized";
   if (source.pga > 0.0)
     text = fmt::format("to a PGA of {:.3g} m/s²{}", source.pga,
                        source.scale == 1.0 ? "" : fmt::format(", then times {:g}", source.scale));
@@ -54,7 +54,7 @@ std::string motion_rows(const StageSettings& stage, const MotionSource& source) 
 std::string spectra(const StageSettings& stage) {
   LineChart chart;
   chart.title = "Response spectra of the ground, 5 % damping: " + stage.label;
-  chart.x_label = "period (s)", chart.y_label = "pseudo-acceleration (g)";
+  chart.x_label = "Period, s", chart.y_label = "Pseudo-acceleration, g";
   chart.width = 760.0, chart.height = 300.0, chart.log_x = true, chart.y_low = 0.0;
   std::vector<double> periods;
   for (int k = 0; k <= 80; ++k) periods.push_back(std::max(0.05, 4.0 * stage.motion.dt) * std::pow(60.0, k / 80.0));
@@ -86,11 +86,11 @@ std::string motion_section(const RunFiles& run) {
          table_row({words_cell("stage"),
                     words_cell("scaled"),
                     words_cell("axis"),
-                    {"PGA (m/s²)", true},
-                    {"PGA (g)", true},
-                    {"PGV (m/s)", true},
-                    {"Arias (m/s)", true},
-                    {"D5–95 (s)", true}},
+                    {"PGA, m/s²", true},
+                    {"PGA, g", true},
+                    {"PGV, m/s", true},
+                    {"Arias intensity, m/s", true},
+                    {"D5–95, s", true}},
                    "th") +
          rows + "</table>\n" + charts;
 }

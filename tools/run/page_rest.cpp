@@ -1,4 +1,4 @@
-// What holds a bridge at the end of its run, and where it has gone.
+// The sections of a run's page on reactions, displacements and ties at the end.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Vertical reactions against the weight.
+/// A note that compares the vertical reactions with the weight.
 std::string balance_note(const RunFiles& run, double vertical) {
   const json inventory = run.of("inventory");
   if (!inventory.value("supports_each_once", false)) return "";
@@ -21,9 +21,9 @@ std::string balance_note(const RunFiles& run, double vertical) {
   if (!(all > 0.0)) return "";
   const double other = vertical - all;
   return note(
-      fmt::format("Together they bear {:.4g} kN upwards. What is free to move weighs {:.4g} kN (stones {:.4g}, "
-                  "deformable fill {:.4g}); the difference, {:.3g} kN ({:.2g} % of the weight), is what other loads "
-                  "press down.",
+      fmt::format("The sum of the vertical reactions is {:.4g} kN. The free stones and the deformable fill weigh "
+                  "{:.4g} kN (stones {:.4g} kN, deformable fill {:.4g} kN). The difference, {:.3g} kN ({:.2g} % of the "
+                  "weight), comes from other loads.",
                   1e-3 * vertical, 1e-3 * all, 1e-3 * weight.value("stones", 0.0), 1e-3 * weight.value("fill", 0.0),
                   1e-3 * other, 100.0 * other / all, run.ends_at_rest() ? "" : ", and what still moves"));
 }
@@ -35,8 +35,8 @@ std::string reactions_section(const RunFiles& run) {
   if (reactions.empty()) return "";
   const bool rest = run.ends_at_rest();
   std::string text = heading(rest ? "Reactions at the end" : "Reactions") + "<table>\n";
-  std::vector<Cell> head = {words_cell("fixed blocks"), {"x (kN)", true}, {"y (kN)", true}, {"z (kN)", true}};
-  if (!rest) head.push_back({"z from (kN)", true}), head.push_back({"to (kN)", true});
+  std::vector<Cell> head = {words_cell("fixed blocks"), {"x, kN", true}, {"y, kN", true}, {"z, kN", true}};
+  if (!rest) head.push_back({"smallest z, kN", true}), head.push_back({"largest z, kN", true});
   text += table_row(head, "th");
   double sum[3] = {0.0, 0.0, 0.0};
   for (const auto& [group, axes] : reactions.items()) {
@@ -57,10 +57,9 @@ std::string reactions_section(const RunFiles& run) {
                        formatted_cell(1e-3 * sum[1], "{:.2f}"), formatted_cell(1e-3 * sum[2], "{:.2f}")},
                       "td", "best");
   text += "</table>\n";
-  text +=
-      note(rest ? "Forces of the ground, or of what drives it, on these blocks."
-                : "Forces of the ground on these blocks in the last row of the history, and the range of the vertical "
-                  "one.");
+  text += note(rest ? "These are the forces of the ground, or of a prescribed motion, on these blocks."
+                    : "These are the forces of the ground on these blocks in the last row of the history, and the "
+                      "range of the vertical force.");
   return text + (rest ? balance_note(run, sum[2]) : "");
 }
 
@@ -81,15 +80,17 @@ std::string places_section(const RunFiles& run) {
   if (rows.empty()) return "";
   return heading("Crowns, quarter points and pier tops at the end") + "<table>\n" +
          table_row({words_cell("place"),
-                    {"x (mm)", true},
-                    {"y (mm)", true},
-                    {"z (mm)", true},
-                    {"about x (mrad)", true},
-                    {"about y (mrad)", true},
-                    {"about z (mrad)", true}},
+                    {"x, mm", true},
+                    {"y, mm", true},
+                    {"z, mm", true},
+                    {"about x, mrad", true},
+                    {"about y, mrad", true},
+                    {"about z, mrad", true}},
                    "th") +
          rows + "</table>\n" +
-         note("Means over the blocks of each, relative to the ground and to where they were when gravity was at rest.");
+         note(
+             "Each row is the mean over the blocks of the group, relative to the ground and to the end of the gravity "
+             "stage.");
 }
 
 std::string ties_section(const RunFiles& run) {
@@ -99,9 +100,9 @@ std::string ties_section(const RunFiles& run) {
   text += table_row({words_cell("tie"),
                      words_cell("from"),
                      words_cell("to"),
-                     {"force at the end (kN)", true},
-                     {"largest (kN)", true},
-                     {"yielded by (mm)", true}},
+                     {"force at the end, kN", true},
+                     {"largest force, kN", true},
+                     {"plastic elongation, mm", true}},
                     "th");
   std::size_t count = 0;
   for (const json& tie : ties["each"]) {
@@ -119,7 +120,8 @@ std::string ties_section(const RunFiles& run) {
                        yielded > 1e-9 ? formatted_cell(1e3 * yielded, "{:.2f}") : words_cell("no")},
                       "td", yielded > 1e-9 ? "best" : "");
   }
-  return text + "</table>\n" + note("Anchors as built, m. Rows in bold have yielded. Tension is positive.");
+  return text + "</table>\n" +
+         note("The coordinates are those of the anchors as built, m. Ties in bold have yielded. Tension is positive.");
 }
 
 }  // namespace voussoir

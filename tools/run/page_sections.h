@@ -1,4 +1,4 @@
-// The parts of a run's page, each made from what the run has left in its folder; empty where there is nothing to say.
+// The sections of a run's page as HTML, each made from the files of the run. A section without content is empty.
 #pragma once
 #include <string>
 
@@ -6,22 +6,23 @@
 
 namespace voussoir {
 
-/// Below this (m) nothing has moved that a page would have to show.
+/// Displacements below this (m) are not shown on the page.
 constexpr double unmoved = 5e-6;
 
-/// The answer in a few sentences: what the last stage was to find, and where the masonry is damaged most; fill apart.
+/// The result in a few sentences: the answer of the last stage, and the place where the masonry is damaged most. The
+/// fill is reported separately.
 std::string verdict_section(const RunFiles& run);
 
-/// Of a collapse stage: factor, how it was confirmed, hinges by number, load and displacement on the way.
+/// Collapse stage: the multiplier, its confirmation by dynamic runs, numbered hinges, load and displacement on the way.
 std::string collapse_section(const RunFiles& run);
-/// Of quasi-static stages: loads or settlements on the way from equilibrium to equilibrium.
+/// Quasi-static stages: capacity curve, settlement along the deck, reactions.
 std::string steps_section(const RunFiles& run);
-/// What holds the bridge at the end, beside its weight; where crowns, quarter points and pier tops have gone.
+/// Reactions at the end, compared with the weight; displacements of crowns, quarter points and pier tops.
 std::string reactions_section(const RunFiles& run);
 std::string places_section(const RunFiles& run);
-/// Forces of ties, and which have yielded.
+/// Forces of the ties, and the ties that have yielded.
 std::string ties_section(const RunFiles& run);
-/// Of stages with a ground motion: what the ground did, its spectra.
+/// Stages with a ground motion: peak values and response spectra of the ground.
 std::string motion_section(const RunFiles& run);
 /// Damage by structural parts.
 std::string damage_section(const RunFiles& run);
@@ -29,7 +30,7 @@ std::string demand_section(const RunFiles& run);
 std::string histories_section(const RunFiles& run);
 /// The case's own [[plot]]s.
 std::string plots_section(const RunFiles& run);
-/// For the file: drawing, materials, joints, supports, assumptions, the case's text, program and digests.
+/// Documentation of the run: drawing, assumptions, materials, joints and supports; then version, digests and case.
 std::string model_section(const RunFiles& run);
 std::string provenance_section(const RunFiles& run);
 

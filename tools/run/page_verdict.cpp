@@ -1,4 +1,4 @@
-// What a page says first.
+// The first sentences of a run's page.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,18 +30,20 @@ std::string steps_sentence(const RunFiles& run) {
   for (const json& one : steps_json(run.stages(), run.history)) {
     const bool loaded = one.value("largest_force", 0.0) != 0.0;
     std::string words = one.value("whole", false)
-                            ? "the bridge found an equilibrium at every step, to the end"
-                            : fmt::format("equilibrium is lost beyond the share {:.4g}", one.value("share", 0.0));
+                            ? "the bridge found an equilibrium at every increment"
+                            : fmt::format("there is no equilibrium beyond the share {:.4g}", one.value("share", 0.0));
     if (loaded)
-      words += fmt::format("; the force is largest, {:.4g} kN, at {:.4g} mm, and {:.4g} kN at the end, {:.4g} mm",
-                           1e-3 * one.value("largest_force", NAN), 1e3 * one.value("largest_force_at", NAN),
-                           1e-3 * one.value("force", NAN), 1e3 * one.value("displacement", NAN));
+      words += fmt::format(
+          "; the largest force is {:.4g} kN, at a displacement of {:.4g} mm, and the last force {:.4g} kN, at {:.4g} "
+          "mm",
+          1e-3 * one.value("largest_force", NAN), 1e3 * one.value("largest_force_at", NAN),
+          1e-3 * one.value("force", NAN), 1e3 * one.value("displacement", NAN));
     text += sentence(fmt::format("{}:", one.value("label", std::string())), words + ".");
   }
   return text;
 }
 
-/// Of a run that had nothing else to find: whether it stands, and how far it has gone down.
+/// For a run with a gravity stage only: the largest settlement and compression.
 std::string gravity_sentence(const RunFiles& run) {
   const json gravity = run.summary.value("gravity", json::array());
   if (run.stages().size() != 1 || gravity.empty()) return "";
@@ -53,15 +55,15 @@ std::string gravity_sentence(const RunFiles& run) {
     if (!pressed || family["compression"] > (*pressed)["compression"]) pressed = &family;
   std::string words = "The bridge stands.";
   if (sunk)
-    words += fmt::format(" It has gone down by {:.2f} mm at most ({}).", 1e3 * (*sunk)["settlement"].get<double>(),
+    words += fmt::format(" Its largest settlement is {:.2f} mm ({}).", 1e3 * (*sunk)["settlement"].get<double>(),
                          (*sunk)["part"].get<std::string>());
   if (pressed)
-    words += fmt::format(" Largest mean compression of a joint: {:.3f} MPa ({}).",
+    words += fmt::format(" The largest mean compression of a joint is {:.3f} MPa ({}).",
                          1e-6 * (*pressed)["compression"].get<double>(), (*pressed)["joints"].get<std::string>());
   return sentence("Under its own weight.", words);
 }
 
-/// The widest crack of masonry; that of joints with soil or loose infill apart.
+/// The worst damage of the masonry, and separately that of joints with soil or loose infill.
 std::string damage_sentences(const RunFiles& run) {
   const json* masonry = nullptr;
   const json* loose = nullptr;
@@ -78,22 +80,22 @@ std::string damage_sentences(const RunFiles& run) {
       return;
     }
     std::string damage = damage_sentence(*entry);
-    text += sentence(where,
-                     fmt::format("Worst {}, {}: damage {}.", part_words(*entry), place_words((*entry)["at"]), damage));
+    text += sentence(where, fmt::format("The worst place is {}, {}. The damage is {}.", part_words(*entry),
+                                        place_words((*entry)["at"]), damage));
   };
   add(masonry, "Masonry.");
   add(loose, "Joints with infill or soil.");
   const json fill = run.of("fill");
   if (fill.contains("yielded_in_shear"))
     text += sentence(
-        "Fill.", fmt::format("{:.1f} % of its volume has yielded in shear and {:.1f} % in tension; largest "
-                             "displacement {:.1f} mm.",
+        "Fill.", fmt::format("{:.1f} % of its volume has yielded in shear and {:.1f} % in tension. The largest "
+                             "displacement is {:.1f} mm.",
                              100.0 * fill.value("yielded_in_shear", 0.0), 100.0 * fill.value("yielded_in_tension", 0.0),
                              1e3 * fill.value("largest_displacement", 0.0)));
   return text;
 }
 
-/// Of summaries without damage by parts, which earlier versions wrote.
+/// For summaries of earlier versions, which have no damage by parts.
 std::string family_sentence(const RunFiles& run) {
   if (run.summary.contains("part_damage")) return "";
   const json damage = run.of("damage");
@@ -101,12 +103,12 @@ std::string family_sentence(const RunFiles& run) {
   double most = -1.0;
   for (const auto& [name, entry] : damage.items())
     if (const double opening = entry.value("largest_opening", 0.0); opening > most) most = opening, worst = name;
-  return worst.empty()
-             ? ""
-             : sentence(fmt::format("Worst: joints {}.", worst), "Damage " + damage_sentence(damage[worst]) + ".");
+  return worst.empty() ? ""
+                       : sentence(fmt::format("Worst joints: {}.", worst),
+                                  "The damage is " + damage_sentence(damage[worst]) + ".");
 }
 
-/// What the ground did, and that the bridge has outlasted it.
+/// The peak acceleration of the ground, and whether the bridge stands afterwards.
 std::string motion_sentence(const RunFiles& run) {
   std::string text;
   for (const StageSettings& stage : run.stages()) {
@@ -114,8 +116,7 @@ std::string motion_sentence(const RunFiles& run) {
     double peak = 0.0;
     for (const Vec3& a : stage.motion.acceleration) peak = std::max(peak, a.cwiseAbs().maxCoeff());
     text += sentence(fmt::format("{}.", stage.label),
-                     fmt::format("Largest acceleration of the ground {:.3g} m/s² ({:.3g} g) "
-                                 "along one axis.",
+                     fmt::format("The largest acceleration of the ground along one axis is {:.3g} m/s² ({:.3g} g).",
                                  peak, peak / standard_gravity));
   }
   const bool stands = run.summary.value("finished", false) && !run.summary.contains("fallen");
@@ -131,16 +132,16 @@ std::string fallen_sentence(const RunFiles& run) {
   if (!run.summary.contains("fallen")) return "";
   const json fallen = run.of("fallen");
   return sentence("The bridge fell",
-                  fmt::format("at {:.2f} s: {:.0f} % of the mass that can move had gone farther than the limit.",
+                  fmt::format("at {:.2f} s. Then {:.0f} % of the mass that can move had moved farther than the limit.",
                               fallen.value("time", NAN), 100.0 * fallen.value("share_of_mass", NAN)));
 }
 
-/// What the damage does to the bearing of a bridge: the class and the first finding of it.
+/// The damage class of the bridge, and the worst finding.
 std::string bridge_sentence(const RunFiles& run) {
   const json damage = run.of("bridge_damage");
   const json findings = damage.value("findings", json::array());
   if (findings.empty()) return "";
-  return sentence(fmt::format("As a bridge: {}.", damage.value("class", std::string())),
+  return sentence(fmt::format("Class of the bridge: {}.", damage.value("class", std::string())),
                   fmt::format("{}{}.", findings.front().value("words", std::string()),
                               findings.size() > 1 ? fmt::format(", and {} more findings", findings.size() - 1) : ""));
 }
@@ -148,8 +149,9 @@ std::string bridge_sentence(const RunFiles& run) {
 std::string ties_sentence(const RunFiles& run) {
   const json ties = run.of("ties");
   if (!ties.contains("count")) return "";
-  return sentence("Ties.", fmt::format("{} of {} have yielded; largest force {:.1f} kN.", ties.value("have_yielded", 0),
-                                       ties.value("count", 0), 1e-3 * ties.value("largest_force", 0.0)));
+  return sentence("Ties.",
+                  fmt::format("{} of {} have yielded. The largest force is {:.1f} kN.", ties.value("have_yielded", 0),
+                              ties.value("count", 0), 1e-3 * ties.value("largest_force", 0.0)));
 }
 
 }  // namespace
@@ -157,9 +159,9 @@ std::string ties_sentence(const RunFiles& run) {
 std::string verdict_section(const RunFiles& run) {
   std::string text = fallen_sentence(run);
   if (!run.summary.value("finished", true) && !run.summary.contains("fallen"))
-    text +=
-        sentence("Not at its end.", fmt::format("The run has come to t = {:.3f} s; what stands here is of that moment.",
-                                                run.summary.value("end_time", 0.0)));
+    text += sentence("The run has not ended.",
+                     fmt::format("It has reached t = {:.3f} s. All results on this page are those of that moment.",
+                                 run.summary.value("end_time", 0.0)));
   text += motion_sentence(run) + collapse_sentence(run) + steps_sentence(run) + gravity_sentence(run) +
           damage_sentences(run) + bridge_sentence(run) + family_sentence(run) + ties_sentence(run);
   return text.empty() ? "" : fmt::format("<div class=\"verdict found\">\n{}</div>\n", text);

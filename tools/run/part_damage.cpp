@@ -39,7 +39,7 @@ nlohmann::json part_damage_json(const Assembly& assembly, const Snapshot& snapsh
     if (p.tie || p.polygon.empty()) continue;
     const auto a = std::size_t(p.a), b = std::size_t(p.b);
     const bool loose = is_loose(assembly.blocks[a].component) || is_loose(assembly.blocks[b].component);
-    // The infill of a pier belongs to it; its joints say nothing of the pier's masonry.
+    // The infill of a pier is a part of the pier, but its joints are not joints of the masonry.
     const auto name = [&](std::size_t k) {
       return assembly.blocks[k].component == Component::infill ? "infill of " + names[k] : names[k];
     };

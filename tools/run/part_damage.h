@@ -1,4 +1,4 @@
-// Damage of a run by structural parts, with the places where it is worst.
+// Damage of a run by parts of the bridge, with the places where it is worst.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -7,10 +7,10 @@
 
 namespace voussoir {
 
-/// Of the joints within each part of the bridge (parts_of_blocks(): "arch 0", "pier 1"), and between each two, which
-/// are one entry with two `parts`: what damage_sentence() reads, `fill`: whether soil or loose infill is one of them,
-/// and `at`: where it opened most, or, where nothing opened, slid most (m, as built for joints of the assembly). The
-/// widest first.
+/// One entry for the joints within each part of the bridge (parts_of_blocks(): "arch 0", "pier 1"), and one with two
+/// `parts` for the joints between each two parts. Each has the members that damage_sentence() reads, `fill` (whether
+/// one of the parts is soil or loose infill), and `at`: the place of the largest opening or, if no joint opened, of the
+/// largest slip (m, as built for joints of the assembly). The widest comes first.
 nlohmann::json part_damage_json(const Assembly& assembly, const Snapshot& snapshot);
 
 /// "arch 0", "between arch 0 and pier 1".

@@ -1,4 +1,4 @@
-// The pictures every finished run leaves behind.
+// The pictures that every finished run draws.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void draw_state(const std::string& images, const Assembly& assembly, const Snaps
   }
 }
 
-/// What a deformable fill has gone through, in the section along the bridge's middle.
+/// Pictures of a deformable fill (plastic strain, yielded zones) in the section along the middle of the bridge.
 void draw_fill(const std::string& images, const Assembly& assembly, const Snapshot& snapshot) {
   RenderOptions o;
   o.cut = std::string("y");
@@ -45,7 +45,7 @@ void draw_fill(const std::string& images, const Assembly& assembly, const Snapsh
   }
 }
 
-/// Where a picture shows a point of a block, given as built.
+/// The position in a picture of a point of a block, given by its coordinates as built.
 Vec3 drawn_at(const Assembly& assembly, const Snapshot& snapshot, std::int64_t block, const Vec3& x,
               double amplification) {
   const auto i = std::size_t(block);
@@ -55,8 +55,8 @@ Vec3 drawn_at(const Assembly& assembly, const Snapshot& snapshot, std::int64_t b
   return x + amplification * (now - x);
 }
 
-/// The assembly on its way down, displacements enlarged to a third of a block; with a fill in the section along its
-/// middle.
+/// The mechanism of collapse. Displacements are enlarged to a third of a block. With a deformable fill it is drawn in
+/// the section along the middle.
 void draw_mechanism(const std::string& images, const Simulation& run, const Snapshot& snapshot) {
   const Model& model = run.model();
   const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
@@ -76,7 +76,8 @@ void draw_mechanism(const std::string& images, const Simulation& run, const Snap
   render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
 }
 
-/// The outline of where stones were, and the way they go: the farthest by three quarters of a block, whatever it went.
+/// The outlines of the stones as built, and their displacements, scaled so that the largest is three quarters of a
+/// block.
 void draw_way(const std::string& file, const Simulation& run, const Snapshot& snapshot) {
   const Model& model = run.model();
   const double moved = largest_displacement(model, initial_state(model).pose, run.state().pose);
@@ -87,14 +88,14 @@ void draw_way(const std::string& file, const Simulation& run, const Snapshot& sn
   o.amplification = std::min(std::round(shown / digit) * digit, 1e4);
   o.undeformed = true;
   o.cracks = false;
-  o.title = "Stones on their way:";
+  o.title = "Moving stones:";
   for (const std::int32_t body : run.moving())
     o.title +=
         fmt::format("{} {}", body == run.moving().front() ? " blocks" : ",", model.block_of_body[std::size_t(body)]);
   render_picture(run.assembly(), snapshot, o, file);
 }
 
-/// The crack map and the table of cracks, where there are any.
+/// The crack map and the table of cracks, if there are cracks.
 void draw_cracks(const std::string& directory, const Assembly& assembly, const Snapshot& snapshot) {
   const std::string name = std::filesystem::weakly_canonical(directory).filename().string();
   const std::vector<JointGaps> gaps = joint_gaps(assembly, snapshot);
@@ -128,8 +129,7 @@ void draw_curve(const std::string& images, const Collapse& collapse) {
     along.push_back(1e3 * p.along), largest.push_back(1e3 * p.largest);
     multiplier.push_back(p.multiplier);
   }
-  LineChart chart =
-      run_chart("Load and displacement", "displacement since the multiplier was zero (mm)", "multiplier (-)");
+  LineChart chart = run_chart("Load and displacement", "Displacement since the multiplier was zero, mm", "Multiplier");
   add_curve(chart, "loaded points, along the load", along, multiplier);
   add_curve(chart, "largest of any block", largest, multiplier);
   for (ChartCurve& c : chart.curves) c.dots = true;
@@ -146,12 +146,12 @@ void draw_charts(const std::string& images, const Assembly& assembly, const Hist
   const auto add = [&](LineChart& chart, const std::string& name, const std::string& path, double factor) {
     add_curve(chart, name, history.time(), scaled(history.values(path), factor));
   };
-  LineChart energies = run_chart("Energy", "time (s)", "energy (kJ)");
+  LineChart energies = run_chart("Energy", "Time, s", "Energy, kJ");
   for (const char* name : {"kinetic", "elastic", "friction", "fracture", "joint_damping", "external_work"})
     add(energies, name, std::string("energy/") + name, 1e-3);
   write_run_chart(energies, images + "/energy.png");
-  LineChart keystones = run_chart("Keystones", "time (s)", "longitudinal displacement relative to the base (mm)");
-  LineChart spandrels = run_chart("Spandrel walls", "time (s)", "transverse displacement relative to the base (mm)");
+  LineChart keystones = run_chart("Keystones", "Time, s", "Longitudinal displacement relative to the base, mm");
+  LineChart spandrels = run_chart("Spandrel walls", "Time, s", "Transverse displacement relative to the base, mm");
   for (const DemandPoint& point : demand_points(assembly))
     add(point.axis == 0 ? keystones : spandrels, point.group, demand_channel(point), 1e3);
   if (!keystones.curves.empty()) write_run_chart(keystones, images + "/keystones.png");
@@ -201,7 +201,7 @@ std::string make_pictures(const std::string& directory, const Case& c, const Sim
     for (const PlotSpec& plot : c.plots) draw_plot(images, plot, history);
     draw_arrangement(images, c, run.assembly());
     return {};
-  } catch (const std::exception& e) {  // a run is not lost because its pictures cannot be drawn
+  } catch (const std::exception& e) {  // an error in the pictures must not end the run
     return e.what();
   }
 }

@@ -1,4 +1,4 @@
-// The case's own [[plot]]s as charts.
+// The charts of the [[plot]] tables of a case.
 #pragma once
 #include "io/case/case.h"
 #include "io/hdf5/history_file.h"
@@ -6,7 +6,7 @@
 
 namespace voussoir {
 
-/// One history channel over another, beside measured curves whose file is there. Throws InputError for a channel that
+/// One history channel over another, with the measured curves whose file exists. Throws InputError for a channel that
 /// the history does not have.
 LineChart plot_chart(const PlotSpec& plot, const History& history);
 

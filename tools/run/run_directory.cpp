@@ -16,18 +16,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Throws InputError for a plot of something that the run does not record.
+/// Throws InputError for a plot of a channel that the run does not record.
 void check_plots(const Case& c, const std::vector<Channel>& channels) {
   std::vector<std::string> known;
   for (const Channel& channel : channels) known.push_back(channel.path);
   for (const PlotSpec& plot : c.plots)
     for (const std::string& name : {plot.x, plot.y})
       if (std::find(known.begin(), known.end(), name) == known.end())
-        throw InputError("plot '{}' is of '{}', which this run does not record{}", plot.name, name,
+        throw InputError("plot '{}' shows '{}', which this run does not record{}", plot.name, name,
                          suggestion(name, known));
 }
 
-/// All that a run, its pages and its modes leave in their directory, and nothing else that may lie there.
+/// Removes the files that a run, its pages and its modes write in their directory, and no others.
 void remove_run(const fs::path& directory) {
   std::vector<std::string> names = {
       "case.toml",    "assembly.h5", "history.h5", "checkpoints",        "vtk",   "images",       "summary.json",
@@ -38,7 +38,7 @@ void remove_run(const fs::path& directory) {
     if (is_copy_for_case(entry.path().filename().string())) names.push_back(entry.path().filename().string());
   for (const std::string& name : names)
     if (fs::remove_all(directory / name, failed); failed)
-      throw RunError("cannot remove {}: {}; choose another folder with -o DIR", (directory / name).string(),
+      throw RunError("cannot remove {}: {}. Choose another folder with -o DIR", (directory / name).string(),
                      failed.message());
 }
 
@@ -46,13 +46,12 @@ void remove_run(const fs::path& directory) {
 
 DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite,
                                 const std::function<void(const std::string&)>& remark) {
-  std::error_code failed;  // a name that cannot be looked up names no run
+  std::error_code failed;  // a path that cannot be examined is not a run directory
   if (fs::exists(directory + "/case.toml", failed) && !overwrite)
     throw InputError(
-        "{} already holds a run; go on with it (voussoir resume {}), choose another folder (-o DIR), or give "
-        "--overwrite",
+        "{} already holds a run. Continue it (voussoir resume {}), choose another folder (-o DIR), or give --overwrite",
         directory, directory);
-  // First all that can go wrong and all that is read: it may lie in the folder that is to be emptied.
+  // Read and check everything before the folder is emptied, because input files may be in it.
   const Assembly assembly = make_assembly(c);
   if (remark)
     for (const std::string& text : remarks(c, assembly)) remark(text);
@@ -65,7 +64,7 @@ DirectoryLock prepare_directory(const Case& c, const std::string& directory, boo
   }
   fs::create_directories(directory, failed);
   if (failed)
-    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+    throw InputError("cannot make the folder {}: {}. Choose another one with -o DIR", directory, failed.message());
   DirectoryLock lock(directory);
   if (overwrite) remove_run(directory);
   write_assembly(directory + "/assembly.h5", assembly);

@@ -1,4 +1,4 @@
-// Run directories: how they begin.
+// Preparation of a run directory.
 #pragma once
 #include <functional>
 
@@ -7,9 +7,9 @@
 
 namespace voussoir {
 
-/// A fresh run directory with the resolved case and the assembly, locked. An existing run is never overwritten unasked.
-/// Throws InputError, before anything is written, for what the case asks of its assembly and cannot be; RunError.
-/// `remark` is told the remarks on case and assembly before that.
+/// Makes a run directory with the resolved case and the assembly, and locks it. An existing run is replaced only if
+/// `overwrite` is true. Calls `remark` for each remark on case and assembly. Throws InputError, before anything is
+/// written, if the case does not fit its assembly; RunError if a file cannot be written.
 DirectoryLock prepare_directory(const Case& c, const std::string& directory, bool overwrite,
                                 const std::function<void(const std::string&)>& remark = {});
 

@@ -16,14 +16,14 @@ RunFiles read_run(const std::string& directory) {
     throw InputError("{} is not a run directory: it has no case.toml. Give the folder that voussoir run wrote",
                      directory);
   if (!fs::exists(directory + "/summary.json", ignored))
-    throw InputError("{} has no summary.json: the run has not ended; go on with: voussoir resume {}", directory,
-                     directory);
+    throw InputError("{} has no summary.json, because the run has not ended. Continue with: voussoir resume {}",
+                     directory, directory);
   RunFiles files;
   files.directory = directory;
   files.name = fs::weakly_canonical(directory).filename().string();
   files.c = read_case(directory + "/case.toml");
   files.summary = json_if_any(directory + "/summary.json");
-  if (!files.summary.is_object()) throw InputError("{}/summary.json is damaged: run the case again", directory);
+  if (!files.summary.is_object()) throw InputError("{}/summary.json is damaged. Run the case again", directory);
   if (fs::exists(directory + "/history.h5", ignored)) files.history = History::load(directory + "/history.h5");
   return files;
 }

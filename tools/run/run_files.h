@@ -1,4 +1,4 @@
-// What a finished run has left in its folder.
+// The files of a finished run.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,21 +12,21 @@ struct RunFiles {
   std::string directory, name;  // name: the folder's own
   Case c;
   nlohmann::json summary;
-  History history;  // empty where there is none
+  History history;  // empty if there is no history.h5
 
   /// A member of the summary, or an empty object.
   const nlohmann::json& of(const char* key) const;
   const std::vector<StageSettings>& stages() const { return c.settings.stages; }
-  /// The last stage ended in an equilibrium: what stands in the last row is at rest.
+  /// Whether the last stage ended in an equilibrium, so that the last row of the history is at rest.
   bool ends_at_rest() const {
     return !stages().empty() && !stages().back().timed() && !of("collapse").value("found", false);
   }
 };
 
-/// What a file holds; empty where there is none.
+/// The text of a file; empty if there is no such file.
 std::string text_if_any(const std::string& path);
 
-/// Throws InputError when the directory is no run or has not been finished.
+/// Reads the files of a run. Throws InputError if the directory is not a run directory or the run has not ended.
 RunFiles read_run(const std::string& directory);
 
 }  // namespace voussoir

@@ -40,34 +40,34 @@ std::string facts(const RunFiles& run) {
   text += row_of("bridge", run.c.generator.empty() ? "assembly from a file" : run.c.generator);
   text += row_of("blocks, joints", fmt::format("{}, {}", s.value("blocks", 0), s.value("joints", 0)));
   if (s.contains("joint_kinds"))
-    text += row_of("of the joints", fmt::format("{} bonded, {} dry", s["joint_kinds"].value("bonded", 0),
-                                                s["joint_kinds"].value("dry", 0)));
+    text += row_of("kinds of joints", fmt::format("{} bonded, {} dry", s["joint_kinds"].value("bonded", 0),
+                                                  s["joint_kinds"].value("dry", 0)));
   text += row_of("stages", stages_text(run.c));
   for (const EffectSetting& effect : run.c.effects) text += row_of("effect", effect.text());
   if (s.value("steps", 0) > 0)
-    text += row_of("simulated", fmt::format("{:.3f} s in {} steps of {:.3g} s", s.value("end_time", 0.0),
+    text += row_of("simulated", fmt::format("{:.3f} s in {} time steps of {:.3g} s", s.value("end_time", 0.0),
                                             s.value("steps", 0), s.value("time_step", 0.0)));
-  text += row_of("wall time",
+  text += row_of("wall-clock time",
                  fmt::format("{:.0f} s with {} thread(s)", s.value("wall_seconds", 0.0), s.value("threads", 1)));
   if (s.value("energy_error", 0.0) > 0.0)
-    text += row_of("largest energy error", fmt::format("{:.2e} of the work done", s.value("energy_error", NAN)));
+    text += row_of("largest energy error", fmt::format("{:.2e} times the work done", s.value("energy_error", NAN)));
   if (s.contains("equilibrium"))
-    text += row_of("equilibrium before",
+    text += row_of("equilibrium under gravity",
                    s["equilibrium"].value("converged", false)
-                       ? fmt::format("reached, out-of-balance force {:.1e} of an average block's weight",
+                       ? fmt::format("reached; the out-of-balance force is {:.1e} times the mean weight of a block",
                                      s["equilibrium"].value("out_of_balance", NAN))
                        : "not reached");
   return text + row_of("program", "voussoir " + s.value("program_version", std::string("?"))) + "</dl>\n";
 }
 
-/// Values that were probably meant in another unit.
+/// The remarks on the case: values that were probably meant in another unit.
 std::string remarks_section(const RunFiles& run) {
   const nlohmann::json remarks = run.summary.value("remarks", nlohmann::json::array());
   if (remarks.empty()) return "";
   return heading("Remarks on the case") + list(remarks.get<std::vector<std::string>>());
 }
 
-/// Whether a picture of slips has any to show.
+/// Whether a picture of slips shows any slip.
 bool shows_something(const RunFiles& run, std::string_view file) {
   if (!file.starts_with("slip")) return true;
   for (const auto& [name, entry] : run.of("damage").items())
@@ -95,11 +95,11 @@ std::vector<PagePicture> pictures_of(const RunFiles& run) {
   return pictures;
 }
 
-/// To the page of voussoir view, where that lies beside this one.
+/// A link to the page of voussoir view, if that is in the same folder.
 std::string view_link(const RunFiles& run) {
   std::error_code ignored;
   if (!fs::exists(run.directory + "/view.html", ignored)) return "";
-  return "<p><a href=\"view.html\">The run in three dimensions</a>, to turn and to ask (view.html).</p>\n";
+  return "<p><a href=\"view.html\">The run in three dimensions</a> (view.html).</p>\n";
 }
 
 }  // namespace

@@ -103,12 +103,13 @@ double RunSession::fallen_share() const {
   return voussoir::fallen_share(simulation_->model(), simulation_->state(), request_.fall_displacement);
 }
 
-/// Of the last gravity stage, whether it ran now or before a restart.
+/// The equilibrium of the last gravity stage, computed in this session or before a restart.
 const Equilibrium& RunSession::equilibrium() const {
   return simulation_->equilibrium().account.empty() ? equilibrium_before_ : simulation_->equilibrium();
 }
 
-/// What the gravity stage that has just ended did: to the log, and beside those of earlier ones to gravity.json.
+/// Writes the report of the gravity stage that has just ended to the log and, after those of earlier ones, to
+/// gravity.json.
 void RunSession::report_gravity() {
   const Simulation& run = *simulation_;
   const nlohmann::json report =
@@ -122,7 +123,7 @@ void RunSession::report_gravity() {
 }
 
 void RunSession::write_checkpoint(bool stage_end) {
-  history_.flush();  // first: a resumed run finds every row up to its checkpoint
+  history_.flush();  // first, so that a resumed run finds every row up to its checkpoint
   const std::string name = checkpoint_name(simulation_->state().time());
   const std::string file = stage_end ? fmt::format("stage_{:02}_", simulation_->position().stage) + name : name;
   voussoir::write_checkpoint(path("checkpoints/") + file, own_header(), simulation_->state().arrays());
@@ -166,11 +167,12 @@ void RunSession::resume() {
   const std::vector<std::string> files = list_checkpoints(path("checkpoints"));
   const bool has_rows = fs::exists(path("history.h5")) && History::load(path("history.h5")).rows() > 0;
   if (files.empty() && has_rows)
-    throw InputError("{} has no checkpoint to resume from; start again with voussoir run and --overwrite",
-                     request_.directory);
-  if (files.empty()) {  // ended before its first checkpoint: nothing has been begun
+    throw InputError(
+        "{} has no checkpoint from which the run could be resumed. Start again with voussoir run and --overwrite",
+        request_.directory);
+  if (files.empty()) {  // the run was stopped before its first checkpoint
     vtk_.keep_first(0);
-    log("no checkpoint yet: starting from the beginning");
+    log("there is no checkpoint yet, so the run starts from the beginning");
     return;
   }
   for (const std::string& file : files) {
@@ -180,27 +182,28 @@ void RunSession::resume() {
       read_checkpoint(file, header, state.arrays());
       state.unpack(simulation_->model());
     } catch (const RunError& e) {
-      log(fmt::format("{}; trying the one before", e.what()));
+      log(fmt::format("{}. Trying the checkpoint before it", e.what()));
       continue;
     }
     if (header.assembly_hash != assembly_hash_)
-      throw InputError("{} belongs to another assembly than {}: put back the assembly of this run, or start a new one",
+      throw InputError("{} belongs to another assembly than {}. Restore the assembly of this run, or start a new run",
                        file, path("assembly.h5"));
     if (header.case_hash != case_.hash)
-      throw InputError("{} belongs to another case than {}: put back the case of this run, or start a new one", file,
+      throw InputError("{} belongs to another case than {}. Restore the case of this run, or start a new run", file,
                        path("case.toml"));
     go_on_from(header);
     log(fmt::format("resuming at t = {:.4f} s from {}", header.time, file));
     return;
   }
-  throw InputError("none of the {} checkpoints in {} can be read; start again with voussoir run and --overwrite",
+  throw InputError("none of the {} checkpoints in {} can be read. Start again with voussoir run and --overwrite",
                    files.size(), path("checkpoints"));
 }
 
 void RunSession::begin_where(const std::string& other) {
   const std::vector<std::string> files = list_checkpoints(other + "/checkpoints");
   if (files.empty())
-    throw InputError("{} has no checkpoint to begin with: remove the folder, and it is run again", other);
+    throw InputError(
+        "{} has no checkpoint from which the run could start. Remove the folder, then it is computed again", other);
   CheckpointHeader header;
   State& state = simulation_->state();
   read_checkpoint(files.front(), header, state.arrays());
@@ -211,14 +214,14 @@ void RunSession::begin_where(const std::string& other) {
       fs::copy(other + "/" + name, path(name), fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   state.unpack(simulation_->model());
   go_on_from(header);
-  before_seconds_ = 0.0;  // they were paid once, for all
+  before_seconds_ = 0.0;  // the time of the shared stages is not counted again
   for (const char* folder : {"checkpoints/", "vtk/"}) make_folder_of(path(folder));
   voussoir::write_checkpoint(path("checkpoints/") + fs::path(files.front()).filename().string(), own_header(),
                              state.arrays());
-  log("gravity as found in " + other);
+  log("equilibrium under gravity taken from " + other);
 }
 
-/// After the state has been read.
+/// Restores position, history and frames after the state has been read.
 void RunSession::go_on_from(const CheckpointHeader& header) {
   RunPosition p;
   p.stage = header.stage;
@@ -244,7 +247,7 @@ void RunSession::go_on_from(const CheckpointHeader& header) {
 
 namespace {
 
-/// An earlier part of the run's; empty when there is none.
+/// A member of the summary of an earlier part of the run; empty if there is none.
 nlohmann::json summary_of(const std::string& file) {
   const nlohmann::json json = json_if_any(file);
   return json.is_object() ? json : nlohmann::json::object();
@@ -283,7 +286,7 @@ void RunSession::write_summary(RunEnd end) {
                            {"relaxation_steps", e.steps},
                            {"out_of_balance", e.residual}}}};
   json["remarks"] = nlohmann::json::array();
-  for (const std::string& remark : remarks(case_, assembly_))  // where the folder lies does not matter
+  for (const std::string& remark : remarks(case_, assembly_))  // the path of the folder is left out
     json["remarks"].push_back(remark.starts_with(path("")) ? remark.substr(path("").size()) : remark);
   if (fallen_) json["fallen"] = {{"time", run.state().time()}, {"share_of_mass", fallen_share()}};
   const RunCosts& costs = run.costs();
@@ -321,7 +324,7 @@ std::vector<BedJoint> RunSession::bed_joints() const {
   return rest.empty() ? std::vector<BedJoint>() : voussoir::bed_joints(assembly_, rest);
 }
 
-/// The simulation and its files; what cannot be written ends it with words on how to go on.
+/// Runs the simulation and writes its files. If a file cannot be written, the error says how to continue.
 RunEnd RunSession::simulate() {
   try {
     for (const char* folder : {"checkpoints/", "vtk/"}) make_folder_of(path(folder));
@@ -336,23 +339,24 @@ RunEnd RunSession::simulate() {
     return end;
   } catch (const RunError& error) {
     progress_.end();
-    throw RunError("{}\nWhat was written before is whole; go on with: voussoir resume {}", error.what(),
-                   request_.directory);
+    throw RunError("{}\nThe files that were written before are complete. Continue with: voussoir resume {}",
+                   error.what(), request_.directory);
   }
 }
 
 void RunSession::draw_pictures() {
   for (const PlotSpec& plot : case_.plots)
     for (const MeasuredCurve& curve : plot.measured)
-      if (curve.text.empty()) log(fmt::format("{}.png goes without {}: there is no such file", plot.name, curve.file));
+      if (curve.text.empty())
+        log(fmt::format("{}.png is drawn without {}, because there is no such file", plot.name, curve.file));
   const std::string missing = make_pictures(request_.directory, case_, *simulation_,
                                             make_snapshot(simulation_->model(), simulation_->state()), history_);
-  log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures: " + missing);
+  log(missing.empty() ? fmt::format("pictures in {}", path("images")) : "no pictures were drawn: " + missing);
   try {
     write_run_page(request_.directory);
     log(fmt::format("page in {}", path("report.html")));
-  } catch (const std::exception& error) {  // nor because of its page
-    log(fmt::format("no page: {}", error.what()));
+  } catch (const std::exception& error) {  // an error in the page must not end the run
+    log(fmt::format("no page was written: {}", error.what()));
   }
 }
 
@@ -371,8 +375,8 @@ int RunSession::run() {
     if (request_.pictures && !simulation_->moving().empty()) {
       const std::string missing =
           draw_moving(request_.directory, *simulation_, make_snapshot(simulation_->model(), simulation_->state()));
-      log(missing.empty() ? fmt::format("where stones have gone: {}", path("images/moving.png"))
-                          : "no picture: " + missing);
+      log(missing.empty() ? fmt::format("picture of the moving stones: {}", path("images/moving.png"))
+                          : "no picture was drawn: " + missing);
     }
     throw RunError("{}\nThe last good checkpoints are in {}", simulation_->failure(), path("checkpoints"));
   }
@@ -382,12 +386,12 @@ int RunSession::run() {
                     100.0 * fallen_share(), request_.fall_displacement));
   } else if (end == RunEnd::interrupted && stop_flag.load()) {
     end_ = late_flag.load() ? SessionEnd::late : SessionEnd::stopped;
-    log(fmt::format("stopped at t = {:.4f} s; go on with: voussoir resume {}", time(), request_.directory));
+    log(fmt::format("stopped at t = {:.4f} s. Continue with: voussoir resume {}", time(), request_.directory));
     return 1;
   } else {
     end_ = end == RunEnd::finished ? SessionEnd::done : SessionEnd::paused;
     const std::string done = end == RunEnd::finished ? "done" : "paused";
-    log(time() > 0.0 ? fmt::format("{} at t = {:.3f} s: {} steps in {}, largest energy error {:.2e}", done, time(),
+    log(time() > 0.0 ? fmt::format("{} at t = {:.3f} s: {} time steps in {}, largest energy error {:.2e}", done, time(),
                                    simulation_->state().step(), duration_text(wall), simulation_->worst_balance())
                      : fmt::format("{} in {}", done, duration_text(wall)));
   }

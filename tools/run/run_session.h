@@ -1,4 +1,5 @@
-// One run directory at work: a simulation whose observers write history, checkpoints, ParaView files, log and pictures.
+// A run in its directory: a simulation whose observers write history, checkpoints, files for ParaView, log and
+// pictures.
 #pragma once
 #include <memory>
 #include <string>
@@ -19,12 +20,12 @@ struct RunRequest {
   int threads = 1;
   bool quiet = false;
   bool pictures = true;
-  Packing packing = usual_packing;                // of the files for ParaView
-  double until = -1.0;                            // s of simulated time; negative: to the end
-  double time_limit = 0.0;                        // s of wall time after which it stops with a checkpoint; 0: none
-  std::function<void(const Progress&)> progress;  // beside the line on the terminal
-  double fall_displacement = 0.0;                 // m; the run ends once more than …
-  double fall_share = 0.0;                        // … of the mass that can move has gone that far; 0: never
+  Packing packing = usual_packing;  // compression of the files for ParaView
+  double until = -1.0;              // s, simulated time at which the run stops; negative: at its end
+  double time_limit = 0.0;          // s, wall-clock time after which the run stops with a checkpoint; 0: none
+  std::function<void(const Progress&)> progress;  // told in addition to the line on the terminal
+  double fall_displacement = 0.0;                 // m, displacement beyond which mass counts as fallen
+  double fall_share = 0.0;  // the run ends when more than this share of the movable mass has fallen; 0: never
 };
 
 enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };  // late: past its time limit
@@ -33,24 +34,24 @@ class RunSession {
  public:
   /// The directory holds case.toml and assembly.h5. Throws InputError.
   explicit RunSession(const RunRequest& request);
-  /// Goes on from the newest good checkpoint; damaged ones are named and the one before is used. A run that was ended
-  /// before its first checkpoint starts from the beginning. Throws InputError when no checkpoint is left, or when it
-  /// belongs to another case or assembly.
+  /// Continues from the newest good checkpoint. A damaged checkpoint is named in the log, and the one before it is
+  /// used. A run that was stopped before its first checkpoint starts from the beginning. Throws InputError if no
+  /// checkpoint is left, or if it belongs to another case or assembly.
   void resume();
-  /// Goes on from the end of another run of the same assembly, whose stages were the first of this case's: takes its
-  /// history and frames along. The directory must be a fresh one. Throws InputError.
+  /// Continues from the end of another run of the same assembly whose stages are the first stages of this case, and
+  /// takes over its history and frames. The directory must be new. Throws InputError.
   void begin_where(const std::string& other);
   /// Runs to the end (or `until`); returns the exit status.
   int run();
-  /// A request to stop (a signal, a time limit) holds for all runs of a process; from here on none has been made.
+  /// A request to stop (a signal, a time limit) holds for all runs of the process. This function withdraws it.
   static void forget_stop();
-  /// How run() ended, also when it threw: `failed` is the solver's failure, `none` anything else (a full disk).
+  /// How run() ended, also if it threw: `failed` for a failure of the solver, `none` for any other error (a full disk).
   SessionEnd end() const { return end_; }
   double time() const { return simulation_->state().time(); }  // s, simulated
-  /// Share of the mass that can move which has gone farther than fall_displacement, relative to the ground and to where
-  /// it stood under gravity.
+  /// Share of the movable mass that has moved farther than fall_displacement, relative to the ground and to its
+  /// position after gravity.
   double fallen_share() const;
-  /// After run(): of its end, see rest_at_end() in tools/run/thrust.h. Empty without a vault.
+  /// The bed joints at the end of run(), see rest_at_end() in tools/run/thrust.h. Empty without a vault.
   std::vector<BedJoint> bed_joints() const;
 
  private:

@@ -11,7 +11,7 @@ namespace voussoir {
 
 namespace {
 
-/// Channels of the table, steps first.
+/// Channels of the table; those of the increments come first.
 std::vector<const Channel*> table_columns(const History& history) {
   std::vector<const Channel*> columns;
   for (const char* family : {"steps/", "reactions/", "places/", "deck/"})
@@ -98,7 +98,7 @@ nlohmann::json steps_json(const std::vector<StageSettings>& stages, const Histor
 LineChart capacity_chart(const std::vector<StageSettings>& stages, const History& history) {
   LineChart chart;
   chart.title = "Capacity curve: each point an equilibrium";
-  chart.x_label = "displacement since the stage began (mm)", chart.y_label = "force (kN)";
+  chart.x_label = "Displacement since the beginning of the stage, mm", chart.y_label = "Force, kN";
   for (const auto& [number, rows] : step_rows(stages, history)) {
     chart.curves.push_back(
         curve_of(stage_name(stages, number), history, rows, "steps/displacement", 1e3, "steps/force", 1e-3));
@@ -110,8 +110,8 @@ LineChart capacity_chart(const std::vector<StageSettings>& stages, const History
 
 LineChart deck_chart(const std::vector<StageSettings>& stages, const History& history) {
   LineChart chart;
-  chart.title = "Settlement along the deck at the end of the stage, since it began (up is positive)";
-  chart.x_label = "x (m)", chart.y_label = "vertical displacement (mm)";
+  chart.title = "Settlement along the deck at the end of the stage, since its beginning (up is positive)";
+  chart.x_label = "x, m", chart.y_label = "Vertical displacement, mm";
   for (const auto& [number, rows] : step_rows(stages, history)) {
     ChartCurve curve;
     curve.name = stage_name(stages, number);
@@ -130,7 +130,7 @@ LineChart deck_chart(const std::vector<StageSettings>& stages, const History& hi
 LineChart reaction_chart(const std::vector<StageSettings>& stages, const History& history) {
   LineChart chart;
   chart.title = "Vertical reactions";
-  chart.x_label = "share of the loads and settlements (-)", chart.y_label = "reaction (kN)";
+  chart.x_label = "Share of the loads and settlements", chart.y_label = "Reaction, kN";
   const auto all = step_rows(stages, history);
   for (const auto& [number, rows] : all)
     for (const Channel& channel : history.channels()) {

@@ -1,4 +1,4 @@
-// What quasi-static stages found: table, numbers for the summary, charts.
+// Results of quasi-static stages: table, numbers for the summary, charts.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -8,19 +8,19 @@
 
 namespace voussoir {
 
-/// Rows of the history of each quasi-static stage, by its number from 1; empty where there is none.
+/// Rows of the history of each quasi-static stage, by its number from 1; empty if there is no such stage.
 std::map<std::size_t, std::vector<std::size_t>> step_rows(const std::vector<StageSettings>& stages,
                                                           const History& history);
 
-/// A row for each equilibrium: steps, reactions, places, settlement of the deck. For steps.csv.
+/// The text of steps.csv: a row for each equilibrium with increments, reactions, places and settlement of the deck.
 std::string steps_table(const std::vector<StageSettings>& stages, const History& history);
 
-/// Of each quasi-static stage its equilibria, how much of the path was gone, and the largest force with its
+/// For each quasi-static stage its equilibria, the share of the path that was reached, and the largest force with its
 /// displacement.
 nlohmann::json steps_json(const std::vector<StageSettings>& stages, const History& history);
 
-/// Force over displacement; settlement along the deck, at the ends of the stages, since each began; vertical reactions
-/// on the way. Without curves where there is nothing to show.
+/// Charts: force over displacement; settlement along the deck at the end of each stage, since its beginning; vertical
+/// reactions on the way. A chart has no curves if there is nothing to show.
 LineChart capacity_chart(const std::vector<StageSettings>& stages, const History& history);
 LineChart deck_chart(const std::vector<StageSettings>& stages, const History& history);
 LineChart reaction_chart(const std::vector<StageSettings>& stages, const History& history);

@@ -29,11 +29,12 @@ StoredState read_stored_state(const std::string& checkpoint) {
   const std::string run = run_of(checkpoint);
   const h5::File h5 = h5::File::open(checkpoint);
   if (h5.has_attribute("/", "format") && h5.text("/", "format") == "voussoir-assembly")
-    throw InputError("{} is a block assembly; name it in a case ([bridge] assembly = \"{}\") and give that", checkpoint,
-                     checkpoint);
+    throw InputError("{} is a block assembly. Name it in a case ([bridge] assembly = \"{}\") and give the case",
+                     checkpoint, checkpoint);
   if (!fs::exists(run + "/case.toml") || !fs::exists(run + "/assembly.h5"))
     throw InputError(
-        "{} is not in the checkpoints folder of a run directory: case.toml and assembly.h5 must lie above it",
+        "{} is not in the checkpoints folder of a run directory. The folder above it must hold case.toml and "
+        "assembly.h5",
         checkpoint);
   StoredState stored;
   stored.run = run;
@@ -43,7 +44,7 @@ StoredState read_stored_state(const std::string& checkpoint) {
   stored.state = initial_state(stored.model);
   try {
     read_checkpoint(checkpoint, stored.header, stored.state.arrays());
-  } catch (const RunError& error) {  // damage met by someone who only looks is wrong input, not failed work
+  } catch (const RunError& error) {  // for a reader of results, a damaged checkpoint is wrong input
     throw InputError("{}", error.what());
   }
   if (stored.header.assembly_hash != assembly_hash(stored.assembly))
@@ -55,7 +56,7 @@ StoredState read_stored_state(const std::string& checkpoint) {
 
 std::string newest_checkpoint(const std::string& directory, const std::string& remedy) {
   const std::vector<std::string> all = list_checkpoints(directory + "/checkpoints");
-  if (all.empty()) throw InputError("{} has no checkpoints: {}", directory, remedy);
+  if (all.empty()) throw InputError("{} has no checkpoints. {}", directory, remedy);
   return all.front();
 }
 

@@ -17,14 +17,15 @@ struct StoredState {
   CheckpointHeader header;
 };
 
-/// Whether a file lies in the checkpoints folder of a run directory.
+/// Whether a file is in the checkpoints folder of a run directory.
 bool is_checkpoint_of_run(const std::string& file);
 
-/// The state as it was stored. Throws InputError when the file is an assembly, lies elsewhere than in the checkpoints
-/// folder of a run directory, is damaged, or belongs to another assembly.
+/// Reads a checkpoint. Throws InputError if the file is an assembly, is not in the checkpoints folder of a run
+/// directory, is damaged, or belongs to another assembly.
 StoredState read_stored_state(const std::string& checkpoint);
 
-/// The newest readable checkpoint of a run directory. Throws InputError, which ends with `remedy`, when there is none.
-std::string newest_checkpoint(const std::string& directory, const std::string& remedy = "run it first");
+/// The newest readable checkpoint of a run directory. If there is none, throws InputError, whose text ends with
+/// `remedy`.
+std::string newest_checkpoint(const std::string& directory, const std::string& remedy = "Run the case first");
 
 }  // namespace voussoir

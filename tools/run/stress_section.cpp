@@ -29,11 +29,11 @@ double over_depth(const BedJoint& bed) {
   return bed.eccentricity / bed.depth;
 }
 
-/// A value along each ring, against the place along the bridge.
+/// A chart of a value along each ring, over the position along the bridge.
 template <class Value>
 LineChart along_rings(const Rings& rings, const std::string& title, const std::string& label, const Value& value) {
   LineChart chart;
-  chart.title = title, chart.x_label = "x (m)", chart.y_label = label;
+  chart.title = title, chart.x_label = "x, m", chart.y_label = label;
   chart.height = 280.0;
   for (const auto& [which, beds] : rings) {
     ChartCurve curve;
@@ -46,12 +46,12 @@ LineChart along_rings(const Rings& rings, const std::string& title, const std::s
   return chart;
 }
 
-/// With the kern, and the edges of the ring. Where bond pulls and next to nothing presses, the thrust lies far outside:
-/// the curve breaks there.
+/// The eccentricity with the kern and the edges of the ring. The curve is interrupted where the thrust lies far
+/// outside, because the bond is in tension and hardly any compression acts.
 LineChart eccentricity_chart(const Rings& rings) {
   constexpr double far = 1.0;
   LineChart chart =
-      along_rings(rings, "Eccentricity: extrados above, intrados below", "eccentricity over depth (-)",
+      along_rings(rings, "Eccentricity: extrados above, intrados below", "Eccentricity divided by depth",
                   [](const BedJoint& bed) { return std::abs(over_depth(bed)) < far ? over_depth(bed) : no_number; });
   double most = 0.5;
   for (const ChartCurve& curve : chart.curves)
@@ -72,7 +72,7 @@ LineChart eccentricity_chart(const Rings& rings) {
   return chart;
 }
 
-/// The largest of a value over a ring, and where; "none" where no joint has one.
+/// The largest value over a ring, and its position; "none" if no joint has a value.
 template <class Value>
 Cell most_cell(const std::vector<const BedJoint*>& beds, const Value& value, const char* format) {
   const BedJoint* most = nullptr;
@@ -85,10 +85,10 @@ Cell most_cell(const std::vector<const BedJoint*>& beds, const Value& value, con
 std::string most_table(const Rings& rings) {
   std::string text = "<table>\n";
   text += table_row({words_cell("vault, ring"),
-                     {"largest normal force (kN)", true},
-                     {"farthest thrust, e/d", true},
+                     {"largest normal force, kN", true},
+                     {"largest eccentricity e/d", true},
                      {"largest utilisation", true},
-                     {"largest compression (MPa)", true}},
+                     {"largest compression, MPa", true}},
                     "th");
   for (const auto& [which, beds] : rings)
     text += table_row({words_cell(fmt::format("{}, {}", which.first, which.second)),
@@ -115,17 +115,18 @@ std::string stress_section(const std::string& directory) {
   const bool with_axes = !beds.front().d.isZero(0.0);
   if (with_axes) text += figure(thrust_chart({{"line of thrust", beds}}));
   text += figure(line_chart(
-      along_rings(rings, "Normal force", "normal force (kN)", [](const BedJoint& bed) { return 1e-3 * bed.normal; })));
+      along_rings(rings, "Normal force", "Normal force, kN", [](const BedJoint& bed) { return 1e-3 * bed.normal; })));
   text += figure(line_chart(eccentricity_chart(rings)));
-  text += figure(line_chart(along_rings(rings, "Utilisation: shear over what friction and cohesion allow",
-                                        "utilisation (-)", [](const BedJoint& bed) { return bed.utilisation; })));
+  text +=
+      figure(line_chart(along_rings(rings, "Utilisation: shear divided by the shear that friction and cohesion allow",
+                                    "Utilisation", [](const BedJoint& bed) { return bed.utilisation; })));
   return text +
          note(
-             "Bed joints over the whole width of the vault, as the run ends; joints.csv has them, and stresses.csv has "
-             "every joint by itself. e is the distance of the thrust from the middle of the joint, positive towards "
-             "the "
-             "extrados, and d is the depth of the ring. The lines between the dots are drawn straight.") +
-         (with_axes ? "" : note("The lines of thrust are missing: an earlier version wrote joints.csv."));
+             "The values are those of the bed joints over the whole width of the vault at the end of the run. "
+             "joints.csv has these values, and stresses.csv has those of each joint patch. e is the distance of the "
+             "thrust from the middle of the joint, positive towards the extrados, and d is the depth of the ring. The "
+             "lines between the dots are straight.") +
+         (with_axes ? "" : note("The lines of thrust are missing, because an earlier version wrote joints.csv."));
 }
 
 }  // namespace voussoir

@@ -8,7 +8,7 @@ namespace voussoir {
 
 namespace {
 
-/// To a hundredth of a millimetre, or of a thousandth of a unit vector: what is beyond is rounding.
+/// A number rounded to 1e-5 (m, or of a unit vector). Further digits are rounding errors.
 double rounded(double value) {
   return std::round(1e5 * value) / 1e5 + 0.0;  // no "-0"
 }

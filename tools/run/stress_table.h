@@ -1,4 +1,4 @@
-// What joint patches carry, as a table.
+// The table of forces and stresses of the joint patches.
 #pragma once
 #include <string>
 
@@ -7,7 +7,8 @@
 
 namespace voussoir {
 
-/// stresses.csv (docs/formats.md): a row a joint patch of an equilibrium. Cells of what is not finite are empty.
+/// The text of stresses.csv (docs/formats.md): one row for each joint patch of an equilibrium. The cell of a value that
+/// is not finite is empty.
 std::string joint_stress_table(const Assembly& assembly, const RestForces& rest);
 
 }  // namespace voussoir

@@ -41,8 +41,8 @@ nlohmann::json demand_json(const Assembly& assembly, const History& history) {
   return demand;
 }
 
-/// Per family of joints (joint_family()): share of the area of its bonded joints whose bond is lost, largest opening
-/// and slip since the start and at present (m), and a word for it.
+/// For each family of joints (joint_family()): share of the area of its bonded joints whose bond is lost, largest
+/// opening and slip since the start and at present (m), and the word for its damage.
 nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   struct Damage {
     double bonded = 0.0, broken = 0.0, opening = 0.0, slip = 0.0, open_now = 0.0, slip_now = 0.0;
@@ -69,9 +69,9 @@ nlohmann::json damage_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
-/// Of ties: how many there are and have yielded, the largest force of any (N), the farthest that one has yielded (m);
-/// and of each the stones it holds with their parts and its anchors as built (m), its force at the end and at most (N),
-/// and how far it has yielded (m).
+/// The ties: their number, the number that have yielded, the largest force (N) and the largest plastic elongation (m).
+/// For each tie the stones it holds with their parts, its anchors as built (m), its last and its largest force (N), and
+/// its plastic elongation (m).
 nlohmann::json ties_json(const Assembly& assembly, const Snapshot& snapshot) {
   nlohmann::json each = nlohmann::json::array();
   double force = 0.0, farthest = 0.0;
@@ -84,7 +84,7 @@ nlohmann::json ties_json(const Assembly& assembly, const Snapshot& snapshot) {
     const std::array<Vec3, 2> anchors = tie_anchors(assembly.joints[i]);
     const double most = p.largest_tension * p.area;
     force = std::max(force, most), farthest = std::max(farthest, p.yielded);
-    yielded += p.yielded > 1e-9;  // m: more than rounding
+    yielded += p.yielded > 1e-9;  // m, more than rounding errors
     each.push_back({{"a", p.a},
                     {"b", p.b},
                     {"parts", {parts[std::size_t(p.a)], parts[std::size_t(p.b)]}},
@@ -102,9 +102,10 @@ nlohmann::json ties_json(const Assembly& assembly, const Snapshot& snapshot) {
           {"each", each}};
 }
 
-/// Of each sensor's displacement: largest size, value at the end, and until when (s) it differed from that by more than
-/// 1e-5 of the largest; first_zero (s): when it first changed sign after having grown beyond that (linear between rows,
-/// 0 when it never did). Of its block: largest rotation (rad), and whether that was ever more than 45°.
+/// For each sensor: the largest size of its displacement, its last value, and the last time (s) at which it differed
+/// from that value by more than 1e-5 of the largest. first_zero (s) is the time at which it first changed sign after it
+/// had exceeded that (linear between rows; 0 if it never did). For its block: the largest rotation (rad), and whether
+/// it was ever more than 45°.
 nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
   nlohmann::json json = nlohmann::json::object();
   for (const Sensor& sensor : assembly.sensors) {
@@ -117,7 +118,7 @@ nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
     double first_zero = 0.0, most_turned = 0.0, so_far = 0.0;
     for (std::size_t i = 1; i < u.size() && first_zero == 0.0; ++i) {
       so_far = std::max(so_far, std::abs(u[i - 1]));
-      if (u[i - 1] * u[i] < 0.0 && so_far > 1e-5 * largest)  // rounding about zero is no motion
+      if (u[i - 1] * u[i] < 0.0 && so_far > 1e-5 * largest)  // rounding errors about zero do not count
         first_zero = history.time()[i - 1] + u[i - 1] / (u[i - 1] - u[i]) * (history.time()[i] - history.time()[i - 1]);
     }
     std::array<const std::vector<double>*, 3> turn;
@@ -136,7 +137,7 @@ nlohmann::json sensors_json(const Assembly& assembly, const History& history) {
   return json;
 }
 
-/// Of each group of fixed blocks: what held it along x, y and z (N) at most, at least and at the end.
+/// For each group of fixed blocks: the largest, the smallest and the last reaction along x, y and z (N).
 nlohmann::json reactions_json(const std::vector<std::string>& groups, const History& history) {
   nlohmann::json json = nlohmann::json::object();
   for (const std::string& group : groups)
@@ -149,8 +150,8 @@ nlohmann::json reactions_json(const std::vector<std::string>& groups, const Hist
   return json;
 }
 
-/// Of each stage that has rows, at its last: time (s), reactions (N) and sensors' displacements (m), since the last
-/// gravity stage's end and since all was built.
+/// For the last row of each stage that has rows: time (s), reactions (N), and displacements of the sensors (m) since
+/// the end of the last gravity stage and since the blocks were built.
 nlohmann::json stages_json(const Simulation& run, const History& history) {
   nlohmann::json json = nlohmann::json::array();
   const std::vector<StageSettings>& stages = run.settings().stages;
@@ -170,7 +171,7 @@ nlohmann::json stages_json(const Simulation& run, const History& history) {
   return json;
 }
 
-/// "global" or "local", or null where nothing was lost; with what moves.
+/// The kind of the mechanism, "global" or "local", or null if no equilibrium was lost; and the moving part.
 void add_loss(const Simulation& run, nlohmann::json& json) {
   const Collapse& c = run.collapse();
   json["loss"] = c.found ? nlohmann::json(c.loss.local ? "local" : "global") : nlohmann::json();
@@ -189,13 +190,13 @@ nlohmann::json curve_json(const Collapse& c) {
   return json;
 }
 
-/// Whether the dynamic runs agree with the static solver; null where there were none.
+/// Whether the dynamic runs agree with the static solver; null if there were no dynamic runs.
 nlohmann::json confirmed(const Collapse& c) {
   if (!c.stands_below || !c.falls_above) return {};
   return *c.stands_below && *c.falls_above;
 }
 
-/// How far the multiplier went, and which joints move beyond.
+/// The result of a collapse stage: the largest multiplier, and the joints of the mechanism beyond it.
 nlohmann::json collapse_json(const Simulation& run) {
   const Collapse& c = run.collapse();
   const StageSettings& stage = run.settings().stages.back();
@@ -241,8 +242,8 @@ nlohmann::json collapse_json(const Simulation& run) {
   return json;
 }
 
-/// Of crowns, quarter points and pier tops: mean displacement (m) and rotation (rad) at the end, since the last gravity
-/// stage.
+/// For crowns, quarter points and pier tops: mean displacement (m) and rotation (rad) at the end, since the last
+/// gravity stage.
 nlohmann::json places_json(const Assembly& assembly, const History& history) {
   nlohmann::json json = nlohmann::json::object();
   for (const std::string& place : shown_places(assembly))
@@ -254,7 +255,7 @@ nlohmann::json places_json(const Assembly& assembly, const History& history) {
   return json;
 }
 
-/// Where arches have turned open, in the end.
+/// The hinges of the arches at the end.
 nlohmann::json hinges_json(const Assembly& assembly, const Snapshot& snapshot) {
   nlohmann::json json = nlohmann::json::array();
   for (const Hinge& hinge : find_hinges(assembly, snapshot))
@@ -266,7 +267,7 @@ nlohmann::json hinges_json(const Assembly& assembly, const Snapshot& snapshot) {
   return json;
 }
 
-/// Shares are of its volume as built.
+/// The state of a deformable fill. Shares are of its volume as built.
 nlohmann::json fill_json(const FillMesh& mesh, const Snapshot& snapshot) {
   const FillSnapshot& fill = snapshot.fill;
   double whole = 0.0, sheared = 0.0, torn = 0.0, most = 0.0, farthest = 0.0;

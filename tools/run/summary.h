@@ -1,4 +1,4 @@
-// What a run comes to, for summary.json: demand, sensors, reactions, damage, collapse (docs/formats.md).
+// The results of a run for summary.json: demand, sensors, reactions, damage, collapse (docs/formats.md).
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -8,10 +8,10 @@
 
 namespace voussoir {
 
-/// The parts that follow from state and history; `collapse` only when the run looked for it.
+/// The members that follow from state and history. `collapse` is present only if the run has a collapse stage.
 nlohmann::json summary_of_state(const Simulation& run, const Snapshot& snapshot, const History& history);
 
-/// Joints of each kind: `bonded`, `dry`, `ties`, `fill` (patches with a deformable fill).
+/// Numbers of joints of each kind: `bonded`, `dry`, `ties`, `fill` (patches with a deformable fill).
 nlohmann::json joint_kinds_json(const Assembly& assembly);
 
 }  // namespace voussoir

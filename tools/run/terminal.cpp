@@ -10,7 +10,7 @@
 namespace voussoir {
 
 namespace {
-constexpr double line_every = 5.0;  // s between lines where there is no terminal
+constexpr double line_every = 5.0;  // s between lines if the output is not a terminal
 }
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}

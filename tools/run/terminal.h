@@ -1,5 +1,4 @@
-// What a person sees while a run goes on: one line that keeps changing on a terminal, a line every few seconds
-// elsewhere.
+// The progress of a run: on a terminal one line that is updated in place, otherwise a line every few seconds.
 #pragma once
 #include <chrono>
 
@@ -11,7 +10,7 @@ class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
   void show(const Progress& progress);
-  /// Ends the changing line, so that what follows starts on its own.
+  /// Ends the line, so that further output starts on a new one.
   void end();
 
  private:

@@ -20,20 +20,21 @@ std::vector<BedJoint> bed_joints_of_state(const Assembly& assembly, const Model&
                                           StageSettings::Kind stage, const std::string& file) {
   if (stage == StageSettings::Kind::collapse)
     throw InputError(
-        "{} is what a collapse stage has left: stones on their way down, not an equilibrium; the last one is on the "
-        "run's page and in joints.csv, and stage_*.h5 of the stage before has resultants to draw",
+        "{} was written by a collapse stage. Its stones are falling, so it is not an equilibrium. The last equilibrium "
+        "is on the page of the run and in joints.csv. To draw resultants, give stage_*.h5 of the stage before",
         file);
-  constexpr double still = 1e-6;  // m/s: what an equilibrium leaves is zero, or next to it after damped motion
+  constexpr double still = 1e-6;  // m/s, velocity below which a state counts as at rest
   const RestForces rest = forces_at_rest(model, state);
   double fastest = 0.0;
   for (const Vec3& v : rest.snapshot.velocity) fastest = std::max(fastest, v.norm());
   if (fastest > still)
     throw InputError(
-        "{} is not at rest: its stones move with up to {:.2g} m/s, and resultants are those of an equilibrium; give a "
-        "checkpoint that a gravity or quasi-static stage has left (checkpoints/stage_*.h5), or end the case with one",
+        "{} is not at rest: its stones move with up to {:.2g} m/s, but resultants need an equilibrium. Give a "
+        "checkpoint of a gravity or quasi-static stage (checkpoints/stage_*.h5), or add such a stage at the end of the "
+        "case",
         file, fastest);
   std::vector<BedJoint> beds = bed_joints(assembly, rest);
-  if (beds.empty()) throw InputError("{} has no vault (stones of the component arch), so no resultants of one", file);
+  if (beds.empty()) throw InputError("{} has no vault (stones of the component arch), so it has no resultants", file);
   return beds;
 }
 
@@ -47,7 +48,7 @@ bool same_ring(const BedJoint& a, const BedJoint& b) {
   return a.vault == b.vault && a.ring == b.ring;
 }
 
-/// A curve in the plane x-z through a point of each bed joint, broken between rings.
+/// A curve in the plane x-z through a point of each bed joint, interrupted between rings.
 template <class Point>
 ChartCurve through(const std::vector<BedJoint>& beds, const Point& point) {
   ChartCurve curve;
@@ -76,9 +77,9 @@ void add_outline(LineChart& chart, const std::vector<BedJoint>& beds) {
   }
 }
 
-/// As high as its width wants for one scale on both axes.
+/// Sets the height of the chart so that both axes have the same scale.
 void give_one_scale(LineChart& chart, const std::vector<BedJoint>& beds) {
-  constexpr double beside = 96.0, above_and_below = 78.0;  // px, of axes and titles
+  constexpr double beside = 96.0, above_and_below = 78.0;  // px, space for axes and titles
   double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
   for (const BedJoint& bed : beds)
     for (const double side : {-0.5, 0.5}) {
@@ -129,7 +130,7 @@ std::vector<BedJoint> bed_joints_from_table(const TextFile& file) {
     b.normal = value("normal_N"), b.shear = value("shear_N"), b.shear_across = value("shear_across_N");
     b.eccentricity = value("eccentricity_m"), b.eccentricity_across = value("eccentricity_across_m");
     b.utilisation = value("utilisation"), b.largest_compression = value("largest_compression_Pa");
-    b.g = Vec3::Zero();  // what lies across is not drawn
+    b.g = Vec3::Zero();  // the components across are not drawn
     beds.push_back(b);
   }
   return beds;
@@ -139,7 +140,7 @@ std::string thrust_chart(const std::vector<ThrustLine>& lines) {
   if (lines.empty() || lines.front().beds.empty()) return "";
   LineChart chart;
   chart.title = "Lines of thrust";
-  chart.x_label = "x (m)", chart.y_label = "z (m)";
+  chart.x_label = "x, m", chart.y_label = "z, m";
   add_outline(chart, lines.front().beds);
   constexpr const char* dashes[] = {"", "8 3", "2 3"};
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -9,29 +9,30 @@
 
 namespace voussoir {
 
-/// At the end of a run: the last equilibrium of a collapse stage, or what a gravity stage has brought to rest. Empty
-/// after a stage in which time passes.
+/// The forces at the end of a run: in the last equilibrium of a collapse stage, or after a gravity or quasi-static
+/// stage. Empty after a stage in which time passes.
 RestForces rest_at_end(const Simulation& run);
 
-/// Of a state from a checkpoint, which errors name `file`, and that a stage of this kind has left or is in. Throws
-/// InputError where its stones move or are on their way down after a collapse stage, and where there is no vault.
+/// The bed joints of a state from the checkpoint `file`, which a stage of the kind `stage` has written. Throws
+/// InputError if its stones move, if a collapse stage has written it, or if there is no vault.
 std::vector<BedJoint> bed_joints_of_state(const Assembly& assembly, const Model& model, const State& state,
                                           StageSettings::Kind stage, const std::string& file);
 
-/// joints.csv (docs/formats.md): a row a bed joint. Cells of what is not finite are empty.
+/// The text of joints.csv (docs/formats.md): one row for each bed joint. The cell of a value that is not finite is
+/// empty.
 std::string bed_joint_table(const std::vector<BedJoint>& beds);
-/// The same read: without widths across, areas and couples, and with d zero where an earlier version wrote the table
-/// without it. Throws InputError for another table.
+/// Reads joints.csv: without widths across, areas and couples, and with d zero if an earlier version wrote the table
+/// without d. Throws InputError for another table.
 std::vector<BedJoint> bed_joints_from_table(const TextFile& file);
 
-/// What one line of thrust is of.
+/// A line of thrust: its name and its bed joints.
 struct ThrustLine {
-  std::string name;  // in the legend
+  std::string name;  // name in the legend
   std::vector<BedJoint> beds;
 };
 
-/// The rings of the first, intrados and extrados, and in them the lines of thrust of all, one line a ring, seen along
-/// y. Both axes have one scale, m. As SVG; empty without a bed joint.
+/// A chart, seen along y, of intrados and extrados of the rings of the first entry, with the lines of thrust of all
+/// entries, one line for each ring. Both axes have the same scale, m. As SVG; empty without a bed joint.
 std::string thrust_chart(const std::vector<ThrustLine>& lines);
 
 }  // namespace voussoir
