@@ -1,5 +1,5 @@
-# Writes built_with.h: the versions of the libraries, for `voussoir --version`, and the folder beside the program's in
-# which its own loadable libraries are installed.
+# Writes built_with.h: the versions of the libraries, for `voussoir --version`, and the folder in which the program's own
+# loadable libraries are installed.
 function(version_in variable header regex)
   file(STRINGS ${header} lines REGEX ${regex})
   string(REGEX REPLACE "[^0-9.;]" "" numbers "${lines}")

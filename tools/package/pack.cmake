@@ -1,9 +1,9 @@
-# cpack: the Debian packages voussoir and libvoussoir-dev (-G DEB), and an archive of everything that runs from wherever it
-# is unpacked (-G TZST). Read after install.cmake.
+# cpack: the Debian packages voussoir and libvoussoir-dev (-G DEB), and an archive of both that runs from any folder
+# (-G TZST). Included after install.cmake.
 set(CPACK_PACKAGE_NAME voussoir)
 set(CPACK_PACKAGE_VENDOR "The voussoir authors")
-# The address leads nowhere: whoever publishes packages says who answers for them.
-set(VOUSSOIR_MAINTAINER "The voussoir authors <voussoir@example.org>" CACHE STRING "Who answers for the Debian packages: NAME <ADDRESS>")
+# This address does not exist. Whoever publishes packages must give an address.
+set(VOUSSOIR_MAINTAINER "The voussoir authors <voussoir@example.org>" CACHE STRING "Maintainer of the Debian packages: NAME <ADDRESS>")
 set(CPACK_PACKAGE_CONTACT "${VOUSSOIR_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "masonry arch bridges, stone by stone")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
@@ -12,7 +12,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB TZST)
 set(CPACK_PACKAGE_CHECKSUM SHA256)
 set(CPACK_THREADS 2)
-# A name that shows where a package is for processors like the one it was made on only.
+# The name shows if a package runs only on processors like the one on which it was built.
 string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" system)
 set(CPACK_SYSTEM_NAME ${system})
 if(VOUSSOIR_NATIVE)
@@ -26,18 +26,19 @@ if(TARGET voussoir_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   list(APPEND debian_packages python3-voussoir)
 endif()
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Models masonry arch bridges: every stone is a rigid body, every joint can
-open, slide and break. Builds a bridge from its dimensions, brings it to rest
-under its weight, loads it or shakes it, and shows where it cracks. With
-cases, vehicles, tutorials and documentation.")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers for programs that run such models themselves.
-Static libraries, headers and a CMake package, find_package(voussoir).")
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python package that runs such models in process: cases as dictionaries,
-callbacks, the state as numpy arrays, modes, diagnosis, rating.")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "Computes masonry arch bridges by the distinct element method: every stone is a
+rigid body, and every joint can open, slide and break. The program builds a
+bridge from its dimensions, brings it to rest under its weight, loads or shakes
+it, and shows where it cracks. The package also contains cases, vehicles,
+tutorials and documentation.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries, headers and a CMake package (find_package(voussoir)) for
+programs that build and run models of voussoir themselves.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python package that runs models of voussoir in the Python process: cases as
+dictionaries, callbacks, the state as numpy arrays, modes, diagnosis, rating.")
 if(VOUSSOIR_NATIVE)
   foreach(component RUNTIME DEVELOPMENT PYTHON)
     string(APPEND CPACK_COMPONENT_${component}_DESCRIPTION "
-This package was compiled for the processor of the machine that made it.")
+This package was compiled for the processor of the machine on which it was built.")
   endforeach()
 endif()
 
@@ -49,7 +50,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME voussoir)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-# Pictures are part of every run: a display without a screen, and the letters of drawings.
+# Every run draws pictures. They need a virtual display and the fonts of the drawings.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "xvfb, libgl1-mesa-dri, fonts-liberation | fonts-dejavu-core")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libopenblas0-pthread, man-db, bash-completion")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "chromium, paraview, libvoussoir-dev")
@@ -68,7 +69,7 @@ if(VOUSSOIR_NATIVE)
   set(deb_end _native)
 endif()
 
-# Architecture and file names as Debian's own packages have them.
+# Architecture and file names follow those of Debian's own packages.
 find_program(DPKG dpkg)
 if(DPKG)
   execute_process(COMMAND ${DPKG} --print-architecture OUTPUT_VARIABLE architecture OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -80,7 +81,8 @@ if(DPKG)
   endforeach()
 endif()
 
-# What Debian wants beside the documentation of each package: the licence in its form, and changelogs, compressed.
+# Files that Debian requires in the documentation of each package: the licence in Debian's format, and compressed
+# changelogs.
 file(READ LICENSE licence)
 string(REGEX REPLACE "^[^\n]*\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" terms "${licence}")
 set(holder "${CMAKE_MATCH_1}")
@@ -96,11 +98,11 @@ Copyright: ${holder}
 License: BSD-3-Clause
  ${terms}
 ")
-string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH where it is set
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # from SOURCE_DATE_EPOCH if that is set
 foreach(package ${debian_packages})
   file(CONFIGURE OUTPUT ${debian}/${package}/changelog.Debian CONTENT "voussoir (${PROJECT_VERSION}-1) unstable; urgency=medium
 
-  * Made from the sources by cpack; what has changed in the program stands in
+  * Made from the sources by cpack. The changes of the program are listed in
     /usr/share/doc/voussoir/changelog.gz.
 
  -- ${VOUSSOIR_MAINTAINER}  ${date}
