@@ -49,8 +49,9 @@ TEST(Compare, TwoArches) {
   EXPECT_NEAR(std::stod(collapse[4]), thick - thin, 1e-9);
   EXPECT_NEAR(std::stod(collapse[5]), 100.0 * (thick / thin - 1.0), 1e-6);
   const std::string page = bytes_of(folder / "both/compare.html");
-  for (const char* piece : {"What the cases say otherwise", "bridge.thickness_ratio", "Load and displacement",
-                            "thin: joints opened, oblique", "one scale for all", "Largest openings by parts"})
+  for (const char* piece :
+       {"Keys in which the cases differ", "bridge.thickness_ratio", "Load and displacement",
+        "thin: joints opened, oblique", "all pictures have the same scale", "Largest openings by parts"})
     EXPECT_NE(page.find(piece), std::string::npos) << piece;
   EXPECT_EQ(page.find("bridge.mean_radius"), std::string::npos) << "it is the same in both";
   EXPECT_TRUE(exists(folder / "both/images/opening_front_2.png"));
@@ -65,8 +66,8 @@ TEST(Compare, AResultWithItselfDiffersInNothing) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   const std::string page = bytes_of(folder / "both/compare.html");
-  EXPECT_NE(page.find("All cases say the same."), std::string::npos);
-  EXPECT_NE(page.find("The same in all: "), std::string::npos);
+  EXPECT_NE(page.find("All cases have the same keys and values."), std::string::npos);
+  EXPECT_NE(page.find("The following are the same in all results: "), std::string::npos);
   EXPECT_FALSE(exists(folder / "both/images/opening_front_1.png"));
 }
 
@@ -115,9 +116,9 @@ TEST(Compare, ErrorsSayWhatToGive) {
   folder.write("campaign/table.csv", "run,case,record,status,edp.x\nr,c,m,done,1\n");
   folder.write("empty/note.txt", "nothing");
   const Surroundings there{.folder = folder.path()};
-  expect_error(voussoir({"compare", "run"}, there), 2, {"takes two at least"});
+  expect_error(voussoir({"compare", "run"}, there), 2, {"needs at least two"});
   expect_error(voussoir({"compare", "run", "nowhere"}, there), 2, {"no file or folder nowhere"});
-  expect_error(voussoir({"compare", "run", "empty"}, there), 2, {"empty holds nothing to compare", "summary.json"});
+  expect_error(voussoir({"compare", "run", "empty"}, there), 2, {"empty holds no results to compare", "summary.json"});
   expect_error(voussoir({"compare", "run", "campaign"}, there), 2, {"run is a run", "campaign is a campaign"});
   expect_error(voussoir({"compare", "run", "run"}, there), 2, {"given twice"});
 }

@@ -1,4 +1,4 @@
-// voussoir-bench-chart: what scenes cost by several programs, from the bench.json of each, as a picture.
+// voussoir-bench-chart: a chart of the cost of scenes with several programs, from the bench.json of each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace voussoir {
 namespace {
 
-/// A program and what each scene cost it, µs per block and step: the median of its files.
+/// A program and its cost of each scene, µs per block and time step: the median of its files.
 struct Program {
   std::string name;
   std::map<std::string, double> cost;
@@ -28,15 +28,15 @@ struct Program {
 
 struct Options {
   std::vector<std::pair<std::string, std::string>> files;  // name of the program, bench.json
-  std::map<std::string, double> aims;                      // of a scene, µs per block and step
+  std::map<std::string, double> aims;                      // targets of scenes, µs per block and time step
   std::string to;
 };
 
-/// "NAME=REST".
+/// Splits "NAME=REST".
 std::pair<std::string, std::string> named(const std::string& text, const std::string& example) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0 || at + 1 == text.size())
-    throw InputError("\"{}\" is not of the form {}", text, example);
+    throw InputError("\"{}\" does not have the form {}", text, example);
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
@@ -46,7 +46,7 @@ std::map<std::string, double> costs_in(const std::string& file) {
     const nlohmann::json all = read_json(file);
     for (const auto& [scene, result] : all.items()) costs[scene] = result.at("us_per_block_step").get<double>();
   } catch (const nlohmann::json::exception& e) {
-    throw InputError("{}: not a bench.json ({})", file, e.what());
+    throw InputError("{} is not a bench.json ({})", file, e.what());
   }
   return costs;
 }
@@ -56,7 +56,7 @@ double median(std::vector<double> values) {
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-/// In the order in which they are first named.
+/// The programs, in the order in which they are first named.
 std::vector<Program> programs_of(const Options& options) {
   std::vector<Program> programs;
   std::map<std::string, std::map<std::string, std::vector<double>>> all;
@@ -69,7 +69,7 @@ std::vector<Program> programs_of(const Options& options) {
   return programs;
 }
 
-/// Scenes that some program has, in the order of voussoir-bench --list; those that it does not list come last.
+/// The scenes of all programs, in the order of voussoir-bench --list. Scenes that are not listed come last.
 std::vector<std::string> scenes_of(const std::vector<Program>& programs) {
   std::map<std::size_t, std::vector<std::string>> by_place;
   std::map<std::string, bool> seen;
@@ -94,8 +94,8 @@ std::string chart(const std::vector<Program>& programs, const std::map<std::stri
     for (const auto& [scene, cost] : program.cost) most = std::max(most, cost);
   for (const auto& [scene, aim] : aims) most = std::max(most, aim);
   const ChartAxis axis = {ChartAxis::Kind::linear, 0.0, most, label, width - 60.0};
-  SvgDrawing drawing(width, bottom + foot, "What a step costs");
-  draw_axis_below(drawing, axis, head, bottom, "µs per block and step");
+  SvgDrawing drawing(width, bottom + foot, "Cost of a time step");
+  draw_axis_below(drawing, axis, head, bottom, "µs per block and time step");
   std::vector<LegendEntry> legend;
   for (std::size_t p = 0; p < programs.size(); ++p)
     legend.push_back({Marker::circle, colour_code(line_colour(p)), programs[p].name});
@@ -127,11 +127,11 @@ std::string chart(const std::vector<Program>& programs, const std::map<std::stri
 Options parse(int argc, char** argv, bool& done) {
   namespace po = boost::program_options;
   po::options_description described(
-      "voussoir-bench-chart PROGRAM=bench.json… [--aim SCENE=VALUE…] -o FILE.svg: what scenes cost by several "
-      "programs; of several files of one program the median");
-  described.add_options()("help,h", "this text")("aim", po::value<std::vector<std::string>>()->composing(),
-                                                 "what is aimed for, µs per block and step")(
-      "output,o", po::value<std::string>()->default_value("bench.svg"), "the picture")(
+      "voussoir-bench-chart PROGRAM=bench.json… [--aim SCENE=VALUE…] -o FILE.svg: draws the cost of scenes with "
+      "several programs. If a program has several files, their median is drawn");
+  described.add_options()("help,h", "print this help")("aim", po::value<std::vector<std::string>>()->composing(),
+                                                       "target of a scene, µs per block and time step")(
+      "output,o", po::value<std::string>()->default_value("bench.svg"), "picture to write")(
       "file", po::value<std::vector<std::string>>(), "programs and their bench.json");
   po::positional_options_description places;
   places.add("file", -1);
@@ -140,12 +140,12 @@ Options parse(int argc, char** argv, bool& done) {
     po::store(po::command_line_parser(argc, argv).options(described).positional(places).run(), values);
     po::notify(values);
   } catch (const po::error& e) {
-    throw InputError("{}; see voussoir-bench-chart --help", e.what());
+    throw InputError("{}. See voussoir-bench-chart --help", e.what());
   }
   Options o;
   done = values.count("help") > 0;
   if (done) return std::cout << described << "\n", o;
-  if (!values.count("file")) throw InputError("no bench.json is given; see voussoir-bench-chart --help");
+  if (!values.count("file")) throw InputError("no bench.json is given. See voussoir-bench-chart --help");
   for (const std::string& text : values["file"].as<std::vector<std::string>>())
     o.files.push_back(named(text, "PROGRAM=bench.json"));
   if (values.count("aim"))
@@ -154,7 +154,7 @@ Options parse(int argc, char** argv, bool& done) {
       char* end = nullptr;
       const double aim = std::strtod(value.c_str(), &end);
       if (*end || !(aim > 0.0) || !std::isfinite(aim))
-        throw InputError("--aim {}: \"{}\" must be a number above 0", text, value);
+        throw InputError("--aim {}: the value is \"{}\". It must be a number above 0", text, value);
       o.aims[scene] = aim;
     }
   o.to = values["output"].as<std::string>();
@@ -166,13 +166,13 @@ int run(int argc, char** argv) {
   const Options o = parse(argc, argv, done);
   if (done) return 0;
   const std::vector<Program> programs = programs_of(o);
-  if (scenes_of(programs).empty()) throw InputError("no bench.json has a scene; run voussoir-bench first");
+  if (scenes_of(programs).empty()) throw InputError("no bench.json has a scene. Run voussoir-bench first");
   for (const auto& [scene, aim] : o.aims)
     if (std::none_of(programs.begin(), programs.end(), [&](const Program& p) { return p.cost.count(scene); }))
       throw InputError("--aim {}: no bench.json has that scene", scene);
   std::ofstream out(o.to);
   out << chart(programs, o.aims);
-  if (!out.flush()) throw InputError("{}: cannot be written", o.to);
+  if (!out.flush()) throw InputError("{} cannot be written", o.to);
   return 0;
 }
 

@@ -1,4 +1,5 @@
-// voussoir-bench-fields: what a set of fields for ParaView costs, from a checkpoint of a run, under each packing.
+// voussoir-bench-fields: the cost of writing a set of fields for ParaView from a checkpoint of a run, with each
+// compression.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -59,7 +60,7 @@ Stored read_stored(const std::string& directory) {
 }
 
 int run(int argc, char** argv) {
-  if (argc != 2) throw InputError("give the directory of a run: voussoir-bench-fields DIR");
+  if (argc != 2) throw InputError("the run directory is missing. Usage: voussoir-bench-fields DIR");
   const Stored s = read_stored(argv[1]);
   Snapshot snapshot;
   fmt::print("{:<28} {:>8.3f} s\n", "snapshot", seconds_of([&] { snapshot = make_snapshot(s.model, s.state); }));
@@ -77,7 +78,7 @@ int run(int argc, char** argv) {
   for (const auto& [packing, name] : {std::pair{Packing::none, "none"},
                                       {Packing::lz4, "LZ4"},
                                       {Packing::zlib_fast, "zlib, level 1"},
-                                      {Packing::zlib, "zlib, as VTK has it (5)"}}) {
+                                      {Packing::zlib, "zlib, default level of VTK (5)"}}) {
     const double writing = seconds_of([&, packing = packing] {
       write_vtu(blocks, names[0], packing);
       write_vtp(joints, names[1], packing);

@@ -1,5 +1,5 @@
-// voussoir-bench-kernels: the kernels of a step one by one, by Google Benchmark. Placements do not change, so that
-// joints that go point by point are closed and stick.
+// voussoir-bench-kernels: measures the kernels of a time step one by one with Google Benchmark. Positions do not
+// change, so joints that are computed point by point are closed and stick.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ PatchPass pass_of(Running& r, int branches, bool shortcut) {
   return pass;
 }
 
-/// Items, bytes, operations, and which share of the machine's limit that is: of copies within `memory` bytes or of
-/// multiply–adds, whichever takes longer.
+/// Reports items, bytes and operations, and the share of the machine's limit that they reach: the limit of copies
+/// within `memory` bytes or of multiply–adds, whichever takes longer.
 void report(benchmark::State& timing, double items, const Work& work, double memory) {
   static const double peak = multiply_add_peak(1);
   static std::map<double, double> bandwidths;
@@ -59,14 +59,14 @@ void joints(benchmark::State& timing, const char* name, bool shortcut) {
   report(timing, items, work, items * work.bytes);
 }
 
-/// A box of soil under pressure in all directions and shear to and fro: too little for it to flow, or so much that
-/// every tetrahedron does, at every pass.
+/// A box of soil under pressure in all directions and alternating shear: either so little that no tetrahedron yields,
+/// or so much that all yield in every pass.
 struct Soil {
   FillModel model;
   FillMemory memory;
   Array<double> sums, volume_sums;
   FillPass pass;
-  Array<double> other;  // the placement of the passes between
+  Array<double> other;  // the positions of every second pass
 
   Soil(int cells, double shear, int branches) : model(box(cells)), memory(initial_fill(model)) {
     set_fill_branches(model, memory, branches);

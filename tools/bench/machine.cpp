@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Shortest wall time (s) of `tries` runs of a team.
+/// Shortest wall-clock time (s) of `tries` runs of a team of threads.
 template <class Work>
 double best_time(int tries, int threads, const Work& work) {
   double best = 1e300;
@@ -53,12 +53,12 @@ double copy_bandwidth(double bytes, int threads) {
 }
 
 double multiply_add_peak(int threads) {
-  // Enough chains to hide the latency of a multiply–add, in as many registers as there are: 32 of eight lanes, or 16.
+  // Enough independent chains to hide the latency of a multiply–add, in all registers: 32 of eight lanes, or 16.
   constexpr int chains = register_lanes == lane_count ? 16 : 12 * register_lanes / lane_count, rounds = 2000000;
   const double seconds = best_time(5, threads, [&](int, int) {
     Lanes x[chains];
     for (int c = 0; c < chains; ++c)
-      x[c] = splat(2.0 + c);  // not 1, which stays as it is: the compiler would leave it out
+      x[c] = splat(2.0 + c);  // not 1: the compiler would remove a computation that does not change the value
     const Lanes a = splat(0.999999), b = splat(1e-6);
     for (int i = 0; i < rounds; ++i)
       for (Lanes& one : x) one = one * a + b;
@@ -72,16 +72,16 @@ double multiply_add_peak(int threads) {
 void reserve_memory(double bytes) {
   if (bytes <= 0.0) return;
 #if defined(__linux__)
-  // More than there is would be granted, and the program ended when it is written to.
+  // The system would grant more memory than it has, and end the program when the memory is written to.
   const double all = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
   if (bytes > 0.9 * all)
-    throw InputError("--reserve is {:.1f} GB; this machine has {:.1f}, ask for less than nine tenths of it",
+    throw InputError("--reserve is {:.1f} GB, but this machine has {:.1f} GB. Give less than nine tenths of that",
                      1e-9 * bytes, 1e-9 * all);
 #endif
   constexpr std::size_t page = 4096;
   const auto size = std::size_t(bytes);
   char* memory = static_cast<char*>(std::malloc(size));
-  if (!memory) throw InputError("--reserve: {:.1f} GB of memory are not to be had; ask for less", 1e-9 * bytes);
+  if (!memory) throw InputError("--reserve: the system does not provide {:.1f} GB of memory. Give less", 1e-9 * bytes);
 #if defined(__linux__)
   const std::size_t aside = large_page - reinterpret_cast<std::uintptr_t>(memory) % large_page;
   if (size > aside + large_page) madvise(memory + aside, (size - aside) / large_page * large_page, MADV_HUGEPAGE);

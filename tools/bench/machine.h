@@ -1,24 +1,25 @@
-// What the machine could do at best, measured in the same run as what it is compared with.
+// The limits of the machine, measured in the same run as the results that are compared with them.
 #pragma once
 
 namespace voussoir {
 
-/// Bytes a second (read and written) that a plain copy within `bytes` of memory moves, best of several, on `threads`
-/// threads: data that fit a cache move as fast as that cache allows.
+/// Bytes per second (read and written) of a plain copy within `bytes` of memory on `threads` threads, the best of
+/// several tries. Data that fit into a cache are copied at the speed of the cache.
 double copy_bandwidth(double bytes, int threads);
 
-/// Additions and multiplications a second in fused pairs on full registers, best of several, on `threads` threads.
+/// Additions and multiplications per second, in fused pairs on full registers on `threads` threads, the best of several
+/// tries.
 double multiply_add_peak(int threads);
 
-/// s of processor time so far, of all threads: does not count while other programs have the cores.
+/// Processor time of all threads so far, s. Time in which other programs use the cores does not count.
 double processor_time();
 
-/// Most bytes of memory that the program has held so far.
+/// Largest memory that the program has held so far, bytes.
 double peak_memory();
 
-/// Takes so many bytes of memory from the system now, and keeps them for whatever the program asks for later: what the
-/// system, or the host of a virtual machine, takes to hand out memory is then not among what is timed. Throws
-/// InputError where there is not so much.
+/// Takes this many bytes of memory from the system now, and keeps them for later requests of the program. The time that
+/// the system, or the host of a virtual machine, needs to provide memory is then not measured. Throws InputError if
+/// there is not enough memory.
 void reserve_memory(double bytes);
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// voussoir-bench: how long a step takes, phase by phase, beside what the machine could do at best; and how long a
-// diagnosis.
+// voussoir-bench: measures the time of a time step, phase by phase, and compares it with the limits of the machine. It
+// also measures the time of a diagnosis.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,24 +24,24 @@ struct Options {
   std::vector<std::string> scenes;
   int threads = 1;
   double seconds = 5.0;
-  std::int64_t steps = 0;  // instead, if not 0
+  std::int64_t steps = 0;  // replaces `seconds` if not 0
   double reserve = 0.0;    // GB
   bool quiet = false;
   std::string keep;
 };
 
 struct Measured {
-  double step = 0.0, processor = 0.0;  // s of wall and of processor time
+  double step = 0.0, processor = 0.0;  // s, wall-clock time and processor time of a time step
   Progressed all;
 };
 
-/// No fewer steps, and as many as end where patches may be clipped anew: ending elsewhere they would cut short a sweep
-/// through memory, in large scenes, whose pieces have few steps, more often than in small ones.
+/// The next number of time steps after which patches may be clipped again. Pieces that end elsewhere would interrupt a
+/// sweep through memory. Large scenes, whose pieces have few time steps, would suffer more from this than small ones.
 std::int64_t whole_sweeps(double steps) {
   return std::int64_t(std::ceil(steps / double(clip_interval))) * clip_interval;
 }
 
-/// Median over pieces of a run of so many steps, or one that lasts at least so many seconds.
+/// Medians over the pieces of a run that has the required number of time steps, or lasts the required time.
 Measured measure(Running& scene, double movable, const Options& o) {
   const std::int64_t piece = whole_sweeps(1000000.0 / movable);
   const auto goes_on = [&](const Measured& m, std::size_t pieces) {
@@ -67,7 +67,7 @@ Measured measure(Running& scene, double movable, const Options& o) {
   return m;
 }
 
-/// Least time (s) that the machine needs for it: bytes or operations, whichever takes longer.
+/// Shortest time (s) in which the machine can do the work: for its bytes or its operations, whichever takes longer.
 double least_time(const Work& work, double bandwidth, double peak) {
   return std::max(work.bytes / bandwidth, work.operations / peak);
 }
@@ -112,17 +112,16 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
   const double limit = least_time(work, bandwidth, peak * o.threads) / m.step;
   if (!o.quiet) {
     fmt::print(
-        "\n{}: {:.0f} blocks, {:.0f} joints, {} contacts, {} thread(s), {} steps of {:.3g} s\n"
-        "  {:.3f} µs per block and step ({:.3f} of processor time), {:.1f} ns per joint; {:.1f} % intact; {:.0f} % of "
-        "the limit; {:.4f} simulated s per wall s\n",
+        "\n{}: {:.0f} blocks, {:.0f} joints, {} contacts, {} thread(s), {} time steps of {:.3g} s\n  {:.3f} µs per "
+        "block and time step ({:.3f} of processor time), {:.1f} ns per joint; {:.1f} % intact; {:.0f} % of the limit; "
+        "{:.4f} simulated s per wall-clock s\n",
         scene.name, movable, joints, r.state.contact_count(), o.threads, m.all.steps, r.stepper.dt,
         1e6 * m.step / movable, 1e6 * m.processor / movable, 1e9 * m.step / joints, 100 * intact, 100 * limit,
         r.stepper.dt / m.step);
     if (m.all.searches > 0)
       fmt::print(
-          "  contact searches: one every {:.1f} steps, {:.3g} ms each, {:.0f} pairs examined; {:.0f} % change "
-          "contacts, "
-          "{:.1f} % list pairs anew\n",
+          "  contact searches: one in {:.1f} time steps, {:.3g} ms each, {:.0f} pairs examined; {:.0f} % change "
+          "contacts, {:.1f} % make a new list of pairs\n",
           double(m.all.steps) / double(m.all.searches), 1e3 * m.all.search_seconds / double(m.all.searches),
           double(m.all.examined) / double(m.all.searches), 100.0 * double(m.all.changed) / double(m.all.searches),
           100.0 * double(m.all.listed) / double(m.all.searches));
@@ -171,8 +170,8 @@ nlohmann::json run_search(const SearchScene& scene, const Options& o) {
   const SearchCost c = time_search(scene, o.threads);
   if (!o.quiet)
     fmt::print(
-        "\n{}: {} unknowns, {} sensors, {} modes, {} thread(s); {} candidates screened, {} fitted in {} round(s): {}\n"
-        "  input {:.1f} s ({:.1f} s of processor time), search {:.1f} s ({:.1f}); most memory {:.2f} GB\n",
+        "\n{}: {} unknowns, {} sensors, {} modes, {} thread(s); {} candidates screened, {} fitted in {} round(s): {}\n "
+        " input {:.1f} s ({:.1f} s of processor time), search {:.1f} s ({:.1f}); largest memory {:.2f} GB\n",
         scene.name, c.unknowns, c.sensors, c.modes, o.threads, c.screened, c.fitted, c.rounds, c.verdict, c.input.wall,
         c.input.processor, c.search.wall, c.search.processor, 1e-9 * peak_memory());
   return {{"unknowns", c.unknowns},
@@ -192,19 +191,21 @@ nlohmann::json run_search(const SearchScene& scene, const Options& o) {
 
 Options parse(int argc, char** argv, bool& done, std::string& folder) {
   namespace po = boost::program_options;
-  po::options_description described("voussoir-bench [SCENE…] [--threads N]: what a step costs, phase by phase");
-  described.add_options()("help,h", "this text")("list", "the scenes")(
-      "threads,j", po::value<int>()->default_value(1), "threads")("seconds", po::value<double>()->default_value(5.0),
-                                                                  "least wall time a scene")(
+  po::options_description described(
+      "voussoir-bench [SCENE…] [--threads N]: measures the cost of a time step, phase by phase");
+  described.add_options()("help,h", "print this help")("list", "list the scenes and stop")(
+      "threads,j", po::value<int>()->default_value(1), "number of threads")(
+      "seconds", po::value<double>()->default_value(5.0), "shortest wall-clock time for each scene, s")(
       "steps", po::value<std::int64_t>()->default_value(0),
-      "steps a scene at least, instead: the same for any number of threads and for any program")(
-      "reserve", po::value<double>()->default_value(0.0),
-      "GB of memory to take from the system before anything is timed, for large scenes: the host of a virtual machine "
-      "may need seconds a GB to hand it out")("keep", po::value<std::string>()->default_value(""),
-                                              "folder of scenes' states, to begin from another time")(
-      "output,o", po::value<std::string>()->default_value("."), "folder of bench.json")(
-      "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")("quiet,q",
-                                                                                                          "no table");
+      "smallest number of time steps for each scene, in place of --seconds; the same for any number of threads and for "
+      "any program")("reserve", po::value<double>()->default_value(0.0),
+                     "memory to take from the system before the measurement, GB; for large scenes, because the host of "
+                     "a virtual machine may need seconds to provide each GB")(
+      "keep", po::value<std::string>()->default_value(""),
+      "folder for the states of scenes, from which a later call begins")(
+      "output,o", po::value<std::string>()->default_value("."), "folder for bench.json")(
+      "scene", po::value<std::vector<std::string>>(), "scenes (default: the walls of up to 1040 blocks)")(
+      "quiet,q", "print no tables");
   po::positional_options_description places;
   places.add("scene", -1);
   po::variables_map values;
@@ -212,7 +213,7 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
     po::store(po::command_line_parser(argc, argv).options(described).positional(places).run(), values);
     po::notify(values);
   } catch (const po::error& e) {
-    throw InputError("{}; see voussoir-bench --help", e.what());
+    throw InputError("{}. See voussoir-bench --help", e.what());
   }
   done = true;
   Options o;
@@ -228,13 +229,13 @@ Options parse(int argc, char** argv, bool& done, std::string& folder) {
     for (const Scene& scene : scenes())
       if (scene.name.find("wall-10") == 0 && scene.name.find('k') == std::string::npos) o.scenes.push_back(scene.name);
   o.threads = values["threads"].as<int>();
-  if (o.threads < 1) throw InputError("--threads is {}; it must be at least 1", o.threads);
+  if (o.threads < 1) throw InputError("--threads is {}. It must be at least 1", o.threads);
   o.seconds = values["seconds"].as<double>();
   o.steps = values["steps"].as<std::int64_t>();
-  if (o.steps < 0) throw InputError("--steps is {}; it must not be negative (0: as many as --seconds takes)", o.steps);
+  if (o.steps < 0) throw InputError("--steps is {}. It must be 0 (as many as fit into --seconds) or more", o.steps);
   o.reserve = values["reserve"].as<double>();
   if (!(o.reserve >= 0.0 && o.reserve < 1e6))
-    throw InputError("--reserve is {}; it must be a number of gigabytes, or 0", o.reserve);
+    throw InputError("--reserve is {}. It must be a number of gigabytes from 0 to 1e6", o.reserve);
   o.quiet = values.count("quiet") > 0;
   o.keep = values["keep"].as<std::string>();
   folder = values["output"].as<std::string>();

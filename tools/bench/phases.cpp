@@ -28,7 +28,7 @@ Work operator*(double n, const Work& w) {
   return {n * w.bytes, n * w.operations};
 }
 
-/// What all joints cost, intact or not: constants, mode, the last jump read and written; jump, its change, wrench,
+/// The work of every joint, intact or not: constants, mode and last jump read and written; jump, its change, forces,
 /// sums and the check for clipping.
 Work joint_work() {
   const double bytes = double(sizeof(JointBatch)) / lane_count + 1.0 + 2.0 * 6.0 * sizeof(float);
@@ -50,8 +50,8 @@ Work points_work(int branches, double points, bool rectangle) {
   Work w = joint_work();
   // Plastic slip s and t read and written, flags, branches read and written.
   const double bytes = (rectangle ? 0.0 : 24.0) + 32.0 + 1.0 + 2.0 * 3.0 * branches * sizeof(float);
-  // Of one that stays as it was: jump and change 11, trial 16, tractions and sums 18, opening 1, its place 2; those
-  // that yield are not counted.
+  // For a point that does not yield: jump and change 11, trial 16, tractions and sums 18, opening 1, its place 2.
+  // Points that yield are not counted.
   const double operations = 48.0 + (branches > 0 ? 18.0 * branches + 9.0 : 0.0);
   w.bytes += points * bytes + 2.0 * 5.0 * sizeof(double);  // energies, largest opening and slip
   w.operations += 20.0 + points * operations;              // limits of the law, products after the last point
@@ -61,8 +61,8 @@ Work points_work(int branches, double points, bool rectangle) {
 Work body_work(double sums) {
   const double bytes = double(sizeof(BodyBatch)) / lane_count + 2.0 * sizeof(double) * (pose_width + motion_width) +
                        sizeof(double) * wrench_width * sums + 8.0;
-  // Sums, moment and velocities 34, spins 128, rotations 59, norm 13, place 6, speed 6. Where they are is looked at
-  // every few steps.
+  // Sums, moment and velocities 34, spins 128, rotations 59, norm 13, position 6, speed 6. The search distance is
+  // checked only every few time steps.
   return {bytes, 6.0 * sums + 34.0 + 128.0 + 59.0 + 13.0 + 6.0 + 6.0};
 }
 
@@ -70,7 +70,7 @@ namespace {
 
 constexpr double gradient_operations = 110.0, volume_operations = 35.0;  // with edges and areas
 
-/// What the fill's tiles cost over `n` steps.
+/// The times of the tiles of the fill over `n` time steps.
 void add_fill_phases(const Running& r, const std::vector<TileCost>& costs, double n, std::vector<Phase>& phases) {
   const FillModel& fill = r.model.fill;
   TileCost all;

@@ -1,4 +1,4 @@
-// A step taken apart: what each phase costs, moves and computes, beside what the machine could do at best.
+// The phases of a time step: the time that each takes, and the work that it does.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,41 +7,41 @@
 
 namespace voussoir {
 
-/// What one item of a phase reads and writes (bytes) and computes (additions and multiplications; a division or a root
-/// counts as one), counted from the layout of the data and from the source.
+/// The work of one item of a phase: bytes read and written, and operations (additions and multiplications; a division
+/// or a root counts as one). The numbers were counted in the layout of the data and in the source.
 struct Work {
   double bytes = 0.0, operations = 0.0;
 };
-/// A joint on the intact path, with so many damping branches.
+/// A joint on the intact path with `branches` damping branches.
 Work intact_work(int branches);
-/// A joint that goes point by point: `points` points, from tables or of a rectangle.
+/// A joint that is computed at `points` points, either of a rectangle or from tables.
 Work points_work(int branches, double points, bool rectangle);
-/// A tetrahedron's first round (volumes) and its second (stresses), with `flowed` the share whose plastic memory is
-/// read; a node of the fill with so many sums.
+/// The first pass over a tetrahedron (volumes) and the second (stresses). `flowed` is the share of the tetrahedra whose
+/// plastic strain is read. A node of the fill has `sums` contributions.
 Work volume_work(double flowed);
 Work stress_work(int branches, double flowed);
 Work node_work(double sums);
-/// A free body whose wrenches lie in `sums` places.
+/// A free body whose forces and moments are the sum of `sums` entries.
 Work body_work(double sums);
 
 struct Phase {
   std::string name;
-  double items = 0.0;    // a step
-  double seconds = 0.0;  // a step
-  Work work;             // a step; zero where nothing was counted
+  double items = 0.0;    // per time step
+  double seconds = 0.0;  // per time step
+  Work work;             // per time step; zero if it was not counted
 };
 
-/// The phases of a step, timed tile by tile over `steps` further steps on one thread. What intact and point-wise joints
-/// and contacts take is told apart by least squares over the tiles.
+/// The phases of a time step, timed tile by tile over `steps` further time steps on one thread. The times of intact
+/// joints, joints computed point by point and contacts are separated by least squares over the tiles.
 std::vector<Phase> step_phases(Running& scene, std::int64_t steps);
 
-/// One contact search over all bodies, one row of the history, one checkpoint: seconds each.
+/// Time of one contact search over all bodies, of one row of the history and of one checkpoint, s.
 struct SideCosts {
   double search = 0.0, history = 0.0, checkpoint = 0.0;
 };
 SideCosts side_costs(Running& scene);
 
-/// Memory that model and state hold, bytes.
+/// Memory of model and state, bytes.
 double bytes_held(const Running& scene);
 
 }  // namespace voussoir

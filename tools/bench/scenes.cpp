@@ -46,7 +46,7 @@ Assembly bridge(const char* name, double scale, const char* backfill = "") {
   const Generator& generator = find_generator(name);
   GeneratorInput in = default_input(generator);
   in.values["block_scale"] = scale;
-  in.values["abutment_leaf_length"] = 1.5;  // of cs1, as it was when the scenes were made: they are compared over years
+  in.values["abutment_leaf_length"] = 1.5;  // the value of cs1 when the scenes were made; it keeps results comparable
   if (*backfill) in.choices["backfill"] = backfill;
   return generator.build(in);
 }
@@ -63,12 +63,14 @@ std::vector<Scene> make_scenes() {
   const auto shake = [](Scene& s) -> Scene& { return s.maxwell = s.shaken = true, s; };
   thin(add("wall-105", "dry wall of 105 blocks at rest", [](double) { return dry(10); }));
   thin(add("wall-1040", "dry wall of 1040 blocks at rest", [](double) { return dry(32); }));
-  thin(add("wall-1040-bonded", "the same, bonded: all joints intact", [](double) { return wall(32, 32, 1e6, 0.0); }));
-  thin(add("wall-1040-damped", "the same with Maxwell damping", [](double) {
+  thin(add("wall-1040-bonded", "wall of 1040 blocks with bonded joints: all joints intact",
+           [](double) { return wall(32, 32, 1e6, 0.0); }));
+  thin(add("wall-1040-damped", "wall of 1040 blocks with bonded joints, Maxwell damping", [](double) {
     return wall(32, 32, 1e6, 0.0);
   })).maxwell = true;
-  Scene& sliding = thin(add("wall-1040-sliding", "almost without friction, under base motion: all joints slide or open",
-                            [](double) { return wall(32, 32, 0.0, 0.002); }));
+  Scene& sliding =
+      thin(add("wall-1040-sliding", "wall with almost no friction under base motion: all joints slide or open",
+               [](double) { return wall(32, 32, 0.0, 0.002); }));
   sliding.shaken = true, sliding.settled = false, sliding.before = 0.01;
   shake(thin(add("wall-1040-shaken", "dry wall of 1040 blocks under base motion, Maxwell damping",
                  [](double) { return dry(32); })));
@@ -76,14 +78,18 @@ std::vector<Scene> make_scenes() {
   add("wall-100k", "bonded wall of 100 000 blocks", [](double) { return wall(316, 316, 1e6, 0.0); });
   add("wall-500k", "bonded wall of 500 000 blocks", [](double) { return wall(707, 707, 1e6, 0.0); });
   const auto cs1 = [](double scale) { return bridge("cs1", scale); };
-  shake(add("cs1", "CS1 under base motion that damages it, Maxwell damping (cs1@0.5: block_scale = 0.5)", cs1)).before =
-      1.0;
-  const auto filled = [](double scale) { return bridge("cs1", scale, "deformable"); };
-  shake(add("cs1-fill", "CS1 with its fill as a continuum, under base motion that damages it, Maxwell damping", filled))
+  shake(add("cs1", "CS1 under a base motion that damages it, with Maxwell damping (cs1@0.5: block_scale = 0.5)", cs1))
       .before = 1.0;
-  add("cs1-fill-rest", "the same unloaded, without damping or equilibrium", filled).settled = false;
-  add("cs1-rest", "CS1 unloaded, without damping or equilibrium: for sizes (cs1-rest@0.33)", cs1).settled = false;
-  Scene& coarse = shake(add("cs1-2", "CS1 at block_scale = 2 under base motion that damages it, Maxwell damping", cs1));
+  const auto filled = [](double scale) { return bridge("cs1", scale, "deformable"); };
+  shake(add("cs1-fill", "CS1 with its fill as a continuum, under a base motion that damages it, with Maxwell damping",
+            filled))
+      .before = 1.0;
+  add("cs1-fill-rest", "CS1 with its fill as a continuum, unloaded, without damping or equilibrium", filled).settled =
+      false;
+  add("cs1-rest", "CS1 unloaded, without damping or equilibrium, for measurements of size (cs1-rest@0.33)", cs1)
+      .settled = false;
+  Scene& coarse =
+      shake(add("cs1-2", "CS1 with block_scale = 2 under a base motion that damages it, with Maxwell damping", cs1));
   coarse.scale = 2.0, coarse.before = 1.0;
   return list;
 }
@@ -122,33 +128,33 @@ Scene find_scene(const std::string& name) {
     char* end = nullptr;
     scene.scale = std::strtod(name.c_str() + at + 1, &end);
     if (*end != '\0' || !(scene.scale > 0.0))
-      throw InputError("scene '{}': '{}' is no block_scale; it must be a positive number, as in cs1@0.5", name,
+      throw InputError("scene '{}': the block_scale is '{}'. It must be a positive number, as in cs1@0.5", name,
                        name.substr(at + 1));
     scene.name = name;
     return scene;
   }
-  throw InputError("unknown scene '{}'; voussoir-bench --list names them", name);
+  throw InputError("unknown scene '{}'. voussoir-bench --list names all scenes", name);
 }
 
 namespace {
 
-/// Of the same scene and the same program.
+/// Restores the state of a scene that the same program has stored.
 void recall(const std::string& path, Running& r) {
   CheckpointHeader header;
   const std::size_t bodies = r.state.pose.size(), joints = r.state.joint.mode.size();
   read_checkpoint(path, header, r.state.arrays());
   if (r.state.pose.size() != bodies || r.state.joint.mode.size() != joints)
-    throw InputError("{} is of another assembly than the scene: remove it", path);
+    throw InputError("{} belongs to another assembly than the scene. Remove the file", path);
   r.state.unpack(r.model);
   take_joint_order(r.model, r.state);
   r.stepper.prepare();
-  r.account = "begun from " + path;
+  r.account = "started from " + path;
 }
 
 }  // namespace
 
 std::unique_ptr<Running> begin_scene(const Scene& scene, int threads, const std::string& keep) {
-  if (!keep.empty()) std::filesystem::create_directories(keep);  // before what may take minutes
+  if (!keep.empty()) std::filesystem::create_directories(keep);  // first, because the scene may take minutes
   auto running = std::make_unique<Running>();
   Running& r = *running;
   auto begin = Clock::now();
@@ -195,7 +201,7 @@ Progressed advance_scene(Running& r, std::int64_t steps) {
   const std::int64_t from = r.state.step(), target = from + steps;
   while (r.state.step() < target) {
     const Advance a = r.stepper.advance(target, 1, nullptr, nullptr);
-    if (a.outcome == StepOutcome::runaway) throw RunError("the run went wrong at step {}", r.state.step());
+    if (a.outcome == StepOutcome::runaway) throw RunError("the run failed at time step {}", r.state.step());
     p.intact += a.intact, p.points += a.points;
     if (a.outcome != StepOutcome::contacts) continue;
     const auto searching = Clock::now();

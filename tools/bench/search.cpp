@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone afterwards.
+/// A temporary folder that the destructor removes.
 struct ScratchFolder {
   fs::path path = fs::temp_directory_path() / fmt::format("voussoir-bench-search-{}", ::getpid());
   ScratchFolder() { fs::create_directories(path); }
@@ -39,7 +39,7 @@ auto timed(SearchCost::Seconds& seconds, const Work& work) {
   return result;
 }
 
-/// Case and measurements of its bridge with both abutments held, on blocks as large.
+/// A case, and measurements of its bridge with both abutments restrained, on blocks of the same size.
 DiagnosisRequest measured_scene(const SearchScene& scene, const ScratchFolder& folder) {
   HideRequest hidden;
   hidden.case_file = folder.path / "bridge.toml";
@@ -62,8 +62,9 @@ DiagnosisRequest measured_scene(const SearchScene& scene, const ScratchFolder& f
 const std::vector<SearchScene>& search_scenes() {
   static const std::vector<SearchScene> list = {
       {"diagnosis-cs1",
-       "search for what CS1 lacks that ten modes at its sensors show (diagnosis-cs1@2: block_scale = 2)", "cs1", 1.0},
-      {"diagnosis-cs2", "the same of CS2", "cs2", 1.0}};
+       "search for the effect that CS1 lacks, with ten modes at its sensors (diagnosis-cs1@2: block_scale = 2)", "cs1",
+       1.0},
+      {"diagnosis-cs2", "the same for CS2", "cs2", 1.0}};
   return list;
 }
 
@@ -75,7 +76,7 @@ std::optional<SearchScene> find_search(const std::string& name) {
     char* end = nullptr;
     scene.scale = std::strtod(name.c_str() + at + 1, &end);
     if (*end != '\0' || !(scene.scale > 0.0))
-      throw InputError("scene '{}': '{}' is no block_scale; it must be a positive number, as in diagnosis-cs1@2", name,
+      throw InputError("scene '{}': the block_scale is '{}'. It must be a positive number, as in diagnosis-cs1@2", name,
                        name.substr(at + 1));
     scene.name = name;
     return scene;

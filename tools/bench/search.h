@@ -1,4 +1,5 @@
-// What a diagnosis costs: a bridge that has an effect is measured, and its case searched as voussoir diagnose does.
+// The cost of a diagnosis: measurements are made of a bridge that has an effect, and voussoir diagnose is run on its
+// case.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -13,8 +14,8 @@ struct SearchScene {
 };
 
 const std::vector<SearchScene>& search_scenes();
-/// The scene of that name; "diagnosis-cs1@2" is diagnosis-cs1 at block_scale = 2. Nothing for others; InputError for a
-/// number that is none.
+/// The scene of that name; "diagnosis-cs1@2" is diagnosis-cs1 with block_scale = 2. Empty for other names. Throws
+/// InputError if the text after "@" is not a positive number.
 std::optional<SearchScene> find_search(const std::string& name);
 
 struct SearchCost {
@@ -24,7 +25,7 @@ struct SearchCost {
   std::int64_t unknowns = 0;
   std::size_t sensors = 0, modes = 0, screened = 0, fitted = 0, rounds = 0;
   std::string verdict;
-  Seconds input, search;  // reading, meshing, first modes and what the mesh does; all that follows
+  Seconds input, search;  // input: reading, meshing, first modes, error of the mesh; search: the rest
 };
 SearchCost time_search(const SearchScene& scene, int threads);
 

@@ -21,8 +21,8 @@ namespace {
 using Compare = Comparison (*)(const CompareRequest&, const std::vector<std::string>&);
 
 struct Kind {
-  const char *words, *file;  // file: that a folder of its has
-  const char* ending;        // of a file that may stand for the folder; empty: none may
+  const char *words, *file;  // file: a file that every folder of this kind has
+  const char* ending;        // ending of a file that may be given in place of the folder; empty: none
   Compare compare;
 };
 constexpr Kind kinds[] = {{"a run", "summary.json", "", compare_runs},
@@ -37,12 +37,12 @@ const Kind& kind_of(const std::string& path) {
       return kind;
   if (!fs::exists(path, ignored)) throw InputError("there is no file or folder {}", path);
   throw InputError(
-      "{} holds nothing to compare: give folders of finished runs (summary.json), of voussoir modal (modes.h5) or of "
-      "campaigns (table.csv)",
+      "{} holds no results to compare. Give folders of finished runs (summary.json), of voussoir modal (modes.h5) or "
+      "of campaigns (table.csv)",
       path);
 }
 
-/// Short names that differ: the last parts of the paths, as many as it takes.
+/// Short names that are all different: as many of the last parts of the paths as are needed.
 std::vector<std::string> short_names(const std::vector<std::string>& paths) {
   std::vector<fs::path> whole;
   for (const std::string& path : paths) whole.push_back(fs::weakly_canonical(path));
@@ -63,7 +63,7 @@ double difference(const ComparedRow& row, std::size_t i) {
   return row.values[i] - row.values.front();
 }
 
-/// %; NaN where the first is nothing.
+/// The change from the first result, %; NaN if the first value is zero.
 double change(const ComparedRow& row, std::size_t i) {
   const double first = row.values.front();
   return first != 0.0 ? 100.0 * difference(row, i) / std::abs(first) : NAN;
@@ -122,15 +122,15 @@ std::string difference_table(const std::vector<std::string>& names, const std::v
     text += table_row(cells, "td");
   }
   return "<div class=\"wide\"><table>\n" + text + "</table></div>\n" +
-         (same.empty() ? "" : note("The same in all: " + same + "."));
+         (same.empty() ? "" : note("The following are the same in all results: " + same + "."));
 }
 
 void compare_results(const CompareRequest& request) {
-  if (request.from.size() < 2) throw InputError("one result is given: comparing takes two at least");
+  if (request.from.size() < 2) throw InputError("only one result is given. A comparison needs at least two");
   const Kind& kind = kind_of(request.from.front());
   for (const std::string& path : request.from)
     if (const Kind& other = kind_of(path); &other != &kind)
-      throw InputError("{} is {}, and {} is {}: compare results of one kind", request.from.front(), kind.words, path,
+      throw InputError("{} is {}, but {} is {}. Give results of one kind", request.from.front(), kind.words, path,
                        other.words);
   const std::vector<std::string> names = short_names(request.from);
   make_folder_of(request.directory + "/images/");

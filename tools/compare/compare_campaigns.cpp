@@ -1,4 +1,4 @@
-// Campaigns side by side, motion by motion.
+// Comparison of campaigns, motion by motion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Motion = std::tuple<std::string, std::string, double, std::string>;  // case, record, scale, sample
 
-/// Rows by motion. Where each table has one case these are compared whatever their names.
+/// Rows of a table by motion. If each table has only one case, the names of the cases are ignored.
 std::map<Motion, std::size_t> rows_of(const CampaignTable& table, bool by_case) {
   std::map<Motion, std::size_t> rows;
   for (std::size_t r = 0; r < table.runs.size(); ++r) {
@@ -39,11 +39,12 @@ std::pair<const char*, double> unit_of(const std::string& column) {
   return column.starts_with("edp.") ? std::pair{"mm", 1e3} : std::pair{"", 1.0};
 }
 
-/// A demand of the others over that of the first, motion by motion, with the line on which they are equal.
+/// A chart of one demand: each point is a motion, with the value in the first campaign and in another one. A line shows
+/// equal values.
 std::string scatter(const std::vector<std::string>& names, const std::vector<ComparedRow>& rows,
                     const std::string& what) {
   LineChart chart;
-  chart.title = what, chart.x_label = names.front() + " (mm)", chart.y_label = "the others (mm)";
+  chart.title = what, chart.x_label = names.front() + ", mm", chart.y_label = "Other campaigns, mm";
   chart.width = 640.0, chart.height = 420.0;
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   double least = 1e300, most = 0.0;
@@ -64,7 +65,8 @@ std::string scatter(const std::vector<std::string>& names, const std::vector<Com
   return figure(line_chart(chart));
 }
 
-/// Median of the ratios to the first over the motions that both have; 0 where there are none.
+/// Median of the ratios to the first campaign over the motions that both have, and the number of these motions. NaN and
+/// 0 if there are none.
 std::pair<double, std::size_t> median_ratio(const std::vector<ComparedRow>& rows, std::size_t i) {
   std::vector<double> ratios;
   for (const ComparedRow& row : rows)
@@ -129,11 +131,11 @@ Comparison compare_campaigns(const CompareRequest& request, const std::vector<st
     details += heading(column) + scatter(names, of, column) + difference_table(names, of);
     for (ComparedRow& row : of) row.what = column + ", " + row.what, c.rows.push_back(row);
   }
-  if (c.rows.empty()) throw InputError("{} has no column edp.…: nothing to compare", tables.front().path);
+  if (c.rows.empty()) throw InputError("{} has no column edp.…, so there is nothing to compare", tables.front().path);
   std::vector<Cell> head = {words_cell("demand")};
   for (std::size_t i = 1; i < names.size(); ++i)
     head.push_back({words_cell(names[i] + " / " + names[0]).html, true}), head.push_back({"motions", true});
-  c.html = status_table(names, tables) + heading("Medians of the ratios, over the motions that both have") +
+  c.html = status_table(names, tables) + heading("Medians of the ratios over the motions that both campaigns have") +
            "<table>\n" + table_row(head, "th") + medians + "</table>\n" + details;
   return c;
 }

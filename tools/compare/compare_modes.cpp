@@ -1,4 +1,4 @@
-// Modal analyses side by side.
+// Comparison of modal analyses.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,11 +18,11 @@ ModesFile modes_of(const std::string& path) {
   return read_modes(std::filesystem::is_directory(path) ? path + "/modes.h5" : path);
 }
 
-/// Periods of the modes of each, over the number of the mode of the first that they are like.
+/// A chart of the periods of each analysis, over the number of the mode of the first analysis with the same shape.
 std::string period_chart(const std::vector<std::string>& names, const std::vector<ComparedRow>& rows) {
   LineChart chart;
-  chart.title = "Periods of modes of one shape", chart.x_label = "mode of " + names.front();
-  chart.y_label = "period (s)", chart.width = 760.0, chart.height = 320.0, chart.y_low = 0.0;
+  chart.title = "Periods of the modes with the same shape", chart.x_label = "mode of " + names.front();
+  chart.y_label = "Period, s", chart.width = 760.0, chart.height = 320.0, chart.y_low = 0.0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     ChartCurve curve{.name = names[i]};
     for (std::size_t m = 0; m < rows.size(); ++m)
@@ -45,7 +45,8 @@ Comparison compare_modes(const CompareRequest& request, const std::vector<std::s
   for (std::size_t m = 0; m < first.modes.size(); ++m)
     c.rows.push_back({fmt::format("mode {}: {}", m + 1, first.modes[m].words.text()), "s", {first.modes[m].period()}});
   std::string pairs =
-      "<table>\n" + table_row({words_cell("mode of " + names.front()), words_cell("is like"), {"MAC", true}}, "th");
+      "<table>\n" +
+      table_row({words_cell("mode of " + names.front()), words_cell("has the same shape as"), {"MAC", true}}, "th");
   for (std::size_t i = 1; i < files.size(); ++i) {
     const Pairing pairing = pair_modes(files[i], first);
     for (std::size_t m = 0; m < first.modes.size(); ++m) {
@@ -53,7 +54,7 @@ Comparison compare_modes(const CompareRequest& request, const std::vector<std::s
       c.rows[m].values.push_back(like < 0 ? NAN : files[i].modes[std::size_t(like)].period());
       pairs +=
           table_row({words_cell(std::to_string(m + 1)),
-                     words_cell(like < 0 ? "none of " + names[i] : fmt::format("mode {} of {}", like + 1, names[i])),
+                     words_cell(like < 0 ? "no mode of " + names[i] : fmt::format("mode {} of {}", like + 1, names[i])),
                      formatted_cell(like < 0 ? pairing.assurance.col(Eigen::Index(m)).maxCoeff()
                                              : pairing.assurance(like, Eigen::Index(m)),
                                     "{:.3f}")},
@@ -61,7 +62,8 @@ Comparison compare_modes(const CompareRequest& request, const std::vector<std::s
     }
   }
   c.html = heading("Periods") + difference_table(names, c.rows) + period_chart(names, c.rows) + heading("Pairs") +
-           pairs + "</table>\n" + note("A mode is like another where the modal assurance criterion is 0.5 or more.");
+           pairs + "</table>\n" +
+           note("Two modes are paired if their modal assurance criterion (MAC) is the largest and at least 0.5.");
   for (std::size_t i = 0; i < files.size(); ++i) c.html += note(names[i] + ": " + files[i].about);
   return c;
 }

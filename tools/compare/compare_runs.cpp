@@ -1,4 +1,5 @@
-// Runs side by side: what their cases say otherwise, numbers, damage by parts, histories, pictures of one scale.
+// Comparison of runs: keys in which the cases differ, numbers, damage by parts, histories, pictures with the same
+// scale.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace {
 using nlohmann::json;
 using Runs = std::vector<RunFiles>;
 
-/// Rows in the order in which runs first have them.
+/// Rows of the table, in the order in which they first occur in a run.
 class Rows {
  public:
   explicit Rows(std::size_t runs) : runs_(runs) {}
@@ -61,7 +62,7 @@ void add_answers(Rows& rows, std::size_t i, const RunFiles& run) {
     }
 }
 
-/// Of masonry; joints with soil or loose infill apart.
+/// Adds the damage of the masonry and, separately, of joints with soil or loose infill.
 void add_damage(Rows& rows, std::size_t i, const RunFiles& run) {
   double opening[2] = {NAN, NAN}, slip[2] = {NAN, NAN};
   for (const json& part : run.summary.value("part_damage", json::array())) {
@@ -112,7 +113,7 @@ std::vector<ComparedRow> number_rows(const Runs& runs) {
   return rows.take();
 }
 
-/// Keys that not all cases have alike.
+/// A table of the keys in which the cases differ.
 std::string case_differences(const Runs& runs, const std::vector<std::string>& names) {
   std::map<std::string, std::vector<std::string>> values;
   for (std::size_t i = 0; i < runs.size(); ++i)
@@ -125,13 +126,13 @@ std::string case_differences(const Runs& runs, const std::vector<std::string>& n
     for (const std::string& value : of) cells.push_back(words_cell(value.empty() ? "–" : shortened(value, 60)));
     text += table_row(cells, "td");
   }
-  if (text.empty()) return heading("The cases") + paragraph("All cases say the same.");
+  if (text.empty()) return heading("The cases") + paragraph("All cases have the same keys and values.");
   std::vector<Cell> head = {words_cell("key")};
   for (const std::string& name : names) head.push_back(words_cell(name));
-  return heading("What the cases say otherwise") + "<table>\n" + table_row(head, "th") + text + "</table>\n";
+  return heading("Keys in which the cases differ") + "<table>\n" + table_row(head, "th") + text + "</table>\n";
 }
 
-/// Largest openings by parts of the bridge, widest first.
+/// A table of the largest openings by parts of the bridge, the widest first.
 std::string part_table(const Runs& runs, const std::vector<std::string>& names) {
   constexpr std::size_t most = 25;
   std::map<std::string, ComparedRow> parts;
@@ -151,17 +152,17 @@ std::string part_table(const Runs& runs, const std::vector<std::string>& names) 
   if (rows.empty()) return "";
   const std::size_t left_out = rows.size() > most ? rows.size() - most : 0;
   rows.resize(std::min(rows.size(), most));
-  return heading("Largest openings by parts") + difference_table(names, rows) +
-         (left_out ? note(fmt::format("{} more parts have opened less.", left_out)) : std::string());
+  return heading("Largest openings by parts of the bridge") + difference_table(names, rows) +
+         (left_out ? note(fmt::format("{} more parts have smaller openings.", left_out)) : std::string());
 }
 
 LineChart history_chart(const std::string& title, const std::string& x, const std::string& y) {
   return {.title = title, .x_label = x, .y_label = y, .width = 760.0, .height = 300.0};
 }
 
-/// One channel of all runs over each other.
+/// A chart of one channel with a curve for each run.
 std::string channel_chart(const Runs& runs, const std::vector<std::string>& names, const std::string& channel) {
-  LineChart chart = history_chart(channel.substr(channel.find('/') + 1), "time (s)", "displacement (mm)");
+  LineChart chart = history_chart(channel.substr(channel.find('/') + 1), "Time, s", "Displacement, mm");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!runs[i].history.has(channel)) continue;
     ChartCurve curve{.name = names[i], .x = runs[i].history.time(), .y = runs[i].history.values(channel), .width = 1.2};
@@ -172,7 +173,7 @@ std::string channel_chart(const Runs& runs, const std::vector<std::string>& name
   return figure(line_chart(chart));
 }
 
-/// Of the channels that begin and end so, those of the largest displacements in any run: `count` of them.
+/// The `count` channels with the largest displacements in any run, among those whose path begins and ends as given.
 std::vector<std::string> largest_channels(const Runs& runs, const std::string& begin, const std::string& end,
                                           std::size_t count) {
   std::map<std::string, double> sizes;
@@ -202,10 +203,10 @@ std::string histories(const Runs& runs, const std::vector<std::string>& names) {
        {std::pair{"demand/keystone", " x"}, std::pair{"demand/spandrel", " y"}, std::pair{"sensors/", "/displacement"}})
     for (const std::string& channel : largest_channels(runs, begin, end, 3))
       text += channel_chart(runs, names, channel);
-  return text.empty() ? "" : heading("Histories: the places that moved most") + text;
+  return text.empty() ? "" : heading("Histories of the largest displacements") + text;
 }
 
-/// Curves of one chart of each run over each other; the runs' names in front of the curves' own.
+/// A chart with the curves of the same chart of each run. The name of the run is put before the name of the curve.
 std::string charts_over(const Runs& runs, const std::vector<std::string>& names,
                         const std::function<LineChart(const RunFiles&)>& chart_of) {
   LineChart all;
@@ -224,7 +225,7 @@ std::string charts_over(const Runs& runs, const std::vector<std::string>& names,
 
 LineChart collapse_chart(const RunFiles& run) {
   LineChart chart =
-      history_chart("Load and displacement of the loaded points", "displacement along the load (mm)", "multiplier (-)");
+      history_chart("Load and displacement of the loaded points", "Displacement along the load, mm", "Multiplier");
   ChartCurve curve;
   for (const json& p : run.of("collapse").value("curve", json::array()))
     curve.x.push_back(1e3 * p.value("along", NAN)), curve.y.push_back(p.value("multiplier", NAN));
@@ -240,12 +241,12 @@ std::string curves(const Runs& runs, const std::vector<std::string>& names) {
   return text.empty() ? "" : heading("Loads and displacements") + text;
 }
 
-/// The last stored frame of each run, coloured alike.
+/// Pictures of the last stored frame of each run, with the same colour scale.
 std::string pictures(const CompareRequest& request, const Runs& runs, const std::vector<std::string>& names) {
   std::vector<PictureFiles> frames;
   for (const RunFiles& run : runs) {
     const VtkSeries series(run.directory);
-    if (series.blocks().frames().empty()) return note(run.name + " has no stored frame: no pictures.");
+    if (series.blocks().frames().empty()) return note(run.name + " has no stored frame, so there are no pictures.");
     const auto& last = series.blocks().frames().back();
     frames.push_back(
         {series.blocks().file_path(last), series.joints().file_at(last.time), series.fill().file_at(last.time)});
@@ -262,10 +263,10 @@ std::string pictures(const CompareRequest& request, const Runs& runs, const std:
         render_picture(frames[i], options, png);
         all.push_back(
             {fmt::format("{}: {}, {}", names[i], std::string(colour) == "slip" ? "joints slid" : "joints opened", view),
-             "largest since the start; one scale for all", png});
+             "largest since the start; all pictures have the same scale", png});
       }
     }
-  return pictures_section(all, "Pictures of one scale");
+  return pictures_section(all, "Pictures with the same scale");
 }
 
 }  // namespace

@@ -17,28 +17,29 @@ namespace {
 constexpr int modes_wanted = 10;
 constexpr double period_tolerance = 0.10, ratio_tolerance = 0.15;
 
-/// What is known to be outside its tolerance, and why: a ratio of a bridge, or a period of one with free (F) or
-/// restrained (R) ends.
+/// A value that is known to be outside its tolerance, with the reason: a ratio of a bridge, or a period of a bridge
+/// with free (F) or restrained (R) ends.
 struct KnownMiss {
   const char *bridge, *motion, *reason;
 };
 const KnownMiss known_misses[] = {
     {"CS1-F", "longitudinal, 1st order",
-     "known: intact; it lengthens by 8 % as gravity lets joints of infill and fill slide (--state gravity)"},
+     "known miss with intact joints: under gravity joints of infill and fill slide, which lengthens the period by 8 % "
+     "(--state gravity)"},
     {"CS1", "transverse, 1st order",
-     "known: what lengthens the free bridge's period lengthens the restrained one's too, which is at its limit "
-     "already"},
+     "known miss: a change that lengthens the period of the free bridge also lengthens that of the restrained bridge, "
+     "which is already at its limit"},
 };
 
-/// A published mode and what was found.
+/// A published mode and the computed one.
 struct PaperRow {
   std::string bridge, ends;  // "CS1", "F"
   ModeWords words;
   double published = 0.0, found = 0.0;  // s
-  int number = 0;                       // of the mode found, from 1; 0: none
+  int number = 0;                       // number of the computed mode, from 1; 0: none
 };
 
-/// "+3.1 %", and whether it is a miss.
+/// The error as text, such as "+3.1 %". Sets `miss` if it is outside the tolerance.
 std::string error_text(double found, double expected, double tolerance, bool& miss) {
   if (expected <= 0.0) return "";
   if (found <= 0.0) return miss = true, "none";
@@ -54,7 +55,7 @@ const KnownMiss* known_miss(const std::string& bridge, const std::string& motion
   return nullptr;
 }
 
-/// The error, and in brackets why it is known to be a miss, if it is.
+/// The error as text. A known miss has its reason in brackets.
 std::string error_or_reason(double found, double expected, double tolerance, const KnownMiss* known, bool& miss) {
   bool own = false;
   const std::string text = error_text(found, expected, tolerance, own);
@@ -116,7 +117,7 @@ std::string ratios_part(const std::vector<PaperRow>& rows, bool& miss) {
   return text;
 }
 
-/// The cases list the modes in the published order.
+/// Says whether the modes come in the published order, which is that of the cases.
 std::string order_part(const std::vector<PaperRow>& rows, bool& miss) {
   std::string text;
   for (std::size_t i = 1; i < rows.size(); ++i) {

@@ -1,4 +1,4 @@
-// The twelve periods of the seed paper.
+// Comparison with the published periods of the bridges CS1 and CS2.
 #pragma once
 #include <string>
 
@@ -6,10 +6,11 @@
 
 namespace voussoir {
 
-/// Prints the periods of cases/cs1-f, cs1-r, cs2-f and cs2-r, intact or as their gravity stages leave them, beside
-/// those their [[modal.expected]] name, the ratios of free to restrained, and whether the modes come in the published
-/// order; as Markdown to `file` unless that is empty. Returns 1 when a period is off by more than 10 % of the published
-/// value, a ratio by more than 15 % (but for known misses, which say why), or an order differs.
+/// Computes the periods of cases/cs1-f, cs1-r, cs2-f and cs2-r, with intact joints or with the joints after gravity.
+/// Prints them with the published ones ([[modal.expected]]), the ratios of free to restrained, and whether the modes
+/// come in the published order. Writes the same as Markdown to `file`, unless that is empty. Returns 1 if a period
+/// differs by more than 10 % of the published value, a ratio by more than 15 %, or the order differs. Known misses,
+/// which are printed with their reason, do not count.
 int modal_paper(const std::string& file, ModalSettings::State state, int threads);
 
 }  // namespace voussoir

@@ -51,7 +51,7 @@ std::string modes_table(const ModesFile& file) {
                         mode.frequency > 0.0 ? fmt::format("{:.4f}", mode.period()) : "-");
     text += fmt::format("  {:>6.1f} {:>6.1f} {:>6.1f} {:>6.1f} {:>6.1f} {:>6.1f}", share.x(), share.y(), share.z(),
                         sum.x(), sum.y(), sum.z());
-    for (int c = 0; c < 3; ++c)  // never −0.00
+    for (int c = 0; c < 3; ++c)  // + 0.0 avoids −0.00
       text += fmt::format(" {:>6.2f}", 0.01 * std::round(100.0 * mode.participation[c]) + 0.0);
     if (damped)
       text += fmt::format(" {:>9.4f} {:>8} {:>6.2f}", file.damped[i].frequency,
@@ -65,11 +65,11 @@ std::string modes_table(const ModesFile& file) {
 std::string effort_text(const ModesReport& report) {
   const Eigenpairs& s = report.solution;
   if (s.factor_entries == 0.0)
-    return fmt::format("{} unknowns, solved densely: assembly {:.2f} s, modes {:.2f} s", report.unknowns,
+    return fmt::format("{} unknowns, dense solver: assembly {:.2f} s, modes {:.2f} s", report.unknowns,
                        report.assembly_seconds, s.iteration_seconds);
   return fmt::format(
-      "{} unknowns: assembly {:.2f} s, factor {:.2f} s ({:.1f} million entries, {:.2f} GiB), iteration "
-      "{:.2f} s ({} solves)",
+      "{} unknowns: assembly {:.2f} s, factorization {:.2f} s ({:.1f} million entries, {:.2f} GiB), iteration {:.2f} s "
+      "({} solves)",
       report.unknowns, report.assembly_seconds, s.factor_seconds, 1e-6 * s.factor_entries,
       s.factor_bytes / (1024.0 * 1024.0 * 1024.0), s.iteration_seconds, s.solves);
 }
@@ -77,10 +77,10 @@ std::string effort_text(const ModesReport& report) {
 std::string loose_text(const Assembly& assembly, const Modes& modes) {
   std::string text;
   if (!modes.adrift.empty())
-    text += fmt::format("{} block{} held by nothing, left out of the modes: {}\n", modes.adrift.size(),
+    text += fmt::format("{} block{} that no joint holds, left out of the modes: {}\n", modes.adrift.size(),
                         plural(modes.adrift.size()), named(assembly, modes.adrift));
   if (!modes.partly.empty())
-    text += fmt::format("{} block{} free to turn or slide on their own, held in that way: {}\n", modes.partly.size(),
+    text += fmt::format("{} block{} that can turn or slide freely, held in that direction: {}\n", modes.partly.size(),
                         plural(modes.partly.size()), named(assembly, modes.partly));
   return text;
 }
@@ -89,7 +89,7 @@ Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs) {
   const BlockPairs pairs = pair_blocks(ours.places, theirs.places);
   if (pairs.share < 0.5)
     throw InputError(
-        "only {:.0f} % of the mass has a block of the other analysis near it; compare analyses of the same structure",
+        "only {:.0f} % of the mass has a block of the other analysis near it. Compare analyses of the same structure",
         100.0 * pairs.share);
   Pairing pairing;
   pairing.share = pairs.share;

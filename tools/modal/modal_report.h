@@ -8,28 +8,28 @@
 
 namespace voussoir {
 
-/// One line a mode: frequency, period, effective mass and its running sum, participation, damping, motion.
+/// One line for each mode: frequency, period, effective mass and its running sum, participation, damping, motion.
 std::string modes_table(const ModesFile& file);
-/// What it took: unknowns, seconds, memory.
+/// The cost of the analysis: unknowns, seconds, memory.
 std::string effort_text(const ModesReport& report);
-/// What was left out or held because nothing else holds it; empty where everything is held. Up to six blocks by name.
+/// The blocks that were left out or held because no joint holds them, up to six by name; empty if all blocks are held.
 std::string loose_text(const Assembly& assembly, const Modes& modes);
 
-/// Modes of another analysis beside ours, paired by the assurance criterion: for each of theirs the best of ours.
+/// Modes of another analysis, each paired with the best of our modes by the modal assurance criterion (MAC).
 struct Pairing {
-  Eigen::MatrixXd assurance;       // rows ours, columns theirs
-  std::vector<std::int64_t> ours;  // best of ours for each of theirs; −1 where none reaches 0.5
-  double share = 0.0;              // of our mass that has a partner
+  Eigen::MatrixXd assurance;       // MAC; rows are our modes, columns theirs
+  std::vector<std::int64_t> ours;  // our best mode for each of theirs; −1 if none reaches a MAC of 0.5
+  double share = 0.0;              // share of our mass whose blocks have a partner
 };
 Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs);
-/// One line for each of their modes: their frequency, ours, change, assurance, motion.
+/// One line for each of their modes: their frequency, ours, change, MAC, motion.
 std::string pairing_table(const ModesFile& ours, const ModesFile& theirs, const Pairing& pairing,
                           const std::string& ours_name, const std::string& theirs_name);
 
-/// Periods that the case expects against those found.
+/// A period that the case expects, and the computed one.
 struct PeriodCheck {
   ExpectedPeriod expected;
-  double found = 0.0;  // s; 0: no such mode among those found
+  double found = 0.0;  // s; 0: no such mode among the computed ones
   double error() const { return found / expected.period - 1.0; }
 };
 std::vector<PeriodCheck> check_periods(const std::vector<ExpectedPeriod>& expected, const std::vector<Mode>& modes);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The gravity stage alone, as a run would do it.
+/// Computes the gravity stage alone, in the same way as a run.
 void rest_under_gravity(ModalSource& source, int threads, bool quiet) {
   SolverSettings settings = source.c.settings;
   const auto stage = std::find_if(settings.stages.begin(), settings.stages.end(),
@@ -33,27 +33,29 @@ void rest_under_gravity(ModalSource& source, int threads, bool quiet) {
   Simulation run(source.assembly, settings, threads, observers);
   const RunEnd end = run.run();
   progress.end();
-  if (end != RunEnd::finished) throw RunError("no equilibrium under gravity: {}", run.failure());
+  if (end != RunEnd::finished) throw RunError("no equilibrium under gravity was found: {}", run.failure());
   source.state = run.state();
-  take_joint_order(source.model, source.state);  // and where joints were made, if they were one after the other
+  take_joint_order(source.model, source.state);  // and the positions of joints that construction steps have made
 }
 
-/// What a state of a run is when it has come to rest.
+/// Brings the state of a run to rest.
 void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
-  // Of an average block's weight: what the joints carry is known well enough, and who touches whom does not change.
+  // Share of the mean weight of a block. At this residual the joint forces are accurate enough, and contacts do not
+  // change any more.
   constexpr double tolerance = 1e-4;
   ProgressLine line(quiet);
   const Settled settled = settle(stepper, tolerance, nullptr, [&](std::int64_t step, double residual) {
     Progress progress;
     progress.stage = "coming to rest";
     progress.timed = false;
-    progress.note = fmt::format("relaxation step {}: out-of-balance {:.1e}", step, residual);
+    progress.note = fmt::format("relaxation step {}: out-of-balance force {:.1e}", step, residual);
     line.show(progress);
   });
   line.end();
   if (!settled.equilibrium.converged)
     throw RunError(
-        "the state does not come to rest under gravity, it is still coming down ({}); --as-stored takes it as it is",
+        "the state does not come to rest under gravity, because the bridge is still collapsing ({}). Give --as-stored "
+        "to take the state as it is",
         settled.equilibrium.account);
   source.about += fmt::format(", at rest after {} steps", settled.equilibrium.steps);
   if (const std::size_t n = settled.falling.size())
@@ -68,7 +70,7 @@ void load_checkpoint(ModalSource& source, const std::string& file) {
   source.damaged = true;
   source.name = fs::path(stored.run).filename().string();
   source.about = fmt::format("{} at t = {:.3f} s, joints as they are", source.name, stored.header.time);
-  // Between two stages what acts is what the one before has left.
+  // Between two stages the loads are those of the earlier stage.
   const std::int64_t at = stored.header.numbers["stage_begun"] > 0.0 ? stored.header.stage : stored.header.stage - 1;
   const auto stages = std::int64_t(source.c.settings.stages.size());
   if (at >= 0) source.loads = loads_after(source.c.settings.stages, std::size_t(std::min(at, stages - 1)));
@@ -89,9 +91,11 @@ ModalSource prepared(ModalSource source, const std::function<void(ModalSettings&
   modal(asked);
   const bool gravity = asked.state == ModalSettings::State::gravity;
   if (!source.damaged) {
-    if (as_stored) throw InputError("--as-stored is for the state of a run, and {} is a case", source.c.path);
+    if (as_stored)
+      throw InputError("--as-stored applies to the state of a run, but {} is a case. Leave the option out",
+                       source.c.path);
     if (asked.geometric && !gravity)
-      throw InputError("geometric stiffness needs the forces of a state: add --state gravity");
+      throw InputError("the geometric stiffness needs the forces of a state. Add --state gravity");
     if (gravity) rest_under_gravity(source, threads, quiet);
     source.tangent = gravity ? PatchTangent::present : PatchTangent::intact;
     source.about =

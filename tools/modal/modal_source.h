@@ -1,4 +1,4 @@
-// What an eigenvalue analysis starts from: a case, a run directory or a checkpoint.
+// The input of an eigenvalue analysis: a case, a run directory or a checkpoint.
 #pragma once
 #include <optional>
 
@@ -13,15 +13,16 @@ struct ModalSource {
   Model model;
   State state;
   PatchTangent tangent = PatchTangent::intact;
-  bool damaged = false;                   // from a run: to be compared with the intact assembly
-  std::optional<Array<double>> wrenches;  // of the joints, for geometric stiffness
-  Loads loads;                            // dead ones, of a run's stage
-  std::string name;                       // of the case file, or of the run directory
-  std::string about;                      // "cs1-r.toml, intact joints"
+  bool damaged = false;                   // the state is that of a run, to be compared with the intact assembly
+  std::optional<Array<double>> wrenches;  // forces and moments of the joints, for the geometric stiffness
+  Loads loads;                            // constant loads of the stage of a run
+  std::string name;                       // name of the case file or of the run directory
+  std::string about;                      // "cs1-r.toml, all joints intact"
 };
 
-/// Loads `from` and finds equilibrium where the settings ask for it; a state of a run is brought to rest with its
-/// damage kept, unless it is wanted `as_stored`. `modal` overrides what the case says. Throws InputError, RunError.
+/// Loads `from`, and finds the equilibrium under gravity if the settings ask for it. A state of a run is brought to
+/// rest and keeps its damage, unless `as_stored` is true. `modal` overrides the settings of the case. Throws
+/// InputError, RunError.
 ModalSource modal_source(const std::string& from, const std::function<void(ModalSettings&)>& modal, bool as_stored,
                          int threads, bool quiet);
 /// The same of a case that has been read. Throws InputError, RunError.
