@@ -197,7 +197,7 @@ TEST(Fragility, SaysWhatIsWrong) {
 
 TEST(Fragility, ACampaignWithoutResultsIsRefused) {
   const Campaign folder(heading + "a,c,r,,1,,failed,energy,3,1,1,1,,,\nb,c,r,,1,,missing,,,,,,,,\n");
-  expect_error(fragility(folder, {}), 2, {"none of the 2 runs is done (1 failed, 1 have not been run yet)"});
+  expect_error(fragility(folder, {}), 2, {"none of the 2 runs is done (1 failed, 1 not yet run)"});
 }
 
 }  // namespace VOUSSOIR_FILE

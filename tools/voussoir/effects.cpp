@@ -25,7 +25,7 @@ int effects_verb_run(const std::vector<std::string>& arguments) {
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   if (!values.count("CASE")) {
-    fmt::print("| effect | what | parameters |\n| --- | --- | --- |\n");
+    fmt::print("| effect | description | parameters |\n| --- | --- | --- |\n");
     for (const Effect& effect : effects()) {
       print_effect(effect);
       fmt::print("\n");

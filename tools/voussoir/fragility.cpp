@@ -109,7 +109,7 @@ void count_runs(const CampaignTable& table, FragilityReport& report) {
   }
   if (report.done + report.collapsed == 0)
     throw InputError(
-        "{}: none of the {} runs is done ({} failed, {} have not been run yet), so there are no curves. Run the "
+        "{}: none of the {} runs is done ({} failed, {} not yet run), so there are no curves. Run the "
         "campaign first",
         table.path, table.runs.size(), report.failed, report.missing);
 }

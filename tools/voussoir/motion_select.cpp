@@ -142,7 +142,7 @@ std::string spectra_figure(const Selected& s) {
 std::string ratio_figure(const Selected& s) {
   LineChart chart;
   chart.title = "Ratio of the mean to the target";
-  chart.x_label = "Period, s", chart.y_label = "ratio";
+  chart.x_label = "Period, s", chart.y_label = "Ratio";
   chart.height = 240.0;
   const std::vector<double> low(s.periods.size(), s.request.problem.low),
       high(s.periods.size(), s.request.problem.high);
@@ -195,7 +195,7 @@ std::string selection_page(const Selected& s, const std::string& spectra) {
       "to the target is {:.3f} to {:.3f} at periods from {:g} to {:g} s ({:g} to {:g} is allowed). {} sets were "
       "tried{}.",
       p.count, s.sets.size(), p.per_event, p.least, p.most, low, high, s.request.range[0], s.request.range[1], p.low,
-      p.high, s.selection.tried, s.selection.all_tried ? ", which is all possible sets" : ""));
+      p.high, s.selection.tried, s.selection.all_tried ? " (all possible sets)" : ""));
   if (!s.selection.found) body += paragraph("No set keeps all bounds. This is the closest one.");
   body += figure(spectra) + ratio_figure(s) + heading("Measures, multiplied by the factors") + measures_figure(s);
   body += measures_table(s.names, s.measures, s.selection.factors) + heading("Histories, as recorded");

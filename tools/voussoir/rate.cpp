@@ -151,7 +151,7 @@ std::string draw_working(const Case& c, const std::string& folder) {
 /// Results of the runs at the worst position.
 struct WorstRuns {
   std::vector<PagePicture> pictures;
-  std::vector<ThrustLine> thrust;  // under the vehicle as it is, then under the largest load found
+  std::vector<ThrustLine> thrust;  // under the vehicle with factor 1, then under the largest load found
 };
 
 /// Runs the worst position of all again, to collapse and at factor 1, with pictures and pages.
@@ -167,16 +167,16 @@ WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rat
     const DirectoryLock lock = prepare_directory(more, folder, true);
     if (!quiet)
       fmt::print("{}: {}\n", folder,
-                 to_collapse ? "run to collapse at the worst position" : "under the vehicle as it is");
+                 to_collapse ? "run to collapse at the worst position" : "under the vehicle with factor 1");
     RunSession session(run);
     session.run();
     all.thrust.insert(all.thrust.begin(),
-                      {to_collapse ? "largest load found" : "under the vehicle as it is", session.bed_joints()});
+                      {to_collapse ? "largest load found" : "under the vehicle with factor 1", session.bed_joints()});
     const std::string file = to_collapse ? folder + "/images/mechanism_front.png" : draw_working(more, folder);
     std::error_code ignored;
     if (fs::exists(file, ignored))
       all.pictures.push_back(
-          {to_collapse ? "Beyond the collapse load" : "Under the vehicle as it is",
+          {to_collapse ? "Beyond the collapse load" : "Under the vehicle with factor 1",
            to_collapse
                ? "Run directory worst: displacements, and joints of the mechanism in red"
                : "Run directory working: displacements, and joints that opened or slipped more than 0.1 mm in red",
