@@ -108,7 +108,7 @@ std::string family_sentence(const RunFiles& run) {
                                   "The damage is " + damage_sentence(damage[worst]) + ".");
 }
 
-/// The peak acceleration of the ground, and whether the bridge stands afterwards.
+/// The peak acceleration of the ground, and whether stones have fallen by the end.
 std::string motion_sentence(const RunFiles& run) {
   std::string text;
   for (const StageSettings& stage : run.stages()) {

@@ -85,12 +85,12 @@ class RunSession {
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// Pictures of the end state and charts of the history (the usual ones, and the plots of the case) in DIR/images.
-/// Returns what could not be made, empty if all was.
+/// Draws the end state and charts of the history (the usual ones, and the plots of the case) in DIR/images. Returns a
+/// text on the pictures that could not be drawn; empty if all were drawn.
 std::string make_pictures(const std::string& directory, const Case& c, const Simulation& run, const Snapshot& snapshot,
                           const History& history);
 
-/// Stones on their way after a stage without time has failed, in DIR/images/moving.png. Returns as above.
+/// Draws the moving stones after a static stage has failed, in DIR/images/moving.png. Returns the same as above.
 std::string draw_moving(const std::string& directory, const Simulation& run, const Snapshot& snapshot);
 
 }  // namespace voussoir

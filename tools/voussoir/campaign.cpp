@@ -90,7 +90,7 @@ std::string for_shell(const std::string& word) {
   return fmt::format("'{}'", quoted);
 }
 
-/// What went wrong, after everything else.
+/// Lists the failed runs, after all other output.
 void list_failures(const Plan& plan, const std::string& directory) {
   std::size_t listed = 0;
   const Tally t = tally(directory, plan);

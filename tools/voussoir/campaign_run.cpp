@@ -163,7 +163,7 @@ Outcome outcome_of(const Job& job, const RunSession& session) {
       o.goes_on = true;
       break;
     default:
-      break;  // stopped: it will go on
+      break;  // stopped: the run can be continued
   }
   return o;
 }

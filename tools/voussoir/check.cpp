@@ -95,7 +95,7 @@ std::vector<Step> steps_asked(const std::vector<std::string>& names) {
   return steps;
 }
 
-/// Entry `key` of a list, counted from 0; null where it has none.
+/// Entry `key` of a list, counted from 0; null if there is none.
 const nlohmann::json* entry_of(const nlohmann::json& list, const std::string& key) {
   constexpr std::size_t most_digits = 6;
   if (!list.is_array() || key.empty() || key.size() > most_digits) return nullptr;

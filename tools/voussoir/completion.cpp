@@ -19,7 +19,7 @@ std::vector<std::string> names_of(const std::vector<ManualEntry>& entries) {
   return names;
 }
 
-/// "--threads|-j": as patterns of a case; "" where there are none.
+/// "--threads|-j": options as the patterns of a case in bash; "" if there are none.
 std::string patterns_of_other_values(const ManualEntry& entry) {
   std::vector<std::string> patterns;
   for (const ManualOption& option : entry.options) {

@@ -18,7 +18,7 @@ ManualOption manual_option(const options::option_description& option) {
   if (brief != option.long_name() && brief.size() == 2) found.brief = brief;
   found.text = option.description();
   if (option.semantic()->max_tokens() == 0) return found;
-  // "WORD (=lz4)" where there is a default.
+  // The text is "WORD (=lz4)" if there is a default.
   const std::string value = option.format_parameter();
   const std::size_t at = value.find(" (=");
   found.value = value.substr(0, at);

@@ -10,7 +10,7 @@ namespace voussoir {
 struct ManualOption {
   std::string brief, name;  // "-o" (empty: none), "--output"
   std::string value;        // "DIR"; empty: it takes none
-  std::string text;         // what it does
+  std::string text;         // description
   std::string otherwise;    // default value as --help prints it; may be empty
 };
 

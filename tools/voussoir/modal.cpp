@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct ModalRequest {
   std::string from, directory, against;
   bool state_asked = false, as_stored = false, quiet = false, pictures = true;

@@ -1,4 +1,4 @@
-// voussoir motion: its parts, and what they share.
+// voussoir motion: the list of its parts, and the functions that they share.
 #include "tools/voussoir/motion.h"
 
 #include <fmt/format.h>
