@@ -20,7 +20,7 @@ std::string per_cent(double factor) {
 std::vector<std::string> helped(const Addition& a) {
   std::vector<std::string> all;
   for (const Addition::Helped& h : a.most)
-    all.push_back(fmt::format("{} at {} {}", h.name, h.where, per_cent(h.factor)));
+    all.push_back(fmt::format("{} at {} ({})", h.name, h.where, per_cent(h.factor)));
   return all;
 }
 
@@ -34,18 +34,21 @@ std::string detectable_text(const Detectable& d) {
   std::vector<std::string> sides;
   if (std::isfinite(d.below)) sides.push_back(fmt::format("below {:.2g}", d.below));
   if (std::isfinite(d.above)) sides.push_back(fmt::format("above {:.2g}", d.above));
-  if (sides.empty()) return fmt::format("{}: not within its bounds", d.parameter);
+  if (sides.empty()) return fmt::format("{}: no amount within its bounds", d.parameter);
   return fmt::format("{} {}{}", d.parameter, fmt::join(sides, " or "), d.unit == "-" ? "" : " " + d.unit);
 }
 
 std::string detection_text(const Detection& d) {
   std::string text;
-  if (!d.least.empty()) text += "what these data would show, each with a probability of 0.9:\n";
+  if (!d.least.empty()) text += "least amounts that these data would show with a probability of 0.9:\n";
   for (const Detectable& least : d.least)
     text += fmt::format("  {} at {}: {}\n", least.name, least.where, detectable_text(least));
-  if (!d.further.empty()) text += "what would show less: sensors, and modes, each beside those of its kind above it:\n";
+  if (!d.further.empty())
+    text +=
+        "further sensors and modes that would lower these least amounts, each together with those of its kind listed "
+        "above it:\n";
   for (const Addition& a : d.further)
-    text += fmt::format("  {}: least amounts {} on average; most {}\n", a.text, per_cent(a.factor),
+    text += fmt::format("  {}: least amounts fall to {} on average, most for {}\n", a.text, per_cent(a.factor),
                         fmt::join(helped(a), ", "));
   return text;
 }
@@ -73,20 +76,22 @@ std::string detection_section(const Detection& d, std::string_view title) {
   if (d.least.empty()) return "";
   std::string text = heading(title);
   text += note(
-      "The least amount of each effect, beside what was found, that would be named with a probability of 0.9 from "
-      "these modes, sensors and uncertainties. What is less than that may be there all the same.");
+      "For each effect, the table gives the least amount that would be named with a probability of 0.9 from these "
+      "modes, sensors and uncertainties, in addition to what was found. A smaller amount may exist on the bridge "
+      "without being named.");
   text += "<table>\n" + table_row({{"effect"}, {"where"}, {"least amount"}}, "th");
   for (const Detectable& least : d.least)
     text += table_row({words_cell(least.name), words_cell(least.where), words_cell(detectable_text(least))}, "td");
   text += "</table>\n";
   if (d.further.empty()) return text;
-  text += heading("What would be worth measuring next");
+  text += heading("Useful further measurements");
   text += note(
-      "The further sensors, and the further modes, that lower these least amounts most, each beside those of its kind "
-      "above it: to which share of the table's amounts they fall on average, and which fall most by the one alone. A "
-      "sensor counts in every measured mode; a mode counts with its period and its shape at the sensors that are "
-      "there.");
-  text += "<table>\n" + table_row({{"measure"}, {"least amounts", true}, {"most"}}, "th");
+      "The table lists the further sensors and the further modes that lower these least amounts most, each together "
+      "with those of its kind listed above it. The column with the least amounts gives the average share of the "
+      "amounts in the table above that remains. The last column names the effects whose least amounts fall most by "
+      "this sensor or mode alone. A sensor counts in every measured mode. A mode counts with its period and with its "
+      "shape at the present sensors.");
+  text += "<table>\n" + table_row({{"measurement"}, {"least amounts fall to", true}, {"largest reductions"}}, "th");
   for (const Addition& a : d.further)
     text += table_row(
         {{escaped(a.text)}, {per_cent(a.factor), true}, words_cell(fmt::format("{}", fmt::join(helped(a), ", ")))},

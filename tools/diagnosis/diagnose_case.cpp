@@ -8,13 +8,14 @@ namespace voussoir {
 
 namespace {
 
-/// The corrected case: the case's own text with what was found. Faults of sensors are the measurement's, not its.
+/// The text of the corrected case: the text of the case and the effects that were found. Faults of sensors belong to
+/// the measurement; they are written as comments.
 std::string corrected_text(const DiagnosisInput& input, const std::vector<EffectSetting>& all) {
   std::vector<EffectSetting> model;
   std::string faults;
   for (const EffectSetting& effect : all) {
     if (effect.name == "sensor_fault")
-      faults += fmt::format("# of the measurement: {}\n", effect.text());
+      faults += fmt::format("# Fault of the measurement: {}\n", effect.text());
     else
       model.push_back(effect);
   }
@@ -22,7 +23,8 @@ std::string corrected_text(const DiagnosisInput& input, const std::vector<Effect
                      effects_text(model));
 }
 
-/// The hypothesis' faults of sensors and motions of supports alone: what the corrected assembly does not hold.
+/// Fits only the sensor faults and support motions of the hypothesis, because the corrected assembly does not contain
+/// them.
 Fit rerun(const DiagnosisProblem& judged, Assembly corrected, double damping, const Fit& found) {
   DiagnosisProblem problem = judged;
   problem.base = std::move(corrected);
@@ -40,7 +42,7 @@ Fit rerun(const DiagnosisProblem& judged, Assembly corrected, double damping, co
   return fit(problem, faults, Eigen::Map<const Eigen::VectorXd>(x.data(), Eigen::Index(x.size())), 0);
 }
 
-/// The hypothesis with the parameters of its effects as they were found, x = 0.
+/// The hypothesis whose effects have the parameters that were found as usual values (x = 0).
 Hypothesis with_found_effects(const Fit& found) {
   constexpr double held = 1e-4;  // of their priors
   Hypothesis h = found.hypothesis;
@@ -53,9 +55,9 @@ Hypothesis with_found_effects(const Fit& found) {
   return h;
 }
 
-/// The materials of the corrected case, with the effects as they were found: fitted under the errors that each row has
-/// for itself. Beside what is not exactly known materials have no need to follow what all rows have in common; a case
-/// that is to be used must.
+/// The materials of the corrected case with the effects as they were found. Each row has only its own error here. With
+/// the errors that all rows share, the fit could leave a common shift to these errors instead of the materials; a case
+/// for further use must follow the shift.
 Fit fit_corrected(const DiagnosisProblem& judged, const Fit& found) {
   DiagnosisProblem problem = judged;
   set_scale(problem, {0.0, judged.scale.shapes});
@@ -86,7 +88,7 @@ DiagnosisResult diagnose_case(const DiagnosisInput& input, const DiagnosisReques
   try {
     result.recorded = run_recorded(input, c, request.run_seconds, request.settings.threads, say);
   } catch (const std::runtime_error& error) {
-    say(fmt::format("no runs under the recorded motion: {}", error.what()));
+    say(fmt::format("The runs under the recorded motion failed: {}", error.what()));
   }
   return result;
 }

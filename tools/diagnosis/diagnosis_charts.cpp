@@ -12,12 +12,12 @@ namespace voussoir {
 
 namespace {
 
-/// Bars of what was before: light within, so that they are lighter in grey print too.
+/// Bars of the case before the diagnosis: a light fill, so that they stay lighter in a grey print.
 ShapeStyle before_bar() {
   return {"#fbe3d3", before_colour(), 1.2, ""};
 }
 
-/// Parts of both, those that matter most before first.
+/// The parts of both locations; those with the largest share before come first.
 std::vector<std::string> parts_of(const Location& before, const Location& after) {
   constexpr std::size_t most = 14;
   std::vector<std::string> parts;
@@ -82,7 +82,7 @@ std::vector<ProbabilityRow> probability_rows(const Round& round) {
   return rows;
 }
 
-/// What is likely: one and two standard deviations about the usual value.
+/// The likely range: one and two standard deviations about the usual value.
 void draw_prior(SvgDrawing& drawing, const ChartAxis& axis, double y) {
   drawing.rectangle(axis.at(-2.0), y - 10.0, axis.at(2.0) - axis.at(-2.0), 20.0, filled_with(kBandColour));
   drawing.rectangle(axis.at(-1.0), y - 10.0, axis.at(1.0) - axis.at(-1.0), 20.0, filled_with("#d3d3da"));
@@ -138,7 +138,7 @@ std::string gap_chart(const std::vector<GapRow>& gaps) {
                       filled_with(kBandColour));
   draw_row_lines(drawing, rows);
   draw_axis_below(drawing, axis, rows.top, rows.bottom(),
-                  "gap, standard deviations (grey: at or below 1, as good as noise)");
+                  "gap, standard deviations (grey: at most 1, as good as noise)");
   draw_legend(drawing, kLabelWidth, 16.0,
               {before_entry(), {Marker::diamond, materials_colour(), "materials fitted"}, after_entry()});
   const double columns[] = {800.0, 908.0, kChartWidth - 4.0};
@@ -169,10 +169,10 @@ std::string where_chart(const Location& before, const Location& after) {
   const SharePanel left = {kLabelWidth, 320.0, most, before_bar()},
                    right = {620.0, 320.0, most, little ? pale : filled_with(after_colour())};
   drawing.text(left.begin, 16.0, "the case as it is", {.bold = true});
-  drawing.text(left.begin, 33.0, fmt::format("size of the correction {}", size_text(before.size)));
+  drawing.text(left.begin, 33.0, fmt::format("size of the correction: {}", size_text(before.size)));
   drawing.text(right.begin, 16.0, "the corrected case", {.bold = true});
   drawing.text(right.begin, 33.0,
-               fmt::format("size of the correction {}{}", size_text(after.size), little ? ": little is left" : ""));
+               fmt::format("size of the correction: {}{}", size_text(after.size), little ? " (little is left)" : ""));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     draw_row_label(drawing, rows.middle(i), parts[i], "");
     draw_share(drawing, left, rows.middle(i), part_in(before, parts[i]));
@@ -210,9 +210,10 @@ std::string materials_chart(const Diagnosis& d) {
   SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Fitted materials");
   const ChartAxis axis = materials_axis(d, kLabelWidth, 690.0);
   draw_row_lines(drawing, rows);
-  draw_axis_below(drawing, axis, rows.top, rows.bottom(), "standard deviations of what is likely before any data");
+  draw_axis_below(drawing, axis, rows.top, rows.bottom(),
+                  "deviation from the usual value, standard deviations of the likely range");
   std::vector<LegendEntry> legend = {{Marker::diamond, materials_colour(), "materials alone"}};
-  if (added) legend.push_back({Marker::triangle, after_colour(), "with what was found"});
+  if (added) legend.push_back({Marker::triangle, after_colour(), "with the effects found"});
   draw_legend(drawing, kLabelWidth, 16.0, legend);
   draw_column_heading(drawing, added ? 856.0 : kChartWidth - 4.0, 16.0, "factor, alone");
   if (added) draw_column_heading(drawing, kChartWidth - 4.0, 16.0, "with the effects");

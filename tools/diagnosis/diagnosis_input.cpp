@@ -27,17 +27,18 @@ bool can_remesh(const Case& c) {
   return !c.generator.empty() && c.generator_input.values.contains("block_scale");
 }
 
-/// Blocks 1.25 times as large, to see what their size does.
+/// The mesh with blocks 1.25 times as large. It shows how the block size affects the modes.
 std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
   if (!can_remesh(input.c)) return nullptr;
   auto mesh = std::make_shared<CoarserMesh>();
   mesh->assembly = remeshed(input.c, 1.25 * input.c.generator_input.values.at("block_scale"));
   mesh->sensors = features_of(input.measured, mesh->assembly).sensors;
-  mesh->farther = 0.5;  // the stones are those of the case, but no mesh is better than half of that
+  mesh->farther = 0.5;  // the case has real stones, but the uncertainty of a mesh is at least half of that
   return mesh;
 }
 
-/// The case with one dimension changed, and all others that are the same number: on the bridge they are one.
+/// The case with one dimension changed by `amount`. All dimensions with the same value change together, because on the
+/// bridge they are one dimension.
 Assembly with_dimension(const Case& c, double value, double amount) {
   Case other = c;
   for (const Parameter& p : keys_of(find_generator(c.generator), c.generator_input).parameters) {
@@ -47,12 +48,12 @@ Assembly with_dimension(const Case& c, double value, double amount) {
   return make_assembly(other);
 }
 
-/// Of the dimensions that a generator is given.
+/// The uncertainties of the dimensions that a generator is given.
 std::vector<Nuisance> dimension_nuisances(const Case& c) {
   constexpr double usual = 0.02;  // m; not more than a twentieth of the dimension
   std::vector<Nuisance> all;
   if (c.generator.empty()) return all;
-  std::map<double, std::string> names;  // of each number
+  std::map<double, std::string> names;  // by value
   for (const Parameter& p : keys_of(find_generator(c.generator), c.generator_input).parameters) {
     const double value = c.generator_input.values.at(p.name);
     if (!is_dimension(p) || value <= 0.0) continue;
@@ -61,17 +62,20 @@ std::vector<Nuisance> dimension_nuisances(const Case& c) {
   }
   for (const auto& [value, name] : names) {
     const double spread = std::min(usual, 0.05 * value);
-    // One standard deviation: joints that come or go at a smaller step would count for more than they are.
-    all.push_back({name, "m", spread, spread, [c, value = value](const Assembly& base, double amount) {
-                     if (!base.fill.nodes.empty())
-                       throw InputError("the deformable fill would be meshed otherwise: it cannot be compared");
-                     return with_dimension(c, value, amount);
-                   }});
+    // The difference is taken over one standard deviation. Over a smaller one, joints that appear or vanish would
+    // count for too much.
+    all.push_back(
+        {name, "m", spread, spread, [c, value = value](const Assembly& base, double amount) {
+           if (!base.fill.nodes.empty())
+             throw InputError(
+                 "a change of this dimension would remesh the deformable fill, so the two models cannot be compared");
+           return with_dimension(c, value, amount);
+         }});
   }
   return all;
 }
 
-/// Solves the case as it is; what the mesh does to it, and all that is not exactly known.
+/// Solves the case as it is, and sets the errors of the mesh and of everything that is not exactly known.
 void measure_errors(const DiagnosisRequest& request, DiagnosisInput& input) {
   DiagnosisProblem& p = input.problem;
   p.coarser = coarser_mesh(input);
@@ -115,7 +119,7 @@ DiagnosisProblem problem_of(const DiagnosisRequest& request, const DiagnosisInpu
   const DampingSettings& damping = input.c.settings.damping;
   using Kind = DampingSettings::Kind;
   if (damping.kind == Kind::maxwell || damping.kind == Kind::rayleigh) problem.damping = damping.ratio;
-  // Identification leaves out modes that nothing drove.
+  // Identification leaves out modes that the ground motion did not excite.
   const int measured = int(problem.features.modes.size());
   problem.modes = std::min(input.measured.records.empty() ? measured + 8 : 2 * measured + 8, 40);
   return problem;

@@ -35,8 +35,8 @@ std::string verdict_box(const DiagnosisResult& result) {
            : verdict == Verdict::consistent ? "Consistent."
                                             : "Unexplained.",
            said.found);
-  sentence("How sure.", said.sure);
-  sentence("Next on site.", said.next);
+  sentence("Certainty.", said.sure);
+  sentence("Next step on site.", said.next);
   return fmt::format("<div class=\"verdict {}\">\n{}</div>\n", verdict_name(verdict), text);
 }
 
@@ -72,8 +72,8 @@ std::string gap_section(const DiagnosisResult& result) {
                         gap_text(row.after));
   text += ".</p>\n";
   text += note(
-      "The gap is the root mean square residual in standard deviations of measurement and model together: about 1 is "
-      "noise. “Modes left out”: each mode in turn, predicted from the others.");
+      "The gap is the root mean square residual, in standard deviations of measurement and model together. A gap of "
+      "about 1 is noise. “Modes left out”: each mode in turn is predicted from the others.");
   return text + figure(gap_chart(rows));
 }
 
@@ -81,31 +81,33 @@ std::string gap_section(const DiagnosisResult& result) {
 
 std::string unpaired_note(const std::vector<ModeComparison>& modes) {
   const bool any = std::any_of(modes.begin(), modes.end(), [](const auto& m) { return m.before <= 0 || m.after <= 0; });
-  return any ? note("“none”: the model has no mode that is like the measured one; it counts as 5 standard deviations.")
+  return any ? note("“none”: no computed mode is like the measured one. It counts as 5 standard deviations.")
              : std::string();
 }
 
 std::string modes_section(const std::vector<ModeComparison>& modes) {
   std::string text = heading("Periods and frequencies") + figure(periods_chart(modes)) + unpaired_note(modes);
   text += heading("Residuals of the frequencies");
-  text += note("Measured less computed, over the standard deviation of measurement and model together; grey: ± 2.");
+  text += note(
+      "Measured minus computed frequency, divided by the standard deviation of measurement and model together. Grey: ± "
+      "2.");
   return text + figure(deviations_chart(modes));
 }
 
 std::string scale_key() {
-  SvgDrawing key(210.0, 18.0, "Colours of the assurance");
+  SvgDrawing key(210.0, 18.0, "Colour scale of the modal assurance criterion");
   for (int i = 0; i < 21; ++i)
     key.rectangle(10.0 * i, 0.0, 10.3, 18.0, {colour_code(scale_colour(0.05 * i)), "none", 1.0, ""});
   return fmt::format(
-      "<div class=\"key\"><span>MAC 0</span>{}<span>1; framed: the mode that it is paired with</span></div>\n",
+      "<div class=\"key\"><span>MAC 0</span>{}<span>1; framed: the pair of modes that is compared</span></div>\n",
       key.finished());
 }
 
 std::string shapes_section(const DiagnosisInput& input, const DiagnosisResult& result) {
   const std::string partners = assurance_chart(result.modes), matrix = assurance_matrix(input, result);
   if (partners.empty() && matrix.empty())
-    return heading("Shapes") + paragraph("No shapes were measured; modes are paired by direction and order.");
-  std::string text = heading("Shapes: modal assurance (MAC)") + figure(partners);
+    return heading("Shapes") + paragraph("No mode shapes were measured. Modes are paired by direction and order.");
+  std::string text = heading("Mode shapes: modal assurance criterion (MAC)") + figure(partners);
   if (!matrix.empty()) text += fmt::format("{}{}", figure(matrix), scale_key());
   std::string charts;
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
@@ -120,22 +122,25 @@ std::string shapes_section(const DiagnosisInput& input, const DiagnosisResult& r
         mac(mode.mac_before), mac(mode.mac_after), chart);
   }
   if (charts.empty()) return text;
-  text += heading("Shapes at the sensors");
+  text += heading("Mode shapes at the sensors");
   text += note(
-      "Black circles: measured, with ± 2 standard deviations of the measurement; the largest is 1. Blue triangles: the "
-      "corrected case. Small hollow squares: the case as it is. Computed shapes are scaled to fit best. Sensors along "
-      "each axis stand in the order of their place along the bridge.");
+      "Black circles: measured, with ± 2 standard deviations of the measurement; the largest component is 1. Blue "
+      "triangles: the corrected case. Small hollow squares: the case as it is. Computed shapes are scaled for the best "
+      "fit. The sensors of each axis are in order of their position along the bridge.");
   return text + fmt::format("<div class=\"many\">\n{}</div>\n", charts);
 }
 
 std::string where_section(const DiagnosisResult& result) {
   const std::string chart = where_chart(result.where, result.where_after);
-  std::string text = heading("Where the model disagrees");
-  if (chart.empty()) return text + paragraph("Nothing could be located: no measured mode has a computed partner.");
+  std::string text = heading("Where the model disagrees with the measurements");
+  if (chart.empty())
+    return text +
+           paragraph("No disagreement could be located, because no measured mode is paired with a computed mode.");
   text += note(
-      "Shares of each part in the strain energy of the displacements that would correct the measured modes, with the "
-      "axis along which the residual force does most work. The size is that energy over the modes' own: 1 % is about "
-      "10 % of the squared frequency. Where the size is small the shares are those of noise.");
+      "The share of each part in the strain energy of the displacements that would correct the computed shapes of the "
+      "measured modes. In brackets: the axis along which the residual force does most work. The size of the correction "
+      "is this energy divided by the strain energy of the modes: 1 % is about 10 % of the squared frequency. Where the "
+      "size is small, the shares are noise.");
   return text + figure(chart);
 }
 
@@ -196,8 +201,7 @@ std::string trials_table(const Round& round, const Fit& current) {
 std::string screening_table(const Round& round) {
   if (round.screened.empty()) return "";
   std::string text = fmt::format(
-      "<details><summary>All {} that were screened, and the share of the misfit that each could take away</summary>\n"
-      "<table>\n",
+      "<details><summary>All {} screened, with the share of the misfit that each could remove</summary>\n<table>\n",
       count_text(round.screened.size(), "candidate"));
   text += table_row({{"candidate"}, {"explains", true}}, "th");
   for (const auto& [name, explained] : round.screened)
@@ -222,13 +226,13 @@ std::string round_section(const Round& round, const Fit& current, std::size_t in
 std::string candidates_section(const Diagnosis& d) {
   std::string text = heading("Candidates");
   if (d.rounds.empty())
-    return text + paragraph("None was tried: with its materials within what is likely, the case needs none.");
+    return text +
+           paragraph("None was tried. With its materials in their likely range, the case explains the measurements.");
   text += note(
-      "Each candidate is fitted with the materials. Probabilities follow from the evidence (how well it fits, less "
-      "what "
-      "its freedom to fit anything costs) and how often such an effect is met; “none” is the model without a further "
-      "one. Collinearity 1: these sensors cannot tell the two apart. A tie is at least a fifth as probable as the "
-      "best.");
+      "Each candidate is fitted together with the materials. The probabilities follow from the evidence (the quality "
+      "of the fit, minus the cost of its freedom) and from how often such an effect occurs. “None of them” is the "
+      "model without a further effect. Collinearity 1: these sensors cannot distinguish the two candidates. A tie is "
+      "at least a fifth as probable as the best candidate.");
   const Fit* current = &d.calibrated;
   for (std::size_t i = 0; i < d.rounds.size(); ++i) {
     text += round_section(d.rounds[i], *current, i);
@@ -240,14 +244,14 @@ std::string candidates_section(const Diagnosis& d) {
 /// What is left when no effect has a name: factors on parts, and springs to the ground.
 std::string nameless_section(const Diagnosis& d) {
   if (d.verdict != Diagnosis::Verdict::unexplained) return "";
-  std::string text = heading("Where stiffness or mass is missing, without a name");
+  std::string text = heading("Where stiffness or mass is missing (cause unknown)");
   const Fit& fit = d.nameless_best;
   if (fit.hypothesis.effects.empty())
-    return text +
-           paragraph(
-               "No factor on the stiffness or mass of a part and no spring to the ground improves the model either.");
+    return text + paragraph(
+                      "A factor on the stiffness or mass of a part, or a spring to the ground, does not improve the "
+                      "model either.");
   const std::vector<const Round*> rounds = accepted_rounds(d.nameless);
-  text += "<table>\n" + table_row({{"part"}, {"what"}, {"value", true}, {"probability", true}}, "th");
+  text += "<table>\n" + table_row({{"part"}, {"quantity"}, {"value", true}, {"probability", true}}, "th");
   for (std::size_t i = 0; i < fit.hypothesis.effects.size(); ++i) {
     const FittedValue value = fitted_values(fit, i).front();
     const std::string unit = value.name == "factor" ? "×" : value.unit, bound = value.at_bound ? " (at its bound)" : "";
@@ -258,7 +262,7 @@ std::string nameless_section(const Diagnosis& d) {
                       "td");
   }
   text += fmt::format("</table>\n<p>Gap with these: {:.2f}.</p>\n", fit.gap);
-  return text + note("A factor above 1: the bridge has more of it than the model.");
+  return text + note("A factor above 1 means that the bridge has more stiffness or mass than the model.");
 }
 
 std::string materials_section(const Diagnosis& d) {
@@ -266,10 +270,12 @@ std::string materials_section(const Diagnosis& d) {
   if (chart.empty()) return "";
   std::string text = heading("Fitted materials") + figure(chart);
   text += note(
-      "Bands: one and two standard deviations of what is likely; “likely” are the factors at two. "
-      "Bars: one standard deviation after the fit.");
-  if (d.alarms.empty()) return text + paragraph("Fitted alone, no material leaves what is likely.");
-  text += paragraph("Fitted alone, materials leave what is likely: they pay for something that the model lacks.");
+      "Bands: one and two standard deviations of the likely range. “Likely” gives the factors at two standard "
+      "deviations. Bars: one standard deviation after the fit.");
+  if (d.alarms.empty()) return text + paragraph("Fitted without effects, all materials stay in their likely range.");
+  text += paragraph(
+      "Fitted without effects, these materials leave their likely range. They compensate for something that the model "
+      "lacks.");
   return text + list(d.alarms);
 }
 
@@ -277,7 +283,7 @@ std::string materials_section(const Diagnosis& d) {
 
 std::string advice_section(const Diagnosis& d) {
   if (d.advice.empty()) return "";
-  std::string text = heading("What would tell the candidates apart") + "<ul>\n";
+  std::string text = heading("Measurements that would distinguish the candidates") + "<ul>\n";
   for (const Advice& a : d.advice)
     text += fmt::format("<li>from <strong>{}</strong>: {}</li>\n", escaped(a.against), escaped(a.text));
   return text + "</ul>\n";
@@ -285,12 +291,13 @@ std::string advice_section(const Diagnosis& d) {
 
 std::string model_error_text(const DiagnosisInput& input) {
   std::string text = fmt::format(
-      "A right model is taken to be right to {:.1f} % of frequencies and {:.1f} % of a shape's largest value.",
+      "The program assumes that a correct model is accurate to {:.1f} % of frequencies and to {:.1f} % of the largest "
+      "component of a shape.",
       100.0 * input.problem.error.frequency, 100.0 * input.problem.error.shape);
   if (input.problem.mesh.scatter > 0.0 || input.problem.mesh.shift != 0.0)
     text += fmt::format(
-        " Blocks 1.25 times as large shift all frequencies by {:+.1f} %, scatter them by {:.1f} % and shapes by {:.1f} "
-        "%.",
+        " Blocks 1.25 times as large shift all frequencies by {:+.1f} % on average, scatter them by {:.1f} % and "
+        "change shapes by {:.1f} %.",
         100.0 * input.problem.mesh.shift, 100.0 * input.problem.mesh.scatter, 100.0 * input.problem.mesh.shape);
   return text;
 }
@@ -299,21 +306,21 @@ std::string model_error_text(const DiagnosisInput& input) {
 std::string recorded_section(const DiagnosisInput& input, const DiagnosisResult& result) {
   if (!result.recorded) return "";
   const RecordedMatch& m = *result.recorded;
-  std::string text = heading("Under the recorded motion of the ground");
-  text += paragraph(fmt::format(
-      "The explicit solver was run under {:.1f} s of {}, from {:.1f} s on, from rest under gravity, on the mesh that "
-      "was searched ({:.0f} s of computing). Below {:.1f} Hz, accelerations differ from the recorded ones by {:.0f} % "
-      "of them before and by "
-      "{:.0f} % after; transfer functions by {:.1f} standard deviations before and by {:.1f} after.",
-      m.duration, m.record, m.from, m.seconds, m.highest_frequency, 100.0 * m.error_before, 100.0 * m.error_after,
-      m.transfer_before, m.transfer_after));
+  std::string text = heading("Response to the recorded ground motion");
+  text += paragraph(
+      fmt::format("The explicit solver computed the response to {:.1f} s of {}, from {:.1f} s on. It started from rest "
+                  "under gravity and used the mesh of the search ({:.0f} s of computing). Below {:.1f} Hz, computed "
+                  "accelerations differ from the recorded ones by {:.0f} % of these before and by {:.0f} % after. "
+                  "Transfer functions differ by {:.1f} standard deviations before and by {:.1f} after.",
+                  m.duration, m.record, m.from, m.seconds, m.highest_frequency, 100.0 * m.error_before,
+                  100.0 * m.error_after, m.transfer_before, m.transfer_after));
   text += figure(transfer_chart(input, m));
   text += note(
-      "Acceleration of a sensor per acceleration of the ground along its axis. Grey: two standard deviations of "
-      "the measured one. All three are estimated alike.");
+      "Acceleration of a sensor divided by the ground acceleration along its axis. Grey: two standard deviations of "
+      "the measured transfer function. All three are estimated in the same way.");
   text += figure(history_chart(input, m));
   text += "<table>\n" +
-          table_row({{"channel"}, {"rms, m/s²", true}, {"differs before, %", true}, {"after, %", true}}, "th");
+          table_row({{"channel"}, {"rms, m/s²", true}, {"difference before, %", true}, {"after, %", true}}, "th");
   for (const ChannelMatch& c : m.channels)
     text += table_row({words_cell(c.channel),
                        {fmt::format("{:.3g}", c.size), true},
@@ -322,26 +329,25 @@ std::string recorded_section(const DiagnosisInput& input, const DiagnosisResult&
                       "td");
   return text + "</table>\n" +
          note(
-             "Root mean square of the difference over that of the recording. What resonates a little late differs by "
-             "as much as itself.");
+             "The difference is its root mean square divided by that of the recording. A resonant response with a "
+             "small time shift differs by as much as the response itself.");
 }
 
 std::string identification_section(const DiagnosisInput& input) {
   if (!input.identification.ambient) return "";
-  return heading("Modes found in the recordings") +
+  return heading("Modes identified from the recordings") +
          figure(stabilisation_chart(*input.identification.ambient, *input.identification.spectra)) +
          note(
-             "Stochastic subspace identification: a pole of the model of each order is a full circle where frequency, "
-             "damping and shape agree with the order before, else a small square; lines mark the modes that were "
-             "taken. "
-             "The curve is the first singular value of the spectra (frequency-domain decomposition), on a scale of "
-             "its own.");
+             "Stochastic subspace identification. Full circle: a stable pole, whose frequency, damping and shape agree "
+             "with those of the previous model order. Small square: any other pole. Lines mark the identified modes. "
+             "The curve is the first singular value of the spectra (frequency-domain decomposition), on its own "
+             "scale.");
 }
 
 std::string data_section(const DiagnosisInput& input) {
   std::string text = heading("Data and model error") + paragraph(model_error_text(input));
   if (!input.without.empty())
-    text += paragraph(fmt::format("Left out of the library by request: {}.", fmt::join(input.without, ", ")));
+    text += paragraph(fmt::format("Effects left out at the request of the user: {}.", fmt::join(input.without, ", ")));
   std::vector<std::string> items;
   for (const SetAside& s : input.measured.set_aside) items.push_back(fmt::format("set aside: {}: {}", s.place, s.what));
   for (const std::string& remark : input.measured.remarks) items.push_back(fmt::format("remark: {}", remark));
@@ -368,7 +374,7 @@ std::string diagnosis_page(const DiagnosisInput& input, const DiagnosisResult& r
   page += modes_section(result.modes) + shapes_section(input, result) + recorded_section(input, result);
   page += where_section(result);
   page += nameless_section(d) + candidates_section(d) + materials_section(d) + advice_section(d);
-  page += detection_section(d.detection, "What these data could have shown");
+  page += detection_section(d.detection, "Effects that these data could have shown");
   page += pictures_section(pictures) + identification_section(input) + data_section(input) +
           corrected_section(input, result);
   return html_page(fmt::format("Diagnosis of {}", name), page);

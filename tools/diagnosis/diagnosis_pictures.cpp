@@ -37,13 +37,14 @@ PagePicture residual_map(const Assembly& assembly, const Location& location, con
     snapshot.displacement[i] = Vec3(0.1 * size * std::sqrt(std::max(location.blocks[i], 0.0)), 0.0, 0.0);
   RenderOptions options = plain_options();
   options.colour = "displacement";
-  options.scale_title = "correction that is missing (% of the largest)";
+  options.scale_title = "displacement that would correct the modes (% of the largest)";
   options.range = 100.0;
   options.amplification = 0.0;
   options.cracks = false;
   options.title = fmt::format("Where model and measurement disagree, {}", when);
-  options.notes = {fmt::format("corrections hold {:.1f} % of the modes' energy", 100.0 * location.size),
-                   "amplitude of the correcting displacements"};
+  options.notes = {
+      fmt::format("the corrections have {:.1f} % of the strain energy of the modes", 100.0 * location.size),
+      "colours: amplitude of the correcting displacements"};
   render_picture(assembly, snapshot, options, png);
   return {options.title, options.notes[0], png};
 }
@@ -67,9 +68,10 @@ PagePicture shape_picture(const Fit& fit, const ModeComparison& mode, std::size_
 
 PagePicture sensor_picture(const Assembly& assembly, const std::vector<Sensor>& sensors, const std::string& png) {
   RenderOptions options = plain_options();
-  options.title = "Where the sensors are";
+  options.title = "Positions of the sensors";
   draw_sensors(assembly, sensors, options, png);
-  return {options.title, fmt::format("{} channels; arrows point to where readings are positive", sensors.size()), png};
+  return {options.title, fmt::format("{} channels; arrows point in the direction of positive readings", sensors.size()),
+          png};
 }
 
 std::vector<PagePicture> draw_diagnosis(const DiagnosisInput& input, const DiagnosisResult& result,
@@ -94,7 +96,7 @@ std::vector<PagePicture> draw_diagnosis(const DiagnosisInput& input, const Diagn
                                          file(fmt::format("mode_{}_{}", i + 1, before ? "before" : "after"))));
     }
   } catch (const RunError& error) {
-    say(fmt::format("no further pictures: {}", error.what()));
+    say(fmt::format("The program draws no further pictures: {}", error.what()));
   }
   return pictures;
 }

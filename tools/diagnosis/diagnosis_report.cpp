@@ -293,21 +293,20 @@ std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& r
     text += "\n";
     for (const Trial& trial : round.trials)
       if (trial.tie)
-        text += fmt::format("    a tie with {} (probability {:.2f})\n", trial.candidate.full_text(), trial.probability);
+        text += fmt::format("    tie with {} (probability {:.2f})\n", trial.candidate.full_text(), trial.probability);
     ++index;
   }
   if (d.verdict == Diagnosis::Verdict::unexplained)
     for (std::size_t i = 0; i < d.nameless_best.hypothesis.effects.size(); ++i)
-      text += fmt::format("  {}, for a reason that has no name here\n", nameless_text(d.nameless_best, i));
-  for (const Advice& a : d.advice) text += fmt::format("to tell it from {}: {}\n", a.against, a.text);
+      text += fmt::format("  {} (cause unknown)\n", nameless_text(d.nameless_best, i));
+  for (const Advice& a : d.advice) text += fmt::format("to distinguish it from {}: {}\n", a.against, a.text);
   text += detection_text(d.detection);
   for (const SetAside& s : input.measured.set_aside) text += fmt::format("set aside: {}: {}\n", s.place, s.what);
   for (const std::string& remark : input.measured.remarks) text += fmt::format("remark: {}\n", remark);
   if (const auto& m = result.recorded)
     text += fmt::format(
-        "under {:.1f} s of {}: accelerations differ by {:.0f} % before, {:.0f} % after; transfer functions by {:.1f} "
-        "and "
-        "{:.1f} standard deviations\n",
+        "response to {:.1f} s of {}: accelerations differ by {:.0f} % before, {:.0f} % after; transfer functions by "
+        "{:.1f} and {:.1f} standard deviations\n",
         m->duration, m->record, 100.0 * m->error_before, 100.0 * m->error_after, m->transfer_before, m->transfer_after);
   text += fmt::format("gap: {:.2f} before, {:.2f} with fitted materials, {:.2f} after; predicted {:.2f} ({:.1f} s)\n",
                       result.before.gap, d.calibrated.gap, result.after.gap, d.best.predicted_gap, d.seconds);

@@ -37,9 +37,10 @@ GroundMotion ground_of(const Recording& record) {
 }
 
 constexpr double quiet =
-    2.0;  // s before that, in which a bridge that starts from rest comes to move as the recorded one
+    2.0;  // s before the onset; in this time a bridge that starts from rest reaches the recorded motion
 
-/// Where a hundredth of the ground's Arias intensity (1970) is past: the bridge is nearly at rest until then.
+/// The sample at which the Arias intensity (1970) of the ground motion passes a hundredth of its total. The bridge is
+/// nearly at rest until then.
 Eigen::Index onset(const GroundMotion& ground) {
   double whole = 0.0, sum = 0.0;
   for (const Vec3& a : ground.acceleration) whole += a.squaredNorm();
@@ -48,7 +49,8 @@ Eigen::Index onset(const GroundMotion& ground) {
   return 0;
 }
 
-/// The case's settings with one stage under this motion, and with what the hypothesis does to settings.
+/// The settings of the case with one stage under this motion, and with the settings that the effects of the hypothesis
+/// change.
 SolverSettings settings_for(const DiagnosisInput& input, const GroundMotion& ground,
                             const std::vector<EffectSetting>& effects, double sample_every) {
   SolverSettings settings = input.c.settings;
@@ -126,7 +128,7 @@ Recording simulate(const DiagnosisInput& input, const Assembly& assembly, const 
     for (const Instrument& i : all)
       row.push_back(
           i.sensor.direction.dot(point_velocity(run.model(), run.state(), i.sensor.block, i.sensor.position)));
-    // Velocities are those of the half step before.
+    // Velocities belong to the middle of the previous time step.
     velocities.times.push_back(sample.time - 0.5 * run.position().dt);
     velocities.rows.push_back(std::move(row));
   };
@@ -141,11 +143,11 @@ Recording simulate(const DiagnosisInput& input, const Assembly& assembly, const 
   run.check();
   if (run.run() != RunEnd::finished)
     throw RunError("{}: the run under the recorded motion failed: {}", name, run.failure());
-  if (velocities.rows.empty()) throw RunError("{}: the run under the recorded motion left no history", name);
+  if (velocities.rows.empty()) throw RunError("{}: the run under the recorded motion produced no history", name);
   return accelerations(velocities, begin, recorded, all);
 }
 
-/// A little above the modes that were measured: of what lies higher nothing was said.
+/// A little above the highest measured mode, because the measurement says nothing about higher frequencies.
 double highest_of(const Features& features, const Recording& record) {
   double highest = 0.0;
   for (const MeasuredFeature& mode : features.modes) highest = std::max(highest, 1.25 * mode.frequency);
@@ -172,7 +174,8 @@ void match_channels(const Features& features, RecordedMatch& m) {
     if (whole == 0.0) continue;
     m.channels.push_back(
         {sensor.id, std::sqrt(whole / double(m.measured.values.rows())), std::sqrt(b / whole), std::sqrt(a / whole)});
-    // Each channel counts alike: those on the ground are large and always right.
+    // Each channel has the same weight. Otherwise channels on the ground, which are large and always right, would
+    // dominate.
     all += 1.0, before += b / whole, after += a / whole;
   }
   if (all == 0.0) return;
@@ -230,7 +233,8 @@ std::optional<RecordedMatch> run_recorded(const DiagnosisInput& input, const Fit
   m.record = at->name;
   m.from = double(first) * at->dt;
   m.duration = recorded.duration();
-  say(fmt::format("running {:.1f} s of {} with the explicit solver, before and after", m.duration, m.record));
+  say(fmt::format("The explicit solver computes the response to {:.1f} s of {}, before and after", m.duration,
+                  m.record));
   const std::vector<EffectSetting> effects = best.hypothesis.settings(best.best.x);
   const DiagnosisProblem& p = input.runs;
   const double highest = highest_of(p.features, recorded);
@@ -243,7 +247,7 @@ std::optional<RecordedMatch> run_recorded(const DiagnosisInput& input, const Fit
   match_channels(p.features, m);
   match_transfer(input.problem.error, m);
   m.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  say(fmt::format("  differs from the recording by {:.0f} % of it before, {:.0f} % after", 100.0 * m.error_before,
+  say(fmt::format("  difference from the recording: {:.0f} % before, {:.0f} % after", 100.0 * m.error_before,
                   100.0 * m.error_after));
   return m;
 }

@@ -83,7 +83,7 @@ std::string nameless_text(const Fit& fit, std::size_t index) {
   if (value.name != "factor")
     return fmt::format("{} between {} and the ground are missing: {} {}", c.name, c.where,
                        with_std(value.value, value.std), value.unit);
-  return fmt::format("{} of {} should be {} times as much", c.name, c.where, with_std(value.value, value.std));
+  return fmt::format("{} of {} should be {} times as large", c.name, c.where, with_std(value.value, value.std));
 }
 
 std::string probability_text(double probability) {

@@ -67,7 +67,7 @@ void set_aside_dropped(Measured& measured) {
     measured.set_aside.push_back({fmt::format("channel {}", dropped.name), dropped.reason});
 }
 
-/// How long recordings are, or the shortest setup's, in periods of the lowest mode.
+/// The length of the recordings, or of the shortest setup, in periods of the lowest mode.
 std::string length_remark(const SsiResult& found) {
   const double lowest = found.modes.front().frequency, periods = found.duration * lowest;
   const std::string what = fmt::format("{} {:.4g} s, {:.0f} periods of the lowest mode, {}",
@@ -75,20 +75,20 @@ std::string length_remark(const SsiResult& found) {
                                        found.duration, periods, hertz(lowest));
   if (periods >= enough_periods) return what;
   return fmt::format(
-      "{}: too short, {:.0f} to {:.0f} are asked for, {:.0f} s or more: its frequency, and its damping above all, are "
-      "less sure than they look; record for longer",
+      "{}. This is too short: {:.0f} to {:.0f} periods are needed, {:.0f} s or more. Its frequency, and especially its "
+      "damping, are less certain than their standard deviations say. Record for longer",
       what, enough_periods, 2.0 * enough_periods, std::ceil(enough_periods / lowest));
 }
 
-/// Recordings of a folder that gives its modes itself; the first with the ground's motion is what the case is run
-/// under.
+/// Sets aside the recordings of a folder that gives its modes itself, except the first one with the ground motion: the
+/// response of the case to it is computed.
 void set_aside_recordings(Measured& measured) {
   bool ground = false;
   for (const Recording& r : measured.records) {
     if (!ground && !measured.sensors.empty() && names_ground({r}) && has_base_motion({r}))
       ground = true;
     else
-      measured.set_aside.push_back({r.name, "modes.csv gives the modes: none are taken from recordings"});
+      measured.set_aside.push_back({r.name, "modes.csv gives the modes, so the program takes none from recordings"});
   }
 }
 
@@ -102,15 +102,15 @@ Eigen::VectorXcd at_channels(const Eigen::VectorXcd& shape, const std::vector<st
   return out;
 }
 
-/// The channels that all setups have, or words for none.
+/// The channels that all setups share, or words for their absence.
 std::string reference_words(const SsiResult& found) {
   std::vector<std::string> names;
   for (const int c : found.references) names.push_back(found.channels[std::size_t(c)]);
-  if (names.empty()) return "channels that some of them share";
-  return fmt::format("the references {}", fmt::join(names, ", "));
+  if (names.empty()) return "channels that some setups share";
+  return fmt::format("the reference channels {}", fmt::join(names, ", "));
 }
 
-/// A case that expects next to no damping may find it.
+/// Settings for this case. A case with very low damping lowers the least damping ratio that a mode may have.
 SsiSettings ssi_settings(const Case& c) {
   SsiSettings settings;
   const DampingSettings& damping = c.settings.damping;
@@ -122,7 +122,7 @@ SsiSettings ssi_settings(const Case& c) {
 /// Modes under an unknown excitation.
 Identification identify_ambient(Measured& measured, const Case& c) {
   const auto ambient = std::make_shared<SsiResult>(identify_modes(measured.records, ssi_settings(c)));
-  // Of several setups that of the most channels: a second look at frequencies.
+  // Of several setups, the one with the most channels is used: a second estimate of the frequencies.
   const std::vector<Setup> setups = setups_of(measured.records);
   const Setup& widest = *std::max_element(setups.begin(), setups.end(), [](const Setup& a, const Setup& b) {
     return a.recordings.front().channels.size() < b.recordings.front().channels.size();
@@ -137,7 +137,7 @@ Identification identify_ambient(Measured& measured, const Case& c) {
     measured.set_aside.push_back({hertz(aside.mode.frequency), aside.reason});
   for (const ShortRecording& r : found.too_short) measured.set_aside.push_back({r.name, r.reason});
   if (found.setups > 1)
-    measured.remarks.push_back(fmt::format("{} setups, put together {} by {}", found.setups,
+    measured.remarks.push_back(fmt::format("{} setups, combined {} through {}", found.setups,
                                            found.joint ? "in one model (PreGER)" : "mode by mode (PoSER)",
                                            reference_words(found)));
   else
@@ -158,9 +158,9 @@ Identification identify_ambient(Measured& measured, const Case& c) {
   return {ambient, decomposed};
 }
 
-/// Windows as long as the number of averages allows that three inputs need: a single earthquake is short. Up to half as
-/// high again as as many modes of the model as are used: of more than a dozen the poles are not all found, and what is
-/// missing pulls at the others.
+/// Windows as long as the number of averages for three inputs allows, because a single earthquake is short. The band
+/// ends at 1.5 times the highest of the `modes` lowest frequencies of the model: with more than about a dozen modes,
+/// not all poles are found, and the missing ones distort the others.
 TransferSettings transfer_settings(const Measured& measured, const Assembly& assembly, int modes) {
   EigenMemory memory;
   const Response plain = response(assembly, linear_model(assembly), {}, modes, memory);
@@ -217,7 +217,7 @@ Identification identify(Measured& measured, const Case& c, const Assembly& assem
     measured.modes.resize(std::size_t(most));
   }
   if (measured.modes.empty())
-    throw InputError("{}: no mode can be identified from the recordings; record longer, or give modes.csv",
+    throw InputError("{}: the program can identify no mode from the recordings. Record for longer or give modes.csv",
                      measured.directory);
   return identification;
 }

@@ -102,9 +102,9 @@ std::string periods_chart(const std::vector<ModeComparison>& modes) {
   SvgDrawing drawing(kChartWidth, rows.bottom() + kAxisHeight, "Measured and computed periods and frequencies");
   draw_mode_rows(drawing, rows, pointers(modes));
   const ChartAxis axis = periods_axis(modes, kLabelWidth, 700.0);
-  draw_axis_below(
-      drawing, axis, rows.top, rows.bottom(),
-      axis.kind == ChartAxis::Kind::logarithmic ? "period, s (logarithmic)" : "period, s (linear, not from 0)");
+  draw_axis_below(drawing, axis, rows.top, rows.bottom(),
+                  axis.kind == ChartAxis::Kind::logarithmic ? "period, s (logarithmic scale)"
+                                                            : "period, s (linear scale that does not start at 0)");
   draw_legend(drawing, 0.0, 16.0, {measured_entry(), before_entry(), after_entry()});
   const double columns[] = {800.0, 908.0, kChartWidth - 4.0};
   const char* const headings[] = {"measured", "before", "after"};
@@ -134,7 +134,7 @@ std::string deviations_chart(const std::vector<ModeComparison>& modes) {
   const ChartAxis axis = {far ? ChartAxis::Kind::squeezed : ChartAxis::Kind::linear, -most, most, kLabelWidth, 840.0};
   return dumbbell_chart(
       {"Residuals of the frequencies",
-       far ? "◂ model too stiff or too light | standard deviations, squeezed beyond ± 2 | too soft or too heavy ▸"
+       far ? "◂ model too stiff or too light | standard deviations (compressed beyond ± 2) | too soft or too heavy ▸"
            : "◂ model too stiff or too light | standard deviations | too soft or too heavy ▸",
        axis, -2.0, 2.0, deviation_number},
       dumbbells);
@@ -146,7 +146,7 @@ std::string assurance_chart(const std::vector<ModeComparison>& modes) {
     if (std::isfinite(m.mac_before) || std::isfinite(m.mac_after)) dumbbells.push_back({&m, m.mac_before, m.mac_after});
   if (dumbbells.empty()) return "";
   return dumbbell_chart({"Modal assurance of each measured mode and its computed partner",
-                         "modal assurance criterion (grey: 0.9 and better)",
+                         "modal assurance criterion, MAC (grey: 0.9 and above)",
                          {ChartAxis::Kind::linear, 0.0, 1.0, kLabelWidth, 840.0},
                          0.9,
                          1.0,

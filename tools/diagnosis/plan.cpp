@@ -15,8 +15,8 @@ using nlohmann::json;
 
 std::string modes_table(const Features& features) {
   std::string text =
-      heading("Modes that are counted on") + "<table>\n" +
-      table_row({{"mode"}, {"direction"}, {"period (s)", true}, {"frequency (Hz)", true}, {"± %", true}}, "th");
+      heading("Modes that the plan assumes") + "<table>\n" +
+      table_row({{"mode"}, {"direction"}, {"period, s", true}, {"frequency, Hz", true}, {"± %", true}}, "th");
   for (const MeasuredFeature& mode : features.modes)
     text += table_row({words_cell(mode.name),
                        words_cell(mode.direction),
@@ -49,7 +49,8 @@ PlanResult look_at_plan(const DiagnosisRequest& request, const MeasurementPlan& 
 
 std::string plan_text(const PlanResult& result) {
   const Features& features = result.input.problem.features;
-  std::string text = fmt::format("{} sensors; counted on are these modes:\n", features.sensors.size());
+  std::string text =
+      fmt::format("{} sensors; the plan assumes that these modes are measured:\n", features.sensors.size());
   for (const MeasuredFeature& mode : features.modes)
     text += fmt::format("  {:>2} {:>12} {:8.4f} s {:7.3f} Hz ± {:.2g} %\n", mode.name, mode.direction,
                         1.0 / mode.frequency, mode.frequency, 100.0 * mode.frequency_std);
@@ -77,14 +78,14 @@ json plan_json(const PlanResult& result) {
 
 std::string plan_page(const PlanResult& result, const std::vector<PagePicture>& pictures) {
   const std::string name = std::filesystem::path(result.input.c.path).stem().string();
-  std::string page =
-      paragraph(fmt::format("What {} would show on {} before anything is measured: {} channels in {} modes, if these "
-                            "are known as well as said.",
-                            std::filesystem::path(result.input.measured.directory).filename().string(), name,
-                            result.input.problem.features.sensors.size(), result.input.problem.features.modes.size()));
+  std::string page = paragraph(
+      fmt::format("The effects that {} would show on {}, computed before anything is measured: {} channels in {} "
+                  "modes. The program assumes that periods and shapes will have the stated uncertainties.",
+                  std::filesystem::path(result.input.measured.directory).filename().string(), name,
+                  result.input.problem.features.sensors.size(), result.input.problem.features.modes.size()));
   page += pictures_section(pictures, "The plan") + modes_table(result.input.problem.features) +
-          detection_section(result.detection, "What they would show");
-  return html_page(fmt::format("What a plan would show on {}", name), page);
+          detection_section(result.detection, "Effects that they would show");
+  return html_page(fmt::format("Measurement plan of {}", name), page);
 }
 
 }  // namespace voussoir

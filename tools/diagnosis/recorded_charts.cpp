@@ -35,7 +35,7 @@ void draw_lines_legend(SvgDrawing& drawing) {
   };
   double x = kLeft;
   for (const Entry& e :
-       {Entry{"measured", measured_colour(), ""}, Entry{"case as it was", before_colour(), before_dashes()},
+       {Entry{"measured", measured_colour(), ""}, Entry{"case as it is", before_colour(), before_dashes()},
         Entry{"corrected", after_colour(), ""}}) {
     drawing.line(x, 14.0, x + 34.0, 14.0, e.colour, 2.2, e.dashes);
     drawing.text(x + 42.0, 18.5, e.text);
@@ -150,7 +150,7 @@ std::string transfer_chart(const DiagnosisInput& input, const RecordedMatch& mat
   if (panels.empty()) return "";
   const double step = kPanelHeight + kPanelGap, top = kLegendHeight + kPanelGap;
   const double height = top + double(panels.size()) * step - kPanelGap + kAxisHeight;
-  SvgDrawing drawing(kChartWidth, height, "transfer functions from the ground to sensors, measured, before and after");
+  SvgDrawing drawing(kChartWidth, height, "Transfer functions from the ground to sensors: measured, before and after");
   draw_lines_legend(drawing);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     Panel panel;
@@ -179,14 +179,14 @@ std::string stabilisation_chart(const SsiResult& ssi, const Fdd& spectra) {
     orders = std::max(orders, pole.order), highest = std::max(highest, pole.frequency());
   panel.x = {ChartAxis::Kind::linear, 0.0, 1.02 * highest, kLeft, kChartWidth - kRight};
   panel.y = {ChartAxis::Kind::linear, 0.0, double(orders) + 2.0, bottom, panel.top};
-  SvgDrawing drawing(kChartWidth, bottom + kAxisHeight, "stabilisation diagram");
+  SvgDrawing drawing(kChartWidth, bottom + kAxisHeight, "Stabilisation diagram");
   draw_legend(drawing, kLeft, 18.0,
               {{Marker::circle, after_colour(), "stable pole"}, {Marker::square, before_colour(), "other pole"}});
   for (double v : panel.y.ticks(30.0)) {
     drawing.line(panel.x.begin, panel.y.at(v), panel.x.end, panel.y.at(v), kGridColour);
     drawing.text(panel.x.begin - 6.0, panel.y.at(v) + 4.5, tick_text(v), {.anchor = "end"});
   }
-  drawing.text(16.0, 0.5 * (panel.top + bottom), "order of the model", {.anchor = "middle", .turn = -90.0});
+  drawing.text(16.0, 0.5 * (panel.top + bottom), "model order", {.anchor = "middle", .turn = -90.0});
   draw_axis_below(drawing, panel.x, panel.top, bottom, "frequency, Hz");
   const Eigen::VectorXd first = spectra.singular.col(0);
   const ChartAxis power = {ChartAxis::Kind::logarithmic, std::max(first.minCoeff(), 1e-9 * first.maxCoeff()),
@@ -220,7 +220,7 @@ std::string history_chart(const DiagnosisInput& input, const RecordedMatch& matc
   const Recording& m = match.measured;
   const double step = kPanelHeight + kPanelGap + kAxisHeight, top = kLegendHeight + kPanelGap;
   SvgDrawing drawing(kChartWidth, top + double(channels.size()) * step - kPanelGap,
-                     "accelerations of sensors, measured, before and after");
+                     "Accelerations of sensors: measured, before and after");
   draw_lines_legend(drawing);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Eigen::Index column = column_of(m, channels[i]);

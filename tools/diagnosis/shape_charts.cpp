@@ -166,7 +166,8 @@ std::string assurance_matrix(const DiagnosisInput& input, const DiagnosisResult&
   const Eigen::Index columns = std::min<Eigen::Index>({at.readings.cols(), last + 3, 20});
   if (shaped.empty() || columns == 0) return "";
   SvgDrawing drawing(std::max(kLabelWidth + double(columns) * kCell + 4.0, 560.0),
-                     top + double(shaped.size()) * kCell + 4.0, "Modal assurance, measured by computed modes");
+                     top + double(shaped.size()) * kCell + 4.0,
+                     "Modal assurance criterion of measured and computed modes");
   drawing.text(0.0, top - 24.0, "measured", {.size = 12.0});
   drawing.text(0.0, top - 7.0, "computed, corrected case ▸", {.size = 12.0});
   draw_computed_modes(drawing, at, columns, top);

@@ -29,18 +29,20 @@ ThreeSentences of_found(const DiagnosisResult& result) {
     if (std::find(next.begin(), next.end(), effect.on_site) == next.end()) next.push_back(effect.on_site);
   }
   ThreeSentences s;
-  s.found = fmt::format("The bridge has what the case lacks: {}.", fmt::join(what, "; and "));
-  s.sure = fmt::format("The probability of {} is {}, and the gap falls from {} to {} (1 is noise)",
-                       what.size() == 1 ? "that, among all that was tried," : "these, among all that was tried,",
+  s.found = fmt::format("The following is missing from the case: {}.", fmt::join(what, "; and "));
+  s.sure = fmt::format("{} {}. The gap falls from {} to {} (1 is noise)",
+                       what.size() == 1 ? "The probability of this explanation among all candidates tried is"
+                                        : "The probabilities of these explanations among all candidates tried are",
                        fmt::join(sure, " and "), gap_text(result.before.gap), gap_text(result.after.gap));
-  s.sure += ties.empty() ? "." : fmt::format("; these measurements cannot tell it from {}.", fmt::join(ties, ", "));
+  s.sure +=
+      ties.empty() ? "." : fmt::format(". These measurements cannot distinguish it from {}.", fmt::join(ties, ", "));
   s.next = fmt::format("{}", fmt::join(next, " "));
-  for (const Advice& a : d.advice) s.next += fmt::format(" To tell it from {}: {}.", a.against, a.text);
+  for (const Advice& a : d.advice) s.next += fmt::format(" To distinguish it from {}: {}.", a.against, a.text);
   return s;
 }
 
-/// The largest of the least amounts of an effect over its places that stand for one support or one part each; nothing
-/// where one of them has none.
+/// The largest least amount of an effect over its places that are one support or one part; empty where one place has
+/// no least amount.
 std::string at_worst(const std::vector<Detectable>& all, const std::string& name, const std::string& place,
                      const std::string& words) {
   double worst = 0.0;
@@ -62,16 +64,16 @@ std::string next_measurements(const Detection& d) {
         std::find_if(d.further.begin(), d.further.end(), [&](const Addition& a) { return a.sensor.empty() != sensor; });
     if (first != d.further.end()) best.push_back(first->text);
   }
-  return best.empty() ? "" : fmt::format(" What would show more: {}.", fmt::join(best, "; or "));
+  return best.empty() ? "" : fmt::format(" Further measurements that would show more: {}.", fmt::join(best, "; or "));
 }
 
 ThreeSentences of_consistent(const DiagnosisResult& result) {
   const Diagnosis& d = result.diagnosis;
   ThreeSentences s;
   s.found = fmt::format(
-      "The measurements agree with {} to within their uncertainty and the model's: they do not show that any effect is "
-      "missing.",
-      d.calibrated.gap < 0.9 * d.plain.gap ? "the case, with its materials moved within what is likely,"
+      "The measurements agree with {} within the uncertainties of measurement and model. They do not show that an "
+      "effect is missing.",
+      d.calibrated.gap < 0.9 * d.plain.gap ? "the case with its materials adjusted in their likely range"
                                            : "the case as it is");
   std::vector<std::string> seen;
   for (const std::string& text :
@@ -84,14 +86,15 @@ ThreeSentences of_consistent(const DiagnosisResult& result) {
     return !std::isfinite(least.below) && !std::isfinite(least.above);
   });
   s.sure = seen.empty()
-               ? std::string("What they would have shown nine times out of ten stands in the table of least amounts.")
-               : fmt::format("Nine times out of ten they would have shown {}; the table of least amounts has the rest.",
-                             fmt::join(seen, ", "));
+               ? std::string("The table of least amounts gives what they would have shown with a probability of 0.9.")
+               : fmt::format(
+                     "With a probability of 0.9 they would have shown {}. The table of least amounts gives the others.",
+                     fmt::join(seen, ", "));
   s.next = hidden > 0 ? fmt::format(
-                            "Nothing need be looked for on site because of them; {} of {} effects and places could not "
-                            "have been seen at any amount, so inspect those by eye.",
+                            "The measurements give no reason to inspect the bridge. They could not show {} of {} "
+                            "effects and places at any amount, so inspect these by eye.",
                             hidden, d.detection.least.size())
-                      : std::string("Nothing need be looked for on site because of them.");
+                      : std::string("The measurements give no reason to inspect the bridge.");
   s.next += next_measurements(d.detection);
   return s;
 }
@@ -100,7 +103,8 @@ ThreeSentences of_unexplained(const DiagnosisResult& result) {
   const Diagnosis& d = result.diagnosis;
   ThreeSentences s;
   s.found =
-      "The case and the measurements disagree by more than their errors, and no effect of the library explains it.";
+      "The case and the measurements disagree by more than their errors, and no effect of the library explains the "
+      "difference.";
   s.sure = fmt::format("The gap is {} before and {} with fitted materials (1 is noise).", gap_text(result.before.gap),
                        gap_text(d.calibrated.gap));
   std::vector<std::string> asked, parts;
@@ -108,11 +112,11 @@ ThreeSentences of_unexplained(const DiagnosisResult& result) {
     asked.push_back(nameless_text(d.nameless_best, i));
   for (std::size_t i = 0; i < std::min<std::size_t>(3, result.where_after.parts.size()); ++i)
     parts.push_back(result.where_after.parts[i].part);
-  s.next = asked.empty() ? fmt::format("Look first at {}, where the model disagrees most.", fmt::join(parts, ", "))
-                         : fmt::format("Look first where stiffness or mass is missing: {}.", fmt::join(asked, "; "));
+  s.next = asked.empty() ? fmt::format("Inspect {} first: there the model disagrees most.", fmt::join(parts, ", "))
+                         : fmt::format("Inspect first where stiffness or mass is missing: {}.", fmt::join(asked, "; "));
   const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
   for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i)
-    s.next += fmt::format(" Before that, {}: {}", plain_name(d.best.hypothesis.effects[i]),
+    s.next += fmt::format(" Before that, check for {}: {}", plain_name(d.best.hypothesis.effects[i]),
                           find_effect(d.best.hypothesis.effects[i].name).on_site);
   return s;
 }
