@@ -43,12 +43,14 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Bad{std::string("scalse = [1.0]"), one_record, {"campaign.toml:3", "'scalse'", "did you mean 'scales'?"}},
         Bad{std::string("scales = [0.0]"), one_record, {"campaign.toml:3", "'scales'", "must be above 0"}},
-        Bad{std::string("scales = [1.0, 1.0]"), one_record, {"campaign.toml:3", "holds 1 twice"}},
+        Bad{std::string("scales = [1.0, 1.0]"), one_record, {"campaign.toml:3", "contains 1 twice"}},
         Bad{std::string("scales = []"), one_record, {"'scales'", "is empty"}},
         Bad{std::string("duration = \"short\""), one_record, {"\"short\"", "significant"}},
         Bad{std::string("periods = [0.333]"), one_record, {"'periods'", "hundredths"}},
         Bad{std::string(""), std::string(""), {"needs 'records'", "selection.json"}},
-        Bad{std::string("records = \"nowhere\""), std::string(""), {"campaign.toml:3", "no such file or folder"}},
+        Bad{std::string("records = \"nowhere\""),
+            std::string(""),
+            {"campaign.toml:3", "file or folder does not exist"}},
         Bad{std::string("records = \"nothing\""), std::string(""), {"nothing", "no record"}},
         Bad{std::string("records = \"empty.json\""), std::string(""), {"empty.json", "empty"}},
         Bad{std::string("records = \"broken.json\""),
@@ -60,9 +62,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{std::string("records = \"types.json\""),
             std::string(""),
             {"record number 1", "'files'", "a list of texts"}},
-        Bad{std::string("records = \"empty.json\""), one_record, {"[[record]]", "keep one"}},
-        Bad{std::string("units = \"g\""), one_record, {"'units'", "give it in each [[record]]"}},
-        Bad{std::string(""), one_record + one_record, {"two records called \"pulse\""}},
+        Bad{std::string("records = \"empty.json\""), one_record, {"[[record]]", "Remove one"}},
+        Bad{std::string("units = \"g\""), one_record, {"'units'", "Give it in each [[record]]"}},
+        Bad{std::string(""), one_record + one_record, {"two records with the name \"pulse\""}},
         Bad{std::string(""), std::string("[[record]]\nname = \"r\"\nscale = 2.0\n"), {"'scale'", "'factor'"}},
         Bad{std::string(""), std::string("[[record]]\nname = \"r\"\nrecord = \"no.txt\"\n"), {"no such file"}},
         Bad{std::string("scales = [1e5]"), one_record, {"\"pulse\"", "peak of 2e+05 m/s2"}},
@@ -92,13 +94,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{std::string("[campaign.set]\n\"damping.branches\" = 2.0"), one_record, {"[campaign.set]", "whole number"}},
         Bad{std::string("[campaign.set]\n\"damping.ratio\" = -1.0"),
             one_record,
-            {"what the campaign changes", "ratio"}},
+            {"the changes by the campaign", "ratio"}},
         Bad{ratio + "distribution = \"normal\"\ncov = 0.1\n[campaign.set]\n\"damping.ratio\" = 0.03",
             one_record,
-            {"campaign.toml", "'damping.ratio'", "is sampled too"}},
-        Bad{std::string("block_scale = 2.0"), one_record, {"unknown key 'block_scale'", "what the campaign changes"}},
+            {"campaign.toml", "'damping.ratio'", "is also sampled"}},
+        Bad{std::string("block_scale = 2.0"), one_record, {"unknown key 'block_scale'", "the changes by the campaign"}},
         Bad{std::string(""), one_record + "[engine]\nkind = \"pbs\"\n", {"\"pbs\"", "local, slurm"}},
-        Bad{std::string(""), one_record + "[engine]\noptions = [\"-p x\"]\n", {"one word of sbatch"}},
+        Bad{std::string(""), one_record + "[engine]\noptions = [\"-p x\"]\n", {"one word for sbatch"}},
         Bad{std::string(""),
             one_record + "[[limit_state]]\nname = \"a\"\ndemand = \"keystone\"\nthreshold = 1.0\n",
             {"\"keystone\"", "edp.keystone_x"}},
@@ -114,7 +116,7 @@ TEST(CampaignFile, CasesAreChecked) {
   };
   EXPECT_NE(refused("[\"none.toml\"]").find("c.toml:2"), std::string::npos);
   EXPECT_NE(refused("[]").find("at least one case"), std::string::npos);
-  EXPECT_NE(refused("[\"column.toml\", \"column.toml\"]").find("two cases are called"), std::string::npos);
+  EXPECT_NE(refused("[\"column.toml\", \"column.toml\"]").find("two cases have the name"), std::string::npos);
   folder.write("still.toml", "[bridge]\ngenerator = \"column\"\n[[stage]]\nkind = \"gravity\"\n");
   EXPECT_NE(refused("[\"still.toml\"]").find("has 0 motion stages"), std::string::npos);
   folder.write("bad.toml", "[bridge]\ngenerator = \"colum\"\n");

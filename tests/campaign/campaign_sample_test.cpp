@@ -109,14 +109,16 @@ TEST(CampaignSample, StreamsAreNotRelated) {
 
 TEST(CampaignSample, WhatCannotBeDrawnIsSaid) {
   const Sampled s = sampled(Sampled::Distribution::lognormal, 0.2);
-  EXPECT_NE(
-      test::message_of<InputError>([&] { draw(s, "k", 0.0, 1, 1); }).find("cannot be lognormal about a mean of 0"),
-      std::string::npos);
+  EXPECT_NE(test::message_of<InputError>([&] {
+              draw(s, "k", 0.0, 1, 1);
+            }).find("has the mean 0. A lognormal distribution needs a mean above 0"),
+            std::string::npos);
   Sampled far = sampled(Sampled::Distribution::normal, 0.01);
   far.low = 10.0;
-  EXPECT_NE(test::message_of<InputError>([&] { draw(far, "k", 1.0, 1, 1); }).find("widen them"), std::string::npos);
+  EXPECT_NE(test::message_of<InputError>([&] { draw(far, "k", 1.0, 1, 1); }).find("Increase this range"),
+            std::string::npos);
   Sampled zero = sampled(Sampled::Distribution::normal, 0.1);
-  EXPECT_NE(test::message_of<InputError>([&] { draw(zero, "k", 0.0, 1, 1); }).find("give 'deviation'"),
+  EXPECT_NE(test::message_of<InputError>([&] { draw(zero, "k", 0.0, 1, 1); }).find("Give 'deviation'"),
             std::string::npos);
 }
 

@@ -90,9 +90,10 @@ TEST(CampaignTable, IsWrittenAsItWas) {
 
 TEST(CampaignTable, SaysWhatIsWrong) {
   EXPECT_EQ(error_of("").substr(0, 37), "DIR/table.csv:1: the file is empty, e");
-  EXPECT_EQ(error_of(heading), "DIR/table.csv:1: no runs below the heading: has the campaign been run and gathered?");
+  EXPECT_EQ(error_of(heading), "DIR/table.csv:1: there are no runs below the heading. Run the campaign first");
   EXPECT_EQ(error_of("run,case,record\na,b,c\n"),
-            "DIR/table.csv:1: no column 'status': a table of a campaign has run, case, record and status");
+            "DIR/table.csv:1: the column 'status' is missing. A table of a campaign has the columns run, case, record "
+            "and status");
   EXPECT_EQ(error_of("run,case,record,staus\na,b,c,done\n").substr(0, 66),
             "DIR/table.csv:1: unknown column 'staus': did you mean 'status'?; c");
   EXPECT_EQ(error_of("run,case,record,status,im.\na,b,c,done,1\n").substr(0, 37),
@@ -106,7 +107,7 @@ TEST(CampaignTable, SaysWhatIsWrong) {
   expect_error("a,c,r,,,,done,,,1,1,2\n", "DIR/table.csv:2: 12 cells, expected 11");
   expect_error("a,c,r,,,,finished,,,1,1\n", "DIR/table.csv:2: 'finished' in column 'status': expected one of: done, ");
   expect_error(",c,r,,,,done,,,1,1\n", "DIR/table.csv:2: the cell in column 'run' is empty");
-  expect_error("a,c,r,,,,done,,,1,1\na,c,r,,,,done,,,1,1\n", "DIR/table.csv:3: run 'a' is there twice");
+  expect_error("a,c,r,,,,done,,,1,1\na,c,r,,,,done,,,1,1\n", "DIR/table.csv:3: run 'a' occurs twice");
 }
 
 TEST(CampaignTable, AnUnknownColumnIsNamedWithItsNeighbour) {
@@ -115,8 +116,9 @@ TEST(CampaignTable, AnUnknownColumnIsNamedWithItsNeighbour) {
     t.column("edp.spandrel");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("table.csv: no column 'edp.spandrel': did you mean 'edp.spandrel_y'"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("table.csv: there is no column 'edp.spandrel': did you mean 'edp.spandrel_y'"),
+        std::string::npos)
         << error.what();
   }
 }

@@ -140,7 +140,7 @@ TEST(Campaign, GoesOnAfterTheEndOfAllItsProcessesBySigkill) {
 TEST(Campaign, GoesOnAfterSigterm) {
   interrupted_by([](Program& program, const std::string& directory) {
     program.send(SIGTERM);
-    expect_error(program.wait(), 1, {"waiting for the checkpoints", "Continue with: voussoir campaign " + directory});
+    expect_error(program.wait(), 1, {"have written their checkpoints", "Continue with: voussoir campaign " + directory});
     EXPECT_TRUE(exists(directory + "/table.csv"));
   });
 }
@@ -205,10 +205,10 @@ TEST(Campaign, WhatIsWrongIsSaid) {
   expect_error(campaign(folder, {"wall.toml"}), 2, {"wall.toml is a case, not a campaign", "voussoir run"});
   expect_error(campaign(folder, {"empty"}), 2, {"empty is a folder that holds no campaign"});
   expect_error(campaign(folder, {"long.toml", "--engine", "slurn"}), 2, {"'slurn'", "did you mean 'slurm'?"});
-  expect_error(campaign(folder, {"long.toml", "--no-wait"}), 2, {"--no-wait is for Slurm"});
+  expect_error(campaign(folder, {"long.toml", "--no-wait"}), 2, {"--no-wait works only with Slurm"});
   const Outcome absent = voussoir({"campaign", "long.toml", "--engine", "slurm"},
                                   {.folder = folder.path(), .environment = {{"PATH", "/nowhere"}}});
-  expect_error(absent, 2, {"there is no sbatch here", "--engine local"});
+  expect_error(absent, 2, {"the command sbatch was not found", "--engine local"});
   const Outcome good = campaign(folder, {"long.toml"});
   EXPECT_EQ(good.status, 0) << "nothing of that is in the way\n" << good.err;
   folder.write("long/campaign.json", "{");

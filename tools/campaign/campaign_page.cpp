@@ -50,7 +50,7 @@ std::string facts(const CampaignTable& table) {
   std::vector<std::string> failures;
   for (const CampaignRun& run : table.runs)
     if (run.status == RunStatus::failed) failures.push_back(fmt::format("{}: {}", run.run, run.reason));
-  return failures.empty() ? text : text + heading("What failed") + list(failures);
+  return failures.empty() ? text : text + heading("Runs that failed") + list(failures);
 }
 
 /// One demand over the peak ground acceleration: a series a case.
@@ -59,8 +59,8 @@ std::string demand_chart(const CampaignTable& table, const char* column, const s
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   LineChart chart;
   chart.title = title;
-  chart.x_label = "PGA of the scaled motion, geometric mean of the horizontal components (g)";
-  chart.y_label = "largest relative displacement, mean over places (mm)";
+  chart.x_label = "PGA of the scaled motion, geometric mean of the horizontal components, g";
+  chart.y_label = "largest relative displacement, mean over the places, mm";
   chart.width = 820.0, chart.height = 420.0, chart.x_low = 0.0;
   const std::vector<std::string> cases = table.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -140,11 +140,11 @@ std::string damage_pictures(const CampaignTable& table, const std::string& direc
                                   series.fill().file_at(frames.back().time)},
                      o, png);
       pictures.push_back({run.case_name,
-                          fmt::format("{}largest opening of joints, deformations twice",
-                                      run.status == RunStatus::collapsed ? "fell; " : ""),
+                          fmt::format("{}colours: largest opening of joints; deformations are doubled",
+                                      run.status == RunStatus::collapsed ? "bridge fell; " : ""),
                           png});
     } catch (const std::exception& error) {  // a page without pictures is better than none
-      without += note(fmt::format("No picture of {}: {}", run.run, error.what()));
+      without += note(fmt::format("The program could not draw {}: {}", run.run, error.what()));
     }
   }
   return pictures_section(pictures, fmt::format("Damage under the worst record, {} × {:g}", record, scale)) + without;
@@ -159,10 +159,10 @@ std::string runs_section(const CampaignTable& table) {
   text += table_row({words_cell("case"),
                      words_cell("record"),
                      {"scale", true},
-                     {"PGA (g)", true},
-                     {"keystones x (mm)", true},
+                     {"PGA, g", true},
+                     {"keystones x, mm", true},
                      {"at the end", true},
-                     {"spandrels y (mm)", true},
+                     {"spandrels y, mm", true},
                      {"at the end", true},
                      words_cell("status")},
                     "th");
@@ -195,7 +195,7 @@ std::string damage_section(const CampaignTable& table) {
   for (const std::string& name : table.names("damage."))
     if (name.ends_with(ending)) components.push_back(name.substr(7, name.size() - 7 - ending.size()));
   if (components.empty()) return "";
-  std::vector<Cell> top = {words_cell("joints within, or between")};
+  std::vector<Cell> top = {words_cell("joints within a component or between two")};
   const std::vector<std::string> cases = table.cases();
   for (const std::string& name : cases) top.push_back(words_cell(name));
   std::string text = heading("Damage by joints") + "<table>\n" + table_row(top, "th");
@@ -218,8 +218,8 @@ std::string damage_section(const CampaignTable& table) {
   }
   return text + "</table>\n" +
          note(
-             "Over the runs of a case: mean share of the bonded joint area broken; median of the largest openings of a "
-             "joint, and its word after Burland, Broms & de Mello (1977).");
+             "Values over the runs of a case: the mean share of the bonded joint area that broke; the median of the "
+             "largest joint opening, and its damage class after Burland, Broms & de Mello (1977).");
 }
 
 }  // namespace

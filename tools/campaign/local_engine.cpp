@@ -38,14 +38,15 @@ class Local {
   }
 
   WorkEnd run() {
-    work_.say(fmt::format("{} at once, {} each, on {} of this machine's cores", counted(sharing_.runs, "run"),
+    work_.say(fmt::format("{} at a time with {} each, on {} cores of this machine", counted(sharing_.runs, "run"),
                           counted(sharing_.threads, "thread"), work_.cores));
     std::size_t next = 0;
     bool stopping = false;
     while (!children_.empty() || (next < work_.todo.size() && !stopping)) {
       if (stop_signal() != 0 && !stopping) {
         stopping = true;
-        work_.say(fmt::format("stopping: waiting for the checkpoints of {}", counted(children_.size(), "run")));
+        work_.say(fmt::format("stopping: the program waits until {} have written their checkpoints",
+                              counted(children_.size(), "run")));
         for (const Child& child : children_) ::kill(child.process, SIGTERM);
       }
       while (!stopping && next < work_.todo.size() && children_.size() < std::size_t(sharing_.runs))
@@ -68,7 +69,7 @@ class Local {
     const std::string folder = folder_of(work_.directory, run);
     std::error_code failed;
     if (fs::create_directories(folder, failed); failed)
-      throw RunError("cannot make the folder {}: {}", folder, failed.message());
+      throw RunError("the folder {} cannot be made: {}", folder, failed.message());
     const LogFile output(folder + "/" + output_name);
     // In a group of its own: Ctrl-C on a terminal goes to the campaign, which passes it on once.
     const pid_t child = start({.words = {work_.program, "campaign-run", work_.directory, run.id, "--threads",
@@ -96,7 +97,7 @@ class Local {
     if (outcome.status == Status::missing && crash(how.signal)) {
       outcome.status = Status::failed;
       outcome.reason =
-          fmt::format("the program crashed (signal {}, {}): this is a fault of the program, please report it",
+          fmt::format("the program crashed (signal {}, {}). This is a fault of the program: please report it",
                       how.signal, ::strsignal(how.signal));
       outcome.goes_on = false;
       write_outcome(work_.directory, run, outcome);
@@ -107,8 +108,8 @@ class Local {
     if (outcome.status == Status::failed) work_.say(fmt::format("FAILED {}: {}", run.id, outcome.reason));
     if (outcome.status == Status::collapsed) work_.say(fmt::format("collapsed {}: {}", run.id, outcome.reason));
     if (outcome.status != Status::missing || stop_signal() != 0) return;
-    const std::string why = how.signal == SIGKILL ? "it was killed (by the system, where memory ran out?)"
-                            : how.signal > 0      ? fmt::format("it was ended by signal {}", how.signal)
+    const std::string why = how.signal == SIGKILL ? "the system killed it, perhaps because memory ran out"
+                            : how.signal > 0      ? fmt::format("signal {} ended it", how.signal)
                                                   : fmt::format("exit status {}", how.status);
     work_.say(
         fmt::format("{} has not ended: {}; see {}/{}", run.id, why, folder_of(work_.directory, run), output_name));
@@ -128,7 +129,8 @@ Engine local_engine() {
   return {"local", [](const Work& work) {
             if (!work.wait)
               throw InputError(
-                  "--no-wait is for Slurm, which goes on by itself; runs of this machine end with the campaign");
+                  "--no-wait works only with Slurm, which continues without this program. On this machine the runs end "
+                  "when the campaign ends: leave out --no-wait");
             return Local(work).run();
           }};
 }

@@ -84,9 +84,9 @@ std::size_t forget_failures(const std::string& directory, const Plan& plan) {
       for (const char* name :
            {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json"})
         if (fs::remove_all(folder_of(directory, run) + "/" + name, failed); failed)
-          throw RunError("cannot remove {}/{}: {}", folder_of(directory, run), name, failed.message());
+          throw RunError("{}/{} cannot be removed: {}", folder_of(directory, run), name, failed.message());
     if (fs::remove(file_of(directory, run), failed); failed)
-      throw RunError("cannot remove {}: {}", file_of(directory, run), failed.message());
+      throw RunError("{} cannot be removed: {}", file_of(directory, run), failed.message());
   }
   return count;
 }

@@ -51,7 +51,7 @@ std::vector<std::string> case_names(const std::vector<std::string>& files) {
     const std::string folder = fs::absolute(files[i]).lexically_normal().parent_path().filename().string();
     names.push_back(alone ? stems[i] : folder + "/" + stems[i]);
     if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
-      throw InputError("two cases are called \"{}\": rename a file, the table tells them apart by it", names.back());
+      throw InputError("two cases have the name \"{}\". The table needs different names: rename a file", names.back());
   }
   return names;
 }
@@ -68,7 +68,7 @@ void plan_cases(const Settings& s, Draft& draft) {
   }
   for (const PlannedLimit& limit : s.limit_states)
     if (!limit.only.empty() && std::ranges::find(names, limit.only) == names.end())
-      throw InputError("{}: limit state \"{}\" is of case \"{}\"{}", s.path, limit.name, limit.only,
+      throw InputError("{}: limit state \"{}\" names the unknown case \"{}\"{}", s.path, limit.name, limit.only,
                        suggestion(limit.only, names));
 }
 
@@ -84,11 +84,11 @@ PlannedRecord plan_record(const Settings& s, const Shaking& shaking, std::vector
   double peak = 0.0;
   for (const Vec3& a : motion.acceleration) peak = std::max(peak, a.cwiseAbs().maxCoeff());
   if (!(peak > 0.0) || !(r.duration > 0.0))
-    throw InputError("{}: record \"{}\" does not move the ground: look at its files and its factor", s.path, r.name);
+    throw InputError("{}: record \"{}\" does not move the ground. Check its files and its factor", s.path, r.name);
   if (const double most = peak * std::ranges::max(s.scales); !(most <= largest_peak))
     throw InputError(
-        "{}: record \"{}\" has a peak of {:.3g} m/s2 at the largest scale, expected at most {:g}: look at "
-        "its unit, its factor and 'scales'",
+        "{}: record \"{}\" has a peak of {:.3g} m/s2 at the largest scale. It must be at most {:g}. Check its unit, "
+        "its factor and 'scales'",
         s.path, r.name, most, largest_peak);
   r.measures = measure(first_part(motion, r.duration), s.periods);
   return r;
@@ -99,9 +99,11 @@ std::vector<std::vector<double>> draw_samples(const Settings& s, const Case& c) 
   std::vector<std::vector<double>> samples(std::size_t(std::max(1, s.samples)));
   for (const Sampled& sampled : s.sampled)
     for (const std::string& key : sampled.keys) {
-      if (key.starts_with("stage.")) throw InputError("{}: '{}' is of a stage: stages cannot be sampled", s.path, key);
+      if (key.starts_with("stage."))
+        throw InputError("{}: '{}' belongs to a stage. Keys of stages cannot be sampled", s.path, key);
       if (key == "bridge.block_scale" && s.run.block_scale > 0.0)
-        throw InputError("{}: '{}' is sampled, but 'block_scale' of [campaign] sets it: keep one", s.path, key);
+        throw InputError("{}: '{}' is sampled, but 'block_scale' of [campaign] also sets it. Remove one of the two",
+                         s.path, key);
       const double mean = number_at(c, key);
       for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i].push_back(draw(sampled, key, mean, s.seed, int(i) + 1));
@@ -112,7 +114,7 @@ std::vector<std::vector<double>> draw_samples(const Settings& s, const Case& c) 
 /// That the numbers all runs set are numbers of the case.
 void check_set(const Settings& s, const Case& c) {
   for (const auto& [key, value] : s.run.set) try {
-      if (key.starts_with("stage.")) throw InputError("'{}' is of a stage: stages cannot be set", key);
+      if (key.starts_with("stage.")) throw InputError("'{}' belongs to a stage. Keys of stages cannot be set", key);
       number_at(c, key);
     } catch (const InputError& error) {
       throw InputError("{}: [campaign.set]: {}", s.path, error.what());
@@ -135,10 +137,9 @@ void check_samples(const Settings& s, const Plan& plan, const Case& c,
   for (std::size_t i = 0; i < samples.size(); ++i) try {
       parse_case(text_of(changed(file, plan, samples[i])), c.path, CaseUse::geometry);
     } catch (const InputError& error) {
-      if (s.samples == 0) throw InputError("{}: with what the campaign changes in it, {}", s.path, error.what());
+      if (s.samples == 0) throw InputError("{}: with the changes by the campaign, {}", s.path, error.what());
       throw InputError(
-          "{}: sample {} is not possible: {}; give its [[campaign.sample]] a narrower spread, or 'low' "
-          "and 'high'",
+          "{}: sample {} is not possible: {}. Give its [[campaign.sample]] a narrower spread, or 'low' and 'high'",
           s.path, i + 1, error.what());
     }
 }
@@ -168,8 +169,7 @@ void plan_runs(const Settings& s, Draft& draft) {
   const std::size_t samples = std::size_t(std::max(1, s.samples));
   if (const std::size_t all = s.cases.size() * s.records.size() * s.scales.size() * samples; all > most_runs)
     throw InputError(
-        "{}: {} cases × {} records × {} scales × {} samples are {} runs, expected at most {}: make several "
-        "campaigns of it",
+        "{}: {} cases × {} records × {} scales × {} samples are {} runs. At most {} are allowed: split the campaign",
         s.path, s.cases.size(), s.records.size(), s.scales.size(), samples, all, most_runs);
   for (std::size_t c = 0; c < s.cases.size(); ++c) {
     check_set(s, draft.cases[c]);
@@ -220,7 +220,7 @@ Draft make_draft(const Settings& s) {
   plan.left_out = s.left_out;
   for (const Sampled& sampled : s.sampled) plan.keys.insert(plan.keys.end(), sampled.keys.begin(), sampled.keys.end());
   if (std::set<std::string>(plan.keys.begin(), plan.keys.end()).size() < plan.keys.size())
-    throw InputError("{}: a key stands in more than one [[campaign.sample]]: sample it once", s.path);
+    throw InputError("{}: a key is in more than one [[campaign.sample]] table. Sample it once", s.path);
   plan_cases(s, draft);
   std::vector<std::string> taken;
   for (const Shaking& shaking : s.records) plan.records.push_back(plan_record(s, shaking, taken));
@@ -271,7 +271,7 @@ std::optional<Case> before_motion(const Case& c) {
 
 const PlannedRun& find_run(const Plan& plan, const std::string& id) {
   const auto found = std::ranges::find(plan.runs, id, &PlannedRun::id);
-  if (found == plan.runs.end()) throw InputError("this campaign has no run '{}'; --status lists them", id);
+  if (found == plan.runs.end()) throw InputError("this campaign has no run '{}'. Its runs are listed by --status", id);
   return *found;
 }
 

@@ -32,7 +32,7 @@ std::uint64_t unhex(const std::string& text, const std::string& place) {
     value = std::stoull(text, &end, 16);
   } catch (const std::exception&) {
   }
-  if (text.empty() || end != text.size()) throw InputError("{}: '{}' is no hash", place, text);
+  if (text.empty() || end != text.size()) throw InputError("{}: '{}' is not a hash", place, text);
   return value;
 }
 
@@ -179,7 +179,7 @@ void read_runs(const json& j, const std::string& path, Plan& plan) {
     PlannedRun run;
     run.id = need<std::string>(r, "id", place);
     if (run.id.empty() || run.id.find_first_of("/\\") != std::string::npos || run.id.starts_with('.'))
-      throw InputError("{}: '{}' is no name of a run", place, run.id);
+      throw InputError("{}: '{}' is not the name of a run", place, run.id);
     run.case_number = index_of(plan.cases, need<std::string>(r, "case", place), place);
     run.record = index_of(plan.records, need<std::string>(r, "record", place), place);
     run.scale = need<double>(r, "scale", place);
@@ -221,14 +221,11 @@ void check_extends(const Plan& plan, const std::string& directory) {
     const auto found = hashes.find(run.id);
     if (found == hashes.end())
       throw InputError(
-          "{} holds the run {}, which is no part of this campaign any more: {} (runs may be added, none "
-          "left out)",
+          "{} contains the run {}, which this campaign no longer has: {}. You may add runs, but not remove them",
           directory, run.id, remedy);
     if (found->second != run.hash)
-      throw InputError(
-          "{} holds the run {}, which would be another now (its case, its record, what is sampled or how "
-          "long it is run has changed): {}",
-          directory, run.id, remedy);
+      throw InputError("{} contains the run {}, but its case, record, sample or duration has changed: {}", directory,
+                       run.id, remedy);
   }
 }
 
@@ -239,8 +236,8 @@ void check_free(const std::string& directory) {
     const bool ours = name == "cases" || name == "records" || name == "campaign.toml" ||
                       (name == "runs" && fs::is_empty(entry.path(), ignored)) || name.ends_with(unfinished_suffix);
     if (!ours)
-      throw InputError("{} holds something else than a campaign ({}): choose another folder with -o DIR", directory,
-                       name);
+      throw InputError("{} contains files that are not part of a campaign ({}). Choose another folder with -o DIR",
+                       directory, name);
   }
 }
 
@@ -253,13 +250,13 @@ bool holds_plan(const std::string& directory) {
 
 Plan read_plan(const std::string& directory) {
   const std::string path = file_of(directory);
-  if (!holds_plan(directory)) throw InputError("{} holds no campaign: it has no campaign.json", directory);
+  if (!holds_plan(directory)) throw InputError("{} contains no campaign: there is no campaign.json", directory);
   const json j = read_json(path);
   if (value_or<std::string>(j, "format", "", path) != format)
-    throw InputError("{} is no plan of a campaign: expected format \"{}\"", path, format);
+    throw InputError("{} is not the plan of a campaign. Its format must be \"{}\"", path, format);
   if (const int version = need<int>(j, "format_version", path); version > format_version)
-    throw InputError("{} has format_version {}, this program reads up to {}: use a newer voussoir", path, version,
-                     format_version);
+    throw InputError("{} has format_version {}. This program reads versions up to {}: use a newer voussoir", path,
+                     version, format_version);
   Plan plan;
   plan.file = need<std::string>(j, "file", path);
   plan.keys = need<std::vector<std::string>>(j, "keys", path);
@@ -288,7 +285,7 @@ void write_draft(const Draft& draft, const std::string& directory) {
   std::error_code failed;
   fs::create_directories(directory + "/runs", failed);
   if (failed)
-    throw InputError("cannot make the folder {}: {}; choose another with -o DIR", directory, failed.message());
+    throw InputError("the folder {} cannot be made: {}. Choose another with -o DIR", directory, failed.message());
   for (std::size_t i = 0; i < draft.cases.size(); ++i) write_case(draft.cases[i], draft.plan.cases[i], directory);
   for (std::size_t i = 0; i < draft.records.size(); ++i)
     write_record(draft.records[i], draft.plan.records[i], directory);

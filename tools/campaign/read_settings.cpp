@@ -31,35 +31,38 @@ constexpr int most_samples = 10000;
 void refuse_twice(const TableReader& table, const std::string& key, std::vector<double> values) {
   std::ranges::sort(values);
   if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
-    table.fail(key, fmt::format("holds {} twice: runs are told apart by it", *twice));
+    table.fail(key, fmt::format("contains {} twice. Remove one: runs are identified by it", *twice));
 }
 
 Sampled read_sampled(TableReader& table) {
   Sampled s;
-  if (!table.has("key")) table.missing("key", "such as \"materials.masonry.youngs_modulus\", or a list of them");
+  if (!table.has("key")) table.missing("key", "such as \"materials.masonry.youngs_modulus\", or a list of such keys");
   s.keys = table.texts("key");
-  if (s.keys.empty()) table.fail("key", "is empty: name a number of the case");
+  if (s.keys.empty()) table.fail("key", "is empty. Name a number of the case");
   s.distribution = Sampled::Distribution(table.required_word("distribution", distributions()));
   s.own_mean = table.has("mean");
   s.mean = table.number("mean", 0.0);
   if (s.own_mean && s.keys.size() > 1)
-    table.fail("mean", "is given for several keys: leave it out (each has the case's value), or sample them apart");
+    table.fail("mean",
+               "is given for several keys. Leave it out (each key then has the value of the case as its mean), or use "
+               "one table for each key");
   const bool uniform = s.distribution == Sampled::Distribution::uniform;
   if (uniform && (table.has("low") || table.has("high"))) {
     s.low = table.required_number("low");
     s.high = table.required_number("high");
     for (const char* key : {"mean", "cov", "deviation"})
-      if (table.has(key)) table.fail(key, "and 'low', 'high' both say how wide a uniform distribution is: keep one");
+      if (table.has(key))
+        table.fail(key, "and 'low', 'high' both define the width of a uniform distribution. Remove one of the two");
   } else {
     if (table.has("cov") == table.has("deviation"))
-      table.missing("cov", "standard deviation over mean, or 'deviation' in the key's unit (not both)");
+      table.missing("cov", "standard deviation divided by mean, or 'deviation' in the unit of the key, not both");
     s.cov = table.number("cov", 0.0, {0.0, 10.0, "", true});
     s.deviation = table.number("deviation", 0.0, {0.0, 1e300, "", true});
     if (!uniform) s.low = table.number("low", s.low), s.high = table.number("high", s.high);
   }
   if (!uniform && s.keys.size() > 1 && (table.has("low") || table.has("high")))
-    table.fail("low", "or 'high' would cut one of several keys that are drawn together: leave them out");
-  if (!(s.low < s.high)) table.fail("low", fmt::format("is {}: must be below 'high', {}", s.low, s.high));
+    table.fail("low", "and 'high' cannot limit several keys that are drawn together. Leave them out");
+  if (!(s.low < s.high)) table.fail("low", fmt::format("is {}. It must be below 'high', {}", s.low, s.high));
   table.finish();
   return s;
 }
@@ -68,9 +71,10 @@ Sampled read_sampled(TableReader& table) {
 Shaking read_shaking(TableReader& table, const std::string& path) {
   Shaking s;
   s.name = table.required_text("name");
-  if (s.name.empty()) table.fail("name", "is empty: it stands in the table");
+  if (s.name.empty()) table.fail("name", "is empty. The table needs a name");
   s.event = table.text("event", s.name);
-  if (table.has("scale")) table.fail("scale", "belongs to the campaign ('scales'): of one record it is 'factor'");
+  if (table.has("scale"))
+    table.fail("scale", "is not a key of a record. Use 'factor' for one record, or 'scales' of the campaign for all");
   s.source = read_motion_source(table, path, 10.0);
   s.source.scale = table.number("factor", 1.0, {-1e6, 1e6, ""});
   table.finish();
@@ -84,7 +88,7 @@ void keep_axes(TableReader& campaign, std::vector<Shaking>& records) {
   std::array<bool, 3> kept = {};
   for (const std::string& name : campaign.texts("axes")) {
     const auto found = std::ranges::find(names, name);
-    if (found == names.end()) campaign.fail("axes", fmt::format("holds \"{}\": expected x, y or z", name));
+    if (found == names.end()) campaign.fail("axes", fmt::format("contains \"{}\". Each axis must be x, y or z", name));
     kept[std::size_t(found - names.begin())] = true;
   }
   for (Shaking& record : records) {
@@ -95,7 +99,8 @@ void keep_axes(TableReader& campaign, std::vector<Shaking>& records) {
     }
     if (!any)
       campaign.fail("axes",
-                    fmt::format("leaves nothing of record '{}': name an axis along which it shakes", record.name));
+                    fmt::format("removes all components of record '{}'. Name an axis along which it has a component",
+                                record.name));
   }
 }
 
@@ -108,17 +113,20 @@ bool is_folder(const std::string& place) {
 void read_places(TableReader& campaign, Settings& s) {
   std::vector<std::string> places;
   for (const std::string& name : campaign.texts("records")) places.push_back(relative_to(s.path, name));
-  if (places.empty()) campaign.fail("records", "is empty: name a selection.json or a folder of record files");
+  if (places.empty()) campaign.fail("records", "is empty. Name a selection.json or a folder of record files");
   if (std::ranges::none_of(places, is_folder))
     for (const char* key : {"units", "dt"})
-      if (campaign.has(key)) campaign.fail(key, "is of plain columns in a folder: a selection says it itself");
+      if (campaign.has(key))
+        campaign.fail(
+            key,
+            "applies only to record files with plain columns in a folder. A selection.json contains it: leave it out");
   const std::vector<std::string>& units = acceleration_units();
   const std::string unit = units[campaign.word("units", units, 0)];
   const double dt = campaign.number("dt", 0.005, {1e-5, 1.0, "s"});
   const bool correct = campaign.flag("correct", false);
   for (const std::string& place : places) {
     if (std::error_code ignored; !is_folder(place) && !fs::is_regular_file(place, ignored))
-      campaign.fail("records", fmt::format("names \"{}\": there is no such file or folder", place));
+      campaign.fail("records", fmt::format("names \"{}\". This file or folder does not exist", place));
     std::vector<Shaking> records =
         is_folder(place) ? read_folder(place, unit, dt, correct, s.left_out) : read_selection(place, correct);
     std::ranges::move(records, std::back_inserter(s.records));
@@ -129,12 +137,12 @@ void read_records(TableReader& root, TableReader& campaign, Settings& s) {
   std::vector<TableReader> tables = root.tables("record");
   const bool named = campaign.has("records");
   if (named == !tables.empty()) {
-    if (named) campaign.fail("records", "and [[record]] are both given: keep one");
-    campaign.missing("records", "a selection.json or a folder of record files; or [[record]] tables");
+    if (named) campaign.fail("records", "and [[record]] are both given. Remove one of the two");
+    campaign.missing("records", "a selection.json, a folder of record files, or [[record]] tables");
   }
   if (!named)
     for (const char* key : {"units", "dt", "correct", "axes"})
-      if (campaign.has(key)) campaign.fail(key, "belongs to 'records': give it in each [[record]]");
+      if (campaign.has(key)) campaign.fail(key, "applies only to 'records'. Give it in each [[record]]");
   for (TableReader& table : tables) s.records.push_back(read_shaking(table, s.path));
   if (!named) return;
   read_places(campaign, s);
@@ -146,7 +154,7 @@ void check_names(const TableReader& root, const Settings& s) {
   for (const Shaking& record : s.records) names.push_back(record.name);
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
-    root.fail(fmt::format("has two records called \"{}\": the table tells them apart by name", *twice));
+    root.fail(fmt::format("has two records with the name \"{}\". The table needs different names: rename one", *twice));
 }
 
 void read_cases(TableReader& campaign, Settings& s) {
@@ -156,7 +164,7 @@ void read_cases(TableReader& campaign, Settings& s) {
     if (std::error_code ignored; !fs::is_regular_file(s.cases.back(), ignored))
       campaign.fail("cases", fmt::format("names \"{}\": there is no such file", s.cases.back()));
   }
-  if (s.cases.empty()) campaign.fail("cases", "is empty: name at least one case file");
+  if (s.cases.empty()) campaign.fail("cases", "is empty. Name at least one case file");
 }
 
 void read_samples(TableReader& campaign, Settings& s) {
@@ -164,8 +172,9 @@ void read_samples(TableReader& campaign, Settings& s) {
   s.samples = int(campaign.integer("samples", 0, 1, most_samples));
   s.seed = std::uint64_t(campaign.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
   if (s.samples > 0 && s.sampled.empty())
-    campaign.fail("samples", "is given, but nothing is sampled: add [[campaign.sample]] tables, or remove it");
-  if (s.samples == 0 && !s.sampled.empty()) campaign.missing("samples", "how many are drawn of [[campaign.sample]]");
+    campaign.fail("samples", "is given, but nothing is sampled. Add [[campaign.sample]] tables or remove it");
+  if (s.samples == 0 && !s.sampled.empty())
+    campaign.missing("samples", "the number of samples drawn from [[campaign.sample]]");
 }
 
 /// [campaign.set]: "damping.ratio" = 0.03.
@@ -174,7 +183,7 @@ void read_set(TableReader& campaign, Settings& s) {
   if (!table) return;
   for (const std::string& key : table->keys()) {
     const auto holds = [&](const Sampled& sampled) { return std::ranges::count(sampled.keys, key) > 0; };
-    if (std::ranges::any_of(s.sampled, holds)) table->fail(key, "is sampled too: keep one of the two");
+    if (std::ranges::any_of(s.sampled, holds)) table->fail(key, "is also sampled. Remove one of the two");
     s.run.set.emplace_back(key, table->required_number(key));
   }
   table->finish();
@@ -188,7 +197,9 @@ void read_output(TableReader& campaign, Settings& s) {
   if (campaign.has("periods")) s.periods = campaign.number_list("periods", {0.01, 20.0, "s"});
   for (const double t : s.periods)
     if (std::abs(100.0 * t - std::round(100.0 * t)) > 1e-6)
-      campaign.fail("periods", fmt::format("holds {} s: give full hundredths, which name the columns", t));
+      campaign.fail(
+          "periods",
+          fmt::format("contains {} s. Give periods in whole hundredths of a second, because they name the columns", t));
   refuse_twice(campaign, "periods", s.periods);
   if (auto fall = campaign.table("fall", "[campaign.fall]")) {
     s.run.fall.displacement = fall->number("displacement", s.run.fall.displacement, {0.0, 1e3, "m", true});
@@ -241,8 +252,10 @@ void read_engine(TableReader& root, Settings& s) {
   if (table->has("options")) e.options = table->texts("options");
   for (const std::string& option : e.options)
     if (!option.starts_with("--"))
-      table->fail("options",
-                  fmt::format("holds \"{}\": each is one word of sbatch, such as \"--constraint=avx512\"", option));
+      table->fail(
+          "options",
+          fmt::format("contains \"{}\". Each option must be one word for sbatch, such as \"--constraint=avx512\"",
+                      option));
   table->finish();
 }
 
@@ -265,7 +278,7 @@ Settings read_settings(const std::string& path) {
   const toml::table file = parse_toml(s.text, path);
   TableReader root(file, path, "the campaign");
   if (!root.has("campaign") && root.has("bridge"))
-    throw InputError("{} is a case, not a campaign: run it with voussoir run, or name it in 'cases' of a campaign file",
+    throw InputError("{} is a case, not a campaign. Run it with voussoir run, or name it in 'cases' of a campaign file",
                      path);
   for (const auto read : {read_campaign, read_engine, read_limit_states}) root.attempt([&] { read(root, s); });
   root.finish();

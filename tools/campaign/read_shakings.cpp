@@ -24,7 +24,7 @@ T value_of(const json& object, const std::string& key, const T& fallback, const 
   try {
     return found->get<T>();
   } catch (const json::exception&) {
-    throw InputError("{}: '{}' is {}: expected {}", place, key, found->dump().substr(0, 60), type);
+    throw InputError("{}: '{}' is {}. It must be {}", place, key, found->dump().substr(0, 60), type);
   }
 }
 
@@ -41,19 +41,19 @@ MotionSource source_of(const std::array<std::string, 3>& files, const std::strin
 }
 
 Shaking read_entry(const json& entry, const std::string& path, const std::string& place, bool correct) {
-  if (!entry.is_object()) throw InputError("{} is no object: expected name, files, factor …", place);
+  if (!entry.is_object()) throw InputError("{} is not an object. It must have name, files, factor …", place);
   Shaking s;
-  s.name = value_of<std::string>(entry, "name", "", place, "text");
-  if (s.name.empty()) throw InputError("{} has no 'name': the table tells records apart by it", place);
-  s.event = value_of<std::string>(entry, "event", s.name, place, "text");
+  s.name = value_of<std::string>(entry, "name", "", place, "a text");
+  if (s.name.empty()) throw InputError("{} has no 'name'. The table needs a name for each record", place);
+  s.event = value_of<std::string>(entry, "event", s.name, place, "a text");
   if (s.event.empty()) s.event = s.name;
   const auto names = value_of<std::vector<std::string>>(entry, "files", {}, place, "a list of texts");
   if (names.empty() || names.size() > 3)
-    throw InputError("{} names {} files: expected one, or up to three for x, y, z", place, names.size());
+    throw InputError("{} names {} files. It must name one, or up to three for x, y, z", place, names.size());
   std::array<std::string, 3> files;
   for (std::size_t axis = 0; axis < names.size(); ++axis)
     if (!names[axis].empty()) files[axis] = relative_to(path, names[axis]);
-  const auto units = value_of<std::string>(entry, "units", "", place, "text");
+  const auto units = value_of<std::string>(entry, "units", "", place, "a text");
   if (!units.empty()) acceleration_unit(units);
   s.source = source_of(files, units, value_of<double>(entry, "dt", 0.0, place, "a number in s"), correct);
   s.source.scale = value_of<double>(entry, "factor", 1.0, place, "a number");
@@ -67,14 +67,14 @@ std::vector<Shaking> read_selection(const std::string& path, bool correct) {
   try {
     file = read_json(path);
   } catch (const InputError& error) {
-    throw InputError("{}: expected a selection that voussoir motion select wrote, or a folder", error.what());
+    throw InputError("{}: give a selection written by voussoir motion select, or a folder", error.what());
   }
   if (!file.is_object() || !file.contains("records") || !file["records"].is_array())
-    throw InputError("{} has no list 'records': expected a selection that voussoir motion select wrote", path);
+    throw InputError("{} has no list 'records'. Give a selection written by voussoir motion select", path);
   std::vector<Shaking> records;
   for (const json& entry : file["records"])
     records.push_back(read_entry(entry, path, fmt::format("{}: record number {}", path, records.size() + 1), correct));
-  if (records.empty()) throw InputError("{}: its list 'records' is empty: nothing to shake with", path);
+  if (records.empty()) throw InputError("{}: the list 'records' is empty. It must contain at least one record", path);
   return records;
 }
 

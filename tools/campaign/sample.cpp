@@ -34,15 +34,18 @@ double draw(const Sampled& s, const std::string& key, double mean, std::uint64_t
   if (range) return s.low + (s.high - s.low) * random.uniform();
   if (s.own_mean) mean = s.mean;
   if (s.distribution == Sampled::Distribution::lognormal && !(mean > 0.0))
-    throw InputError("{} cannot be lognormal about a mean of {}: give 'mean' above 0 or another distribution", key,
-                     mean);
+    throw InputError(
+        "{} has the mean {}. A lognormal distribution needs a mean above 0: change 'mean' or the distribution", key,
+        mean);
   const double deviation = s.cov > 0.0 ? s.cov * std::abs(mean) : s.deviation;
   if (!(deviation > 0.0))
-    throw InputError("{} has the mean {}, of which 'cov' is no spread: give 'deviation' or 'mean'", key, mean);
+    throw InputError("{} has the mean {}, so 'cov' gives no standard deviation. Give 'deviation' or another 'mean'",
+                     key, mean);
   for (int i = 0; i < most_tries; ++i)
     if (const double x = draw_once(s, mean, deviation, random); x >= s.low && x <= s.high) return x;
-  throw InputError("{}: of {} values about the mean {} none lies between 'low' {} and 'high' {}: widen them", key,
-                   most_tries, mean, s.low, s.high);
+  throw InputError(
+      "{}: none of {} values drawn about the mean {} is between 'low' {} and 'high' {}. Increase this range", key,
+      most_tries, mean, s.low, s.high);
 }
 
 }  // namespace voussoir::campaign

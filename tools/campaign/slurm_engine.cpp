@@ -65,8 +65,8 @@ class Slurm {
     for (const char* program : {"sbatch", "squeue"})
       if (!in_path(program))
         throw InputError(
-            "there is no {} here: Slurm is not installed on this machine (Debian: slurm-client), or not in "
-            "PATH; run the campaign here with --engine local",
+            "the command {} was not found: Slurm is not installed on this machine (Debian: slurm-client) or is not in "
+            "PATH. Install it, or run the campaign here with --engine local",
             program);
   }
 
@@ -81,15 +81,15 @@ class Slurm {
       if (!alive) {
         if (tally_.missing > 0)
           work_.say(
-              fmt::format("{} runs have left Slurm without a result: cancelled, or their node could not run them; "
-                          "what they said is in {}/slurm",
+              fmt::format("{} runs left Slurm without a result. They were cancelled, or their node could not run them. "
+                          "Their output is in {}/slurm",
                           tally_.missing, work_.directory));
         return WorkEnd::ended;
       }
       if (stop_signal() != 0) {
         work_.say(
-            fmt::format("the jobs go on without this program; start the campaign again to wait for them and to "
-                        "write the table, or end them: scancel {}",
+            fmt::format("The jobs continue without this program. Start the campaign again to wait for them and to "
+                        "write the table, or end them with: scancel {}",
                         fmt::join(jobs(), " ")));
         return WorkEnd::stopped;
       }
@@ -196,9 +196,8 @@ class Slurm {
     const Answer answer = ask(words(batch, script_file));
     if (answer.status != 0) {
       fs::remove(work_.directory + "/slurm/" + batch.name, failed);
-      throw RunError(
-          "sbatch refuses the runs: {}; look at [engine] of the campaign, or run it here with --engine local",
-          first_line(answer.err));
+      throw RunError("sbatch refuses the runs: {}. Check [engine] of the campaign, or run it here with --engine local",
+                     first_line(answer.err));
     }
     batch.job = first_line(answer.out).substr(0, answer.out.find_first_of(";\n"));
     write_batch(work_.directory, batch);

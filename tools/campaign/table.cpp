@@ -31,12 +31,14 @@ void check_columns(const CsvReader& reader) {
     if (!is_number_column(name) &&
         std::find(fixed_columns().begin(), fixed_columns().end(), name) == fixed_columns().end())
       reader.fail(reader.heading_row(),
-                  fmt::format("unknown column '{}'{}; columns of numbers are called im.NAME, edp.NAME, damage.NAME",
+                  fmt::format("unknown column '{}'{}; columns of numbers have the names im.NAME, edp.NAME or damage.NAME",
                               shown(name), short_suggestion(name, fixed_columns())));
   for (const char* name : {"run", "case", "record", "status"})
     if (std::find(columns.begin(), columns.end(), name) == columns.end())
-      reader.fail(reader.heading_row(),
-                  fmt::format("no column '{}': a table of a campaign has run, case, record and status", name));
+      reader.fail(
+          reader.heading_row(),
+          fmt::format("the column '{}' is missing. A table of a campaign has the columns run, case, record and status",
+                      name));
 }
 
 RunStatus status_of(const CsvReader& reader, std::string_view word) {
@@ -51,7 +53,8 @@ double number_of(const CsvReader& reader, std::string_view word, const std::stri
   double value = no_number;
   const NumberTrouble trouble = parse_number(word, value);
   if (trouble == NumberTrouble::empty) return no_number;
-  if (trouble != NumberTrouble::none) reader.fail(explain(trouble, word, column) + "; leave it empty for no value");
+  if (trouble != NumberTrouble::none)
+    reader.fail(explain(trouble, word, column) + ". Leave the cell empty if there is no value");
   return value;
 }
 
@@ -81,7 +84,7 @@ void read_row(CsvReader& reader, CampaignTable& table) {
       take_cell(reader, run, name, cell);
   }
   reader.end_row();
-  if (run.run.empty()) reader.fail("the cell in column 'run' is empty, expected the name of a run");
+  if (run.run.empty()) reader.fail("the cell in column 'run' is empty. It must be the name of a run");
   table.runs.push_back(std::move(run));
 }
 
@@ -117,8 +120,8 @@ const NumberColumn& CampaignTable::column(std::string_view name) const {
   if (const NumberColumn* found = find(name)) return *found;
   std::vector<std::string> known;
   for (const NumberColumn& c : columns) known.push_back(c.name);
-  if (known.empty()) throw InputError("{}: no column '{}', nor any other of numbers", path, name);
-  throw InputError("{}: no column '{}'{}", path, shown(name), short_suggestion(name, known));
+  if (known.empty()) throw InputError("{}: there is no column '{}' and no other column of numbers", path, name);
+  throw InputError("{}: there is no column '{}'{}", path, shown(name), short_suggestion(name, known));
 }
 
 std::vector<std::string> CampaignTable::names(std::string_view prefix) const {
@@ -147,10 +150,10 @@ CampaignTable parse_table(const std::string& text, const std::string& path) {
   while (reader.next_row()) {
     read_row(reader, table);
     if (!seen.insert(table.runs.back().run).second)
-      reader.fail(fmt::format("run '{}' is there twice: remove or rename one", shown(table.runs.back().run)));
+      reader.fail(fmt::format("run '{}' occurs twice. Remove or rename one", shown(table.runs.back().run)));
   }
   if (table.runs.empty())
-    reader.fail(reader.heading_row(), "no runs below the heading: has the campaign been run and gathered?");
+    reader.fail(reader.heading_row(), "there are no runs below the heading. Run the campaign first");
   return table;
 }
 

@@ -84,10 +84,11 @@ double number_at(const Case& c, const std::string& key) {
     collect_numbers(resolved, "", known);
     const std::string near = nearest_word(key, known);
     throw InputError(
-        "'{}' is no number of {}{}", key, c.path,
-        near.empty() ? ": expected a key with its tables, such as damping.ratio" : ": did you mean '" + near + "'?");
+        "'{}' is not a number of {}{}", key, c.path,
+        near.empty() ? ". Give a key with its tables, such as damping.ratio" : ": did you mean '" + near + "'?");
   }
-  if (node->is_integer()) throw InputError("'{}' of {} is a whole number, which a campaign cannot change", key, c.path);
+  if (node->is_integer())
+    throw InputError("'{}' of {} is a whole number. A campaign cannot change whole numbers", key, c.path);
   return *node->value<double>();
 }
 
@@ -97,16 +98,16 @@ void set_number(toml::table& table, const std::string& key, double value) {
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (toml::table* here = node->as_table(); here && !here->contains(parts[i])) here->insert(parts[i], toml::table{});
     node = const_cast<toml::node*>(child(*node, parts[i]));
-    if (!node) throw InputError("'{}' leads nowhere: '{}' is no table", key, parts[i]);
+    if (!node) throw InputError("'{}' does not exist: '{}' is not a table", key, parts[i]);
   }
   if (toml::table* here = node->as_table()) {
     here->insert_or_assign(parts.back(), value);
   } else if (toml::array* list = node->as_array()) {
     const std::ptrdiff_t place = place_in(*list, parts.back());
-    if (place < 0) throw InputError("'{}' leads nowhere: the list has {} entries, from 1", key, list->size());
+    if (place < 0) throw InputError("'{}' does not exist: the list has {} entries, counted from 1", key, list->size());
     list->replace(list->begin() + place, value);
   } else {
-    throw InputError("'{}' leads nowhere", key);
+    throw InputError("'{}' does not exist", key);
   }
 }
 
@@ -123,8 +124,7 @@ std::size_t motion_stage(const Case& c) {
     if (c.settings.stages[i].kind == StageSettings::Kind::motion) found = i, ++count;
   if (count != 1)
     throw InputError(
-        "{} has {} motion stages: a campaign needs exactly one, which gets its records; what stands in it "
-        "does not matter",
+        "{} has {} motion stages. A campaign needs exactly one: it receives the records, and its own motion is ignored",
         c.path, count);
   return found;
 }
