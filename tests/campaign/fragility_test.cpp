@@ -278,7 +278,7 @@ TEST(Fragility, LimitStatesAreChecked) {
   };
   EXPECT_EQ(error(limit(0.05)), "");
   EXPECT_EQ(error({std::string("falls"), collapse_demand, 0.0, ""}), "");
-  EXPECT_NE(error(limit(0.0)).find("threshold of limit state 'damage' is 0; it must be above 0"), std::string::npos);
+  EXPECT_NE(error(limit(0.0)).find("threshold of limit state 'damage' is 0. It must be above 0"), std::string::npos);
   EXPECT_NE(error({std::string("d"), std::string("edp.y"), 1.0, ""}).find("'d': table.csv: there is no column 'edp.y'"),
             std::string::npos);
   EXPECT_NE(error({std::string("d"), std::string("im.pga"), 1.0, ""}).find("the demand of limit state 'd' is 'im.pga'"),

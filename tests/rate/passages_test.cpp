@@ -41,10 +41,10 @@ TEST(Passages, SayUpToWhichFactorAllSettle) {
   const std::string text = passages_text({series(0.3, PassageEnd::settles, 9), series(0.5, PassageEnd::grows, 9),
                                           series(0.7, PassageEnd::settles, 9), series(0.9, PassageEnd::collapses, 2)},
                                          1.0);
-  EXPECT_EQ(text.find("Over 9 passages displacements settle with factors up to 0.3 (30 % of"), 0u) << text;
+  EXPECT_EQ(text.find("Over 9 passages, displacements settle with factors up to 0.3 (30 % of"), 0u) << text;
   EXPECT_NE(text.find("with 0.5 they do not"), std::string::npos) << text;
   const std::string none = passages_text({series(0.3, PassageEnd::collapses, 0), series(0.5, PassageEnd::grows, 9)}, 1);
-  EXPECT_EQ(none.find("Over 9 passages displacements settle with none of the factors; with 0.3"), 0u) << none;
+  EXPECT_EQ(none.find("Over 9 passages, displacements settle with none of the factors; with 0.3"), 0u) << none;
 }
 
 Vehicle two_axles() {

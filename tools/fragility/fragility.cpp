@@ -100,14 +100,14 @@ void run_bootstrap(Fragility& f, const FragilitySettings& settings) {
 }  // namespace
 
 void check_limit(const CampaignTable& table, const LimitState& limit, const std::string& where) {
-  if (limit.name.empty()) throw InputError("{}: a limit state without a name", where);
+  if (limit.name.empty()) throw InputError("{}: a limit state has no name", where);
   const auto cases = table.cases();
   if (!limit.case_name.empty() && std::find(cases.begin(), cases.end(), limit.case_name) == cases.end())
     throw InputError("{}: limit state '{}' is for case '{}', of which {} has no runs{}", where, limit.name,
                      limit.case_name, table.path, suggestion(limit.case_name, cases));
   if (limit.demand == collapse_demand) return;
   if (!limit.demand.starts_with("edp.") && !limit.demand.starts_with("damage."))
-    throw InputError("{}: the demand of limit state '{}' is '{}'; expected a column edp.NAME or damage.NAME, or '{}'",
+    throw InputError("{}: the demand of limit state '{}' is '{}'. It must be a column edp.NAME or damage.NAME, or '{}'",
                      where, limit.name, limit.demand, collapse_demand);
   try {
     table.column(limit.demand);
@@ -115,7 +115,7 @@ void check_limit(const CampaignTable& table, const LimitState& limit, const std:
     throw InputError("{}: limit state '{}': {}", where, limit.name, error.what());
   }
   if (!(limit.threshold > 0.0) || !std::isfinite(limit.threshold))
-    throw InputError("{}: the threshold of limit state '{}' is {}; it must be above 0", where, limit.name,
+    throw InputError("{}: the threshold of limit state '{}' is {}. It must be above 0", where, limit.name,
                      limit.threshold);
 }
 

@@ -58,8 +58,8 @@ std::string entry_words(const Fragility& f) {
   if (f.chosen.identified != Identified::yes)
     return shortened(f.case_name + ": no curve, " + unknown_words(f.chosen, f.im), 96);
   std::string text = fmt::format("{}: θ = {}, β = {:.2f}", f.case_name, with_unit(f.chosen.theta, f.im), f.chosen.beta);
-  return text +
-         fmt::format(" ({}; {} of {} runs beyond)", method_words(f), f.selection.beyond, f.selection.trials.size());
+  return text + fmt::format(" ({}; {} of {} runs exceed the limit)", method_words(f), f.selection.beyond,
+                            f.selection.trials.size());
 }
 
 void draw_curve(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {

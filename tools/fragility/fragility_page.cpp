@@ -57,7 +57,7 @@ std::vector<std::string> notes_on(const std::vector<const Fragility*>& curves) {
       notes.push_back(fmt::format("{}: no curve: {}.", f->case_name, unknown_words(f->chosen, f->im)));
     for (const std::string& remark : remarks_on(*f)) notes.push_back(fmt::format("{}: {}", f->case_name, remark));
     if (const std::string out = left_out_words(f->selection); !out.empty())
-      notes.push_back(fmt::format("{}: left out: {}.", f->case_name, out));
+      notes.push_back(fmt::format("{}: runs left out: {}.", f->case_name, out));
   }
   return notes;
 }
@@ -71,10 +71,9 @@ std::string limit_section(const std::vector<const Fragility*>& curves) {
   const std::string chart = demand_chart(curves);
   if (chart.empty()) return text;
   text += figure(chart);
-  return text +
-         note(
-             "Lines of least squares through the logarithms of the runs that stand, and one standard deviation to both "
-             "sides (dashed). Triangles at the top: collapsed.");
+  return text + note(
+                    "Least-squares lines through the logarithms of the runs without collapse, with one standard "
+                    "deviation to both sides (dashed). Triangles at the top: collapsed.");
 }
 
 std::string sufficiency_words(const MeasurePair& p) {
@@ -115,13 +114,13 @@ std::string rankings_section(const FragilityReport& report) {
   std::string tables;
   for (const IntensityRanking& ranking : report.intensities) tables += ranking_table(ranking);
   if (tables.empty()) return "";
-  return heading("Which intensity foretells which demand") +
+  return heading("Which intensity measure predicts which demand") +
          note(
-             "Efficiency: scatter of the demand's logarithm at a given intensity, the less the better. Practicality: "
-             "slope. Proficiency: one over the other, the less the better; the order goes by it. Sufficiency: how "
-             "probable it is that chance alone makes a further characteristic of the ground motion add as much as it "
-             "does; below "
-             "0.05 the intensity is not sufficient.") +
+             "Efficiency: scatter of the logarithm of the demand at a given intensity; a smaller value is better. "
+             "Practicality: slope of the line. Proficiency: efficiency divided by practicality; a smaller value is "
+             "better, and the rows are in this order. Sufficiency: the probability that a further characteristic of "
+             "the ground motion improves the prediction as much by chance alone. Below 0.05 the intensity measure is "
+             "not sufficient.") +
          tables;
 }
 
@@ -134,10 +133,10 @@ std::string damage_section(const FragilityReport& report) {
     text += fmt::format("<h3>{}</h3>\n{}", escaped(c.case_name), list(sentences));
   }
   if (text.empty()) return "";
-  return heading("Which demand tells the damage") +
+  return heading("Which demand predicts the damage") +
          note(
-             "Spearman's rank correlation of a demand with the share of broken joint area of a component. 1: "
-             "whichever run has more of one has more of the other.") +
+             "Spearman's rank correlation between a demand and the share of broken joint area of a component. 1: the "
+             "runs have the same order by both.") +
          text;
 }
 
@@ -147,10 +146,10 @@ std::string fragility_page(const std::string& title, const FragilityReport& repo
   std::string page = paragraph(runs_words(report) + ".");
   for (const std::string& remark : report.remarks) page += paragraph(remark);
   if (!report.curves.empty())
-    page += note(fmt::format(
-        "Curves are Φ(ln(im/θ)/β): θ is the intensity at which half go beyond, β the standard deviation of its "
-        "logarithm. Bands: 5 to 95 % of {} resamples of the records.",
-        report.settings.replicates));
+    page += note(
+        fmt::format("The curves are Φ(ln(im/θ)/β). θ is the intensity at which half of the runs exceed the limit. β is "
+                    "the standard deviation of its logarithm. Bands: 5 to 95 % of {} resamples of the records.",
+                    report.settings.replicates));
   for (const auto& group : by_limit(report.curves)) page += limit_section(group);
   page += rankings_section(report) + damage_section(report);
   return html_page(title, page);

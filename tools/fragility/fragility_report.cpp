@@ -124,7 +124,8 @@ std::string curve_rows(const Fragility& f, std::size_t width) {
   else
     text += fmt::format("  no curve: {}\n", unknown_words(f.chosen, f.im));
   for (const std::string& remark : remarks_on(f)) text += fmt::format("    {}\n", remark);
-  if (const std::string out = left_out_words(f.selection); !out.empty()) text += fmt::format("    left out: {}\n", out);
+  if (const std::string out = left_out_words(f.selection); !out.empty())
+    text += fmt::format("    runs left out: {}\n", out);
   return text;
 }
 
@@ -143,8 +144,8 @@ std::string curves_text(const FragilityReport& report) {
 
 std::string ranking_text(const IntensityRanking& ranking) {
   std::string text = fmt::format(
-      "\n{}: intensities for {}, the best first\n  {:<14} {:>5} {:>10} {:>12} {:>11} {:>6}  {}\n", ranking.case_name,
-      ranking.demand, "", "runs", "efficiency", "practicality", "proficiency", "R²", "sufficiency");
+      "\n{}: intensity measures for {}, in order of proficiency\n  {:<14} {:>5} {:>10} {:>12} {:>11} {:>6}  {}\n",
+      ranking.case_name, ranking.demand, "", "runs", "efficiency", "practicality", "proficiency", "R²", "sufficiency");
   for (std::size_t i = 0; i < std::min(intensities_in_report, ranking.pairings.size()); ++i) {
     const MeasurePair& p = ranking.pairings[i];
     std::string tests;
@@ -197,8 +198,8 @@ std::string damage_words(const DamageRanking& r) {
     text += fmt::format("; {} {:.2f}", measure_name(r.demands[i].demand), r.demands[i].correlation);
   text += fmt::format(", {} runs)", first.count);
   if (std::isnan(r.ahead)) return text + ".";
-  return text + fmt::format("; it stays ahead in {:.0f} % of resamples{}.", 100.0 * r.ahead,
-                            r.ahead < 0.95 ? ", which does not decide it" : "");
+  return text + fmt::format(". It remains first in {:.0f} % of the resamples{}.", 100.0 * r.ahead,
+                            r.ahead < 0.95 ? ", so the order is not certain" : "");
 }
 
 std::string report_text(const FragilityReport& report) {
@@ -208,7 +209,7 @@ std::string report_text(const FragilityReport& report) {
     if (!ranking.pairings.empty()) text += ranking_text(ranking);
   for (const CaseDamage& c : report.damage) {
     if (c.rankings.empty()) continue;
-    text += fmt::format("\n{}: which demand tells the damage\n", c.case_name);
+    text += fmt::format("\n{}: which demand predicts the damage\n", c.case_name);
     for (const DamageRanking& r : c.rankings) text += fmt::format("  {}\n", damage_words(r));
   }
   if (!report.remarks.empty()) text += "\n";

@@ -22,11 +22,11 @@ std::string one_mixed_words(const Estimate& e, const std::string& column) {
   std::string where = std::isnan(e.above)   ? "θ lies above it"
                       : std::isnan(e.below) ? "θ lies below it"
                       : e.below == e.above
-                          ? "θ is there"
+                          ? "θ equals it"
                           : fmt::format("θ lies from {:.4g} to {:.4g} {}", e.below, e.above, measure_unit(column));
   return fmt::format(
-      "runs differ at one intensity alone, {}, where {:.0f} of {:.0f} go beyond: {}, β is not known; run "
-      "intensities beside it",
+      "only at one intensity, {}, do some runs exceed the limit and others not ({:.0f} of {:.0f} exceed it): {}, β is "
+      "not known. Run intensities slightly below and above",
       with_unit(e.mixed.im, column), e.mixed.beyond, e.mixed.runs, where);
 }
 
@@ -45,23 +45,25 @@ std::string range_text(const CurveBand& band) {
 void remark_on_method(const Fragility& f, std::vector<std::string>& remarks) {
   const bool stripes = !f.levels.empty();
   if (stripes && f.chosen.method == Method::cloud)
-    remarks.push_back(
-        fmt::format("By counts there is no curve ({}); this one follows from the line through the demands.",
-                    unknown_words(f.other, f.im)));
+    remarks.push_back(fmt::format("Counts give no curve ({}). This curve follows from the line through the demands.",
+                                  unknown_words(f.other, f.im)));
   if (!stripes && f.chosen.method == Method::counts && f.limit.demand != collapse_demand)
     remarks.push_back(
-        fmt::format("No curve follows from the sizes of the demands ({}); this one counts which runs go beyond.",
+        fmt::format("The sizes of the demands give no curve ({}). This curve follows from counts of the runs that "
+                    "exceed the limit.",
                     unknown_words(f.other, f.im)));
   if (f.chosen.method == Method::cloud && f.selection.beyond == 0)
-    remarks.push_back("No run goes beyond the limit: the line is extrapolated to it.");
+    remarks.push_back("No run exceeds the limit, so the line is extrapolated to it.");
   if (f.chosen.method == Method::cloud && f.selection.beyond == f.selection.trials.size())
-    remarks.push_back("Every run goes beyond the limit: the line is extrapolated to it.");
+    remarks.push_back("Every run exceeds the limit, so the line is extrapolated to it.");
   if (f.chosen.method == Method::cloud && f.cloud.collapse.identified == Identified::separated)
-    remarks.push_back(fmt::format("All that collapse lie above all that stand: collapse is a step at {}.",
-                                  with_unit(f.cloud.collapse.theta, f.im)));
-  if (f.chosen.method == Method::cloud && f.cloud.curvature_p < 0.05)
     remarks.push_back(fmt::format(
-        "The demands bend off a straight line (p = {:.2g}): compare with the curve by counts.", f.cloud.curvature_p));
+        "All runs with collapse have higher intensities than all others: the probability of collapse is a step at {}.",
+        with_unit(f.cloud.collapse.theta, f.im)));
+  if (f.chosen.method == Method::cloud && f.cloud.curvature_p < 0.05)
+    remarks.push_back(
+        fmt::format("The demands deviate from a straight line (p = {:.2g}). Compare with the curve by counts.",
+                    f.cloud.curvature_p));
   const CurveBand& band = f.bootstrap.theta;
   if (f.other.identified == Identified::yes && std::isfinite(band.low) &&
       (f.other.theta < band.low || f.other.theta > band.high))
@@ -72,21 +74,23 @@ void remark_on_method(const Fragility& f, std::vector<std::string>& remarks) {
 void remark_on_data(const Fragility& f, std::vector<std::string>& remarks) {
   const SelectedRuns& s = f.selection;
   if (const CurveBand range = im_range(f); f.chosen.theta < range.low || f.chosen.theta > range.high)
-    remarks.push_back(
-        fmt::format("θ lies outside the intensities that were run, {} {}.", range_text(range), measure_unit(f.im)));
+    remarks.push_back(fmt::format("θ lies outside the range of intensities of the runs, {} {}.", range_text(range),
+                                  measure_unit(f.im)));
   if (s.records.size() < s.trials.size() && f.chosen.method == Method::counts)
     remarks.push_back(
-        "Records were used more than once: go by the bands, for standard errors take all runs for independent.");
+        "Records were used more than once. Use the bands, because standard errors assume that all runs are "
+        "independent.");
   if (s.records.size() < few_records)
     remarks.push_back(fmt::format("{} record{}: the bands are rough{}.", s.records.size(),
-                                  s.records.size() == 1 ? "" : "s", s.records.size() == 1 ? ", or none" : ""));
+                                  s.records.size() == 1 ? "" : "s",
+                                  s.records.size() == 1 ? ", or there is no band" : ""));
   if (20 * f.bootstrap.unidentified > f.bootstrap.replicates)
     remarks.push_back(
-        fmt::format("{} of {} resamples determine no curve and are left out: the bands may be too narrow.",
+        fmt::format("{} of {} resamples determine no curve and are left out, so the bands may be too narrow.",
                     f.bootstrap.unidentified, f.bootstrap.replicates));
   if (s.zero_demands > 0)
     remarks.push_back(
-        fmt::format("{} runs have a demand of 0: they are counted, but no line goes through them.", s.zero_demands));
+        fmt::format("{} runs have a demand of 0. They are counted, but the line does not use them.", s.zero_demands));
 }
 
 }  // namespace
@@ -122,7 +126,7 @@ std::string with_unit(double value, const std::string& column) {
 }
 
 std::string limit_words(const LimitState& limit) {
-  if (limit.demand == collapse_demand) return "the bridge falls";
+  if (limit.demand == collapse_demand) return "the bridge collapses";
   return fmt::format("{} reaches {}", measure_name(limit.demand), with_unit(limit.threshold, limit.demand));
 }
 
@@ -134,7 +138,8 @@ std::string method_name(const Estimate& e) {
 std::string method_words(const Fragility& f) {
   if (f.chosen.method == Method::counts)
     return f.levels.empty() ? std::string("counts, run by run") : fmt::format("counts at {} levels", f.levels.size());
-  return std::isnan(f.chosen.curve.collapse_theta) ? "line through demands" : "line through demands, collapses apart";
+  return std::isnan(f.chosen.curve.collapse_theta) ? "line through demands"
+                                                   : "line through demands, collapses separately";
 }
 
 std::string unknown_words(const Estimate& e, const std::string& column) {
@@ -144,29 +149,29 @@ std::string unknown_words(const Estimate& e, const std::string& column) {
     case Identified::no_runs:
       return "no run has both an intensity and a result";
     case Identified::none_beyond:
-      return fmt::format("no run goes beyond: θ lies above {}, the largest intensity; β is not known",
+      return fmt::format("no run exceeds the limit: θ lies above the largest intensity, {}; β is not known",
                          with_unit(e.below, column));
     case Identified::all_beyond:
-      return fmt::format("every run goes beyond: θ lies below {}, the smallest intensity; β is not known",
+      return fmt::format("every run exceeds the limit: θ lies below the smallest intensity, {}; β is not known",
                          with_unit(e.above, column));
     case Identified::one_level:
-      return "all runs have the same intensity: a share, but no slope; run other levels";
+      return "all runs have the same intensity, which gives a share but no slope. Run other levels";
     case Identified::separated:
       return fmt::format(
-          "all runs up to {0:.4g} stay within and all from {1:.4g} on go beyond: θ lies from {0:.4g} to {1:.4g} {2}, β "
-          "is "
-          "smaller than these runs can tell; run intensities in between",
+          "no run up to {0:.4g} and every run from {1:.4g} on exceeds the limit: θ lies from {0:.4g} to {1:.4g} {2}, "
+          "and β is too small to be determined by these runs. Run intensities in between",
           e.below, e.above, measure_unit(column));
     case Identified::one_mixed:
       return one_mixed_words(e, column);
     case Identified::falling:
-      return "the share that goes beyond does not grow with the intensity: this measure does not foretell it";
+      return "the share of runs that exceed the limit does not increase with the intensity, so this measure does not "
+             "predict it";
     case Identified::few_demands:
-      return fmt::format("fewer than {} runs that stand have a demand above 0", least_demands);
+      return fmt::format("fewer than {} runs without collapse have a demand above 0", least_demands);
     case Identified::flat:
-      return "the demand does not grow with the intensity";
+      return "the demand does not increase with the intensity";
     case Identified::collapses:
-      return "where collapses begin is not known from these runs";
+      return "these runs do not determine the intensity at which collapses begin";
   }
   return "";
 }
@@ -175,7 +180,7 @@ std::vector<std::string> remarks_on(const Fragility& f) {
   std::vector<std::string> remarks;
   if (f.chosen.identified != Identified::yes) {
     if (f.other.identified != Identified::no_runs && f.other.identified != f.chosen.identified)
-      remarks.push_back(fmt::format("Nor by the other method: {}.", unknown_words(f.other, f.im)));
+      remarks.push_back(fmt::format("The other method gives no curve either: {}.", unknown_words(f.other, f.im)));
     return remarks;
   }
   remark_on_method(f, remarks);

@@ -211,7 +211,8 @@ std::string best_intensity(const CampaignTable& table, const std::vector<std::st
                            double threshold) {
   const std::vector<std::string> candidates = intensities(table);
   if (candidates.empty())
-    throw InputError("{}: no measure of intensity: expected columns such as im.pga or im.sa_0.30", table.path);
+    throw InputError("{}: there is no intensity measure. The table needs columns such as im.pga or im.sa_0.30",
+                     table.path);
   std::string best;
   double least = INFINITY;
   for (const std::string& im : candidates) {

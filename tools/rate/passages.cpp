@@ -142,7 +142,7 @@ std::string passages_text(const std::vector<PassageSeries>& all, double adequacy
   for (const PassageSeries& series : all) count = std::max(count, series.after.size() - 1);
   const auto first =
       std::find_if(all.begin(), all.end(), [](const PassageSeries& s) { return s.end != PassageEnd::settles; });
-  std::string text = fmt::format("Over {} passages displacements settle with ", count);
+  std::string text = fmt::format("Over {} passages, displacements settle with ", count);
   if (first == all.begin()) {
     text += "none of the factors";
   } else {
@@ -151,9 +151,9 @@ std::string passages_text(const std::vector<PassageSeries>& all, double adequacy
   }
   if (first != all.end()) text += fmt::format("; with {:.3g} they do not", first->factor);
   return text + fmt::format(
-                    ". Half of the adequacy factor, the usual rule, is {:.3g}. They settle when passages of the last "
-                    "third add at most half of what those of the third before do, and grow when they add nine tenths "
-                    "or more.",
+                    ". Half of the adequacy factor, the usual rule, is {:.3g}. Displacements settle when the last "
+                    "third of the passages adds at most half as much as the third before. They grow when it adds at "
+                    "least nine tenths as much.",
                     0.5 * adequacy);
 }
 
@@ -174,7 +174,7 @@ std::string ratchet_chart(const std::vector<PassageSeries>& all) {
   LineChart chart;
   chart.title = "Repeated passages";
   chart.x_label = "passages";
-  chart.y_label = "largest displacement since gravity, without the vehicle (mm)";
+  chart.y_label = "largest displacement since gravity, without the vehicle, mm";
   for (const PassageSeries& series : all) {
     ChartCurve curve;
     curve.name = fmt::format("factor {:.3g}: {}", series.factor, end_of(series));

@@ -148,7 +148,7 @@ Case before_vehicles(const Case& c) {
     before.motions.pop_back();
   }
   if (stages.empty())
-    throw InputError("{} has no stage that brings the bridge to rest: begin with a gravity stage", c.path);
+    throw InputError("{} has no stage that brings the bridge to rest. Add a gravity stage at the beginning", c.path);
   return before;
 }
 
@@ -178,8 +178,8 @@ std::vector<SpanExtent> span_extents(const Assembly& assembly) {
   for (const auto& [part, span] : found) spans.push_back(span);
   if (spans.empty())
     throw InputError(
-        "there is no vault to load: no block of the assembly is of the component arch; name them so when they are "
-        "imported");
+        "there is no vault to load, because no block of the assembly has the component arch. Set this component at the "
+        "import");
   std::sort(spans.begin(), spans.end(), [](const SpanExtent& a, const SpanExtent& b) { return a.x0 < b.x0; });
   return spans;
 }
@@ -216,8 +216,8 @@ std::vector<RatedPlace> places_of(const RateRequest& request, const std::vector<
   for (std::size_t v = 0; v < request.vehicles.size(); ++v)
     if (std::none_of(places.begin(), places.end(), [v](const RatedPlace& at) { return at.vehicle == v; }))
       throw InputError(
-          "--from and --to leave no place of {}: the vaults reach from x = {:.2f} to {:.2f} m, in steps of "
-          "{:.2f} m",
+          "--from and --to leave no place for {}. The vaults extend from x = {:.2f} to {:.2f} m, and the places are "
+          "{:.2f} m apart",
           request.vehicles[v].name, spans.front().x0, spans.back().x1, step);
   return places;
 }

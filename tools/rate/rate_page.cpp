@@ -38,12 +38,12 @@ std::string table(const Rating& rating, const RateRequest& request) {
   std::string text = "<table>\n" + table_row({{"vehicle"},
                                               {"axles, t", true},
                                               {"adequacy factor", true},
-                                              {"lost at", true},
+                                              {"no equilibrium at factor", true},
                                               {"front at x, m", true},
                                               {"y, m", true},
-                                              {"drives to"},
+                                              {"direction"},
                                               {"middle of the axles"},
-                                              {"what moves"}},
+                                              {"what moves at collapse"}},
                                              "th");
   for (const std::size_t index : rating.worst) {
     const RatedPlace& at = rating.places[index];
@@ -67,8 +67,8 @@ std::string first_sentence(const Rating& rating, const RateRequest& request) {
   const RatedPlace& at = rating.places[worst_of_all(rating)];
   const Vehicle& vehicle = request.vehicles[at.vehicle];
   if (!at.found)
-    return fmt::format("The bridge bears {:g} times every vehicle at every place that was looked at.", request.most);
-  return fmt::format("The least adequacy factor is {}: of {}, with the middle of its axles over {}.",
+    return fmt::format("The bridge carries {:g} times every vehicle at every place that was computed.", request.most);
+  return fmt::format("The least adequacy factor is {}, for {} with the middle of its axles over {}.",
                      factor_text(at, request), vehicle.name, where_on(rating, vehicle, at.place));
 }
 
@@ -77,8 +77,8 @@ std::string first_sentence(const Rating& rating, const RateRequest& request) {
 std::string influence_chart(const Rating& rating, const RateRequest& request) {
   LineChart chart;
   chart.title = "Adequacy factor";
-  chart.x_label = "middle of the axles, x (m)";
-  chart.y_label = "factor (-)";
+  chart.x_label = "middle of the axles, x, m";
+  chart.y_label = "adequacy factor";
   chart.y_low = 0.0;
   double high = 0.0;
   for (std::size_t i = 0; i < rating.places.size(); ++i) {
@@ -100,22 +100,22 @@ std::string influence_chart(const Rating& rating, const RateRequest& request) {
 std::string rate_page(const Rating& rating, const RateRequest& request, const RatePageWords& words) {
   std::string body = paragraph(first_sentence(rating, request));
   body += paragraph(
-      "The factor multiplies all loads of a vehicle, with the dynamic factors named below, at one place; the bridge's "
-      "own "
-      "weight acts as it is. It is the largest at which equilibrium was found.");
+      "The factor multiplies all loads of a vehicle at one place, with the dynamic factors given below. The weight of "
+      "the bridge is not multiplied. The adequacy factor is the largest factor at which the program found "
+      "equilibrium.");
   body += figure(influence_chart(rating, request));
   body += heading("Worst places") + table(rating, request);
   if (!words.passages.empty())
     body += heading("Repeated passages") + figure(ratchet_chart(words.passages)) +
             paragraph(passages_text(words.passages, rating.places[rating.worst.front()].factor));
-  if (!words.beside.empty()) body += heading("Beside it") + paragraph(words.beside);
+  if (!words.beside.empty()) body += heading("Comparison with other methods") + paragraph(words.beside);
   if (!words.remarks.empty()) body += heading("Assumptions") + list(words.remarks);
   body += pictures_section(words.pictures, "The worst place");
   if (!words.thrust.empty())
-    body += heading("Lines of thrust at the worst place") + figure(words.thrust) +
+    body += heading("Thrust lines at the worst place") + figure(words.thrust) +
             note(
-                "One line a ring, of the resultant over the whole width of the vault, as seen along y. The joints' "
-                "forces are in worst/joints.csv and working/joints.csv.");
+                "One line for each ring: the resultant over the whole width of the vault, seen along y. The forces of "
+                "the joints are in worst/joints.csv and working/joints.csv.");
   return html_page(words.title, body);
 }
 

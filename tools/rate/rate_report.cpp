@@ -19,7 +19,7 @@ std::string where_on(const Rating& rating, const Vehicle& vehicle, const Vehicle
     if (x >= span.x0 && x <= span.x1)
       return fmt::format("span {} at {:.2f}", i + 1, (x - span.x0) / (span.x1 - span.x0));
   }
-  return "beside the spans";
+  return "outside the spans";
 }
 
 std::string factor_text(const RatedPlace& at, const RateRequest& request) {
@@ -38,9 +38,9 @@ std::string spans_text(const Rating& rating, const RatedPlace& at) {
 }
 
 std::string moving_text(const Rating& rating, const RatedPlace& at) {
-  if (!at.found) return "it stands";
+  if (!at.found) return "no collapse";
   const std::string spans = spans_text(rating, at);
-  if (at.fill_alone) return "the fill gives way under it, the vaults stand";
+  if (at.fill_alone) return "the fill fails under the vehicle; the vaults remain standing";
   if (spans.empty()) return at.moving;
   return fmt::format("{}; {} {}", at.moving,
                      spans.find(' ') == std::string::npos ? "the vault of span" : "vaults of spans", spans);

@@ -43,11 +43,11 @@ Case without_loading_test(const Case& c) {
 Case strip_case(const Case& c, double width) {
   if (c.generator != "bridge")
     throw InputError(
-        "{}: only a bridge of generator = \"bridge\" can be cut to a strip, and this one is {}: leave out --strip, or "
-        "write the bridge with that generator",
+        "{}: only a bridge of generator = \"bridge\" can be reduced to a strip, and this one is {}. Leave out --strip, "
+        "or write the bridge with that generator",
         c.path, c.generator.empty() ? "an assembly file" : "of generator = \"" + c.generator + "\"");
   if (c.generator_input.choices.at("backfill") == "none")
-    throw InputError("{}: there is no fill to load: set backfill in [bridge]", c.path);
+    throw InputError("{}: there is no fill to load. Set backfill in [bridge]", c.path);
   Case strip = without_loading_test(c);
   GeneratorInput& in = strip.generator_input;
   in.choices["extent"] = "strip";
@@ -71,12 +71,12 @@ std::vector<std::string> strip_remarks(const Case& c) {
   std::vector<std::string> remarks = {"without spandrel walls and parapets"};
   const GeneratorInput& in = c.generator_input;
   if (in("skew") != 0.0)
-    remarks.push_back(fmt::format("laid square: the skew of {:g} degrees is left out", in("skew")));
-  if (in.choices.at("backfill") != "deformable") remarks.push_back("the fill is a continuum, not blocks");
+    remarks.push_back(fmt::format("the strip is square: the skew of {:g} degrees is left out", in("skew")));
+  if (in.choices.at("backfill") != "deformable") remarks.push_back("the fill is a continuum instead of blocks");
   if (has_word(c, "makeup", "solid")) remarks.push_back("supports are solid");
   if (!c.effects.empty()) remarks.push_back(fmt::format("{} effects are left out", c.effects.size()));
   for (const StageSettings& stage : c.settings.stages)
-    if (stage.construction) remarks.push_back("its weight comes at once, not in steps of construction");
+    if (stage.construction) remarks.push_back("the whole weight acts at once, without construction steps");
   return remarks;
 }
 
