@@ -63,7 +63,8 @@ std::vector<Finding> climb_colliding_blocks(int) {
   const double side = 0.5;  // m
   std::vector<Finding> findings = of("stiff", collide(1e10), 0.01 * side);
   std::vector<Finding> soft = of("soft", collide(1e8), 0.1 * side);
-  soft[1] = known_miss(soft[1], "work in space rotations is exact only for kn = ks (docs/theory/joints.md, Work)");
+  soft[1] = known_miss(
+      soft[1], "the work of joints in spatial rotations is exact only for kn = ks (docs/theory/joints.md, Work)");
   findings.insert(findings.end(), soft.begin(), soft.end());
   return findings;
 }

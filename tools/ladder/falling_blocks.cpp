@@ -116,7 +116,9 @@ std::vector<Finding> climb_falling_blocks(int) {
     const Finding gain = gain_of(drop.name, f);
     const bool flat = findings.size() == 1;
     findings.push_back(
-        flat ? known_miss(gain, "an undamped contact opens and closes within a step: smaller with smaller steps")
+        flat ? known_miss(
+                   gain,
+                   "an undamped contact opens and closes within a time step; the error decreases with the time step")
              : gain);
     raise(all, f);
   }

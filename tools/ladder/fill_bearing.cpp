@@ -30,11 +30,11 @@ std::vector<Finding> climb_fill_bearing(int) {
                          double share) {
     return near(what, expected(friction), bearing_factor(on_soil(friction, dilation, cell, rest)), share, "-", source);
   };
-  const std::string rate = "the speed of the footing is resisted too: inertia, and local damping of what flows";
-  const std::string volume = "at constant volume less is borne than along the normal, which the formula assumes";
+  const std::string rate = "inertia and local damping of the flowing fill also resist the moving footing";
+  const std::string volume = "flow at constant volume carries less than the associated flow that the formula assumes";
   return {found("friction 20 degrees, five cells under half of the footing", 20, 20, 0.2, 8000, 0.07),
           found("ten cells", 20, 20, 0.1, 12000, 0.04),
-          known_miss(found("ten cells, read as it sinks", 20, 20, 0.1, 0, 0.04), rate),
+          known_miss(found("ten cells, read while the footing sinks", 20, 20, 0.1, 0, 0.04), rate),
           known_miss(found("ten cells, no dilation", 20, 0, 0.1, 12000, 0.04), volume),
           found("friction 30 degrees, five cells", 30, 30, 0.2, 16000, 0.10),
           known_miss(found("five cells, no dilation", 30, 0, 0.2, 16000, 0.10), volume)};

@@ -32,10 +32,11 @@ Finding compare_rule(const Dispersal& d) {
       near(name_of(d) + (d.yields ? ", Mohr-Coulomb" : ", elastic") + ", rough base: equivalent width",
            spread_width(d, cs454_slope), got.equivalent(d.wheel), 0.25, "m", "2:1, CS 454");
   if (d.depth < 0.5 && (d.wheel || d.yields))
-    return known_miss(finding, "so shallow a fill spreads the middle of the load less than the rule");
+    return known_miss(finding, "a fill of this depth spreads the middle of the load less than the rule");
   if (d.depth > 0.9 && !d.wheel && d.yields)
-    return known_miss(finding,
-                      "the fill yields under the strip, and less arrives under its middle than through an elastic one");
+    return known_miss(
+        finding,
+        "the fill yields under the strip, so less pressure arrives under its middle than through an elastic fill");
   return finding;
 }
 

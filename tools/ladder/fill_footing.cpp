@@ -12,7 +12,7 @@ std::vector<Finding> climb_fill_footing(int) {
   return {
       near("bearing pressure over cohesion", 5.1416, bearing_factor({}), 0.03, "-", source),
       known_miss(near("the same with plain tetrahedra", 5.1416, bearing_factor({.averaged = false}), 0.03, "-", source),
-                 "plain tetrahedra lock: flow at constant volume leaves them too few ways to deform")};
+                 "plain tetrahedra lock, because flow at constant volume leaves them too few ways to deform")};
 }
 
 }  // namespace

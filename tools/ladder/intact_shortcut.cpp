@@ -142,7 +142,7 @@ std::vector<Finding> climb_intact_shortcut(int) {
       // Six numbers are rounded on one path, three a point on the other, each to 6e-8 of a viscous stress that is up to
       // a sixth of the elastic one and remembers some hundred roundings.
       findings.push_back(damping == Damping::maxwell && motion.loaded
-                             ? known_miss(finding, "the branches of Maxwell damping are kept in single precision")
+                             ? known_miss(finding, "the branches of Maxwell damping are stored in single precision")
                              : finding);
     }
   return findings;
