@@ -110,7 +110,7 @@ std::string named(const json& d) {
   return text;
 }
 
-/// By how many of its standard deviations a value of one differs from that of the other; of effects that both name.
+/// The largest difference between the values of effects that both name, in standard deviations.
 double change_of_values(const json& one, const json& other) {
   double most = 0.0;
   if (one.is_null() || other.is_null()) return most;
@@ -176,7 +176,7 @@ std::string invariance_table(const std::vector<Invariance>& all) {
     }
     text += fmt::format(" {:.2g} std |\n", i.change);
   }
-  return text + fmt::format("\nthe same of {} of {} copies\n", same, copies);
+  return text + fmt::format("\n{} of {} copies have the same result\n", same, copies);
 }
 
 }  // namespace voussoir

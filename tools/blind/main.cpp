@@ -32,17 +32,17 @@ struct Request {
 bool read_request(int argc, char** argv, Request& r) {
   namespace po = boost::program_options;
   po::options_description described("Options");
-  described.add_options()("help,h", "this text")(
+  described.add_options()("help,h", "print this text")(
       "suite", po::value<std::string>(&r.suite)->default_value(r.suite),
-      "first: made by hand; second, third: drawn by one rule from two seeds")(
-      "output,o", po::value<std::string>(&r.directory)->default_value(r.directory), "where to")(
-      "jobs,j", po::value<int>(&r.jobs)->default_value(r.jobs), "trials at a time, one thread each")(
-      "first", po::value<int>(&r.first)->default_value(r.first), "trial")(
-      "last", po::value<int>(&r.last)->default_value(r.last), "trial; 0: the last of the suite")(
-      "list", po::bool_switch(&r.list), "say what is hidden in which bridge, and leave")(
+      "suite of trials; first: defined by hand; second, third: drawn by the same rule from two seeds")(
+      "output,o", po::value<std::string>(&r.directory)->default_value(r.directory), "output folder")(
+      "jobs,j", po::value<int>(&r.jobs)->default_value(r.jobs), "number of trials at a time, with one thread each")(
+      "first", po::value<int>(&r.first)->default_value(r.first), "number of the first trial")(
+      "last", po::value<int>(&r.last)->default_value(r.last), "number of the last trial; 0: the last of the suite")(
+      "list", po::bool_switch(&r.list), "print what is hidden in each bridge, and run nothing")(
       "invariance", po::bool_switch(&r.invariance),
-      "diagnose copies of the measurements too, that are rounded, scaled, reordered or in another unit: verdicts must "
-      "not change");
+      "also diagnose copies of the measurements that are rounded, scaled, reordered or in another unit; the verdicts "
+      "must not change");
   po::variables_map values;
   po::store(po::parse_command_line(argc, argv, described), values);
   po::notify(values);
@@ -121,7 +121,7 @@ int run(int argc, char** argv) {
   const int count = int(suite.trials.size());
   if (request.last == 0) request.last = count;
   if (request.first < 1 || request.last > count || request.first > request.last || request.jobs < 1)
-    throw InputError("trials are 1 to {}, jobs 1 or more", count);
+    throw InputError("--first and --last must be trials from 1 to {}, and --jobs must be at least 1", count);
   if (request.list) {
     list_trials(suite, request);
     return 0;
@@ -131,7 +131,7 @@ int run(int argc, char** argv) {
   runner.run();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::string report =
-      fmt::format("{}\n{:.0f} s by the clock, {} trials at a time\n", runner.report(), seconds, request.jobs);
+      fmt::format("{}\n{:.0f} s of wall-clock time, {} trials at a time\n", runner.report(), seconds, request.jobs);
   fs::create_directories(request.directory);
   std::ofstream(request.directory + "/blind.md") << report;
   fmt::print("\n{}", report);

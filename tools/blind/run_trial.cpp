@@ -70,7 +70,7 @@ std::vector<std::string> effects_of(const BlindTrial& t, const std::string& prog
     if (sensors.empty()) {
       std::vector<std::string> words = hide_words(t, program, model, folder + "/plan");
       words.insert(words.end(), {"--modes", "1"});
-      if (execute(words, log) != 0) throw RunError("hide failed; see {}", log);
+      if (execute(words, log) != 0) throw RunError("voussoir hide failed. See {}", log);
       sensors = text_of(folder + "/plan/measured/sensors.csv");
     }
     effect = with_channels(effect, sensors);
@@ -99,7 +99,7 @@ std::string with_channels(const std::string& effect, const std::string& sensors)
       if (std::equal(rows[i].begin() + 1, rows[i].begin() + 4, rows[j].begin() + 1))
         found.push_back(rows[i][0] + " " + rows[j][0]);
   }
-  if (found.empty()) throw RunError("{}: this plan of sensors has no such channel", effect);
+  if (found.empty()) throw RunError("{}: the sensor plan has no such channel", effect);
   const auto at = std::min(found.size() - 1, std::size_t(share * double(found.size())));
   return effect.substr(0, open) + found[at] + effect.substr(close + 1);
 }
@@ -129,7 +129,7 @@ TrialRun run_trial(const BlindTrial& t, const std::string& program, const std::s
   if (t.minutes > 0.0) words.insert(words.end(), {"--minutes", fmt::format("{}", t.minutes)});
   if (t.shaken > 0.0) words.insert(words.end(), {"--shaken", fmt::format("{}", t.shaken)});
   if (t.minutes == 0.0 && t.shaken == 0.0) words.emplace_back("--trace");
-  if (execute(words, run.log) != 0) throw RunError("hide failed; see {}", run.log);
+  if (execute(words, run.log) != 0) throw RunError("voussoir hide failed. See {}", run.log);
   run.trace = trace_in(folder + "/sealed/answer.toml");
   fs::rename(folder + "/sealed/measured", folder + "/seen/measured");
   run.diagnosis = diagnose(t, program, model, folder + "/seen/measured", folder + "/said", run.log);

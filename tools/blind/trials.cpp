@@ -46,7 +46,7 @@ Suite find_suite(const std::string& name) {
   if (name == "first") return {name, first_suite()};
   if (name == "second" || name == "third")
     return {name, drawn_suite(name == "second" ? 2 : 3), 0.8, 80.0, 5.0, 3.0, 90.0, 97.0, 95.0};
-  throw InputError("--suite is '{}'; give first, second or third", name);
+  throw InputError("--suite is '{}'. It must be first, second or third", name);
 }
 
 std::string case_of(const BlindTrial& t) {

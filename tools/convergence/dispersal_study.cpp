@@ -49,16 +49,15 @@ const std::vector<CodeRule>& code_rules() {
 
 void add_patch(bool wheel, Study& study) {
   const char* const patch = wheel ? "Wheel of 0.3 m × 0.3 m" : "Strip 0.3 m wide";
-  Table table = {
-      fmt::format("{}: greatest pressure at the base over that of the patch, width with at least half of it, and the "
-                  "{} that bears the load with the greatest pressure.",
-                  patch, wheel ? "side of the square" : "width"),
-      {"depth, m", "fill", "pressure", "half width, m", "equivalent width, m"},
-      {}};
+  Table table = {fmt::format("{}: largest pressure at the base divided by that of the patch; width with at least half "
+                             "of the largest pressure; and the {} that carries the load at the largest pressure.",
+                             patch, wheel ? "side of the square" : "width"),
+                 {"depth, m", "fill", "pressure", "half width, m", "equivalent width, m"},
+                 {}};
   StudyChart chart = {wheel ? "dispersal_wheel" : "dispersal_strip",
-                      {.title = fmt::format("{}: width that bears it", patch),
-                       .x_label = "depth of the fill (m)",
-                       .y_label = "equivalent width at the base (m)",
+                      {.title = fmt::format("{}: width that carries the load", patch),
+                       .x_label = "depth of the fill, m",
+                       .y_label = "equivalent width at the base, m",
                        .width = 900.0,
                        .height = 540.0,
                        .y_low = 0.0}};

@@ -37,17 +37,18 @@ void show(const NamedStudy& named, const std::string& folder, bool blank_before)
 int run(int argc, char** argv) {
   namespace po = boost::program_options;
   po::options_description described(
-      "voussoir-convergence [--study NAME]… [-o DIR]: errors against points, joint stiffness, time step and load rate, "
-      "as Markdown tables");
-  described.add_options()("help,h", "this text")("study,s", po::value<std::vector<std::string>>(),
-                                                 "only this study; may be given again")(
-      "output,o", po::value<std::string>()->default_value(""), "folder for the pictures (convergence_*.png)");
+      "Usage: voussoir-convergence [--study NAME]… [-o DIR]\n\nPrints errors against integration points, joint "
+      "stiffness, time step and load rate as Markdown tables");
+  described.add_options()("help,h", "print this text")("study,s", po::value<std::vector<std::string>>(),
+                                                       "name of a study; may be repeated; default: all studies")(
+      "output,o", po::value<std::string>()->default_value(""),
+      "folder for pictures (convergence_*.png); default: no pictures");
   po::variables_map values;
   try {
     po::store(po::command_line_parser(argc, argv).options(described).run(), values);
     po::notify(values);
   } catch (const po::error& e) {
-    throw InputError("{}; see voussoir-convergence --help", e.what());
+    throw InputError("{}. See voussoir-convergence --help", e.what());
   }
   if (values.count("help")) return std::cout << described << "\nstudies:\n" << known_studies() << help_example, 0;
   std::vector<std::string> wanted;
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
   for (const std::string& name : wanted) {
     const auto& all = convergence_studies();
     if (std::none_of(all.begin(), all.end(), [&](const NamedStudy& s) { return s.name == name; }))
-      throw InputError("unknown study '{}'; there are\n{}", name, known_studies());
+      throw InputError("unknown study '{}'. The studies are\n{}", name, known_studies());
   }
   const auto folder = values["output"].as<std::string>();
   if (!folder.empty()) std::filesystem::create_directories(folder);

@@ -302,7 +302,7 @@ LetGo let_go(double share) {
   Observers observers;
   observers.history = [&](const Simulation& run, const Sample&) { x.push_back(pose_of(run, "top")[2] / start); };
   Simulation run(assembly, settings, 1, observers);
-  finish(run, "block let go");
+  finish(run, "released block");
   // Equal steps through a harmonic: x(n+1) + x(n−1) = 2 cos(ω Δt) x(n) exactly; the cosine by least squares.
   double up = 0.0, down = 0.0;
   for (std::size_t n = 1; n + 1 < x.size(); ++n) up += (x[n + 1] + x[n - 1]) * x[n], down += 2.0 * x[n] * x[n];

@@ -66,9 +66,9 @@ double largest(const ChartCurve& series, double end) {
 /// Beyond the kernel, e/b = 1/6; finely, because the error swings.
 StudyChart bed_chart() {
   StudyChart chart = study_chart("points", "Partly open square joint: rotation against the closed form",
-                                 "eccentricity over the side (-)", "error of the rotation (%)");
+                                 "eccentricity / side", "error of the rotation, %");
   for (int points : point_counts) {
-    ChartCurve series = {.name = fmt::format("{} points a side", points)};
+    ChartCurve series = {.name = fmt::format("{} points per side", points)};
     for (int i = 20; i <= 90; ++i) {
       const double e = 0.005 * i;
       series.x.push_back(e);
@@ -102,7 +102,7 @@ void add_bed(Study& study) {
   study.tables.push_back(table);
   const StudyChart chart = bed_chart();
   Table summary = {
-      "Largest error of the rotation, in steps of 0.005.", {"points a side", "e/b up to 0.30", "up to 0.45"}, {}};
+      "Largest error of the rotation, in steps of 0.005.", {"points per side", "e/b up to 0.30", "up to 0.45"}, {}};
   for (std::size_t i = 0; i < point_counts.size(); ++i)
     summary.rows.push_back({std::to_string(point_counts[i]),
                             fmt::format("{:.1f} %", largest(chart.chart.curves[i], 0.3)),
@@ -112,9 +112,10 @@ void add_bed(Study& study) {
 }
 
 void add_torsion(Study& study) {
-  Table table = {"Moment at which a square joint under uniform pressure slides about its normal, over the exact one.",
-                 {"points a side", "computed over exact", "error"},
-                 {}};
+  Table table = {
+      "Moment at which a square joint under uniform pressure slides about its normal, divided by the exact moment.",
+      {"points per side", "computed / exact", "error"},
+      {}};
   for (int points : point_counts) {
     const double share = torsion_capacity(points);
     table.rows.push_back({std::to_string(points), fmt::format("{:.4f}", share), percent(share - 1.0)});
@@ -143,8 +144,8 @@ void add_arch(Study& study) {
 
 void add_slab(Study& study, StudyChart& chart) {
   Table table = {
-      "A block of 1 × 4 m under rising sideways acceleration; rigid: B/H = 0.25. In brackets the loss by the "
-      "closed form of the point joint.",
+      "A block of 1 × 4 m under increasing horizontal acceleration; rigid: B/H = 0.25. In brackets: the loss according "
+      "to the closed form of the point joint.",
       {"kn, Pa/m"},
       {}};
   for (int points : point_counts) {
@@ -176,7 +177,7 @@ void add_slab(Study& study, StudyChart& chart) {
 }
 
 void add_rigid_arch(Study& study, StudyChart& chart) {
-  Table table = {fmt::format("Oppenheim's arch, 3 points a side; rigid: {}.", oppenheim_rigid),
+  Table table = {fmt::format("Oppenheim's arch, 3 points per side; rigid: {}.", oppenheim_rigid),
                  {"kn, Pa/m", "multiplier", "error", "order"},
                  {}};
   std::vector<double> errors;
@@ -192,8 +193,8 @@ void add_rigid_arch(Study& study, StudyChart& chart) {
 
 void add_rocking(Study& study, StudyChart& chart) {
   const double exact = exact_rocking_quarter();
-  Table table = {fmt::format("Quarter of the rocking cycle from α/2; rigid: {:.5f} s. As the program does it, and with "
-                             "re-clipping off (reclip_angle = 0.5 rad).",
+  Table table = {fmt::format("Quarter of the rocking cycle from α/2; rigid: {:.5f} s. With the default settings of the "
+                             "program, and with re-clipping off (reclip_angle = 0.5 rad).",
                              exact),
                  {"kn, Pa/m", "quarter cycle, s", "error", "order", "without re-clipping, s", "error", "order"},
                  {}};
@@ -214,8 +215,8 @@ void add_rocking(Study& study, StudyChart& chart) {
 
 void add_let_go(Study& study, StudyChart& chart) {
   Table table = {
-      "One bonded block let go: frequency against √(kn A/m), beside what the leapfrog must give, "
-      "2 asin(½ω Δt)/Δt; displacement after 1¼ cycles (share of the start) against the exact motion.",
+      "One bonded block, released: its frequency against √(kn A/m) and against the frequency of the leapfrog scheme, 2 "
+      "asin(½ω Δt)/Δt; its displacement after 1¼ cycles, divided by the initial one, against the exact motion.",
       {"Δt / critical", "ω Δt", "frequency", "leapfrog", "order", "displacement", "order"},
       {}};
   std::vector<double> dt, frequency, displacement;
@@ -232,13 +233,13 @@ void add_let_go(Study& study, StudyChart& chart) {
   }
   study.tables.push_back(table);
   chart.chart.curves.push_back(falling("frequency of one block", step_shares, frequency));
-  chart.chart.curves.push_back(falling("block let go, displacement", step_shares, displacement));
+  chart.chart.curves.push_back(falling("released block, displacement", step_shares, displacement));
 }
 
 void add_responses(Study& study, StudyChart& chart) {
   Table table = {
-      fmt::format("Displacement of the top under a smooth pulse of the base: largest difference from a run "
-                  "with {} of the critical step, over the largest displacement.",
+      fmt::format("Displacement of the top under a smooth pulse of the base: largest difference from a run with {} of "
+                  "the critical time step, divided by the largest displacement.",
                   reference_share),
       {"Δt / critical", "bonded column of 10", "order", "rocking block", "order", "its energy balance", "order"},
       {}};
@@ -260,9 +261,9 @@ void add_responses(Study& study, StudyChart& chart) {
 }
 
 void add_wall(Study& study, StudyChart& chart) {
-  Table table = {fmt::format("Dry wall of 4 × 4 blocks that slides and opens under such a pulse: top course, compared "
-                             "with a run with {} of the critical step. Last row: the pulse a millionth stronger, "
-                             "compared with the row above.",
+  Table table = {fmt::format("Dry wall of 4 × 4 blocks that slides and opens under such a pulse: displacement of the "
+                             "top course, compared with a run with {} of the critical time step. Last row: a pulse "
+                             "stronger by one millionth, compared with the row above.",
                              reference_share),
                  {"Δt / critical", "largest displacement, mm", "difference", "largest difference at any time",
                   "energy balance", "order"},
@@ -292,7 +293,7 @@ void add_wall(Study& study, StudyChart& chart) {
 
 Study study_of_points() {
   Study study;
-  study.title = "Points a side";
+  study.title = "Points per side";
   add_bed(study);
   add_torsion(study);
   add_arch(study);
@@ -302,8 +303,8 @@ Study study_of_points() {
 Study study_of_stiffness() {
   Study study;
   study.title = "Joint stiffness";
-  StudyChart chart = log_log("stiffness", "Near rigid blocks: errors against the joint stiffness", "kn (Pa/m)",
-                             "error against rigid blocks (%)");
+  StudyChart chart = log_log("stiffness", "Near rigid blocks: errors against the joint stiffness", "kn, Pa/m",
+                             "error against rigid blocks, %");
   add_slab(study, chart);
   add_rigid_arch(study, chart);
   add_rocking(study, chart);
@@ -314,12 +315,11 @@ Study study_of_stiffness() {
 Study study_of_steps() {
   Study study;
   study.title = "Time step";
-  StudyChart chart =
-      log_log("step", "Errors against the time step", "time step over the critical one (-)", "error (%)");
+  StudyChart chart = log_log("step", "Errors against the time step", "time step / critical time step", "error, %");
   add_let_go(study, chart);
   add_responses(study, chart);
   add_wall(study, chart);
-  chart.chart.curves.push_back({.name = "slope of second order", .x = {0.05, 1.0}, .y = {0.0015, 0.6}});
+  chart.chart.curves.push_back({.name = "slope of order 2", .x = {0.05, 1.0}, .y = {0.0015, 0.6}});
   study.charts.push_back(chart);
   return study;
 }
@@ -328,15 +328,15 @@ Study study_of_rates() {
   Study study;
   study.title = "Load rate";
   Table table = {
-      "Dry wall, beam driven 10 mm within T: largest reaction, its difference from the slowest damped run, and "
-      "the reaction at the end.",
+      "Dry wall, beam driven by 10 mm within the time T: largest reaction, its difference from the slowest damped run, "
+      "and the reaction at the end.",
       {"T, s", "damped (local 0.7), kN", "difference", "at the end, kN", "undamped, kN", "difference",
        "at the end, kN"},
       {}};
   std::vector<Push> damped, free;
   for (double t : durations) damped.push_back(push_wall(t, 0.7)), free.push_back(push_wall(t, 0.0));
   StudyChart chart =
-      study_chart("rate", "Dry wall under 100 kN, pushed 10 mm", "duration of the stroke (s)", "largest reaction (kN)");
+      study_chart("rate", "Dry wall under 100 kN, pushed 10 mm", "duration of the stroke, s", "largest reaction, kN");
   chart.chart.log_x = true;
   chart.chart.curves = {{.name = "local damping 0.7", .x = durations}, {.name = "undamped", .x = durations}};
   for (std::size_t i = 0; i < durations.size(); ++i) {
@@ -358,8 +358,9 @@ const std::vector<NamedStudy>& convergence_studies() {
       {"points", "points per joint side: partly open joint, torsion, an arch", study_of_points},
       {"stiffness", "joint stiffness: multipliers and rocking against rigid blocks", study_of_stiffness},
       {"step", "time step: frequency, responses, energy balance", study_of_steps},
-      {"rate", "how slowly a wall must be pushed", study_of_rates},
-      {"dispersal", "how a fill spreads a wheel, beside the rules of codes (docs/theory/fill.md)", study_of_dispersal}};
+      {"rate", "load rate: the speed at which a wall may be pushed", study_of_rates},
+      {"dispersal", "dispersal of a wheel load by a fill, compared with the rules of codes (docs/theory/fill.md)",
+       study_of_dispersal}};
   return list;
 }
 

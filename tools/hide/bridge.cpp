@@ -19,7 +19,10 @@ namespace {
 void set_key(Case& c, const std::string& key, const std::string& word) {
   const Generator& generator = find_generator(c.generator);
   if (key == "block_scale")
-    throw InputError("--truth block_scale={}: the size of the true bridge's blocks is --mesh, over the case's", word);
+    throw InputError(
+        "--truth block_scale={}: block_scale cannot be set here. Use --mesh, the block size of the true bridge "
+        "relative to that of the case",
+        word);
   std::vector<std::string> known;
   const Keys keys = keys_of(generator, c.generator_input);
   for (const Parameter& p : keys.parameters) known.push_back(p.name);
@@ -30,8 +33,8 @@ void set_key(Case& c, const std::string& key, const std::string& word) {
   if (c.generator_input.choices.contains(key)) {
     c.generator_input.choices[key] = word;
   } else if (parse_number(word, c.generator_input.values[key]) != NumberTrouble::none) {
-    throw InputError("--truth {}={}: expected a number; `voussoir generate --keys {}` lists the keys", key, word,
-                     c.generator);
+    throw InputError("--truth {}={}: the value must be a number. `voussoir generate --keys {}` lists the keys", key,
+                     word, c.generator);
   }
 }
 
@@ -84,7 +87,8 @@ void set_stiffness(Assembly& assembly, const HideRequest& request) {
 
 Assembly hidden_bridge(const Case& model, const HideRequest& request) {
   if (model.generator.empty() && !request.truth.empty())
-    throw InputError("{} is made from an assembly file, which has no keys: --truth needs a generator", model.path);
+    throw InputError("{} is made from an assembly file, which has no keys. --truth needs a case with a generator",
+                     model.path);
   Assembly assembly = model.generator.empty() ? make_assembly(model) : surveyed_wrongly(model, request);
   set_stiffness(assembly, request);
   return assembly;

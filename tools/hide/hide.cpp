@@ -18,21 +18,22 @@ namespace voussoir {
 
 namespace {
 
-/// What a measurement of this sort cannot hold would be hidden for nothing.
+/// Refuses effects that this kind of measurement cannot show.
 void check_shows(const HideRequest& request) {
   const bool recorded = request.minutes > 0.0 || request.shaken > 0.0;
   if (recorded && request.sensors == "none")
-    throw InputError("--minutes and --shaken need sensors; give --sensors sparse or rich");
+    throw InputError("--minutes and --shaken need sensors. Give --sensors sparse or rich");
   if (recorded && request.noise_said != 1.0)
-    throw InputError("--noise-said is of deviations, which recordings do not have; leave it out");
+    throw InputError("--noise-said applies to standard deviations, which recordings do not have. Leave it out");
   if (recorded && request.trace)
-    throw InputError("--trace is of modes, which --minutes and --shaken do not give; leave it out");
-  if (request.minutes > 0.0 && request.shaken > 0.0) throw InputError("give --minutes or --shaken, not both");
+    throw InputError("--trace needs measured modes, which --minutes and --shaken do not give. Leave it out");
+  if (request.minutes > 0.0 && request.shaken > 0.0)
+    throw InputError("--minutes and --shaken cannot be used together. Give only one of them");
   for (const EffectSetting& e : request.effects) {
     if (e.name == "support_motion" && request.shaken == 0.0)
-      throw InputError("support_motion shows only where the ground's motion is recorded: give --shaken too");
+      throw InputError("support_motion has an effect only if the ground motion is recorded. Give --shaken too");
     if (e.name == "sensor_fault" && e.values.at("delay") != 0.0 && !recorded)
-      throw InputError("a late clock shows only in recordings: give --minutes or --shaken too");
+      throw InputError("a late clock has an effect only in recordings. Give --minutes or --shaken too");
   }
 }
 
@@ -45,7 +46,7 @@ std::string quoted(const std::vector<std::string>& texts) {
 
 std::string answer(const HideRequest& request, const Response& truth, const std::vector<std::string>& gaps) {
   std::string text =
-      fmt::format("# What voussoir hide put into the measurements beside this file.\nseed = {}\n", request.seed);
+      fmt::format("# What voussoir hide put into the measurements in this folder.\nseed = {}\n", request.seed);
   text +=
       fmt::format("noise = {}\nnoise_said = {}\nscatter = {}\nmaterials = {}\ndefects = {}\nmesh = {}\n", request.noise,
                   request.noise_said, request.scatter, request.materials, request.defects, request.mesh);
@@ -60,7 +61,8 @@ std::string answer(const HideRequest& request, const Response& truth, const std:
   return text + "]\n" + effects_text(request.effects);
 }
 
-/// Where the channels of a plan are on the drawing, which is how a site notes them; the plan is the same on both.
+/// The positions of the channels on the drawing, as a site would note them, if the plan has the same channels on both
+/// bridges.
 std::vector<MeasuredSensor> as_drawn(const Case& c, const HideRequest& request,
                                      const std::vector<MeasuredSensor>& built) {
   const std::vector<MeasuredSensor> drawn = instruments(make_assembly(c), request);
@@ -86,7 +88,7 @@ HiddenBridge hide(const HideRequest& request) {
   const Assembly bare = assembly;
   HiddenBridge hidden;
   Measured& measured = hidden.measured;
-  // Before there is ground at the ends, which a sensor near the edge would be put on.
+  // Sensors are placed before the effects are applied, so that none near the edge is placed on the ground at the ends.
   const std::vector<MeasuredSensor> built = instruments(bare, request);
   const std::vector<std::int64_t> blocks = place_sensors(built, request.sensors, bare);
   std::vector<Sensor> sensors;
@@ -103,7 +105,7 @@ HiddenBridge hide(const HideRequest& request) {
   for (const EffectSetting& effect : request.effects) apply_effect(sensors, effect);
   EigenMemory memory;
   const LinearModel model = linear_model(assembly);
-  // An earthquake drives all modes of its band, of which the sensors see the sum.
+  // An earthquake excites all modes of its band, and the sensors measure their sum.
   const int count = request.shaken > 0.0 ? 80 : 2 * request.modes + 6;
   const Response truth = response(assembly, model, sensors, count, memory, request.shaken > 0.0);
   const double ratio = settings.damping.ratio;

@@ -88,7 +88,7 @@ std::vector<MeasuredSensor> drawn(const Assembly& assembly, int channels, const 
   std::vector<MeasuredSensor> pool = planned(assembly, Plan::rich);
   if (int(pool.size()) < channels) pool = planned(assembly, Plan::dense);
   if (int(pool.size()) < channels)
-    throw InputError("--sensors {}: the richest plan has {} channels on this bridge; ask for fewer or give a file",
+    throw InputError("--sensors {}: the largest plan has {} channels on this bridge. Give a smaller number or a file",
                      channels, pool.size());
   std::vector<std::size_t> order;
   RandomStream random = stream_of(request, "sensors");
@@ -116,7 +116,7 @@ std::vector<MeasuredSensor> of_file(const std::string& file) {
   const std::vector<MeasuredSensor> sensors = read_sensors(file);
   for (const MeasuredSensor& s : sensors)
     if (s.unit != "m/s2")
-      throw InputError("{}:{}: sensor '{}' has the unit {}; voussoir hide writes m/s2: leave the unit out", file, s.row,
+      throw InputError("{}:{}: sensor '{}' has the unit {}. voussoir hide writes m/s2: leave the unit out", file, s.row,
                        s.id, s.unit);
   return sensors;
 }
@@ -130,16 +130,17 @@ std::vector<MeasuredSensor> instruments(const Assembly& assembly, const HideRequ
   double number = 0.0;
   const bool count = parse_number(which, number) == NumberTrouble::none;
   if (count && (number < 5.0 || number > 40.0 || number != std::floor(number)))
-    throw InputError("--sensors {}: a plan has 5 to 40 channels, a whole number", which);
+    throw InputError("--sensors {}: the number of channels must be a whole number from 5 to 40", which);
   if (!count && which != "sparse" && which != "rich")
-    throw InputError("--sensors is '{}'; give sparse, rich, none, a number from 5 to 40, or a file that ends in .csv",
-                     which);
+    throw InputError(
+        "--sensors is '{}'. It must be sparse, rich, none, a number from 5 to 40, or a file whose name ends in .csv",
+        which);
   const std::vector<MeasuredSensor> sensors =
       count ? drawn(assembly, int(number), request) : planned(assembly, which == "rich" ? Plan::rich : Plan::sparse);
   if (sensors.empty())
     throw InputError(
-        "--sensors {}: this assembly has none of the groups keystone … and base pier …, where the plan has its "
-        "channels; give a file like measured/sensors.csv",
+        "--sensors {}: the plan needs groups keystone … and base pier …, and this assembly has none. Give a file like "
+        "measured/sensors.csv",
         which);
   return sensors;
 }

@@ -21,21 +21,21 @@ double loosening_number(const std::string& text, const std::string& word, const 
                         double high) {
   double value = 0.0;
   if (parse_number(word, value) != NumberTrouble::none || !(value >= low && value <= high))
-    throw InputError("--loosen \"{}\": {} is '{}'; it must be a number from {:g} to {:g}", text, key, word, low, high);
+    throw InputError("--loosen \"{}\": {} is '{}'. It must be a number from {:g} to {:g}", text, key, word, low, high);
   return value;
 }
 
 void read_range(const std::string& text, const std::string& key, const std::string& word, Loosening& l) {
   const std::size_t dots = word.find("..");
   if (dots == std::string::npos)
-    throw InputError("--loosen \"{}\": {} is '{}'; give a range in m such as {}=12..14, {}=..14 or {}=12..", text, key,
+    throw InputError("--loosen \"{}\": {} is '{}'. Give a range in m such as {}=12..14, {}=..14 or {}=12..", text, key,
                      word, key, key, key);
   const int axis = key[0] - 'x';
   const std::string from = word.substr(0, dots), to = word.substr(dots + 2);
   if (!from.empty()) l.low[axis] = loosening_number(text, from, key, -1e6, 1e6);
   if (!to.empty()) l.high[axis] = loosening_number(text, to, key, -1e6, 1e6);
   if (l.low[axis] > l.high[axis])
-    throw InputError("--loosen \"{}\": {} goes from {:g} to {:g}; give the smaller one first", text, key, l.low[axis],
+    throw InputError("--loosen \"{}\": {} goes from {:g} to {:g}. Give the smaller value first", text, key, l.low[axis],
                      l.high[axis]);
 }
 
@@ -49,7 +49,7 @@ void read_word(const std::string& text, const std::string& key, const std::strin
   else if (key == "density")
     l.density = loosening_number(text, value, key, 0.1, 10.0);
   else
-    throw InputError("--loosen \"{}\": there is no '{}'{}", text, key, suggestion(key, loosening_keys));
+    throw InputError("--loosen \"{}\": there is no key '{}'{}", text, key, suggestion(key, loosening_keys));
 }
 
 bool in_box(const Vec3& p, const Loosening& l) {
@@ -60,7 +60,7 @@ BlockSet blocks_of(const Assembly& assembly, const Loosening& l) {
   if (l.part.empty()) return BlockSet(assembly.blocks.size(), true);
   const std::vector<std::string> parts = masonry_parts(assembly);
   if (std::find(parts.begin(), parts.end(), l.part) == parts.end())
-    throw InputError("--loosen \"{}\": the bridge has no part '{}'{}; it has: {}", l.text, l.part,
+    throw InputError("--loosen \"{}\": the bridge has no part '{}'{}; its parts are: {}", l.text, l.part,
                      suggestion(l.part, parts), fmt::join(parts, ", "));
   return masonry_part(assembly, l.part);
 }
@@ -79,12 +79,12 @@ Loosening parse_loosening(const std::string& text) {
     else if (!pairs.empty() && pairs.back().first == "part")
       pairs.back().second += " " + word;
     else
-      throw InputError("--loosen \"{}\": '{}' is no key=value; keys are: {}", text, word,
+      throw InputError("--loosen \"{}\": '{}' is not of the form key=value. The keys are: {}", text, word,
                        fmt::join(loosening_keys, ", "));
   }
   for (const auto& [key, value] : pairs) read_word(text, key, value, l);
   if (l.factor == 1.0 && l.density == 1.0)
-    throw InputError("--loosen \"{}\" changes nothing: give factor=, on stiffness, or density=", text);
+    throw InputError("--loosen \"{}\" changes nothing. Give factor= (of stiffness) or density= (a factor)", text);
   return l;
 }
 
@@ -119,8 +119,8 @@ void loosen(Assembly& assembly, const Loosening& l) {
     all.low = all.low.cwiseMin(box.low), all.high = all.high.cwiseMax(box.high);
   }
   throw InputError(
-      "--loosen \"{}\": nothing of the bridge, which reaches from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f}) "
-      "m, lies in this box; move or widen it",
+      "--loosen \"{}\": no part of the bridge, which extends from ({:.2f}, {:.2f}, {:.2f}) to ({:.2f}, {:.2f}, {:.2f}) "
+      "m, is in this box. Move or enlarge the box",
       l.text, all.low.x(), all.low.y(), all.low.z(), all.high.x(), all.high.y(), all.high.z());
 }
 

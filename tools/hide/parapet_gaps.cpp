@@ -69,7 +69,7 @@ std::vector<std::string> open_parapets(Assembly& assembly, const HideRequest& re
     for (const ParapetJoint& j : sides[side])
       if (j.head) low = std::min(low, j.place.x()), high = std::max(high, j.place.x());
     if (low > high)
-      throw InputError("--parapet-gaps {}: this bridge has no parapet with joints between its stones; leave it out",
+      throw InputError("--parapet-gaps {}: this bridge has no parapet with joints between stones. Leave the option out",
                        request.parapet_gaps);
     const double x = low + (high - low) * random.uniform();
     open_at(assembly, sides[side], x);

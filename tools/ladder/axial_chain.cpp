@@ -23,7 +23,7 @@ double wave_speed() {
       if (v > peak[i]) peak[i] = v, when[i] = bench.state.time();
     }
   });
-  if (!stayed) throw RunError("the chain ran away");
+  if (!stayed) throw RunError("the motion of the chain grows without limit");
   return double(high - low) * 0.4 / (when[1] - when[0]);
 }
 

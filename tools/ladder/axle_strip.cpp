@@ -65,7 +65,7 @@ std::vector<Finding> climb_axle(int threads) {
 
 Rung axle_strip() {
   return {.name = "axle-strip",
-          .help = "an axle from place to place on an arch: collapse loads",
+          .help = "collapse loads of an axle at several places on an arch",
           .climb = climb_axle,
           .slow = false};
 }

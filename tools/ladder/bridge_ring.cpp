@@ -38,7 +38,7 @@ Decay rings(const Assembly& assembly, const Mode& mode, const DampingSettings& d
   bool stayed = damping.kind == DampingSettings::Kind::none || bench.run(std::int64_t(cycle), every);
   stayed = stayed && bench.run(std::int64_t(8.5 * cycle), every,
                                [&](const BodyPass&) { u.push_back(bench.displacement(top).dot(way)); });
-  if (!stayed) throw RunError("the bridge ran away");
+  if (!stayed) throw RunError("the motion of the bridge grows without limit");
   return measure_decay(u, double(every) * bench.stepper.dt);
 }
 
@@ -59,7 +59,7 @@ std::vector<Finding> climb_bridge_ring(int) {
 
 Rung bridge_ring() {
   return {.name = "bridge-ring",
-          .help = "first mode of a whole bridge: run against eigenvalue",
+          .help = "first mode of a whole bridge: time-stepping run against eigenvalue",
           .climb = climb_bridge_ring};
 }
 

@@ -46,7 +46,7 @@ Collision collide(double youngs) {
     c.imbalance = std::max(c.imbalance, std::abs(e.total() / first - 1.0));
     c.gain = std::max(c.gain, e.stored() / first - 1.0);
   });
-  if (!stayed) throw RunError("the blocks ran away");
+  if (!stayed) throw RunError("the motion of the blocks grows without limit");
   if (bench.velocity(1).x() < -0.9) throw RunError("the blocks did not meet");
   c.momentum = (momenta(bench) - before).norm() / before.norm();
   return c;
@@ -73,7 +73,7 @@ std::vector<Finding> climb_colliding_blocks(int) {
 
 Rung colliding_blocks() {
   return {.name = "colliding-blocks",
-          .help = "two free blocks fly at each other, stiff and soft",
+          .help = "collision of two free blocks with stiff and with soft joints",
           .climb = climb_colliding_blocks};
 }
 

@@ -175,7 +175,7 @@ std::vector<Finding> climb_composite_joint(int) {
 
 Rung composite_joint() {
   return {.name = "composite-joint",
-          .help = "a composite joint pulled, slid and crushed: energies, unloading, lift, lever of a hinge",
+          .help = "a composite joint pulled, sheared and crushed: energies, unloading, dilation, lever arm of a hinge",
           .climb = climb_composite_joint};
 }
 

@@ -59,7 +59,7 @@ Differences press(int points_per_side, bool shortcut) {
   settings.contact.points_per_side = points_per_side;
   settings.step.intact_shortcut = shortcut;
   Bench bench(crossing_courses(), settings);
-  if (!bench.balance(1e-12).converged) throw RunError("the courses found no equilibrium under their weight");
+  if (!bench.balance(1e-12).converged) throw RunError("the courses did not reach equilibrium under their weight");
   bench.stepper.patches_only();
   Differences worst;
   for (std::size_t i = 0; i < bench.model.joints.size(); ++i) {

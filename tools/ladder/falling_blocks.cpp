@@ -57,7 +57,7 @@ Fall fall(const Drop& drop) {
     f.gain = std::max(f.gain, e.stored() - first);
     f.imbalance = std::max(f.imbalance, std::abs(e.total() - first));
   });
-  if (!stayed) throw RunError("the block that falls {} ran away", drop.name);
+  if (!stayed) throw RunError("the motion of the block that falls {} grows without limit", drop.name);
   f.gain /= kinetic, f.imbalance /= kinetic;
   return f;
 }
@@ -136,7 +136,7 @@ std::vector<Finding> climb_falling_blocks(int) {
 
 Rung falling_blocks() {
   return {.name = "falling-blocks",
-          .help = "a block falls on another: face, edge, corner, any way up",
+          .help = "a block falls on another: on a face, an edge, a corner, in any orientation",
           .climb = climb_falling_blocks};
 }
 

@@ -15,7 +15,7 @@ std::string name_of(const Dispersal& d) {
 void compare_smooth(const Dispersal& d, std::vector<Finding>& findings) {
   const std::string source = "elastic layer, Filon 1903";
   const BasePressure got = base_pressure(d), expected = profile(d, smooth_base_pressure);
-  if (!got.at_rest) throw RunError("{}: it does not come to rest", name_of(d));
+  if (!got.at_rest) throw RunError("{}: the fill does not come to rest", name_of(d));
   findings.push_back(near(name_of(d) + ", elastic, smooth base: greatest pressure over the patch's",
                           expected.peak() / d.pressure, got.peak() / d.pressure, 0.05, "-", source));
   findings.push_back(
@@ -58,7 +58,7 @@ std::vector<Finding> climb_fill_dispersal(int) {
 
 Rung fill_dispersal() {
   return {.name = "fill-dispersal",
-          .help = "what arrives at a rigid base under a wheel on the fill, beside the rules of codes",
+          .help = "pressure at a rigid base under a wheel on the fill, compared with the rules of codes",
           .climb = climb_fill_dispersal,
           .slow = true};
 }

@@ -64,7 +64,7 @@ double thrust(Bench& bench, int steps) {
   const auto sample = [&](const BodyPass& bodies) {
     sum -= bodies.update(std::size_t(bench.body(wall))).force.x / (steps / 10);
   };
-  if (!bench.run(steps, 10, sample)) throw RunError("the fill behind the wall ran away");
+  if (!bench.run(steps, 10, sample)) throw RunError("the motion of the fill behind the wall grows without limit");
   return sum / (0.5 * rankine_weight * height * height * cell);
 }
 

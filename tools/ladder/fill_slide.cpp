@@ -34,10 +34,10 @@ double acceleration(double degrees) {
     return sum;
   };
   for (const double m : fill.mass) mass += m;
-  if (!bench.run(5000)) throw RunError("the slab of fill ran away");
+  if (!bench.run(5000)) throw RunError("the motion of the slab of fill grows without limit");
   const double before = momentum();
   const double time = bench.state.time();
-  if (!bench.run(40000)) throw RunError("the slab of fill ran away");
+  if (!bench.run(40000)) throw RunError("the motion of the slab of fill grows without limit");
   return (momentum() - before) / mass / (bench.state.time() - time);
 }
 

@@ -23,7 +23,7 @@ std::vector<Finding> climb_free_spin(int) {
   const Vec3 momentum = bench.momentum(0);
   double worst = 0.0, least = 1.0;
   for (int i = 0; i < 100 * 400; ++i) {
-    if (!bench.run(10)) throw RunError("the block ran away");
+    if (!bench.run(10)) throw RunError("the motion of the block grows without limit");
     worst = std::max(worst, std::abs(spin_energy(bench) / energy - 1.0));
     const Vec3 local = bench.rotation(0).conjugate() * bench.momentum(0);
     least = std::min(least, local.y() / momentum.norm());

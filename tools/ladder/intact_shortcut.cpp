@@ -124,8 +124,9 @@ double difference(const Motion& motion, Damping damping) {
   for (int corners : {3, 4, 5, 8}) {
     const Outcome outcome = compare(motion, corners, damping);
     if (!motion.as_meant(outcome))
-      throw RunError("{}, {} corners: {} passes by the shortcut and {} point by point do not show what they should",
-                     motion.name, corners, outcome.intact, outcome.points);
+      throw RunError(
+          "{}, {} corners: {} passes by the shortcut and {} point by point do not produce the states to be compared",
+          motion.name, corners, outcome.intact, outcome.points);
     worst = std::max(worst, outcome.worst / outcome.largest);
   }
   return worst;
@@ -152,7 +153,7 @@ std::vector<Finding> climb_intact_shortcut(int) {
 
 Rung intact_shortcut() {
   return {.name = "intact-shortcut",
-          .help = "wrench of intact joints by six springs, and point by point",
+          .help = "wrench of intact joints: six springs against point by point",
           .climb = climb_intact_shortcut};
 }
 

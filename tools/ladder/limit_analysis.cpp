@@ -97,7 +97,7 @@ std::vector<Finding> climb_limit_analysis(int) {
 
 Rung limit_analysis() {
   return {.name = "limit-analysis",
-          .help = "limit analysis by linear programming against mechanisms, least thickness, friction",
+          .help = "limit analysis by linear programming: mechanisms, least thickness, friction",
           .climb = climb_limit_analysis};
 }
 

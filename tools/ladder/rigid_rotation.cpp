@@ -59,7 +59,7 @@ std::vector<Finding> climb_rigid_rotation(int) {
 
 Rung rigid_rotation() {
   return {.name = "rigid-rotation",
-          .help = "a bonded stack turned through 90 degrees without load",
+          .help = "a bonded stack rotated by 90 degrees without load",
           .climb = climb_rigid_rotation};
 }
 

@@ -22,7 +22,7 @@ double rings_at(const Assembly& assembly, const Mode& mode) {
   std::vector<double> u;
   const bool stayed = bench.run(std::int64_t(12.5 / (mode.frequency * dt)), every,
                                 [&](const BodyPass&) { u.push_back(bench.displacement(top).dot(way)); });
-  if (!stayed) throw RunError("the column ran away");
+  if (!stayed) throw RunError("the motion of the column grows without limit");
   return measure_decay(u, double(every) * dt).frequency;
 }
 
@@ -42,7 +42,8 @@ std::vector<Finding> climb_ring_down(int) {
 }  // namespace
 
 Rung ring_down() {
-  return {.name = "ring-down", .help = "frequency of a run against the eigenvalue", .climb = climb_ring_down};
+  return {
+      .name = "ring-down", .help = "frequency of a time-stepping run against the eigenvalue", .climb = climb_ring_down};
 }
 
 }  // namespace voussoir::ladder

@@ -38,7 +38,7 @@ std::vector<Finding> climb_rings(int threads) {
 
 Rung rings() {
   return {.name = "rings",
-          .help = "strips of one ring and of two, with and without headers: collapse loads",
+          .help = "collapse loads of strips with one ring and with two, with and without headers",
           .climb = climb_rings,
           .slow = true};
 }

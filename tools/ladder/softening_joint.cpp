@@ -85,7 +85,7 @@ std::vector<Finding> climb_softening_joint(int threads) {
 
 Rung softening_joint() {
   return {.name = "softening-joint",
-          .help = "fracture energy of a joint pulled and sheared through",
+          .help = "fracture energy of a joint that is pulled or sheared until it breaks",
           .climb = climb_softening_joint};
 }
 

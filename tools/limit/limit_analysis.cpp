@@ -34,11 +34,12 @@ Line line_of(const Assembly& assembly, std::size_t i) {
   const Joint& joint = assembly.joints[i];
   const JointLaw& law = assembly.laws[std::size_t(joint.law)];
   if (law.kind == JointLaw::Kind::elastic || law.kind == JointLaw::Kind::tie)
-    throw InputError("{} has the law {}, which limit analysis does not know: give it a brittle or softening law",
+    throw InputError("{} has the law {}. Limit analysis supports brittle and softening laws only",
                      joint_label(assembly, i), joint_law_kinds()[std::size_t(law.kind)]);
   if (std::abs(joint.normal.y()) > 1e-6)
-    throw InputError("{} has a normal with y = {:g}: limit analysis needs an assembly that is plane in x-z",
-                     joint_label(assembly, i), joint.normal.y());
+    throw InputError(
+        "{} has a normal with the component y = {:g}. Limit analysis needs an assembly that is plane in x-z",
+        joint_label(assembly, i), joint.normal.y());
   Line line;
   line.normal = joint.normal;
   line.along = Vec3(joint.normal.z(), 0.0, -joint.normal.x());
@@ -47,7 +48,8 @@ Line line_of(const Assembly& assembly, std::size_t i) {
   for (const Vec3& p : joint.polygon) {
     const double t = p.dot(line.along);
     if (std::min(t - low, high - t) > 1e-6 * (high - low))
-      throw InputError("{} is no strip across y: one of its corners lies between its ends", joint_label(assembly, i));
+      throw InputError("{} is not a strip across y, because one of its corners is between its ends",
+                       joint_label(assembly, i));
   }
   Vec3 base = joint.polygon.front();
   base.y() = 0.0;
@@ -59,7 +61,8 @@ Line line_of(const Assembly& assembly, std::size_t i) {
 }
 
 std::vector<Line> lines_of(const Assembly& assembly) {
-  if (!assembly.fill.empty()) throw InputError("limit analysis of rigid blocks: the assembly has a deformable fill");
+  if (!assembly.fill.empty())
+    throw InputError("limit analysis needs rigid blocks, but the assembly has a deformable fill");
   std::vector<Line> lines;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) lines.push_back(line_of(assembly, i));
   return lines;
@@ -224,7 +227,8 @@ void check_problem(const Assembly& assembly, const LimitProblem& problem) {
   if (assembly.joints.empty()) throw InputError("limit analysis: the assembly has no joints");
   for (const BlockLoad& load : problem.loads)
     if (load.block < 0 || load.block >= std::int64_t(assembly.blocks.size()))
-      throw InputError("limit analysis: a load acts on block {}, there are {}", load.block, assembly.blocks.size());
+      throw InputError("limit analysis: a load acts on block {}, but there are only {} blocks", load.block,
+                       assembly.blocks.size());
 }
 
 void find_excess(LimitAnalysis& a) {
@@ -270,7 +274,7 @@ LimitAnalysis limit_analysis_without_lift(const Assembly& assembly, const LimitP
       bounds.push_back({lines[i].cohesion + (1.0 - lift) * lines[i].friction * normal[i], lift * lines[i].friction});
     a = program.solve(bounds);
     if (!a.stands || !a.limited)
-      throw RunError("limit analysis without lift: no equilibrium under the normal forces of solution {}",
+      throw RunError("limit analysis without lift: there is no equilibrium under the normal forces of solution {}",
                      found.size());
     for (std::size_t i = 0; i < lines.size(); ++i) normal[i] += share * (a.forces[i].normal - normal[i]);
     found.push_back(a.multiplier);
@@ -282,8 +286,8 @@ LimitAnalysis limit_analysis_without_lift(const Assembly& assembly, const LimitP
       return a;
     }
   }
-  throw RunError("limit analysis without lift: {} linear programs and multipliers still between {:g} and {:g}", most,
-                 *std::min_element(found.end() - window, found.end()),
+  throw RunError("limit analysis without lift: after {} linear programs the multiplier is still between {:g} and {:g}",
+                 most, *std::min_element(found.end() - window, found.end()),
                  *std::max_element(found.end() - window, found.end()));
 }
 

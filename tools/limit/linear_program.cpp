@@ -128,7 +128,7 @@ LinearOptimum solve(const LinearProgram& program) {
     for (std::size_t i = 0; i < program.rows.size(); ++i) optimum.dual.push_back(glp_get_row_dual(p, int(i) + 1));
     return optimum;
   }
-  throw RunError("the linear program of {} rows and {} columns was not solved: GLPK gave up in {} ways",
+  throw RunError("GLPK could not solve the linear program of {} rows and {} columns with any of {} methods",
                  program.rows.size(), program.columns.size(), std::size(ways));
 }
 
@@ -139,7 +139,7 @@ bool can_solve_linear_programs() {
 }
 
 LinearOptimum solve(const LinearProgram&) {
-  throw RunError("this program was built without a solver for linear programs: install libglpk-dev and build again");
+  throw RunError("this program was built without a solver for linear programs. Install libglpk-dev and build again");
 }
 
 #endif
