@@ -68,9 +68,9 @@ void draw_end_on(Overlay& overlay, const Spot& at, bool towards, double s, const
 }
 
 void draw_key(Overlay& overlay, const Sheet& sheet, const std::vector<Arrow>& arrows) {
-  const std::array<std::pair<Vec3, const char*>, 4> keys = {{{Vec3::UnitX(), "along, x"},
-                                                             {Vec3::UnitY(), "across, y"},
-                                                             {Vec3::UnitZ(), "upright, z"},
+  const std::array<std::pair<Vec3, const char*>, 4> keys = {{{Vec3::UnitX(), "longitudinal, x"},
+                                                             {Vec3::UnitY(), "transverse, y"},
+                                                             {Vec3::UnitZ(), "vertical, z"},
                                                              {Vec3::Ones().normalized(), "slanting"}}};
   const double s = 0.95 * sheet.letter, y = sheet.height - 1.9 * sheet.letter;
   double x = sheet.width - 1.2 * s;

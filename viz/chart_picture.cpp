@@ -18,8 +18,8 @@ void check(const LineChart& chart) {
   bool any = false;
   for (const ChartCurve& c : chart.curves) {
     if (c.x.size() != c.y.size())
-      throw InputError("chart '{}': series '{}' has {} x and {} y values; give as many of each", chart.title, c.name,
-                       c.x.size(), c.y.size());
+      throw InputError("chart '{}': series '{}' has {} x and {} y values. Give the same number of both", chart.title,
+                       c.name, c.x.size(), c.y.size());
     if (c.x.empty()) throw InputError("chart '{}': series '{}' is empty", chart.title, c.name);
     for (std::size_t i = 0; i < c.x.size(); ++i) any = any || shows(chart, c.x[i], c.y[i]);
   }

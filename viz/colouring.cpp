@@ -41,7 +41,7 @@ Colour varied(const Colour& colour, vtkIdType stone) {
 
 std::vector<double> cell_values(vtkPolyData* faces, const char* field, double factor, const char* what) {
   vtkDataArray* values = faces->GetCellData()->GetArray(field);
-  if (!values) throw InputError("pictures: the {} no field '{}'; give a file written by voussoir", what, field);
+  if (!values) throw InputError("pictures: the {} no field '{}'. Give a file written by voussoir", what, field);
   std::vector<double> scaled;
   for (vtkIdType i = 0; i < faces->GetNumberOfPolys(); ++i) scaled.push_back(factor * values->GetComponent(i, 0));
   return scaled;
@@ -88,7 +88,7 @@ Colouring colour_by_displacement(vtkPolyData* stones, vtkPolyData* fill, double 
     const std::vector<double> mm = point_displacements(faces);
     all.insert(all.end(), mm.begin(), mm.end());
   }
-  Colouring colouring{.title = "displacement relative to the base (mm)"};
+  Colouring colouring{.title = "displacement relative to the base, mm"};
   set_top(colouring, all, range);
   for (vtkPolyData* faces : {stones, fill}) {
     if (!faces) continue;
@@ -107,7 +107,7 @@ Colouring colour_by_mode(vtkPolyData* stones, vtkPolyData* fill) {
     for (const double mm : point_displacements(faces)) largest = std::max(largest, mm);
   // A scale of "mm" whose top is 1: the numbers at its ticks are shares.
   Colouring colouring = colour_by_displacement(stones, fill, largest > 0.0 ? largest : 1.0);
-  colouring.title = "displacement, share of the largest";
+  colouring.title = "displacement / largest displacement";
   colouring.top = 1.0;
   return colouring;
 }
@@ -140,7 +140,7 @@ void colour_aside(vtkPolyData* stones) {
 Colouring colour_by_plastic_strain(vtkPolyData* stones, vtkPolyData* fill, double range) {
   colour_aside(stones);
   const std::vector<double> percent = cell_values(fill, "plastic_shear_strain", 100.0, "fill has");
-  Colouring colouring{.title = "plastic shear strain of the fill (%)"};
+  Colouring colouring{.title = "plastic shear strain of the fill, %"};
   set_top(colouring, percent, range);
   paint_faces(fill, [&](vtkIdType i) { return scale_colour(percent[std::size_t(i)] / colouring.top); });
   return colouring;
@@ -169,14 +169,14 @@ Colouring colour_by_yield(vtkPolyData* stones, vtkPolyData* fill) {
 Colouring colour_by_stress(vtkPolyData* stones, vtkPolyData* fill, double range) {
   colour_aside(stones);
   vtkDataArray* stress = fill->GetCellData()->GetArray("stress");
-  if (!stress) throw InputError("pictures: the fill has no field 'stress'; give a file written by voussoir");
+  if (!stress) throw InputError("pictures: the fill has no field 'stress'. Give a file written by voussoir");
   std::vector<double> kpa;
   for (vtkIdType i = 0; i < fill->GetNumberOfPolys(); ++i) {
     std::array<double, 6> s;
     stress->GetTuple(i, s.data());
     kpa.push_back(1e-3 * largest_compression(s));
   }
-  Colouring colouring{.title = "largest compression in the fill (kPa)"};
+  Colouring colouring{.title = "largest compression in the fill, kPa"};
   set_top(colouring, kpa, range);
   paint_faces(fill, [&](vtkIdType i) { return scale_colour(kpa[std::size_t(i)] / colouring.top); });
   return colouring;
@@ -226,9 +226,8 @@ bool colours_fill(const std::string& by) {
 Colouring colour_faces(vtkPolyData* stones, vtkPolyData* fill, const std::string& by, double range) {
   if (colours_fill(by) && !fill)
     throw InputError(
-        "pictures: to colour by {} takes a deformable fill, and there is none to be seen: if there is one, it is "
-        "hidden "
-        "(give --hide none) or cut away; else colour by opening, slip or displacement",
+        "pictures: the colouring by {} needs a deformable fill, and none is visible. If the model has one, it is "
+        "hidden (give --hide none) or cut away. Otherwise colour by opening, slip or displacement",
         by);
   if (by == "plastic") return colour_by_plastic_strain(stones, fill, range);
   if (by == "yield") return colour_by_yield(stones, fill);
@@ -238,12 +237,12 @@ Colouring colour_faces(vtkPolyData* stones, vtkPolyData* fill, const std::string
   if (by == "component" || by == "stone") return colour_plainly(stones, fill, by == "component");
   if (by == "opening" || by == "slip") {
     paint_faces(fill, [](vtkIdType) { return component_colour(Component::backfill); });
-    return by == "opening" ? colour_by_cell(stones, "max_joint_opening", "largest joint opening (mm)", range)
-                           : colour_by_cell(stones, "max_joint_slip", "largest joint slip (mm)", range);
+    return by == "opening" ? colour_by_cell(stones, "max_joint_opening", "largest joint opening, mm", range)
+                           : colour_by_cell(stones, "max_joint_slip", "largest joint slip, mm", range);
   }
   throw InputError(
-      "pictures: cannot colour by '{}'; give opening, slip, displacement, mode, component or stone, of the joints "
-      "normal, shear, utilisation or eccentricity, or of a deformable fill plastic, yield or stress",
+      "pictures: the colouring '{}' does not exist. Give opening, slip, displacement, mode, component or stone; for "
+      "joints normal, shear, utilisation or eccentricity; for a deformable fill plastic, yield or stress",
       by);
 }
 

@@ -73,7 +73,7 @@ std::optional<CutPlane> find_cut(const std::string& text, const View& view, cons
   if (text.empty()) return std::nullopt;
   const auto fail = [&] {
     throw InputError(
-        "pictures: the cut is '{}'; give an axis, x, y or z, and a place in m, such as y=0.5, or the axis alone for "
+        "pictures: the cut is '{}'. Give an axis (x, y or z) and a position in m, such as y=0.5, or only the axis for "
         "the middle",
         text);
   };
@@ -94,10 +94,12 @@ std::optional<CutPlane> find_cut(const std::string& text, const View& view, cons
     if (text[1] != '=' || read + 2 != text.size() || !std::isfinite(cut.place)) fail();
   }
   if (!(cut.place > low && cut.place < high))
-    throw InputError("pictures: the cut {} = {:g} m meets nothing; what is drawn reaches from {:.3f} to {:.3f} m there",
-                     axis_names[cut.axis], cut.place, low, high);
+    throw InputError(
+        "pictures: the cut {} = {:g} m does not intersect the model, which extends from {:.3f} to {:.3f} m on this "
+        "axis",
+        axis_names[cut.axis], cut.place, low, high);
   if (std::abs(view.forward[cut.axis]) < 1e-9)
-    throw InputError("pictures: the view {} sees a cut across {} from its edge; give the view {} or oblique", view.name,
+    throw InputError("pictures: the view {} shows a cut across {} edge-on. Give the view {} or oblique", view.name,
                      axis_names[cut.axis],
                      cut.axis == 0   ? "side"
                      : cut.axis == 1 ? "front"
@@ -110,7 +112,7 @@ Places::Places(vtkPointSet* data, const char* what) {
   vtkDataArray* displacement = data->GetPointData()->GetArray("displacement_of_point");
   if (!displacement)
     throw InputError(
-        "pictures: the {} have no field 'displacement_of_point'; give files written by voussoir (vtk/blocks_*.vtu, "
+        "pictures: the {} have no field 'displacement_of_point'. Give files written by voussoir (vtk/blocks_*.vtu, "
         "vtk/joints_*.vtp, vtk/fill_*.vtu)",
         what);
   const Vec3 base = base_displacement(data);

@@ -57,7 +57,7 @@ pid_t start_xvfb(const Pipe& number) {
                   .signal_at_our_end = SIGTERM});
   } catch (const RunError& error) {
     throw InputError(
-        "pictures: there is no display, and Xvfb, which draws without one, did not start ({}); install the package "
+        "pictures: there is no display, and Xvfb, which replaces a display, did not start ({}). Install the package "
         "xvfb",
         error.what());
   }
@@ -70,7 +70,7 @@ Server start_server() {
   const std::string text = read_number(number.ends[0]);
   if (text.empty()) {
     end_server(child);
-    throw RunError("pictures: Xvfb did not start within {} s; run 'Xvfb -displayfd 1' to see why", kStartLimit / 1000);
+    throw RunError("pictures: Xvfb did not start within {} s. Run 'Xvfb -displayfd 1' to see why", kStartLimit / 1000);
   }
   return {child, text};
 }

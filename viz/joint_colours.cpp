@@ -22,8 +22,8 @@ std::vector<double> joint_values(vtkPolyData* faces, const char* field, double f
   vtkDataArray* values = faces->GetCellData()->GetArray(field);
   if (!values)
     throw InputError(
-        "pictures: the joints have no field '{}': an earlier version wrote this frame; give a checkpoint of the run, "
-        "or run it again",
+        "pictures: the joints have no field '{}', because an earlier version wrote this frame. Give a checkpoint of "
+        "the run, or run it again",
         field);
   std::vector<double> scaled;
   for (vtkIdType i = 0; i < faces->GetNumberOfPolys(); ++i) scaled.push_back(factor * values->GetComponent(i, 0));
@@ -61,14 +61,14 @@ ColouredJoints painted_by(vtkPolyData* faces, const Colouring& colouring, const 
 /// Compression upwards, tension downwards in whole parts of the same scale.
 ColouredJoints joints_by_normal(vtkPolyData* faces, double range) {
   const std::vector<double> compression = joint_values(faces, "normal_traction", -1e-6);
-  Colouring colouring{.title = "mean compression of the joints (MPa); outlines: less than 5 %"};
+  Colouring colouring{.title = "mean compression of the joints, MPa; outlines only: less than 5 %"};
   set_top(colouring, compression, range);
   const double part = colouring.top / scale_steps(colouring.top);
   const double least = compression.empty() ? 0.0 : *std::ranges::min_element(compression);
   if (-least > hardly * colouring.top) {
     const double parts = std::min(std::ceil(-least / part), double(scale_steps(colouring.top)));
     colouring.bottom = -parts * part;
-    colouring.title = "mean compression of the joints, below zero tension (MPa); outlines: less than 5 %";
+    colouring.title = "mean compression of the joints, MPa (negative: tension); outlines only: less than 5 %";
   }
   return painted_by(faces, colouring, compression);
 }
@@ -92,8 +92,8 @@ ColouredJoints joints_by_eccentricity(vtkPolyData* faces) {
   const Colouring colouring{.legend = {{"within the kern (e/d ≤ 1/6)", colours[0]},
                                        {"≤ 1/3", colours[1]},
                                        {"≤ 0.45", colours[2]},
-                                       {"at the edge or beyond", colours[3]},
-                                       {"outlines: hardly pressed", {1, 1, 1}}}};
+                                       {"at the edge or outside", colours[3]},
+                                       {"outlines only: almost no compression", {1, 1, 1}}}};
   return painted(faces, colouring, [&](std::size_t i) -> std::optional<Colour> {
     if (compression[i] <= hardly * usual.top) return {};
     const double value = values[i] * (1.0 - 1e-9);  // what lies on a border is within
@@ -116,11 +116,12 @@ ColouredJoints colour_joints(vtkPolyData* faces, const std::string& by, double r
   if (by == "normal") return joints_by_normal(faces, range);
   if (by == "shear")
     return joints_on_one_side(faces, "shear_traction", 1e-6,
-                              "mean shear stress of the joints (MPa); outlines: less than 5 %", range);
+                              "mean shear stress of the joints, MPa; outlines only: less than 5 %", range);
   if (by == "utilisation")
-    return joints_on_one_side(faces, "utilisation", 1.0,
-                              "utilisation: shear over what friction and cohesion allow; outlines: less than 5 %",
-                              range > 0.0 ? range : 1.0);
+    return joints_on_one_side(
+        faces, "utilisation", 1.0,
+        "utilisation: shear force / shear resistance (friction and cohesion); outlines only: less than 5 %",
+        range > 0.0 ? range : 1.0);
   return joints_by_eccentricity(faces);
 }
 

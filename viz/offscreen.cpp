@@ -40,7 +40,7 @@ vtkSmartPointer<vtkImageData> averaged(vtkImageData* large) {
 
 vtkSmartPointer<vtkRenderWindow> offscreen_window(int width, int height) {
   if (width < 64 || height < 64 || width > 8000 || height > 8000)
-    throw InputError("pictures: the size {} × {} pixels is out of range; give 64 to 8000 each way", width, height);
+    throw InputError("pictures: the size is {} × {} pixels. Width and height must be 64 to 8000", width, height);
   auto window = vtkSmartPointer<vtkRenderWindow>::New();
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);  // we average ourselves, the same way with every driver
@@ -64,7 +64,7 @@ void write_png(vtkRenderWindow* window, const std::string& path) {
   writer->SetInputData(picture);
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (writer->GetErrorCode() != 0 || !bytes) throw RunError("{}: VTK could not put the picture together", path);
+  if (writer->GetErrorCode() != 0 || !bytes) throw RunError("{}: VTK could not assemble the picture", path);
   write_atomically(path, std::as_bytes(std::span(bytes->GetPointer(0), std::size_t(bytes->GetNumberOfValues()))));
 }
 

@@ -101,8 +101,8 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
   if (cut) words.hidden += (words.hidden.empty() ? "" : "; ") + cut->words();
   if (gone > 0)
     words.hidden +=
-        fmt::format("{}{} {} far off", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
-  if (options.outline) words.lines.emplace_back("outline at rest", kInk);
+        fmt::format("{}{} {} far away", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
+  if (options.outline) words.lines.emplace_back("outline: undeformed", kInk);
   if (cracks)
     words.lines.emplace_back(options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)
                                                     : std::string("bond lost, opened or slipped"),
@@ -152,7 +152,7 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
 Colouring add_joints(vtkRenderer* renderer, const PictureGrids& grids, const Hidden& hidden,
                      const std::optional<CutPlane>& cut, const RenderOptions& options, const View& view, double lift) {
   if (!grids.joints)
-    throw InputError("pictures: to colour by {} takes joints, and this frame has none stored", options.colour);
+    throw InputError("pictures: the colouring by {} needs joints, but this frame stores none", options.colour);
   const auto shown = [&](vtkIdType i) { return is_shown_as_joint(grids.joints, i); };
   const auto faces = joint_faces(grids.joints, hidden, options.amplification, shown, cut);
   const ColouredJoints joints = colour_joints(faces, options.colour, options.range);
@@ -213,13 +213,15 @@ Content content_of(const Shapes& now, const Shapes& rest, bool outline) {
 void check_options(const RenderOptions& options) {
   if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
   if (!options.resultants.empty() && options.amplification != 1.0)
-    throw InputError("pictures: resultants stand where the joints are: give amplification 1, not {:g}",
-                     options.amplification);
+    throw InputError(
+        "pictures: the amplification is {:g}. It must be 1 for resultants, because they are drawn at the joints",
+        options.amplification);
   if (!(options.range >= 0.0))
-    throw InputError("pictures: the range of the colour scale is {}; give 0 or more", options.range);
+    throw InputError("pictures: the range of the colour scale is {}. It must be at least 0", options.range);
   if (options.width < 200 || (options.height != 0 && options.height < 150))
-    throw InputError("pictures: {} × {} pixels is too small; give at least 200 × 150 (height 0: as needed)",
-                     options.width, options.height);
+    throw InputError(
+        "pictures: {} × {} pixels is too small. The size must be at least 200 × 150 (height 0: chosen by the program)",
+        options.width, options.height);
 }
 
 std::vector<std::string> usually_hidden(const std::string& colour) {
@@ -234,7 +236,7 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   const std::optional<CutPlane> cut = find_cut(options.cut, view, visible_box(grids, hidden));
   const Shapes now = shapes(grids, hidden, options.amplification, cut);
   if (now.faces() == 0)
-    throw InputError("pictures: nothing is left to draw; hide fewer components than {}", fmt::join(options.hide, ", "));
+    throw InputError("pictures: nothing is left to draw. Hide fewer components than {}", fmt::join(options.hide, ", "));
   const bool of_joints = colours_joints(options.colour);  // the stones would hide them
   const bool cracks = options.cracks && grids.joints && !of_joints;
 

@@ -59,7 +59,7 @@ void draw_resultants_key(Overlay& overlay, const Sheet& sheet, double pixels_per
     overlay.text(x, y, words, s, Align::right);
     x -= Overlay::text_width(words, s) + 0.5 * s;
   };
-  word("line of thrust");
+  word("thrust line");
   overlay.line(x - 2.0 * s, y + 0.55 * s, x, y + 0.55 * s, 0.18 * s, kThrust);
   x -= 3.2 * s;
   const double round = nice_below(largest), length = pixels_per_newton * round;

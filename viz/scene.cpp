@@ -23,8 +23,7 @@ vtkDataArray* required(vtkDataSetAttributes* data, const char* name, const char*
   vtkDataArray* array = data->GetArray(name);
   if (!array)
     throw InputError(
-        "pictures: the {} have no field '{}'; give files written by voussoir (vtk/blocks_*.vtu, "
-        "vtk/joints_*.vtp)",
+        "pictures: the {} have no field '{}'. Give files written by voussoir (vtk/blocks_*.vtu, vtk/joints_*.vtp)",
         what, name);
   return array;
 }
@@ -86,7 +85,7 @@ Hidden::Hidden(const std::vector<std::string>& names) : hidden_(component_names(
   for (const std::string& name : names) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end())
-      throw InputError("pictures: there is no component '{}' to hide; give one of {}", name, fmt::join(known, ", "));
+      throw InputError("pictures: there is no component '{}' to hide. Give one of {}", name, fmt::join(known, ", "));
     hidden_[std::size_t(at - known.begin())] = true;
   }
 }

@@ -13,7 +13,7 @@ void draw_sensors(const Assembly& assembly, const std::vector<Sensor>& sensors, 
   options.cracks = false;
   for (const Sensor& s : sensors) options.arrows.push_back({s.position, s.direction, s.id});
   options.notes = {fmt::format("{} channel{}", sensors.size(), sensors.size() == 1 ? "" : "s"),
-                   "arrows point to where readings are positive"};
+                   "arrows point in the direction of positive readings"};
   render_picture(assembly, rest_snapshot(assembly), options, png);
 }
 

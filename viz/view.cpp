@@ -110,7 +110,7 @@ View find_view(const std::string& name) {
   if (name == "side") return make(-Vec3::UnitX(), Vec3::UnitZ(), false);
   if (name == "plan") return make(-Vec3::UnitZ(), Vec3::UnitY(), false);
   if (name == "oblique") return make({0.55, 1.0, -0.42}, Vec3::UnitZ(), true);
-  throw InputError("pictures: there is no view '{}'; give front, side, plan or oblique", name);
+  throw InputError("pictures: there is no view '{}'. Give front, side, plan or oblique", name);
 }
 
 double content_aspect(const View& view, vtkPoints* points) {

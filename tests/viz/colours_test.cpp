@@ -54,7 +54,7 @@ TEST(Colours, OfAFillNeedOne) {
   const auto stones = deformed_faces(block_grid(assembly, rest_snapshot(assembly)), Hidden({}), 1.0);
   for (const char* by : {"plastic", "yield", "stress"})
     EXPECT_NE(
-        test::message_of<InputError>([&] { colour_faces(stones, nullptr, by, 0.0); }).find("takes a deformable fill"),
+        test::message_of<InputError>([&] { colour_faces(stones, nullptr, by, 0.0); }).find("needs a deformable fill"),
         std::string::npos);
   EXPECT_EQ(usually_hidden("opening"), std::vector<std::string>{"backfill"});
   EXPECT_TRUE(usually_hidden("yield").empty());

@@ -269,7 +269,7 @@ TEST(CrackMaps, OfABridgeHaveItsIntradosAndNoTextOnAnother) {
   Noted noted;
   map.draw(noted, CrackState::now);
   EXPECT_TRUE(noted.says("Intrados of arch 0, unrolled"));
-  EXPECT_TRUE(noted.says("stones that fell") || assembly.blocks.back().fixed);
+  EXPECT_TRUE(noted.says("fallen stones") || assembly.blocks.back().fixed);
   expect_readable(map, noted, "skew");
 }
 

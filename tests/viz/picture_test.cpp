@@ -140,7 +140,7 @@ TEST_F(NoDisplay, MissingXvfbIsSaid) {
   ::setenv("PATH", folder.path().c_str(), 1);
   const std::string message = message_of<InputError>([] { const Display display; });
   ::setenv("PATH", path.c_str(), 1);
-  EXPECT_NE(message.find("install the package xvfb"), std::string::npos) << message;
+  EXPECT_NE(message.find("Install the package xvfb"), std::string::npos) << message;
 }
 
 TEST_F(NoDisplay, PicturesOfAllViewsAndColours) {
@@ -259,7 +259,7 @@ TEST_F(NoDisplay, WrongOptionsAreNamed) {
   EXPECT_NE(message([](auto& o) { o.hide = {"roof"}; }).find("'roof'"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.hide = {"base", "wall"}; }).find("nothing is left"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.cut = "q"; }).find("the cut is 'q'"), std::string::npos);
-  EXPECT_NE(message([](auto& o) { o.cut = "y=5"; }).find("reaches from 0.000 to 1.000 m"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.cut = "y=5"; }).find("extends from 0.000 to 1.000 m"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.width = 20; }).find("too small"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
 }

@@ -172,11 +172,11 @@ TEST(Cut, WordsAreRead) {
     return message_of<InputError>([&] { cut(text, view); });
   };
   for (const char* text : {"w", "y=", "y=a", "y=1m", "y 1", "1", "y=nan", "y=1e999", "yy"})
-    EXPECT_NE(message(text).find(fmt::format("the cut is '{}'; give an axis", text)), std::string::npos)
+    EXPECT_NE(message(text).find(fmt::format("the cut is '{}'. Give an axis", text)), std::string::npos)
         << message(text);
-  EXPECT_NE(message("y=4.5").find("reaches from -2.000 to 4.000 m"), std::string::npos) << message("y=4.5");
-  EXPECT_NE(message("y=-2").find("meets nothing"), std::string::npos);
-  EXPECT_NE(message("x=3", "front").find("give the view side or oblique"), std::string::npos);
+  EXPECT_NE(message("y=4.5").find("extends from -2.000 to 4.000 m"), std::string::npos) << message("y=4.5");
+  EXPECT_NE(message("y=-2").find("does not intersect the model"), std::string::npos);
+  EXPECT_NE(message("x=3", "front").find("Give the view side or oblique"), std::string::npos);
 }
 
 /// Half of a face covered, half bare: the edge is outline where it is bare.

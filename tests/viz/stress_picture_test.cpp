@@ -198,7 +198,7 @@ TEST(StressPictures, ResultantsAreDrawnOverEverything) {
   EXPECT_LT(share_of(png, thrust), 0.9 * whole) << "the line breaks where nothing is pressed";
   options.amplification = 2.0;
   const std::string message = message_of<InputError>([&] { render_picture(assembly, snapshot, options, png); });
-  EXPECT_NE(message.find("amplification 1"), std::string::npos) << message;
+  EXPECT_NE(message.find("It must be 1 for resultants"), std::string::npos) << message;
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -228,7 +228,9 @@ TEST(ViewerScene, OfShapesMayHaveMoreStonesInOneSeries) {
   EXPECT_EQ(scene.frames[1].displacement[2], Vec3::Constant(0.25));
   EXPECT_FALSE(viewer_data(scene).bytes.empty());
   both[0].labels.push_back("another");
-  EXPECT_NE(message_of<InputError>([&] { shape_scene(both); }).find("before.pvd has 1 shapes, and 2 are named"),
+  EXPECT_NE(message_of<InputError>([&] {
+              shape_scene(both);
+            }).find("before.pvd has 1 mode shapes, but the list of modes has 2"),
             std::string::npos);
 }
 

@@ -180,7 +180,7 @@ TEST(Fragility, SaysWhatIsWrong) {
   expect_error(fragility(folder, {"--limit", "damage"}), 2, {"must be NAME:DEMAND:THRESHOLD"});
   expect_error(fragility(folder, {"--limit", "damage:spandrel_y:2 cm"}), 2,
                {"the threshold is '2 cm'", "must be a number"});
-  expect_error(fragility(folder, {"--limit", "damage:spandrel_y:-1"}), 2, {"it must be above 0"});
+  expect_error(fragility(folder, {"--limit", "damage:spandrel_y:-1"}), 2, {"It must be above 0"});
   expect_error(fragility(folder, {"--im", "sa_0.3"}), 2, {"no column 'im.sa_0.3'", "im.sa_0.30"});
   expect_error(fragility(folder, {"--bootstrap", "-1"}), 2, {"--bootstrap is -1"});
   for (const auto& [json, piece] : std::vector<std::pair<std::string, std::string>>{

@@ -132,7 +132,7 @@ TEST(Report, IsPrintedByTheBrowserThatIsThere) {
 
   Folder empty;
   const Surroundings nowhere{.folder = folder.path(), .environment = {{"PATH", empty.path()}}};
-  expect_error(voussoir({"report", "run", "--pdf"}, nowhere), 2, {"install the package chromium", "print it there"});
+  expect_error(voussoir({"report", "run", "--pdf"}, nowhere), 2, {"Install the package chromium", "print it there"});
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -114,7 +114,7 @@ TEST_F(Stress, ResultantsAreThoseOfTheRunOrItsCheckpoint) {
   EXPECT_EQ(voussoir({"render", "run", "--resultants", "-v", "front"}, there).status, 0);
   EXPECT_TRUE(exists(folder / "run/images/resultants_front.png")) << "no picture of the run is written over";
   expect_error(render({"run", "--resultants", "--time", "0"}), 2, {"--time", "checkpoint"});
-  expect_error(render({"run", "--resultants", "--amplification", "5"}), 2, {"amplification 1"});
+  expect_error(render({"run", "--resultants", "--amplification", "5"}), 2, {"It must be 1 for resultants"});
   expect_error(render({"run/assembly.h5", "--resultants"}), 2, {"assembly.h5", "is not a checkpoint"});
   expect_error(render({"run", "--colour", "strain"}), 2,
                {"strain", "normal, shear, utilisation or eccentricity", "stress"});

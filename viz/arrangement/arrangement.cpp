@@ -117,7 +117,8 @@ void Arrangement::draw(Drawing& drawing) const {
   std::vector<std::string> remarks;
   if (!p.left_out.empty()) remarks.push_back("Elevation without the fixed blocks at its faces.");
   if (std::abs(p.m.skew) > 0.002) remarks.push_back("Spans and supports along the middle.");
-  if (sheet.left_out() > 0) remarks.push_back(fmt::format("{} dimensions had no room.", sheet.left_out()));
+  if (sheet.left_out() > 0)
+    remarks.push_back(fmt::format("{} dimensions are left out for lack of space.", sheet.left_out()));
   draw_title_block(sheet, p.placement.notes.back(), p.assembly, p.notes, p.placement, remarks);
 }
 

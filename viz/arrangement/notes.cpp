@@ -94,7 +94,7 @@ std::string counts_text(const Assembly& assembly) {
   std::string text = fmt::format("{} blocks, {} joints", assembly.blocks.size(), assembly.joints.size());
   if (!assembly.fill.empty()) text += fmt::format(", {} tetrahedra", assembly.fill.tets.size());
   const double mass = moving_tonnes(assembly);
-  return text + fmt::format("; {:.{}f} t that can move", mass, mass < 1.0 ? 3 : mass < 1000.0 ? 1 : 0);
+  return text + fmt::format("; movable mass {:.{}f} t", mass, mass < 1.0 ? 3 : mass < 1000.0 ? 1 : 0);
 }
 
 using Row = std::vector<std::string>;
@@ -151,7 +151,7 @@ void cap(std::vector<Row>& rows, const char* what) {
   if (rows.size() <= most_rows) return;
   const std::size_t more = rows.size() - most_rows + 1;
   rows.resize(most_rows - 1);
-  rows.push_back({fmt::format("and {} more kinds of {}", more, what)});
+  rows.push_back({fmt::format("and {} more types of {}", more, what)});
 }
 
 struct Table {

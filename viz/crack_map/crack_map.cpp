@@ -67,9 +67,9 @@ CrackMap::CrackMap(const Assembly& assembly, const Snapshot& snapshot, const Cra
   stack_.push_back(seen_view(cracked, seen_from_behind(), before, "Elevation y+, from behind"));
   for (const Intrados& vault : vaults) across_.push_back(unrolled_view(cracked, vault));
   if (bridge)
-    remarks_.push_back("Intrados: s along it from the left springing, y+ upwards, as seen from above.");
+    remarks_.push_back("Intrados, seen from above: s along the intrados from the left springing, y+ upwards.");
   else
-    remarks_.push_back("No intrados: there are no vaults (stones of component arch with a span).");
+    remarks_.push_back("No intrados: the model has no vaults (stones of the component arch with a span).");
   Content content;
   content.one_scale = true;
   for (const CrackView& view : stack_) content.stack.push_back(size_of(view));

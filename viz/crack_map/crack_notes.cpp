@@ -31,15 +31,15 @@ std::vector<ClassRow> class_rows(double threshold) {
 }
 
 std::string state_words(CrackState state) {
-  return state == CrackState::ever ? "largest since the start" : "as they are now";
+  return state == CrackState::ever ? "largest since the start" : "at present";
 }
 
 std::string count_words(const std::vector<Crack>& cracks, double threshold, bool ever) {
   std::size_t joints = 0;
   for (const Crack& c : cracks) joints += c.joints.size();
   if (cracks.empty()) return fmt::format("No joint has opened or slid by {:g} mm or more.", 1e3 * threshold);
-  return fmt::format("{}{} crack{} of {} joint{} from {:g} mm on", ever ? "" : "what is open now of ", cracks.size(),
-                     cracks.size() == 1 ? "" : "s", joints, joints == 1 ? "" : "s", 1e3 * threshold);
+  return fmt::format("{}{} crack{} of {} joint{}, at least {:g} mm wide", ever ? "" : "present width of ",
+                     cracks.size(), cracks.size() == 1 ? "" : "s", joints, joints == 1 ? "" : "s", 1e3 * threshold);
 }
 
 void sample(DrawingSheet& sheet, double x, double y, const WidthClass& c, const char* dashes) {
@@ -68,11 +68,11 @@ void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegen
   }
   const auto [dash_x, dash_y] = place(rows.size());
   sample(sheet, dash_x, dash_y - 0.9, width_classes()[1], "5 3");
-  sheet.text(dash_x + 14.0, dash_y, "slid more than opened");
+  sheet.text(dash_x + 14.0, dash_y, "slip larger than opening");
   if (legend.any_fell) {
     const auto [fell_x, fell_y] = place(rows.size() + 1);
     sheet.rectangle({fell_x, fell_y - 2.5, 12.0, 3.0}, "#c8c8cc", "none");
-    sheet.text(fell_x + 14.0, fell_y, "stones that fell");
+    sheet.text(fell_x + 14.0, fell_y, "fallen stones");
   }
   y = inner.y + inner.height - 34.0 - kRow * double(legend.remarks.size());
   sheet.line(inner.x, y, inner.x + inner.width, y, 0.35);
@@ -92,7 +92,7 @@ void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegen
     sheet.text(x, line, DrawingSheet::fitting(remark, room));
     line += kRow;
   }
-  sheet.text(x, line, "Drawn on the stones as built. voussoir " VOUSSOIR_VERSION);
+  sheet.text(x, line, "Drawn on the undeformed stones. voussoir " VOUSSOIR_VERSION);
 }
 
 SheetBox crack_table_size(const std::vector<Crack>& cracks) {
@@ -111,7 +111,7 @@ void draw_crack_table(DrawingSheet& sheet, const SheetBox& box, const std::vecto
     for (std::size_t k = 3; k < cells.size(); ++k)
       sheet.text(x + 147.0 + 14.0 * double(k - 3), y, cells[k], kSmallText, Align::end, bold);
   };
-  row({"", "widest cracks: where", "direction", "m long", "mm open", "slid", "open now", "slid now"}, true);
+  row({"", "widest cracks: position", "direction", "length, m", "open, mm", "slip, mm", "open now", "slip now"}, true);
   sheet.line(x, y + 1.2, right, y + 1.2);
   for (std::size_t k = 0; k < std::min(cracks.size(), kNumberedCracks); ++k) {
     const Crack& c = cracks[k];

@@ -65,7 +65,8 @@ std::string png_bytes(const std::string& path) {
 std::string picture(const PagePicture& p) {
   const std::string bytes = png_bytes(p.png);
   const std::string image =
-      bytes.empty() ? fmt::format("<p class=\"note\">left out: {} cannot be read as a PNG picture</p>", escaped(p.png))
+      bytes.empty() ? fmt::format("<p class=\"note\">{} is left out, because it cannot be read as a PNG picture</p>",
+                                  escaped(p.png))
                     : fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(p.title), base64(bytes));
   return fmt::format("<figure><figcaption><strong>{}</strong><br>{}</figcaption>{}</figure>\n", escaped(p.title),
                      escaped(p.caption), image);

@@ -25,8 +25,8 @@ std::string browser() {
   for (const char* name : browsers)
     if (in_path(name)) return name;
   throw InputError(
-      "no browser to print with: install the package chromium, or open the page in a browser of yours and print it "
-      "there");
+      "no browser was found to print the page. Install the package chromium, or open the page in your browser and "
+      "print it there");
 }
 
 /// The address of a file: what an address would read as something else is written by its bytes.
@@ -48,7 +48,7 @@ class Workplace {
   Workplace() {
     std::string name = (fs::temp_directory_path() / "voussoir-print-XXXXXX").string();
     if (!::mkdtemp(name.data()))
-      throw RunError("cannot make a temporary folder in {}", fs::temp_directory_path().string());
+      throw RunError("a temporary folder cannot be made in {}", fs::temp_directory_path().string());
     path_ = name;
   }
   ~Workplace() {

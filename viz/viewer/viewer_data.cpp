@@ -185,8 +185,8 @@ nlohmann::json colours() {
 }
 
 void check(const ViewerScene& scene) {
-  if (scene.stones.empty()) throw InputError("there is nothing to view: no stones");
-  if (scene.frames.empty()) throw InputError("there is nothing to view: no frames");
+  if (scene.stones.empty()) throw InputError("there is nothing to view: the model has no stones");
+  if (scene.frames.empty()) throw InputError("there is nothing to view: the run has no frames");
 }
 
 }  // namespace

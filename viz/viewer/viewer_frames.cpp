@@ -22,7 +22,7 @@ namespace {
 
 vtkDataArray* field_of(vtkFieldData* data, const char* name, const std::string& file) {
   vtkDataArray* array = data->GetArray(name);
-  if (!array) throw InputError("{}: there is no field '{}'; give files written by voussoir", file, name);
+  if (!array) throw InputError("{}: there is no field '{}'. Give files written by voussoir", file, name);
   return array;
 }
 
@@ -88,7 +88,7 @@ ViewerFill surface_of(vtkUnstructuredGrid* grid, const std::string& file, std::v
   mesh.nodes = built_points(grid, file);
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
     vtkIdList* ids = grid->GetCell(c)->GetPointIds();
-    if (ids->GetNumberOfIds() != 4) throw InputError("{}: cell {} is no tetrahedron", file, c);
+    if (ids->GetNumberOfIds() != 4) throw InputError("{}: cell {} is not a tetrahedron", file, c);
     mesh.tets.push_back({});
     for (int k = 0; k < 4; ++k) mesh.tets.back()[std::size_t(k)] = std::int32_t(ids->GetId(k));
   }
@@ -146,8 +146,8 @@ class SceneBuilder {
     const bool fewer = scene.modes && blocks->GetNumberOfCells() <= vtkIdType(scene.stones.size());
     if ((blocks->GetNumberOfCells() != vtkIdType(scene.stones.size()) && !fewer) || points != fill_points_)
       throw InputError(
-          "{}: has {} blocks and {} nodes of a fill, and the frame before it has {} and {}; remove the files of "
-          "another run",
+          "{}: this frame has {} blocks and {} fill nodes, but the previous frame has {} and {}. Remove the files of "
+          "the other run",
           name, blocks->GetNumberOfCells(), points, scene.stones.size(), fill_points_);
   }
 
@@ -181,7 +181,8 @@ class SceneBuilder {
       const std::array<int, 2> ends = {int(a->GetComponent(j, 0)), int(b->GetComponent(j, 0))};
       for (const int end : ends) {
         if (end >= int(scene.stones.size()))
-          throw InputError("{}: a joint names block {} of {}", name, end, scene.stones.size());
+          throw InputError("{}: a joint refers to block {}, but there are only {} blocks", name, end,
+                           scene.stones.size());
         if (end < 0 || (tie && tie->GetComponent(j, 0) != 0.0)) continue;  // the fill; a bar bears no stress of stones
         ViewerValues& values = frame.values[std::size_t(end)];
         values[compression_value] = std::max(values[compression_value], -tension);
@@ -230,7 +231,8 @@ ViewerScene run_scene(const std::string& directory, std::size_t most) {
   const std::vector<PvdSeries::Frame>& frames = series.blocks().frames();
   if (frames.empty())
     throw InputError(
-        "{} has no frames in vtk/blocks.pvd: give a checkpoint of it, or run it with [output] fields_every", directory);
+        "{} has no frames in vtk/blocks.pvd. Give a checkpoint of the run, or run the case with [output] fields_every",
+        directory);
   SceneBuilder builder;
   for (const std::size_t i : chosen(frames.size(), most)) {
     const double time = frames[i].time;
@@ -254,7 +256,7 @@ ViewerScene shape_scene(const std::vector<ShapeSeries>& series) {
       if (i >= s.labels.size()) continue;
       const PvdSeries blocks(s.blocks), fill(s.fill);
       if (i >= blocks.frames().size())
-        throw InputError("{} has {} shapes, and {} are named beside it: write both again", s.blocks,
+        throw InputError("{} has {} mode shapes, but the list of modes has {}. Write both files again", s.blocks,
                          blocks.frames().size(), s.labels.size());
       const std::string file = blocks.file_path(blocks.frames()[i]), of_fill = fill.file_at(blocks.frames()[i].time);
       const auto shape = read_vtu(file), nodes = of_fill.empty() ? nullptr : read_vtu(of_fill);

@@ -90,7 +90,7 @@ std::string ViewerPack::compressed() const {
   std::string out(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes_.data()),
                 uLong(bytes_.size()), Z_BEST_COMPRESSION) != Z_OK)
-    throw RunError("the data of the page cannot be compressed: {} bytes; leave out frames with --frames",
+    throw RunError("the data of the page ({} bytes) cannot be compressed. Use fewer frames with --frames",
                    bytes_.size());
   out.resize(size);
   return out;

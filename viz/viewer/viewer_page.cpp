@@ -14,9 +14,9 @@ bool has_viewer() {
 void require_viewer() {
   if (!has_viewer())
     throw RunError(
-        "this voussoir was built without three.js, which shows pages of this kind: install Debian's libjs-three, or "
-        "give its three.min.js and licence by cmake -DVOUSSOIR_THREE=FILE "
-        "-DVOUSSOIR_THREE_LICENCE=FILE, and build again");
+        "this program was built without three.js, which these pages need. Install the Debian package libjs-three, or "
+        "give its three.min.js and licence by cmake -DVOUSSOIR_THREE=FILE -DVOUSSOIR_THREE_LICENCE=FILE, and build "
+        "again");
 }
 
 std::string viewer_page(const ViewerScene& scene) {

@@ -1,4 +1,4 @@
-// What the address of the page asks for.
+// Settings in the address of the page.
 
 /// The address can say what is shown: view.html#view=front&colour=slip&frame=3&amplification=10&hide=parapet&section=y:0.5
 /// &click=X,Y,Z (m; the stone that is seen where that point is, may be given several times). measure=N writes how long N
@@ -24,7 +24,7 @@ function obey(viewer, words) {
   if (words.has("measure")) measure(viewer, Number(words.get("measure")));
 }
 
-/// Presses the pointer where a point (m about the scene's origin) is drawn; the report says what was found.
+/// Presses the pointer at the drawn position of a point (m, relative to the origin of the scene). The report gives the item found.
 function clickAt(viewer, point) {
   const at = new THREE.Vector3(...point).project(viewer.orbit.camera), box = viewer.canvas.getBoundingClientRect();
   const where = { isPrimary: true, pointerId: 1, button: 0, bubbles: true,

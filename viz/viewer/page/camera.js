@@ -29,7 +29,7 @@ class OrbitCamera {
     this.fit();
   }
 
-  /// As far away that the box of the scene is within the picture.
+  /// Moves the camera to a distance at which the picture contains the box of the scene.
   fit() {
     this.distance = 1;
     this.place();

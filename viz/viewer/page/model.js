@@ -73,7 +73,7 @@ function buildModel(scene) {
   const world = new THREE.Scene();
   const shape = geometry(v, v.triangles);
   const faces = new THREE.Mesh(shape, material(false, false));
-  // What a section opens. Where the inside of a cut stone lies on the face of its neighbour, the inside is seen.
+  // The inside of stones that a section cuts. Where it coincides with the face of a neighbour, the inside is visible.
   const insides = new THREE.Mesh(shape, material(false, true, {
     side: THREE.BackSide, polygonOffset: true, polygonOffsetFactor: 0, polygonOffsetUnits: -100 }));
   insides.visible = false;

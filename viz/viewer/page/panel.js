@@ -1,4 +1,4 @@
-// What stands around the picture: controls, legend, what is known of a stone.
+// The elements around the picture: controls, legend and the data of a stone.
 
 const element = (id) => document.getElementById(id);
 
@@ -9,7 +9,7 @@ function make(tag, text, kind) {
   return node;
 }
 
-/// Three significant digits, without an exponent where that can be read.
+/// Three significant digits, without an exponent if the number is readable without one.
 function digits(value) {
   if (!Number.isFinite(value)) return "none";
   const size = Math.abs(value);
@@ -41,10 +41,10 @@ function fieldValue(scene, field, frame, item) {
   return field.factor * Math.hypot(...[0, 1, 2].map((c) => valueIn(scene.motion, frame, item, c)));
 }
 
-/// The frame whose forces are known: the same, or the last where the page holds no others.
+/// The frame whose forces are known: the same frame, or the last one if the page contains only its forces.
 const kept = (scene, frame) => (scene.forces.frames === 1 ? 0 : frame);
 
-/// Pairs that the stone is part of, those that bear most first: { other, normal, shear, opening }.
+/// Pairs with this stone, those with the largest forces first: { other, normal, shear, opening }.
 function pairsOf(scene, frame, stone) {
   const found = [];
   const wanted = stone < scene.stones ? stone : 0xffffffff;
@@ -62,12 +62,12 @@ function stoneRows(scene, frame, item) {
   const turn = Math.hypot(...[3, 4, 5].map((c) => valueIn(scene.motion, frame, item, c)));
   const rows = [];
   if (scene.modes) {
-    rows.push(["x, y, z (share of the largest)", u.map(digits).join(", ")]);
+    rows.push(["x, y, z (divided by the largest)", u.map(digits).join(", ")]);
     return rows;
   }
   if (scene.fields.some((f) => f.value < 0)) {
-    rows.push(["displaced x, y, z (mm)", u.map((v) => digits(1e3 * v)).join(", ")]);
-    if (item < scene.stones) rows.push(["turned by", withUnit((turn * 180) / Math.PI, "°")]);
+    rows.push(["displacement x, y, z, mm", u.map((v) => digits(1e3 * v)).join(", ")]);
+    if (item < scene.stones) rows.push(["rotation", withUnit((turn * 180) / Math.PI, "°")]);
   }
   if (item < scene.stones)
     for (const field of scene.fields.filter((f) => f.value >= 0))
@@ -94,8 +94,8 @@ function showStone(scene, frame, item, close) {
     pairs.slice(0, most).map((p) => [
       p.other < scene.stones ? `${p.other} ${scene.components[scene.kinds[3 * p.other]]}` : "the fill",
       digits(p.normal / 1e3), digits(p.shear / 1e3), digits(p.opening * 1e3)]),
-    ["joint with", "normal (kN)", "shear (kN)", "open (mm)"]));
-  if (pairs.length > most) box.append(make("p", `and ${pairs.length - most} more that bear less`));
+    ["joint with", "normal, kN", "shear, kN", "opening, mm"]));
+  if (pairs.length > most) box.append(make("p", `and ${pairs.length - most} more with smaller forces`));
 }
 
 /// How many parts give a scale from 0 to `top` round numbers.
@@ -110,7 +110,7 @@ function showLegend(scene, field, top) {
   legend.hidden = !field;
   legend.replaceChildren();
   if (!field) return;
-  legend.append(make("div", field.unit ? `${field.title} (${field.unit})` : field.title));
+  legend.append(make("div", field.unit ? `${field.title}, ${field.unit}` : field.title));
   const bar = legend.appendChild(make("div", "", "scale"));
   bar.style.background = `linear-gradient(to right, ${scene.colours.scale.join(", ")})`;
   const ticks = legend.appendChild(make("div", "", "ticks"));

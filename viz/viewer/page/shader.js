@@ -33,7 +33,7 @@ void main() {
   }
 }`;
 
-// What the section plane leaves open is shown from inside in one tone, so that cut stones look solid.
+// The inside of cut stones is drawn in one colour, so that they look solid.
 const fragmentShader = `
 uniform vec4 section;
 uniform bool naming, lines, inside;

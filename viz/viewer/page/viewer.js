@@ -1,4 +1,4 @@
-// The page: what is shown, and what keys, pointers and controls do to it.
+// The page: its state, and the actions of keys, pointers and controls.
 
 class Viewer {
   constructor(scene, context) {
@@ -23,7 +23,7 @@ class Viewer {
     this.setFrame(this.frame);
   }
 
-  /// Steps of the amplification; the first that is used makes the largest displacement a few per cent of the whole.
+  /// Steps of the amplification. The initial one makes the largest displacement a few per cent of the model size.
   chooseAmplifications() {
     if (this.scene.modes) {
       this.steps = [0.25, 0.5, 1, 2, 4, 8, 16].map((percent) => (percent / 100) * this.reach);
@@ -130,7 +130,7 @@ class Viewer {
     this.paint();
   }
 
-  /// Colours of all items, the legend and what is said of the stone.
+  /// Colours of all items, the legend and the data of the stone.
   paint() {
     const { scene, frame, hidden } = this, field = this.field(), top = field ? this.tops.get(field.name) : 0;
     const bytes = (css) => [1, 3, 5].map((k) => parseInt(css.slice(k, k + 2), 16));
@@ -163,7 +163,7 @@ class Viewer {
     if (axis === "") section.set(0, 0, 0, 1);
     else {
       const share = element("place").value / 1000 - 0.5, at = share * this.scene.size[axis];
-      // Shown is what lies behind the plane as seen from the front, side or above.
+      // The part behind the plane is shown, as seen from the front, side or above.
       const sign = (element("other").checked ? -1 : 1) * (axis === "1" ? -1 : 1);
       section.set(...[0, 1, 2].map((c) => (c === Number(axis) ? sign : 0)), sign * at);
       element("cutplace").textContent = `${"xyz"[axis]} = ${(at + this.scene.origin[axis]).toFixed(2)} m`;
@@ -181,7 +181,7 @@ class Viewer {
     this.draw();
   }
 
-  /// A mode swings once in two seconds; of a run six frames pass in a second.
+  /// A mode oscillates once in two seconds. A run plays six frames a second.
   advance(now) {
     if (this.began === undefined) this.began = now, this.shownAt = now;
     if (this.scene.modes) this.phase = Math.cos((Math.PI * (now - this.began)) / 1000);
@@ -199,7 +199,7 @@ class Viewer {
     this.orbit.resize(width, height);
   }
 
-  /// Soon: several changes make one picture.
+  /// Draws in the next frame of the browser, so that several changes need one picture only.
   draw() {
     if (this.waiting) return;
     this.waiting = true;
@@ -213,7 +213,7 @@ class Viewer {
     });
   }
 
-  /// Where pictures come late one after the other, those in motion have fewer pixels and no edges until all rests.
+  /// If drawing is slow, moving pictures have fewer pixels and no edges until the motion ends.
   keepPace(late) {
     this.lateOnes = late > 60 ? (this.lateOnes || 0) + 1 : 0;
     if (this.lateOnes >= 3) this.setCoarse(true);
@@ -240,7 +240,7 @@ class Viewer {
     this.renderer.render(this.model.world, this.orbit.camera);
   }
 
-  /// The item that is seen at a place of the canvas (CSS pixels), −1 for none: drawn as its number, not its colour.
+  /// The item visible at a place of the canvas (CSS pixels), −1 for none. A picture with item numbers as colours gives it.
   itemAt(x, y) {
     const { uniforms, lines } = this.model, pixel = new Uint8Array(4);
     uniforms.naming.value = true;
@@ -272,14 +272,14 @@ async function main() {
   const canvas = element("view");
   const context = canvas.getContext("webgl2", { antialias: true });
   if (!context)
-    return say("This browser offers no WebGL 2, by which the model is drawn. Update it, or switch on hardware acceleration in its settings; pictures by `voussoir render` need neither.");
+    return say("This browser offers no WebGL 2, which the page needs to draw the model. Update the browser, or switch on hardware acceleration in its settings. Pictures by `voussoir render` need neither.");
   if (typeof DecompressionStream === "undefined")
-    return say("This browser cannot unpack the numbers of the page (DecompressionStream): take a recent Chrome, Edge, Firefox or Safari.");
+    return say("This browser cannot unpack the numbers of the page (DecompressionStream). Use a recent Chrome, Edge, Firefox or Safari.");
   let scene;
   try {
     scene = await unpacked();
   } catch (error) {
-    return say(`The numbers of the page cannot be read; the file may be damaged: ${error.message}`);
+    return say(`The numbers of the page cannot be read. The file may be damaged: ${error.message}`);
   }
   const viewer = new Viewer(scene, context);
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
