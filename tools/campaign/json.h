@@ -1,4 +1,4 @@
-// Reading JSON with errors a person can act on.
+// Reads JSON with errors that name the place, the key and the expected value.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -15,7 +15,8 @@ namespace voussoir::campaign {
 
 using nlohmann::json;
 
-/// Whether a number is a whole one that T holds, where T is whole: a conversion would not say.
+/// Whether a number is whole and in the range of T if T is a whole-number type, because the conversion does not check
+/// this.
 template <class T>
 bool fits(const json& value) {
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
@@ -27,7 +28,7 @@ bool fits(const json& value) {
   return true;
 }
 
-/// Throws InputError "PLACE: 'KEY' is missing: …" or for a value of another type.
+/// The value of a key. Throws InputError "PLACE: 'KEY' is missing: …", also for a value of another type.
 template <class T>
 T need(const json& object, const char* key, const std::string& place) {
   const auto found = object.is_object() ? object.find(key) : object.end();
@@ -41,14 +42,14 @@ T need(const json& object, const char* key, const std::string& place) {
   }
 }
 
-/// The same where it may be missing or null.
+/// The same for a key that may be missing or null.
 template <class T>
 T value_or(const json& object, const char* key, const T& fallback, const std::string& place) {
   const auto found = object.find(key);
   return found == object.end() || found->is_null() ? fallback : need<T>(object, key, place);
 }
 
-/// NaN is null.
+/// A number, with null for NaN.
 inline json number_json(double value) {
   return std::isfinite(value) ? json(value) : json();
 }

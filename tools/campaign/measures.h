@@ -9,19 +9,20 @@ namespace voussoir::campaign {
 
 struct Measure {
   std::string name, unit;  // "pga", "m/s2"
-  int power = 1;           // scaling the motion by s scales it by s to this power
+  int power = 1;           // a motion scaled by s has the measure times s to this power
 };
-/// pga, pgv, arias, cav, d595, pga_x … pga_z, then sa_0.10 … at the periods (s).
+/// The measures in order: pga, pgv, arias, cav, d595, pga_x … pga_z, then sa_0.10 … at the periods (s).
 std::vector<Measure> measures(const std::vector<double>& periods);
-/// Their values. Those without a direction are geometric means of the two horizontals x and y, or those of the one
-/// there is; NaN where there is none. Sa with 5 % damping.
+/// The values of the measures. Measures without a direction are geometric means of the horizontal components x and y,
+/// or the value of the only one; NaN if there is none. Sa with 5 % damping.
 std::vector<double> measure(const GroundMotion& motion, const std::vector<double>& periods);
 
-/// What a stage of `duration` (s) makes of it.
+/// The motion of a stage with this duration, s.
 GroundMotion first_part(const GroundMotion& motion, double duration);
-/// When 95 % of the Arias intensity of both horizontals have passed (of the vertical where there is nothing else), s.
+/// Time at which 95 % of the Arias intensity of both horizontal components have passed (of the vertical component if
+/// there is no other), s.
 double significant_end(const GroundMotion& motion);
-/// Two seconds before the first 5 % of it have passed in any component, or the beginning, s.
+/// Two seconds before the first 5 % of it have passed in any component, but not before the start of the record, s.
 double significant_begin(const GroundMotion& motion);
 
 }  // namespace voussoir::campaign

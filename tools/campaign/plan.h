@@ -1,4 +1,4 @@
-// The plan of a campaign: which runs there are, in which order, under which names, and what makes each of them.
+// The plan of a campaign: its runs, their order, their names and their input.
 #pragma once
 #include <optional>
 
@@ -7,69 +7,69 @@
 namespace voussoir::campaign {
 
 struct PlannedCase {
-  std::string name, slug;  // as in the table; of its folder in cases/
-  std::uint64_t hash = 0;  // of all that the case says
+  std::string name, slug;  // name in the table; name of its folder in cases/
+  std::uint64_t hash = 0;  // of the contents of the case
 };
 
 struct PlannedRecord {
   std::string name, event, slug;
   std::uint64_t hash = 0;
-  double duration = 0.0;         // s that are run
-  std::vector<double> measures;  // at scale 1, of that part: see measures.h; NaN for none
+  double duration = 0.0;         // s, duration of the run
+  std::vector<double> measures;  // at scale 1, of the part that is run; see measures.h; NaN if not defined
 };
 
 struct PlannedRun {
-  std::string id;  // [A-Za-z0-9._-], also its folder in runs/
+  std::string id;  // [A-Za-z0-9._-]; also the name of its folder in runs/
   std::size_t case_number = 0, record = 0;
-  double scale = 1.0;          // times the record's own factor
-  int sample = 0;              // from 1; 0: nothing is sampled
-  std::vector<double> values;  // of Plan::keys
-  std::uint64_t hash = 0;      // of all that its result depends on
+  double scale = 1.0;          // multiplies the factor of the record
+  int sample = 0;              // number of the sample, from 1; 0: nothing is sampled
+  std::vector<double> values;  // values of Plan::keys
+  std::uint64_t hash = 0;      // of all input that its result depends on
 };
 
 struct Plan {
-  std::string file;  // the campaign file's name, without its folder
+  std::string file;  // name of the campaign file, without its folder
   std::vector<PlannedCase> cases;
   std::vector<PlannedRecord> records;
   std::vector<PlannedRun> runs;
-  std::vector<std::string> keys;  // that are sampled
+  std::vector<std::string> keys;  // sampled keys
   std::vector<double> periods;    // s
   RunSettings run;
   std::vector<PlannedLimit> limit_states;
   EngineSettings engine;
-  std::vector<std::string> left_out;  // of the folder of records, each reason once
+  std::vector<std::string> left_out;  // reasons why files of a folder of records are not used, each once
 };
 
-/// A plan and what its folder is to hold of cases and records.
+/// A plan, and the cases and records of its folder.
 struct Draft {
   Plan plan;
   std::vector<Case> cases;  // as read
   std::vector<Shaking> records;
-  std::string text;  // of the campaign file
+  std::string text;  // contents of the campaign file
 };
 
-/// cases × records × scales × samples, in that order. Everything that can be said before a block is laid is checked:
-/// throws InputError.
+/// The plan with the runs cases × records × scales × samples, in this order. It checks everything that does not need
+/// the blocks. Throws InputError.
 Draft make_draft(const Settings& settings);
 
-/// A name of letters, digits, points, single underscores and hyphens only, at most 40 of them, not beginning with a
-/// point or hyphen; `taken` becomes longer by it.
+/// A name of letters, digits, points, single underscores and hyphens, at most 40 characters, not beginning with a
+/// point or hyphen, and not in `taken`, to which it is added.
 std::string slug(const std::string& name, const std::string& fallback, std::vector<std::string>& taken);
 
-/// The case of a run, with its motion: DIRECTORY is the campaign's folder. Throws InputError.
+/// The case of a run with its motion. DIRECTORY is the folder of the campaign. Throws InputError.
 Case case_of(const Plan& plan, const PlannedRun& run, const std::string& directory);
 
-/// The stages of a case before the first that takes time, alone; none where there are no such or no other stages.
+/// The stages of a case before its first stage with a duration. Empty if there are no such stages or no others.
 std::optional<Case> before_motion(const Case& c);
 
 /// Reads DIRECTORY/campaign.json. Throws InputError.
 Plan read_plan(const std::string& directory);
 bool holds_plan(const std::string& directory);
-/// Writes cases/, records/, campaign.toml and campaign.json. An earlier plan there must be the same or a part of this
-/// one. Throws InputError naming the first run that would be another.
+/// Writes cases/, records/, campaign.toml and campaign.json. An earlier plan in the folder must be equal to this plan
+/// or a part of it. Throws InputError that names the first run that differs.
 void write_draft(const Draft& draft, const std::string& directory);
 
-/// Throws InputError when there is none of that name.
+/// The run with this name. Throws InputError if there is none.
 const PlannedRun& find_run(const Plan& plan, const std::string& id);
 std::string folder_of(const std::string& directory, const PlannedRun& run);
 

@@ -1,4 +1,4 @@
-// How many runs at once, with how many threads.
+// Number of simultaneous runs, and threads of each.
 #pragma once
 #include <algorithm>
 
@@ -10,7 +10,8 @@ struct Sharing {
   int runs = 1, threads = 1;
 };
 
-/// Never more threads in all than cores. Runs side by side before threads within one: they share nothing.
+/// The total number of threads is at most the number of cores. Simultaneous runs come before threads within a run,
+/// because runs share nothing.
 inline Sharing share_cores(const EngineSettings& engine, int cores, std::size_t runs) {
   Sharing s;
   s.threads = std::clamp(engine.threads, 1, cores);

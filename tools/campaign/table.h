@@ -17,23 +17,23 @@ namespace voussoir {
 
 enum class RunStatus {
   done,
-  collapsed,  // ended because the bridge fell: beyond every threshold, with or without numbers
+  collapsed,  // ended because the bridge fell; exceeds every threshold, with or without numbers
   failed,     // no result
   missing     // not run yet
 };
 const char* run_status_name(RunStatus status);
-/// run, case, … seconds: those that every table has, in their order.
+/// The columns that every table has, in their order: run, case, … seconds.
 const std::vector<std::string>& fixed_columns();
 
 struct CampaignRun {
   std::string run, case_name, record, event, sample, reason;
-  double scale = 1.0;    // of the record; NaN: not said
-  double seconds = 0.0;  // of computing; NaN: not said
+  double scale = 1.0;    // scale of the record; NaN: not given
+  double seconds = 0.0;  // s, computing time; NaN: not given
   RunStatus status = RunStatus::missing;
-  int row = 0;  // in the file, from 1
+  int row = 0;  // row in the file, from 1
 };
 
-/// A column of numbers, a value a run; NaN: none.
+/// A column of numbers, one value for each run; NaN: no value.
 struct NumberColumn {
   std::string name;
   std::vector<double> values;
@@ -42,28 +42,29 @@ struct NumberColumn {
 struct CampaignTable {
   std::string path;  // for errors
   std::vector<CampaignRun> runs;
-  std::vector<NumberColumn> columns;  // im.*, edp.*, damage.*, in the file's order
+  std::vector<NumberColumn> columns;  // im.*, edp.*, damage.*, in the order of the file
 
-  /// Null where there is none.
+  /// The column with this name, or null.
   const NumberColumn* find(std::string_view name) const;
-  /// Throws InputError naming what columns there are.
+  /// The column with this name. Throws InputError that names the existing columns.
   const NumberColumn& column(std::string_view name) const;
-  /// Names that begin so, in the file's order.
+  /// Names of columns that begin with `prefix`, in the order of the file.
   std::vector<std::string> names(std::string_view prefix) const;
-  /// In the order in which they first appear.
+  /// Names of the cases in the order of their first occurrence.
   std::vector<std::string> cases() const;
 };
 
-/// Reads a table. UTF-8 with commas (or semicolons) between cells, quoted as RFC 4180 has it; empty rows and those that
-/// begin with # are skipped. `run`, `case`, `record` and `status` must be there; of the other texts those that are
-/// missing are empty. Throws InputError "FILE:ROW: …" with the column for a column nobody knows, a word that is no
-/// status, a number that is none, a run twice, a wrong number of cells and a table without rows.
+/// Reads a table. UTF-8 with commas (or semicolons) between cells, quoted as in RFC 4180. Empty rows and rows that
+/// begin with # are skipped. `run`, `case`, `record` and `status` are required; missing other texts are empty. Throws
+/// InputError "FILE:ROW: …" with the column for an unknown column, an unknown status, a cell that is not a number, a
+/// repeated run, a wrong number of cells and a table without rows.
 CampaignTable parse_table(const std::string& text, const std::string& path);
 CampaignTable read_table(const std::string& path);
 
-/// What parse_table() gives back bit for bit, but for line breaks in texts, which become blanks.
+/// The table as text. parse_table() returns the same table bit for bit, except that line breaks in texts become
+/// blanks.
 std::string table_text(const CampaignTable& table);
-/// Atomically, into a folder that is there.
+/// Writes the table in one step into an existing folder.
 void write_table(const std::string& path, const CampaignTable& table);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Texts of cases with some numbers changed.
+// Texts of cases with changed numbers.
 #pragma once
 #include <toml++/toml.h>
 
@@ -8,22 +8,23 @@
 
 namespace voussoir::campaign {
 
-/// The case's own text, with lists of a generator written out: what `repeat` stands for can be set one by one.
+/// The text of the case with the lists of a generator written out, so that entries behind `repeat` can be set one by
+/// one.
 toml::table written_out(const Case& c);
 
-/// The case's own text in a form that can be read in a folder where write_resolved_case() has been: without [[check]],
-/// and with the names of the copies there.
+/// The text of the case in a form that can be read in a folder to which write_resolved_case() has written: without
+/// [[check]] and with the names of the copies there.
 toml::table portable(const Case& c);
 
-/// The number under a dotted key of a case, also where the file leaves it to the default. Throws InputError for a key
-/// that is no number of the case, with the nearest that is.
+/// The number with a dotted key of a case, also if the file uses the default. Throws InputError for a key that is not
+/// a number of the case, with the nearest such key.
 double number_at(const Case& c, const std::string& key);
-/// Sets it, with the tables on the way.
+/// Sets a number, and creates the tables of its key.
 void set_number(toml::table& table, const std::string& key, double value);
 
 std::string text_of(const toml::table& table);
 
-/// Which of the case's stages is its motion. Throws InputError unless there is exactly one.
+/// Index of the motion stage of the case. Throws InputError unless there is exactly one.
 std::size_t motion_stage(const Case& c);
 
 }  // namespace voussoir::campaign

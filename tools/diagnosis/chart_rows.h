@@ -1,4 +1,4 @@
-// What the charts of a diagnosis share: their colours, and rows with names on the left and numbers on the right.
+// Shared parts of the charts of a diagnosis: colours, and rows with names on the left and numbers on the right.
 #pragma once
 #include "tools/diagnosis/diagnosis_report.h"
 #include "viz/page/svg.h"
@@ -16,7 +16,7 @@ LegendEntry before_entry();
 LegendEntry after_entry();
 ShapeStyle filled_with(const std::string& colour);
 
-/// Rows of a chart, one a mode or a thing.
+/// The rows of a chart, in px: one row for each mode or data set.
 struct ChartRows {
   double top = 0.0, height = 0.0;
   std::size_t count = 0;
@@ -24,14 +24,14 @@ struct ChartRows {
   double bottom() const { return top + double(count) * height; }
 };
 void draw_row_lines(SvgDrawing& drawing, const ChartRows& rows);
-/// `note` is smaller and below; it may be empty.
+/// Writes the title of a row and, in smaller letters below it, `note`, which may be empty.
 void draw_row_label(SvgDrawing& drawing, double y, const std::string& title, const std::string& note);
-/// Names of the modes; those held back are shaded.
+/// Writes the names of the modes. Rows of modes that are held back are shaded.
 void draw_mode_rows(SvgDrawing& drawing, const ChartRows& rows, const std::vector<const ModeComparison*>& modes);
 
-/// Of a column of numbers that ends at x.
+/// Heading of a column of numbers that ends at x.
 void draw_column_heading(SvgDrawing& drawing, double x, double y, const std::string& text);
-/// `small` is below; it may be empty.
+/// Writes a number that ends at x and `small` below it, which may be empty.
 void draw_column_number(SvgDrawing& drawing, double x, double y, const std::string& number, const std::string& small);
 /// "+1.2", "−0.4"; 0.0 without a sign.
 std::string signed_number(double value);

@@ -1,4 +1,4 @@
-// What a diagnosis starts from: the case and the measured features.
+// The input of a diagnosis: the case and the measured features.
 #pragma once
 #include "solver/diagnosis/diagnose.h"
 #include "tools/diagnosis/identification.h"
@@ -6,14 +6,15 @@
 namespace voussoir {
 
 struct DiagnosisRequest {
-  Case c;                              // read for its geometry
-  std::string measured, directory;     // where the measurements are, and where to
-  double model_error = 0.005;          // of frequencies, beside what the mesh does
-  double shape_error = 0.005;          // of shapes, share of the largest component, beside what the mesh does
+  Case c;                              // the case, which may have been read for its geometry
+  std::string measured, directory;     // folder of the measurements, folder for the results
+  double model_error = 0.005;          // relative error of frequencies, in addition to that of the mesh
+  double shape_error = 0.005;          // error of shapes as a share of the largest component, in addition to that of
+                                       // the mesh
   std::vector<std::string> hold_back;  // names of modes
   DiagnosisSettings settings;
-  int most_modes = 10;        // of those that are identified from recordings: the lowest
-  double run_seconds = 10.0;  // of a recording with the ground's motion that the explicit solver is run for
+  int most_modes = 10;        // number of modes identified from recordings that are used, the lowest ones
+  double run_seconds = 10.0;  // s; part of a recording with ground motion for which the explicit solver is run
   bool quiet = false, page = true;
 };
 
@@ -21,19 +22,20 @@ struct DiagnosisInput {
   Case c;
   Measured measured;
   DiagnosisProblem problem;
-  DiagnosisProblem runs;             // the same on a mesh that the explicit solver is quick on
-  std::vector<std::string> without;  // effects that are not tried
+  DiagnosisProblem runs;             // the same problem on a mesh that is coarse enough for the explicit solver
+  std::vector<std::string> without;  // effects that the user excludes
   Identification identification;
 };
 
-/// Measurements that are to be made.
+/// A plan of measurements.
 struct MeasurementPlan {
   std::string sensors;  // a file like measured/sensors.csv
-  int modes = 6;        // the lowest that are not local
-  double noise = 0.01;  // standard deviation of periods, share; of shapes twice that
+  int modes = 6;        // number of modes: the lowest ones that are not local
+  double noise = 0.01;  // relative standard deviation of periods; that of shapes is twice as large
 };
 
-/// As if the plan had been measured on the case itself, without errors but with their deviations. Throws InputError.
+/// The input as if the plan had been measured on the case itself, without errors but with standard deviations. Throws
+/// InputError.
 DiagnosisInput planned_input(const DiagnosisRequest& request, const MeasurementPlan& plan);
 
 /// Reads the measurements and finds what the mesh does. Throws InputError.

@@ -6,10 +6,11 @@
 
 namespace voussoir {
 
-/// Where the sensors are, drawn into a file. Throws as render_picture().
+/// Draws the positions of the sensors into a file. Throws like render_picture().
 PagePicture sensor_picture(const Assembly& assembly, const std::vector<Sensor>& sensors, const std::string& png);
 
-/// Draws them into DIRECTORY/images. A display that does not start is said and leaves what was drawn.
+/// Draws the pictures into DIRECTORY/images. If the display does not start, `say` gets the reason and the function
+/// returns the pictures drawn so far.
 std::vector<PagePicture> draw_diagnosis(const DiagnosisInput& input, const DiagnosisResult& result,
                                         const std::string& directory,
                                         const std::function<void(const std::string&)>& say);

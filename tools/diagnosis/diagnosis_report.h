@@ -1,4 +1,4 @@
-// What a diagnosis leaves: diagnosis.json, corrected.toml, a page to look at, and words for the terminal.
+// The outputs of a diagnosis: diagnosis.json, corrected.toml, a page, and text for the terminal.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -7,26 +7,26 @@
 
 namespace voussoir {
 
-/// One measured mode against the model before and after.
+/// Comparison of one measured mode with the model before and after the diagnosis.
 struct ModeComparison {
   std::string name, direction;
   bool held_back = false;
   double measured = 0.0, std = 0.0;                        // s
   double before = 0.0, after = 0.0;                        // s; 0: the model has no such mode
-  double deviations_before = 0.0, deviations_after = 0.0;  // of the frequency
+  double deviations_before = 0.0, deviations_after = 0.0;  // residual of the frequency, standard deviations
   double mac_before = 0.0, mac_after = 0.0;                // not finite without a shape
   std::string words_before, words_after;                   // of the computed mode
 };
 
 struct DiagnosisResult {
   Diagnosis diagnosis;
-  Fit before, after;  // on the case's own mesh: the case as it is; the corrected one
-  Fit calibrated;     // of which the corrected one has its materials
+  Fit before, after;  // on the mesh of the case: the case as it is; the corrected case
+  Fit calibrated;     // the fit that gives the materials of the corrected case
   std::vector<ModeComparison> modes;
   Location where, where_after;
-  std::optional<RecordedMatch> recorded;  // the explicit solver under the recorded motion of the ground
-  Case corrected;                         // the case with what was found
-  std::string corrected_text;             // of corrected.toml
+  std::optional<RecordedMatch> recorded;  // response to the recorded ground motion by the explicit solver
+  Case corrected;                         // the case with the effects found
+  std::string corrected_text;             // text of corrected.toml
 };
 
 std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before,

@@ -1,4 +1,4 @@
-// Modes from the recordings of a measurement that gives none.
+// Identification of modes from recordings, for measurements without modes.csv.
 #pragma once
 #include <memory>
 
@@ -9,15 +9,15 @@
 
 namespace voussoir {
 
-/// How modes were identified from recordings of ambient vibration; empty: they were not.
+/// Intermediate results of the identification from ambient vibration; null if there was none.
 struct Identification {
   std::shared_ptr<const SsiResult> ambient;
   std::shared_ptr<const Fdd> spectra;
 };
 
-/// Adds the modes that are identified from the recordings, at most so many of the lowest, where none are given; what is
-/// set aside and remarks go into the measurement too. The assembly tells the band under a recorded motion of the
-/// ground, the case what damping is expected. Throws InputError when no mode can be identified.
+/// Adds the modes identified from the recordings to a measurement without modes, at most the `most` lowest. Data that
+/// are set aside and remarks are added too. The assembly gives the frequency band under a recorded ground motion, and
+/// the case the expected damping. Throws InputError if no mode can be identified.
 Identification identify(Measured& measured, const Case& c, const Assembly& assembly, int most);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What sensors would show that are not there yet.
+// Evaluates a measurement plan before it is carried out.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -12,7 +12,7 @@ struct PlanResult {
   Detection detection;
 };
 
-/// The least amounts that a plan would show on the case, and what would show less. Throws InputError.
+/// The least amounts that the plan would show on the case, and useful further measurements. Throws InputError.
 PlanResult look_at_plan(const DiagnosisRequest& request, const MeasurementPlan& plan);
 
 std::string plan_text(const PlanResult& result);

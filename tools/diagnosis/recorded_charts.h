@@ -1,14 +1,16 @@
-// Charts of runs under a recorded motion of the ground: transfer functions and histories, measured, before and after.
+// Charts of responses to a recorded ground motion: transfer functions and histories, measured, before and after.
 #pragma once
 #include "tools/diagnosis/diagnosis_runs.h"
 
 namespace voussoir {
 
-/// The base channel and the sensors that resonate most, a panel each; empty where there are no transfer functions.
+/// Transfer functions of the base channel and of the sensors with the strongest resonance, one panel each. Empty if
+/// there are no transfer functions.
 std::string transfer_chart(const DiagnosisInput& input, const RecordedMatch& match);
-/// Poles of each order and the modes that were taken, over the first singular value of the spectra.
+/// Stabilisation diagram: the poles of each model order and the identified modes, over the first singular value of the
+/// spectra.
 std::string stabilisation_chart(const SsiResult& ssi, const Fdd& spectra);
-/// Accelerations of the sensors that resonate most, about their largest; empty without channels.
+/// Accelerations of the sensors with the strongest resonance, around their peak. Empty without channels.
 std::string history_chart(const DiagnosisInput& input, const RecordedMatch& match);
 
 }  // namespace voussoir

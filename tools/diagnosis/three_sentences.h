@@ -1,11 +1,11 @@
-// What was found, how sure it is, and what to do next on site: what a diagnosis says first.
+// The first three sentences of a diagnosis: what was found, its certainty, and the next step on site.
 #pragma once
 
 #include "tools/diagnosis/diagnosis_report.h"
 
 namespace voussoir {
 
-/// Plain text, a sentence or two each: on the page, in the terminal and in diagnosis.json.
+/// Plain text of one or two sentences each, used on the page, in the terminal and in diagnosis.json.
 struct ThreeSentences {
   std::string found, sure, next;
 };
