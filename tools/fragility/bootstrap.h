@@ -1,4 +1,5 @@
-// Resampling (Efron 1979) of records, not of runs: those of one record stay together, for they are not independent.
+// Bootstrap (Efron 1979) over records, not over runs: the runs of one record stay together, because they are not
+// independent.
 #pragma once
 #include <map>
 #include <string>
@@ -8,10 +9,11 @@
 
 namespace voussoir {
 
-/// Places of runs, record by record.
+/// Indices of runs, record by record.
 using Clusters = std::vector<std::vector<std::size_t>>;
 
-/// Runs with the same record, in the order in which records first appear. `record[i]` numbers that of run i.
+/// Groups runs with the same record, in the order of the first occurrence of records. `record[i]` is the number of the
+/// record of run i.
 inline Clusters clusters_of(const std::vector<std::size_t>& record) {
   std::map<std::size_t, std::size_t> place;
   Clusters clusters;
@@ -23,7 +25,7 @@ inline Clusters clusters_of(const std::vector<std::size_t>& record) {
   return clusters;
 }
 
-/// As many records as there are, drawn with replacement: the places of their runs.
+/// Draws as many records as there are, with replacement. Returns the indices of their runs.
 inline std::vector<std::size_t> resampled(const Clusters& clusters, RandomStream& random) {
   std::vector<std::size_t> drawn;
   for (std::size_t i = 0; i < clusters.size(); ++i) {

@@ -1,4 +1,4 @@
-// What voussoir fragility found, for a terminal, for scripts and for spreadsheets.
+// The results of voussoir fragility as text, JSON and CSV.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace voussoir {
 
-/// Intensities for one demand of a case, the best first.
+/// Intensity measures for one demand of a case, the best first.
 struct IntensityRanking {
   std::string case_name, demand;
   std::vector<MeasurePair> pairings;
@@ -25,7 +25,7 @@ struct FragilityReport {
   std::size_t done = 0, collapsed = 0, failed = 0, missing = 0;
   FragilitySettings settings;
   std::vector<Fragility> curves;              // limit by limit, case by case
-  std::vector<IntensityRanking> intensities;  // of the main demands and those of the limits
+  std::vector<IntensityRanking> intensities;  // for the main demands and those of the limits
   std::vector<CaseDamage> damage;
   std::vector<std::string> remarks;  // on the whole
 };
@@ -33,14 +33,14 @@ struct FragilityReport {
 std::string report_text(const FragilityReport& report);
 /// Layout: docs/formats.md.
 nlohmann::json report_json(const FragilityReport& report);
-/// A row a curve.
+/// One row for each curve.
 std::string report_csv(const FragilityReport& report);
 
-/// The curves that belong in one chart: of one limit, which may have other thresholds for other bridges, over one
-/// intensity. In the report's order.
+/// Groups of curves for one chart each: one limit against one intensity. The threshold may differ between bridges. The
+/// groups are in the order of the report.
 std::vector<std::vector<const Fragility*>> by_limit(const std::vector<Fragility>& curves);
 
-/// The sentence on which demand follows a damage best.
+/// A sentence that says which demand predicts a damage best.
 std::string damage_words(const DamageRanking& ranking);
 /// "240 runs: 231 done, 4 collapsed, 3 failed, 2 not run yet".
 std::string runs_words(const FragilityReport& report);

@@ -1,4 +1,4 @@
-// A lognormal fragility curve from counts: how many of the runs at an intensity go beyond a limit.
+// A lognormal fragility curve from counts: the number of runs at an intensity that exceed a limit.
 #pragma once
 #include <limits>
 #include <string>
@@ -12,25 +12,25 @@ struct Count {
   double runs = 0.0, beyond = 0.0;
 };
 
-/// Whether the data say where the curve lies, or why not.
+/// Whether the data determine the curve, and otherwise the reason.
 enum class Identified {
   yes,
   no_runs,
   none_beyond,  // the median lies above the largest intensity
   all_beyond,   // the median lies below the smallest
-  one_level,    // one intensity alone: a share, but no slope
-  separated,    // all below some intensity stay within, all above it go beyond: no slope
-  one_mixed,    // the same, but for a level at which some do
-  falling,      // the share that goes beyond does not grow with the intensity
-  few_demands,  // of a cloud: fewer than five demands to draw a line through
-  flat,         // of a cloud: the demand does not grow with the intensity
-  collapses     // of a cloud: where the collapses begin is not known
+  one_level,    // one intensity only: a share, but no slope
+  separated,    // no run below some intensity and all above it exceed the limit: no slope
+  one_mixed,    // the same, except for one level at which some do
+  falling,      // the share that exceeds the limit does not increase with the intensity
+  few_demands,  // of a cloud: fewer than five demands for a line
+  flat,         // of a cloud: the demand does not increase with the intensity
+  collapses     // of a cloud: the beginning of collapses is not known
 };
 
 struct LognormalFit {
   Identified identified = Identified::no_runs;
   double theta = nan, beta = nan;             // median (unit of the intensity), dispersion (of the logarithm)
-  double ln_theta_std = nan, beta_std = nan;  // standard errors, of runs that are independent of each other
+  double ln_theta_std = nan, beta_std = nan;  // standard errors for independent runs
   double below = nan, above = nan;            // bounds of the median where it is not identified; NaN: none
   Count mixed;                                // that level
   /// The largest; where there is none, what it grows towards. NaN: falling, no runs, or one level.
@@ -38,9 +38,9 @@ struct LognormalFit {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Φ(ln(im/θ)/β) that makes the counts most probable (Baker 2015, eq. 11): probit regression on ln im by Newton's
-/// method, whose function is concave. Whether there is a largest likelihood is decided beforehand, from where the two
-/// outcomes overlap (Albert & Anderson 1984). Standard errors are those of the observed information.
+/// The curve Φ(ln(im/θ)/β) with the largest likelihood of the counts (Baker 2015, eq. 11): probit regression on ln im
+/// by Newton's method; the log-likelihood is concave. Whether a maximum exists is decided beforehand from the overlap
+/// of the two outcomes (Albert & Anderson 1984). Standard errors follow from the observed information.
 LognormalFit fit_counts(const std::vector<Count>& counts);
 
 }  // namespace voussoir

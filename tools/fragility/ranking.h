@@ -1,4 +1,4 @@
-// Which measure of intensity serves best to foretell which demand, and which demand tells most of the damage.
+// Ranking of intensity measures by how well they predict a demand, and of demands by how well they predict the damage.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -9,57 +9,59 @@
 
 namespace voussoir {
 
-/// How little a characteristic of the ground motion adds to what the intensity says of the demand.
+/// The significance of a further characteristic of the ground motion, in addition to the intensity.
 struct Sufficiency {
   std::string characteristic;  // "scale" or a column
-  double p = 0.0;              // of the hypothesis that it adds nothing
+  double p = 0.0;              // p-value of the hypothesis that it adds nothing
 };
 
-/// A measure of intensity beside a demand: ln demand = a + b ln im + scatter, over the runs that stand.
+/// An intensity measure and a demand: ln demand = a + b ln im + scatter, over the runs without collapse.
 struct MeasurePair {
   std::string im, demand;
   Line line;  // efficiency: its scatter (Shome & Cornell 1999); practicality: its slope
   std::vector<Sufficiency> sufficiency;
-  /// Scatter over slope (Padgett, Nielson & DesRoches 2008), what the scatter means for a fragility's β; infinite where
-  /// the demand does not grow.
+  /// Scatter divided by slope (Padgett, Nielson & DesRoches 2008): the contribution of the scatter to the β of a
+  /// fragility. Infinite if the demand does not increase.
   double proficiency() const;
-  /// The least p-value, NaN where there is none.
+  /// The smallest p-value, NaN if there is none.
   double least_p() const;
   bool sufficient() const { return !(least_p() < 0.05); }
 };
 
-/// Intensities of a case for one demand, the best first: in the order of their proficiency. Columns of characteristics
-/// (duration, magnitude, distance) are no intensities. Those with fewer than five runs are left out.
+/// Intensity measures of a case for one demand in the order of their proficiency, the best first. Columns of
+/// characteristics (duration, magnitude, distance) are not used as intensities. Measures with fewer than five runs are
+/// left out.
 std::vector<MeasurePair> rank_intensities(const CampaignTable& table, const std::string& case_name,
                                           const std::string& demand);
 
-/// The best for a demand over these cases: the least product of proficiencies, of those that all cases have. For
-/// collapse_demand, or where no line can be drawn, the one by which the counts are most probable. Throws InputError
-/// when the table has no intensity.
+/// The best measure for a demand over these cases: the smallest product of proficiencies among the measures that all
+/// cases have. For collapse_demand, or if no line is possible, the measure with the largest likelihood of the counts.
+/// Throws InputError if the table has no intensity.
 std::string best_intensity(const CampaignTable& table, const std::vector<std::string>& cases, const std::string& demand,
                            double threshold);
 
-/// How closely a demand follows a damage: by ranks, so that no form of the relation is assumed.
+/// Association of a demand with a damage, by ranks, so that no form of the relation is assumed.
 struct Association {
   std::string damage, demand;
   std::size_t count = 0;
-  double correlation = 0.0;  // Spearman's
+  double correlation = 0.0;  // Spearman's rank correlation
 };
 
-/// The demands for one damage, the closest first.
+/// The demands for one damage in descending order of correlation.
 struct DamageRanking {
   std::string damage;
   std::vector<Association> demands;
-  double ahead = 0.0;  // share of resamples of records in which the first is closer than the second; NaN: no second
+  double ahead = 0.0;  // share of resamples of the records in which the first correlates more closely than the second;
+                       // NaN: no second
 };
 
-/// Of each column damage.*.broken_share that varies, the main demands over the same runs.
+/// Rankings of the main demands for each column damage.*.broken_share that varies, over the same runs.
 std::vector<DamageRanking> rank_demands(const CampaignTable& table, const std::string& case_name, int replicates,
                                         std::uint64_t seed);
 
-/// Demands that stand for the whole bridge: columns edp.NAME without further dots.
+/// Demands of the whole bridge: columns edp.NAME without further dots.
 std::vector<std::string> main_demands(const CampaignTable& table);
-/// Columns im.* that are no characteristics.
+/// Columns im.* that are not characteristics.
 std::vector<std::string> intensities(const CampaignTable& table);
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// The little statistics that fragility needs: the normal distribution, a straight line, ranks. Pairs with a value that
-// is not finite are never given to these.
+// Statistics for fragility: the normal distribution, a straight line, ranks. All values given to these functions are
+// finite.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -20,7 +20,7 @@ double t_quantile(double p, double degrees);
 /// Probability that Student's t of so many degrees of freedom is farther from zero than t, on either side.
 double t_p_value(double t, double degrees);
 
-/// y = intercept + slope x + scatter, by least squares. NaN is what the data do not tell.
+/// y = intercept + slope x + scatter, by least squares. NaN if the data do not determine a value.
 struct Line {
   std::size_t count = 0;
   double intercept = 0.0, slope = 0.0;
@@ -34,14 +34,14 @@ struct Line {
 };
 Line fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-/// p-value of c in y = a + b x + c z by least squares (Student's t, n − 3 degrees of freedom). NaN when z says nothing
-/// that x does not (what is left of it is less than 1e-6 of its spread) or there are fewer than four values.
+/// p-value of c in y = a + b x + c z by least squares (Student's t, n − 3 degrees of freedom). NaN if z depends
+/// linearly on x (the rest is less than 1e-6 of its spread) or if there are fewer than four values.
 double added_p_value(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z);
 
-/// Rank correlation (Spearman 1904), equal values sharing their mean rank. NaN when either does not vary.
+/// Rank correlation (Spearman 1904); equal values share their mean rank. NaN if one of the two does not vary.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
-/// The value below which a share of the values lies, between neighbours in proportion. `sorted` is not empty.
+/// The quantile for a share, with linear interpolation. `sorted` is not empty.
 double quantile(const std::vector<double>& sorted, double share);
 
 }  // namespace voussoir

@@ -1,13 +1,13 @@
-// The bridge that voussoir hide measures: not quite the one that its case describes.
+// The true bridge of voussoir hide. It differs from the case in the ways of a real survey.
 #pragma once
 #include "io/case/case.h"
 #include "tools/hide/request.h"
 
 namespace voussoir {
 
-/// The bridge as it is, without what is hidden (the request's effects and loosenings): the generator's keys that are
-/// otherwise, other blocks, other dimensions, other stiffness in each material and part. Of a case without a generator
-/// the blocks and dimensions stay. Throws InputError for a key or value the generator does not take.
+/// The true bridge without the hidden effects and loosenings of the request: other values of generator keys, another
+/// block size, other dimensions, and another stiffness of each material and part. A case without a generator keeps its
+/// blocks and dimensions. Throws InputError for a key or value that the generator does not accept.
 Assembly hidden_bridge(const Case& model, const HideRequest& request);
 
 }  // namespace voussoir

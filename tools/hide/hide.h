@@ -7,11 +7,11 @@ namespace voussoir {
 
 struct HiddenBridge {
   Measured measured;
-  std::string answer;  // text of answer.toml: what was put into the measurements
+  std::string answer;  // text of answer.toml: the effects and deviations in the measurements
 };
 
-/// Throws InputError for what a measurement of the kind asked for cannot show, for what a case without a generator
-/// cannot have otherwise, and for effects, loosenings and sensors whose place the bridge does not have.
+/// Throws InputError if the kind of measurement cannot show the effects, if a case without a generator cannot have the
+/// requested deviations, and if the bridge does not have the places of effects, loosenings or sensors.
 HiddenBridge hide(const HideRequest& request);
 
 }  // namespace voussoir

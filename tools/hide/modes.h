@@ -1,4 +1,4 @@
-// Modes as they would be measured on the bridge that voussoir hide makes.
+// Measured modes of the true bridge of voussoir hide.
 #pragma once
 #include "io/measured/measured.h"
 #include "solver/diagnosis/response.h"
@@ -6,16 +6,16 @@
 
 namespace voussoir {
 
-/// The lowest modes that are not local as they are, with the standard deviations that a measurement of them has;
-/// `ratio` of damping.
+/// The lowest modes that are not local, without errors but with the standard deviations of a measurement; `ratio` is
+/// the damping ratio.
 std::vector<MeasuredMode> true_modes(const Response& truth, const HideRequest& request, double ratio);
-/// The same as they would be measured by these sensors, with the deviations that the measurement says it has.
+/// The same with measurement errors at these sensors, and with the standard deviations that the measurement states.
 std::vector<MeasuredMode> measured_modes(const Response& truth, const std::vector<Sensor>& sensors,
                                          const HideRequest& request, double ratio);
 
-/// Sum of squares, in standard deviations, of what fitted materials leave of what is hidden in these modes if all else
-/// is known: without noise, with the true mesh, dimensions and stiffness of parts. Half of it is the most that evidence
-/// for it can come to.
+/// Sum of squares, in standard deviations, of the part of the hidden effects in these modes that fitted materials
+/// cannot explain, if all else is known: without noise, with the true mesh, dimensions and stiffness of parts. The
+/// evidence for the effects is at most half of it.
 double trace_of(const Assembly& bare, const Response& truth, const std::vector<Sensor>& sensors,
                 const HideRequest& request, double ratio, double bare_ratio);
 

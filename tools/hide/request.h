@@ -1,4 +1,4 @@
-// What voussoir hide is asked for.
+// The request of voussoir hide.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,26 +13,26 @@ namespace voussoir {
 
 struct HideRequest {
   std::string case_file, directory;
-  std::string sensors = "sparse";  // or rich, none, a number of channels, or a file like measured/sensors.csv
+  std::string sensors = "sparse";  // sparse, rich, none, a number of channels, or a file like measured/sensors.csv
   std::vector<EffectSetting> effects;
-  std::vector<Loosening> loosenings;                       // changes that no effect makes
-  std::vector<std::pair<std::string, std::string>> truth;  // keys of the generator that the true bridge has otherwise
-  double noise = 0.01;                                     // standard deviation of periods, share
-  double noise_said = 1.0;                                 // deviations as written, over the true ones
-  double scatter = 0.05;                                   // of the stiffness of each part, of the logarithm
-  double materials = 0.1;                                  // of the stiffness of each material, of the logarithm
-  double defects = 0.01;                                   // m, of every dimension
-  double mesh = 0.85;                                      // block_scale of the true bridge over the case's
-  int parapet_gaps = 0;                                    // joints in the parapets that the case does not have
+  std::vector<Loosening> loosenings;                       // changes outside the library of effects
+  std::vector<std::pair<std::string, std::string>> truth;  // generator keys with other values in the true bridge
+  double noise = 0.01;                                     // relative standard deviation of periods
+  double noise_said = 1.0;                                 // stated standard deviations divided by the true ones
+  double scatter = 0.05;                                   // standard deviation of ln stiffness of each part
+  double materials = 0.1;                                  // standard deviation of ln stiffness of each material
+  double defects = 0.01;                                   // m, standard deviation of each dimension
+  double mesh = 0.85;                                      // block_scale of the true bridge divided by that of the case
+  int parapet_gaps = 0;  // movement joints in the parapets that the case does not have
   int modes = 6;
-  double minutes = 0.0;  // of ambient vibration instead of modes
-  double shaken = 0.0;   // s of a recorded motion of the ground instead of modes
-  bool trace = false;    // say how much of the effects shows
+  double minutes = 0.0;  // min, duration of ambient vibration that replaces modes; 0: none
+  double shaken = 0.0;   // s, duration of a recorded ground motion that replaces modes; 0: none
+  bool trace = false;    // compute how much of the effects the modes show
   std::uint64_t seed = 1;
 };
 
-/// Random numbers of one purpose: "dimension width", "noise of channel A01x". A further one, or one that is left out,
-/// changes none of the others.
+/// The random stream for one purpose, such as "dimension width" or "noise of channel A01x". Further streams or missing
+/// ones do not change the others.
 inline RandomStream stream_of(const HideRequest& request, const std::string& purpose, int number = 0) {
   return stream_of(request.seed, "hide: " + purpose, number);
 }

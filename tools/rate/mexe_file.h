@@ -1,4 +1,4 @@
-// The figures of the MEXE method for one arch, as a text of its own.
+// The MEXE assessment of an arch from its own file.
 #pragma once
 #include <string>
 
@@ -9,7 +9,7 @@ namespace voussoir {
 /// Reads the table [mexe] of a TOML file. Throws InputError "FILE:LINE: …".
 MexeInput read_mexe(const std::string& path);
 
-/// The axle load and every figure on the way to it, in a few lines.
+/// The axle load and all intermediate values, in a few lines.
 std::string mexe_text(const MexeResult& result);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Repeated passages of a vehicle: whether what they do to a bridge settles or goes on.
+// Repeated passages of a vehicle: whether the displacements settle or grow (shakedown).
 #pragma once
 #include "tools/rate/rate.h"
 
@@ -6,12 +6,12 @@ namespace voussoir {
 
 /// The bridge after a passage, without the vehicle.
 struct AfterPassage {
-  double crown = 0.0;    // m, displacement downwards of the crown that has gone farthest since gravity
-  double opening = 0.0;  // m, of the joint that stands open most
-  double slip = 0.0;     // m, of the joint that has slid most, since the start
-  double slips = 0.0;    // m, sum of all joints' slip weighted by area over all area
+  double crown = 0.0;    // m, largest downward displacement of a crown since gravity
+  double opening = 0.0;  // m, largest present opening of a joint
+  double slip = 0.0;     // m, largest slip of a joint since the start
+  double slips = 0.0;    // m, mean slip of all joints, weighted by area
   double plastic = 0.0;  // mean plastic shear strain of the fill
-  double largest = 0.0;  // m, displacement of the stone that has gone farthest since gravity
+  double largest = 0.0;  // m, largest displacement of a stone since gravity
 };
 
 enum class PassageEnd { settles, grows, collapses, undecided };
@@ -20,31 +20,32 @@ const char* passage_word(PassageEnd end);
 
 struct PassageSeries {
   double factor = 0.0;
-  std::vector<AfterPassage> after;  // of each passage; the first entry is the bridge before any
+  std::vector<AfterPassage> after;  // after each passage; the first entry is the bridge before the first passage
   PassageEnd end = PassageEnd::undecided;
 };
 
 struct PassageRequest {
-  RateRequest rate;  // its first vehicle, first lane
+  RateRequest rate;  // uses its first vehicle and first lane
   int passages = 10;
-  int places = 12;  // at which the vehicle stands in turn, evenly over its way
+  int places = 12;  // number of places of the vehicle in a passage, at equal distances
   std::vector<double> factors;
-  double settled = 1e-6;  // m a passage: less is none
+  double settled = 1e-6;  // m per passage; smaller increments count as none
 };
 
-/// Drives the vehicle over the bridge so many times with each factor: at one place after the other the bridge is
-/// brought to equilibrium, and at the end of each passage without the vehicle. In the order of the factors.
+/// Drives the vehicle over the bridge repeatedly with each factor. The bridge is brought to equilibrium with the
+/// vehicle at one place after the other, and without the vehicle at the end of each passage. The results are in the
+/// order of the factors.
 std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, const PassageRequest& request,
                                     const std::function<void(const std::string&)>& say);
 
-/// How increments of the displacement of a series end (docs/theory/shakedown.md).
+/// The end state of the displacement increments of a series (docs/theory/shakedown.md).
 PassageEnd judge(const std::vector<AfterPassage>& after, double settled);
 
-/// The factors in ascending order: the last of those that settle and the first that does not, against the adequacy
+/// Text for factors in ascending order: the last that settles and the first that does not, compared with the adequacy
 /// factor.
 std::string passages_text(const std::vector<PassageSeries>& all, double adequacy);
 std::string passages_csv(const std::vector<PassageSeries>& all);
-/// Displacement over the number of passages: one curve a factor. As SVG.
+/// Displacement against the number of passages, one curve for each factor, as SVG.
 std::string ratchet_chart(const std::vector<PassageSeries>& all);
 
 }  // namespace voussoir

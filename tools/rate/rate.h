@@ -1,4 +1,4 @@
-// What a bridge bears of vehicles: the collapse multiplier of their loads at one place after the other.
+// Rating of a bridge for vehicles: the collapse multiplier of their loads at one place after the other.
 #pragma once
 #include <functional>
 #include <optional>
@@ -9,37 +9,37 @@
 
 namespace voussoir {
 
-/// A vault over the road, by what its stones reach from and to, m.
+/// A vault: the range of its stones along the road, m.
 struct SpanExtent {
   std::int32_t part = 0;  // of Component::arch
   double x0 = 0.0, x1 = 0.0;
 };
 
 struct RateRequest {
-  std::vector<Vehicle> vehicles;          // with the factors that are to act in their loads
-  std::vector<double> lanes = {0.0};      // m, y of their middle lines
-  bool both_ways = true;                  // of vehicles that are not the same the other way round
-  double step = 0.0;                      // m, from place to place; 0: a tenth of the shortest span
-  double from = -1e300, to = 1e300;       // m: only places with the middle of the axles between these x
-  int refinements = 2;                    // halvings of the step about the worst place
-  double most = 30.0;                     // the factor is looked for up to here
-  double tolerance = 0.05;                // of the factor
-  std::optional<double> effective_width;  // m: of a strip in plane strain; none: the bridge is whole
+  std::vector<Vehicle> vehicles;          // their loads include the factors to be applied
+  std::vector<double> lanes = {0.0};      // m, y of the middle lines of the lanes
+  bool both_ways = true;                  // also the reverse direction, for unsymmetric vehicles
+  double step = 0.0;                      // m, distance between places; 0: a tenth of the shortest span
+  double from = -1e300, to = 1e300;       // m; only places with the middle of the axles between these x
+  int refinements = 2;                    // number of refinements about the worst place, each with half the distance
+  double most = 30.0;                     // upper limit of the factors that are tried
+  double tolerance = 0.05;                // tolerance of the factor
+  std::optional<double> effective_width;  // m, of a strip in plane strain; none: the whole bridge
   int threads = 1;
 };
 
 /// A vehicle at one place.
 struct RatedPlace {
-  std::size_t vehicle = 0;  // of the request
+  std::size_t vehicle = 0;  // index into the vehicles of the request
   VehiclePlace place;
-  bool found = false;               // the bridge failed below RateRequest::most
-  double factor = 0.0;              // the largest at which equilibrium was found
-  double above = 0.0;               // the least tried at which it was lost; where found
+  bool found = false;               // the bridge collapsed below RateRequest::most
+  double factor = 0.0;              // largest factor with equilibrium
+  double above = 0.0;               // smallest factor tried without equilibrium; only if found
   bool local = false;               // CollapseLoss::local
   bool fill_alone = false;          // no stone moves
-  std::vector<std::int32_t> spans;  // whose vault moves
-  double share = 0.0;               // of the mass that can move, which does
-  std::string moving;               // what moves, in words
+  std::vector<std::int32_t> spans;  // spans whose vaults move
+  double share = 0.0;               // moving share of the movable mass
+  std::string moving;               // description of the moving parts
   std::size_t tries = 0;
   double seconds = 0.0;
 };
@@ -47,32 +47,32 @@ struct RatedPlace {
 struct Rating {
   std::vector<SpanExtent> spans;
   std::vector<RatedPlace> places;  // by vehicle, lane, direction and x
-  std::vector<std::size_t> worst;  // of each vehicle: index into places
+  std::vector<std::size_t> worst;  // for each vehicle: index into places
 };
 
-/// The case without what must not act before a vehicle: a last stage of collapse. Throws InputError when no stage is
-/// left that brings the bridge to rest.
+/// The case without the parts that must not act before a vehicle, such as a last collapse stage. Throws InputError if
+/// no remaining stage brings the bridge to rest.
 Case before_vehicles(const Case& c);
-/// What a vehicle of the request puts on the road of the case's bridge, or on its strip.
+/// The loads of a vehicle of the request on the road of the bridge, or on its strip.
 std::vector<RoadLoad> vehicle_loads(const RateRequest& request, const Case& c, std::size_t vehicle,
                                     const VehiclePlace& place);
 
-/// Index into places of the worst of all vehicles.
+/// Index into places of the worst place of all vehicles.
 std::size_t worst_of_all(const Rating& rating);
 
-/// The vaults over which a load may stand, from left to right. Throws InputError where there is none.
+/// The vaults that carry a road, from left to right. Throws InputError if there is none.
 std::vector<SpanExtent> span_extents(const Assembly& assembly);
 
-/// Where the front of a vehicle is when any of its axles is over a vault, every `step` m.
+/// Positions of the front of a vehicle with any of its axles over a vault, every `step` m.
 std::vector<double> fronts(const Vehicle& vehicle, const std::vector<SpanExtent>& spans, bool towards_right,
                            double step);
 
-/// The case's stages but a last one of collapse come first and once; each place begins where they end. `progress` hears
-/// of each place that is done. Throws InputError and RunError.
+/// Rates the case. Its stages, without a last collapse stage, run once; each place starts from their end. `progress`
+/// is called after each place. Throws InputError and RunError.
 Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
             const std::function<void(const RatedPlace&, std::size_t done, std::size_t all)>& progress);
 
-/// The case with one more stage: the loads of a vehicle at a place, raised to collapse or standing there in full.
+/// The case with an additional stage: the loads of a vehicle at a place, raised to collapse or applied in full.
 Case with_vehicle(const Case& c, const RateRequest& request, const RatedPlace& at, bool to_collapse);
 
 }  // namespace voussoir

@@ -7,17 +7,18 @@
 
 namespace voussoir {
 
-/// What is said beside the figures.
+/// Texts and pictures of the page.
 struct RatePageWords {
   std::string title;        // "Rating: prestwood"
-  std::string beside = {};  // another method's figures; may be empty
+  std::string beside = {};  // results of another method; may be empty
   std::vector<PassageSeries> passages = {};
-  std::vector<std::string> remarks;   // how the bridge was loaded
-  std::vector<PagePicture> pictures;  // of the worst place
+  std::vector<std::string> remarks;   // assumptions of the loading
+  std::vector<PagePicture> pictures;  // pictures of the worst place
   std::string thrust = {};            // thrust_chart() of the worst place; may be empty
 };
 
-/// Adequacy factor over where the middle of the axles is: one curve a vehicle, lane and direction. As SVG.
+/// Adequacy factor against the position of the middle of the axles: one curve for each vehicle, lane and direction, as
+/// SVG.
 std::string influence_chart(const Rating& rating, const RateRequest& request);
 
 std::string rate_page(const Rating& rating, const RateRequest& request, const RatePageWords& words);

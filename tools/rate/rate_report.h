@@ -1,4 +1,4 @@
-// What a rating found: as text, as a table and as JSON.
+// The results of a rating as text, table and JSON.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -6,14 +6,15 @@
 
 namespace voussoir {
 
-/// "span 1 at 0.27", from its left end: where the middle of a vehicle's axles is; "beside the spans".
+/// Position of the middle of the axles of a vehicle: "span 1 at 0.27" (share of the span from its left end) or
+/// "outside the spans".
 std::string where_on(const Rating& rating, const Vehicle& vehicle, const VehiclePlace& place);
 /// "4.31" or "at least 30".
 std::string factor_text(const RatedPlace& at, const RateRequest& request);
 
-/// One line a vehicle, the worst place of each.
+/// One line for each vehicle with its worst place.
 std::string rating_text(const Rating& rating, const RateRequest& request);
-/// Every place a row.
+/// One row for each place.
 std::string rating_csv(const Rating& rating, const RateRequest& request);
 nlohmann::json rating_json(const Rating& rating, const RateRequest& request);
 
