@@ -1,4 +1,4 @@
-// The convergence studies: which specimens are computed with what varied, and how the errors are laid out.
+// The convergence studies: their specimens, the varied quantities, and the layout of the errors.
 #pragma once
 #include <functional>
 
@@ -12,7 +12,7 @@ struct NamedStudy {
 };
 Study study_of_dispersal();
 
-/// In the order of docs/convergence.md. Seconds to minutes each, on one thread.
+/// All studies in the order of docs/convergence.md. Each takes seconds to minutes on one thread.
 const std::vector<NamedStudy>& convergence_studies();
 
 Study study_of_points();

@@ -1,4 +1,4 @@
-// Free decay: frequency and damping ratio of what rings down.
+// Free decay: frequency and damping ratio of a decaying oscillation.
 #pragma once
 #include <vector>
 
@@ -10,8 +10,8 @@ struct Decay {
   double frequency = 0.0, ratio = 0.0;  // Hz, -
 };
 
-/// From the positive peaks of a decaying oscillation sampled every `dt` s: mean spacing, and the logarithmic decrement
-/// over all of them (Clough & Penzien 1993, section 2-6). There must be two peaks at least.
+/// From the positive peaks of a decaying oscillation sampled every `dt` s: the mean spacing, and the logarithmic
+/// decrement over all of them (Clough & Penzien 1993, section 2-6). At least two peaks are needed.
 inline Decay measure_decay(const std::vector<double>& u, double dt) {
   std::vector<double> times, peaks;
   for (std::size_t i = 1; i + 1 < u.size(); ++i) {
@@ -25,8 +25,8 @@ inline Decay measure_decay(const std::vector<double>& u, double dt) {
   return {n / (times.back() - times.front()), decrement / std::sqrt(4 * pi * pi + decrement * decrement)};
 }
 
-/// A block of 1 m on a joint, axially at `frequency` Hz, let go 0.1 mm above its place; steps of `dt` s. The first
-/// cycle, in which slow branches settle, is left out.
+/// A block of 1 m on a joint, axially at `frequency` Hz, released 0.1 mm above its position, with time steps of `dt`
+/// s. The first cycle, in which slow branches settle, is left out.
 inline Decay ring(const DampingSettings& damping, double frequency, double dt, bool shortcut) {
   const double kn = 2000.0 * std::pow(2 * pi * frequency, 2);
   Assembly assembly = stone(2000.0);

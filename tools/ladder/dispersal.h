@@ -1,4 +1,5 @@
-// A wheel, or an axle in plane strain, on a flat fill over a rigid base: what arrives there, and its closed forms.
+// A wheel, or an axle in plane strain, on a flat fill over a rigid base: the pressure at the base, and its closed
+// forms.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,26 +13,26 @@ namespace voussoir::ladder {
 
 constexpr double patch_half = 0.15;  // m: a wheel of 0.3 m × 0.3 m, or a strip 0.3 m wide
 
-/// Depths of the rung and the study, m, and cells under half of the patch that fit them.
+/// Depths of the rung and of the study, m, and a matching number of cells under half of the patch.
 constexpr double dispersal_depths[] = {0.3, 0.6, 1.0};
 constexpr int dispersal_cells[] = {4, 3, 2};
 
 struct Dispersal {
   double depth = 0.6;      // m, of the fill
   bool wheel = false;      // else a strip in plane strain
-  bool rough = false;      // the base holds the fill along itself too
+  bool rough = false;      // the base also holds the fill tangentially
   int cells = 3;           // under half of the patch
   double pressure = 1e5;   // Pa, under the patch
-  bool yields = false;     // Mohr–Coulomb under its own weight; else elastic and without weight
+  bool yields = false;     // Mohr–Coulomb under its own weight; otherwise elastic and weightless
   double friction = 35.0;  // degrees, without dilation
   double cohesion = 5e3;   // Pa
 };
 
-/// Pressure at the base, beside what is there without the patch, along the line under its middle.
+/// Additional pressure at the base due to the patch, along the line under its middle.
 struct BasePressure {
   std::vector<double> x, p;  // m from the middle, Pa
-  double load = 0.0;         // of the patch: N, or N/m of a strip
-  bool at_rest = true;       // the base bears the load, to a hundredth
+  double load = 0.0;         // load of the patch: N, or N/m for a strip
+  bool at_rest = true;       // the base carries the load, to a hundredth
   double peak() const { return p.front(); }
   /// Width over which the pressure is at least half of that under the middle, m.
   double half_width() const {
@@ -40,11 +41,11 @@ struct BasePressure {
         return 2.0 * (x[i - 1] + (x[i] - x[i - 1]) * (p[i - 1] - 0.5 * peak()) / (p[i - 1] - p[i]));
     return std::nan("");
   }
-  /// Side of the square, or width of the strip, that bears the load with the pressure under the middle, m.
+  /// Side of the square, or width of the strip, that carries the load at the pressure under the middle, m.
   double equivalent(bool wheel) const { return wheel ? std::sqrt(load / peak()) : load / peak(); }
 };
 
-/// Pressures at base nodes are their reactions over a third of the triangles about them.
+/// The pressure at a base node is its reaction divided by a third of the area of the adjacent triangles.
 inline BasePressure base_pressure(const Dispersal& d) {
   const double cell = patch_half / d.cells;
   const int up = int(std::lround(d.depth / cell)), along = d.cells + int(std::lround(2.5 * d.depth / cell));
@@ -113,10 +114,10 @@ inline BasePressure base_pressure(const Dispersal& d) {
   return found;
 }
 
-/// Share of a wave of pressure on an elastic layer that arrives at a smooth rigid base, by k = depth × wave number;
-/// whatever Poisson's ratio (Filon 1903; Timoshenko & Goodier 1970, art. 24: the middle plane of a layer twice as thick
-/// that is pressed from both sides). It holds for waves in both directions, because each is one of plane strain along
-/// its own.
+/// Share of a pressure wave on an elastic layer that reaches a smooth rigid base, as a function of k = depth × wave
+/// number, for any Poisson's ratio (Filon 1903; Timoshenko & Goodier 1970, art. 24: the middle plane of a layer of
+/// twice the thickness that is pressed from both sides). It holds for waves in both directions, because each of them
+/// is in plane strain.
 inline double arriving(double k) {
   if (k < 1e-6) return 1.0;
   if (k > 300.0) return 0.0;
@@ -157,7 +158,7 @@ inline double half_space_pressure(const Dispersal& d, double x) {
   return d.pressure * 2.0 * (corner(x + a) - corner(x - a));
 }
 
-/// A closed form as a profile, for peak and widths.
+/// A closed form as a profile, for its peak and widths.
 template <class Form>
 BasePressure profile(const Dispersal& d, const Form& form) {
   BasePressure found;
@@ -169,7 +170,8 @@ BasePressure profile(const Dispersal& d, const Form& form) {
   return found;
 }
 
-/// Side or width over which a code spreads the patch uniformly, m: `slope` is horizontal over vertical on each side.
+/// Side or width over which a code distributes the patch load uniformly, m. `slope` is horizontal over vertical on
+/// each side.
 inline double spread_width(const Dispersal& d, double slope) {
   return 2.0 * (patch_half + slope * d.depth);
 }

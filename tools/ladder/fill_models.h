@@ -1,4 +1,4 @@
-// Stones and fill together, for the rungs and tests of their interface.
+// Models with stones and fill, for rungs and tests of their interface.
 #pragma once
 #include "geometry/fill_joints.h"
 #include "geometry/fill_mesh.h"
@@ -7,7 +7,7 @@
 
 namespace voussoir::ladder {
 
-/// Puts a fill of one material between stones that are there, with an interface all alike.
+/// Puts a fill of one material between existing stones, with a uniform interface.
 inline Assembly filled(Assembly assembly, FillMesh mesh, const Material& soil, double kn, double ks,
                        const JointLaw& law) {
   finish_blocks(assembly);
@@ -23,7 +23,7 @@ inline Assembly filled(Assembly assembly, FillMesh mesh, const Material& soil, d
   return assembly;
 }
 
-/// All nodes of a mesh, or corners of a stone, turned about the origin.
+/// Rotates all nodes of a mesh, or the corners of a stone, about the origin.
 inline void turn_all(std::vector<Vec3>& points, const Eigen::Quaterniond& turn) {
   for (Vec3& p : points) p = turn * p;
 }

@@ -1,4 +1,4 @@
-// A fill without stones, stepped by hand: what the continuum's rungs and the tests of its elements share.
+// A fill without stones that is stepped by hand, shared by the rungs of the continuum and the tests of its elements.
 #pragma once
 #include <algorithm>
 #include <map>
@@ -76,7 +76,7 @@ struct FillRig {
   FillPass pass;
   double time = 0.0;  // s
 
-  /// Presses on these triangles (of the mesh) from outside, Pa.
+  /// Applies a pressure to these triangles (of the mesh) from outside, Pa.
   void press(const FillMesh& mesh, const std::vector<std::array<std::int32_t, 3>>& triangles, double pressure) {
     for (const auto& t : triangles) {
       const auto x = [&](std::size_t k) { return mesh.nodes[std::size_t(t[k])]; };
@@ -130,7 +130,7 @@ struct FillRig {
       if (where(fill.nodes[i])) fill.held[i] |= std::uint8_t(1 << c);
   }
 
-  /// Stresses at the present placement.
+  /// Stresses at the present position.
   FillReport stresses() {
     FillReport report;
     for (std::size_t t = 0; t < fill.tiles.size(); ++t) pass.volumes(t);
@@ -144,14 +144,14 @@ struct FillRig {
     time += pass.dt;
     return report;
   }
-  /// Tetrahedra that have flowed since the beginning.
+  /// Number of tetrahedra that have yielded since the beginning.
   std::int64_t flowed() const {
     std::int64_t count = 0;
     for (std::size_t i = 0; i < fill.tet_of_lane.size(); ++i)
       count += fill.tet_of_lane[i] >= 0 && memory.yield[i] & (has_yielded_in_shear | has_yielded_in_tension);
     return count;
   }
-  /// Of the last stresses(), with gravity and what acts from outside.
+  /// Nodal forces of the last stresses(), with gravity and external loads.
   Vec3 force(std::size_t node) const {
     const Quad f = pass.update(node).force;
     return {f[0], f[1], f[2]};
@@ -169,7 +169,7 @@ struct FillRig {
     for (const FillEnergy& e : energies) sum += e.elastic;
     return sum;
   }
-  /// A safe step, s: least height over the speed of compressive waves.
+  /// A stable time step, s: smallest height divided by the speed of compressive waves.
   double safe_step(double share = 0.8) const {
     double least = 1e300;
     for (std::size_t b = 0; b < fill.batches.size(); ++b) {

@@ -1,4 +1,4 @@
-// A rough strip footing on weightless soil, pressed in: half of it, a slice of one cell.
+// A rough strip footing pressed into weightless soil: one half of it, as a slice of one cell.
 #pragma once
 #include "geometry/generate.h"
 #include "tools/ladder/fill_rig.h"
@@ -10,13 +10,14 @@ struct Footing {
   double cell = 0.1;                      // m
   int cells_along = 40, cells_up = 25;    // of the soil
   double settlement = 12.0;               // half-widths times c/G
-  int steps = 6000;                       // in which it sinks
-  int rest = 0;                           // steps in which it then stands still
+  int steps = 6000;                       // time steps of the settlement
+  int rest = 0;                           // time steps at rest after the settlement
   bool averaged = true;                   // volumetric strains of nodes; else plain tetrahedra
 };
 
-/// Mean pressure under the footing over the cohesion, in the last 200 steps. The pressure falls to nothing over the
-/// cell beyond the last node, so that half of that cell counts (as is usual since Vermeer & de Borst 1984).
+/// Mean pressure under the footing divided by the cohesion, over the last 200 time steps. The pressure falls to zero
+/// over the cell beyond the last node, so half of this cell is added to the width (as is usual since Vermeer & de
+/// Borst 1984).
 inline double bearing_factor(const Footing& f) {
   constexpr double half_width = 1.0, cohesion = 1e3;  // m, Pa
   // A stiffness at which collapse comes at strains of a thousandth: what is small stays small.

@@ -1,5 +1,5 @@
-// The multiplier of an arch that fails by hinges alone, by going through all mechanisms of four of them: nothing of it
-// is shared with limit analysis by linear programming, which it is held against.
+// The multiplier of an arch that fails by hinges only, from all mechanisms with four hinges. It shares no code with
+// the limit analysis by linear programming, which it validates.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,21 +8,21 @@
 
 namespace voussoir::ladder {
 
-/// Loads on an arch of blocks 0 … n − 1 from left to right, of dead weight and of a pattern: force and moment about y
-/// of the origin, per block.
+/// Loads on an arch of blocks 0 … n − 1 from left to right, permanent and of a pattern: force, and moment about y
+/// through the origin, for each block.
 struct ArchLoads {
   std::vector<Vec3> dead, live;  // (force along x, moment, force along z): N, N m, N
 };
 
-/// A hinge's place: joint and whether at the extrados.
+/// Position of a hinge: the joint, and whether it is at the extrados.
 inline Vec3 hinge_at(const Polygon& intrados, const Polygon& extrados, std::size_t joint, bool outside) {
   return outside ? extrados[joint] : intrados[joint];
 }
 
-/// The least multiplier over all sets of four joints i < j < k < l of an arch with joints 0 … n, whose hinges lie by
-/// turns at intrados and extrados. The arch between i and j turns about the hinge at i with the rate 1; what the
-/// others turn by follows from the hinges. Virtual work: multiplier = −dead · v / live · v, in the sense in which
-/// the pattern's power is positive and every hinge opens (Heyman 1969).
+/// The least multiplier over all sets of four joints i < j < k < l of an arch with joints 0 … n, with hinges
+/// alternately at intrados and extrados. The arch between i and j rotates about the hinge at i with the rate 1; the
+/// hinges determine the other rotations. Virtual work: multiplier = −dead · v / live · v, with the sign for which the
+/// power of the pattern is positive and every hinge opens (Heyman 1969).
 inline double four_hinge_multiplier(const Polygon& intrados, const Polygon& extrados, const ArchLoads& loads) {
   const std::size_t n = intrados.size() - 1;
   // Sums of the loads of blocks before each joint.
@@ -67,8 +67,8 @@ inline double four_hinge_multiplier(const Polygon& intrados, const Polygon& extr
   return least;
 }
 
-/// What four_hinge_multiplier() needs of an assembly whose blocks 0 … n − 1 are an arch from left to right and the next
-/// two its springings: the ends of its joints, and weight and an acceleration (m/s2) as dead and live loads.
+/// Input of four_hinge_multiplier() from an assembly whose blocks 0 … n − 1 are an arch from left to right and whose
+/// next two are its springings: the ends of its joints, and weight and an acceleration (m/s2) as dead and live loads.
 struct ArchLine {
   Polygon intrados, extrados;
   ArchLoads loads;

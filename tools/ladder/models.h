@@ -18,7 +18,7 @@
 
 namespace voussoir::ladder {
 
-/// A spring without limits.
+/// A joint without strength limits.
 inline JointLaw elastic_law() {
   JointLaw law;
   law.kind = JointLaw::Kind::elastic;
@@ -32,7 +32,7 @@ inline JointLaw dry_law(double friction_coefficient) {
   return law;
 }
 
-/// An empty assembly of one material; its moduli are what contacts found during a run are made of.
+/// An empty assembly of one material, whose moduli are used by contacts found during a run.
 inline Assembly stone(double density = 2000.0, double youngs = 1e9, double friction_coefficient = 0.6) {
   Assembly assembly;
   assembly.generator = "test";
@@ -52,7 +52,7 @@ inline void add_box(Assembly& assembly, const Vec3& low, const Vec3& high, bool 
   add_block(assembly, make_box(low, high), fixed);
 }
 
-/// Finishes the blocks, finds the joints and makes them all alike.
+/// Finishes the blocks, finds the joints and gives all of them the same law.
 inline Assembly joined(Assembly assembly, double kn, double ks, const JointLaw& law) {
   finish_blocks(assembly);
   find_joints(assembly);
@@ -61,7 +61,7 @@ inline Assembly joined(Assembly assembly, double kn, double ks, const JointLaw& 
   return assembly;
 }
 
-/// The assembly of a generator, some of its keys set.
+/// The assembly of a generator with some of its keys set.
 inline Assembly generated(const std::string& name, const std::map<std::string, double>& values) {
   const Generator& generator = find_generator(name);
   GeneratorInput input = default_input(generator);
@@ -74,7 +74,7 @@ inline void set_law(Assembly& assembly, const JointLaw& law) {
   for (Joint& joint : assembly.joints) joint.law = 0;
 }
 
-/// Bond and friction that motions of 0.1 mm break at a stiffness of some 1e9 Pa/m.
+/// Bond and friction that displacements of 0.1 mm break at a stiffness of about 1e9 Pa/m.
 inline JointLaw weak_bond() {
   JointLaw law;
   law.tension = 1e5, law.cohesion = 1.5e5;
@@ -82,7 +82,7 @@ inline JointLaw weak_bond() {
   return law;
 }
 
-/// A wall that a strong motion shakes to pieces.
+/// A wall that a strong motion destroys.
 inline Assembly weak_wall(int length, int courses) {
   Assembly assembly = generated("wall", {{"length_blocks", length}, {"courses", courses}, {"kn", 4e9}, {"ks", 1.6e9}});
   JointLaw law = dry_law(0.6);
@@ -111,14 +111,14 @@ inline SolverSettings undamped(const Vec3& gravity = Vec3::Zero()) {
   return settings;
 }
 
-/// Validation ladder: a chain of 10 blocks of 1 × 1 × 0.4 m for axial waves, or of more of them.
+/// Validation ladder: a chain of 10 (or more) blocks of 1 × 1 × 0.4 m for axial waves.
 inline Assembly axial_chain_of(int blocks) {
   Assembly assembly = generated("column", {{"blocks", blocks}, {"block_height", 0.4}, {"kn", 4e9}, {"ks", 1.6e9}});
   set_law(assembly, elastic_law());
   return assembly;
 }
 
-/// Validation ladder: a column of 1 × 1 × 8 m in so many blocks, with kn h = 1.6e9 and ks h = 0.64e9 Pa.
+/// Validation ladder: a column of 1 × 1 × 8 m in the given number of blocks, with kn h = 1.6e9 and ks h = 0.64e9 Pa.
 inline Assembly bending_column_of(int blocks) {
   const double h = 8.0 / blocks;
   Assembly assembly =
@@ -170,7 +170,7 @@ class Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// Chooses the step and starts the damping of the settings; dt = 0: 0.8 of the critical step.
+  /// Chooses the time step and initialises the damping of the settings; dt = 0: 0.8 of the critical time step.
   void begin(double dt = 0.0) {
     const CriticalStep critical = critical_step(model, state);
     if (dt == 0.0) dt = 0.8 * critical.step * damping_step_factor(settings.damping, critical.highest);
@@ -181,10 +181,10 @@ class Bench {
     stepper.search_distance = search_distance(model);
   }
 
-  /// Newton under gravity, with as small a remainder as asked for.
+  /// Newton iteration under gravity, down to the given residual.
   Equilibrium balance(double tolerance = 1e-10) { return newton_equilibrium(stepper, tolerance, nullptr, nullptr); }
 
-  /// Advances, looking for contacts when asked to. False when a body ran away.
+  /// Advances in time, with contact detection if asked for. Returns false if the motion grew without limit.
   bool run(std::int64_t steps, std::int64_t every = 1, const std::function<void(const BodyPass&)>& sample = nullptr) {
     const std::int64_t target = state.step() + steps;
     while (state.step() < target) {
@@ -212,7 +212,7 @@ class Bench {
     for (int c = 0; c < 3; ++c) p[c] = displacement[c];
     p[3] = rotation.w(), p[4] = rotation.x(), p[5] = rotation.y(), p[6] = rotation.z();
   }
-  /// The block turned about a point of the reference placement.
+  /// Rotates the block about a point of the reference position.
   void turn_about(std::int64_t block, const Vec3& centre, const Eigen::Quaterniond& rotation) {
     const Vec3 arm = assembly.blocks[std::size_t(block)].centroid - centre;
     place(block, rotation * arm - arm, rotation);
@@ -223,7 +223,7 @@ class Bench {
     for (int c = 0; c < 3; ++c) motion(block)[c] = velocity[c], motion(block)[3 + c] = l[c];
   }
 
-  /// Force and moment about a point that patch `index` puts on the given block, after a patch pass.
+  /// Force and moment about a point that patch `index` exerts on the given block, after a patch pass.
   std::pair<Vec3, Vec3> wrench_on(std::int64_t block, std::size_t index, const Vec3& about) const {
     const Patch& patch =
         index < model.joints.size() ? model.joints[index] : state.contacts[index - model.joints.size()];
@@ -233,7 +233,7 @@ class Bench {
     return {force, moment - about.cross(force)};
   }
 
-  /// Deepest overlap (m, positive) of the cells of two blocks where they are now.
+  /// Largest overlap (m, positive) of the cells of two blocks at their present positions.
   double overlap(std::int64_t one, std::int64_t two) const {
     const Convex a = placed_cell(model, state, body(one), 0), b = placed_cell(model, state, body(two), 0);
     return std::max(0.0, -separation(a, b, 0.0));
@@ -246,7 +246,7 @@ class Bench {
   Stepper stepper;
 };
 
-/// The modes of the intact assembly in its present placement.
+/// The modes of the intact assembly in its present position.
 inline std::vector<Mode> modes_of(const Bench& bench, int count) {
   return find_modes(bench.assembly, bench.model, bench.state, count, PatchTangent::intact).modes;
 }
@@ -259,7 +259,7 @@ inline bool moves_along(const Bench& bench, const Mode& mode, int axis) {
   return along > 0.99 * mode.modal_mass;
 }
 
-/// Puts the blocks where a mode has them, its largest displacement being `largest` (m).
+/// Displaces the blocks by a mode whose largest displacement is `largest` (m).
 inline void displace(Bench& bench, const Mode& mode, double largest) {
   for (std::int64_t block = 0; block < mode.shape.rows(); ++block) {
     const Vec3 turn = 0.5 * largest * mode.shape.row(block).tail<3>();

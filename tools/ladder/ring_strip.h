@@ -1,4 +1,4 @@
-// A strip of a vault of one ring or of several, in blocks: what the rung `rings` and the tests of limit analysis share.
+// A strip of a vault with one ring or several, as blocks. Used by the rung `rings` and by tests of limit analysis.
 #pragma once
 #include "geometry/vault_shape.h"
 #include "solver/base/error.h"
@@ -12,10 +12,11 @@ struct RingStrip {
   std::vector<double> rings = {0.33};  // m, thickness of each, the lowest first
   double span = 3.0, rise = 0.75;      // m, of the intrados
   int voussoirs = 40;                  // of each ring
-  int headers_every = 0;               // of so many courses one goes through both of the lowest rings; 0: none
+  int headers_every = 0;               // every so many courses, one header goes through both of the lowest rings; 0:
+                                       // none
   double friction = 0.6;               // of radial joints and springings
   double ring_friction = 0.5;          // of the joints between rings
-  bool lifts = false;                  // joints dilate by their whole friction
+  bool lifts = false;                  // joints dilate with the full friction angle
   double density = 2000.0;             // kg/m3
   double width = 1.0;                  // m
   double stiffness = 1e12;             // Pa/m
@@ -48,7 +49,8 @@ inline std::vector<Ring> rings_of(const RingStrip& strip) {
   return vault_rings(shape, "ring strip");
 }
 
-/// Blocks ring by ring, the springings last; group "course I" of the uppermost ring's block number I from the left.
+/// Blocks ring by ring, the springings last. The group "course I" contains block I of the uppermost ring, from the
+/// left.
 inline Assembly ring_strip(const RingStrip& strip) {
   const std::vector<Ring> rings = rings_of(strip);
   Assembly assembly = stone(strip.density, 1e9, strip.friction);
@@ -93,8 +95,8 @@ inline Assembly ring_strip(const RingStrip& strip) {
   return assembly;
 }
 
-/// A force of the strip's weight straight down on the extrados, in the middle of the uppermost block that is nearest to
-/// a share of the span.
+/// A vertical force equal to the weight of the strip, on the extrados in the middle of the uppermost block nearest to
+/// the given share of the span.
 struct StripLoad {
   std::string group;
   std::int64_t block = 0;
@@ -117,7 +119,7 @@ inline StripLoad load_on(const Assembly& assembly, const RingStrip& strip, doubl
   return load;
 }
 
-/// The program's own collapse load as a multiplier of loads, to a hundredth of what is expected. Throws RunError when
+/// The collapse load by the solver as a multiplier of loads, to a hundredth of the expected value. Throws RunError if
 /// it finds none.
 inline double collapse_multiplier(const Assembly& assembly, const Loads& loads, double expected, int threads) {
   StageSettings stage;

@@ -1,6 +1,6 @@
-// The validation ladder's rungs that are no cases but elements of the method: each computes some quantities and says
-// what they should be. `voussoir check` and CTest climb the same ones. A new rung is one file here, named as the rung
-// (with _ for -), its declaration below and its line in rungs.cpp; CMake finds it by its file.
+// Rungs of the validation ladder that test elements of the method instead of cases. Each computes some quantities and
+// states the expected values. `voussoir check` and CTest run the same rungs. A new rung is one file in this folder
+// with the name of the rung (with _ for -), its declaration below and its line in rungs.cpp. CMake finds the file.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -11,11 +11,11 @@
 
 namespace voussoir::ladder {
 
-/// A quantity beside what it should be.
+/// A computed quantity and its expected value.
 struct Finding {
-  Check check;                                            // its `value` and `text` are of cases only
+  Check check;                                            // its `value` and `text` apply to cases only
   double got = std::numeric_limits<double>::quiet_NaN();  // in check.unit
-  /// Difference from the expected value: in its unit where the tolerance is, else as a share of it.
+  /// Difference from the expected value, in its unit if the tolerance is absolute, otherwise relative to it.
   double error() const { return check.absolute ? got - check.expected : got / check.expected - 1.0; }
   bool within() const { return std::abs(error()) <= check.tolerance; }
 };
@@ -25,21 +25,21 @@ Finding near(std::string quantity, double expected, double got, double share, st
 /// `got` should be `expected`, up to `tolerance` in its unit.
 Finding within(std::string quantity, double expected, double got, double tolerance, std::string unit,
                std::string source);
-/// A difference or residual `got` should be nothing, up to `tolerance`.
+/// A difference or residual `got` should be zero, up to `tolerance`.
 Finding nothing(std::string quantity, double got, double tolerance, std::string unit, std::string source);
-/// The same quantity, known to be outside its tolerance, and why.
+/// Marks a quantity as known to be outside its tolerance, with the reason.
 Finding known_miss(Finding finding, std::string reason);
 
 struct Rung {
   std::string name;
   std::string help;  // one line
-  /// Computes everything; fewer threads are used where there is nothing to share. Throws RunError when it cannot be
-  /// computed, or when what is compared never came about.
+  /// Computes all quantities, with at most `threads` threads. Throws RunError if this is not possible, or if the state
+  /// to be compared does not occur.
   std::vector<Finding> (*climb)(int threads);
   bool slow = false;  // only in the long ladder
 };
 
-/// All of them, in the ladder's order.
+/// All rungs in the order of the ladder.
 const std::vector<Rung>& rungs();
 
 Rung contact_patch();
@@ -67,7 +67,7 @@ Rung fill_dispersal();
 Rung fill_patch();
 Rung fill_slide();
 Rung fill_rankine();
-// These need a solver for linear programs; where the program was built without one they are not listed.
+// These rungs need a solver for linear programs. They are not listed if the program was built without one.
 Rung limit_analysis();
 Rung rings();
 Rung axle_strip();
