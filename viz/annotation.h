@@ -1,4 +1,4 @@
-// Words and scales around a picture: title, time, colour scale or legend, length scale, axes.
+// Texts and scales around a picture: title, time, colour scale or legend, length scale, axes.
 #pragma once
 #include <string>
 
@@ -25,7 +25,7 @@ struct Words {
   std::string time;                                   // "t = 12.50 s"
   std::string deform;                                 // "deformations × 2"
   std::string hidden;                                 // "hidden: backfill"; may be empty
-  std::vector<std::pair<std::string, Colour>> lines;  // what the lines mean that are drawn over the picture
+  std::vector<std::pair<std::string, Colour>> lines;  // legend of the lines drawn over the picture
 };
 
 void draw_annotation(Overlay& overlay, const Sheet& sheet, const View& view, const Colouring& colouring,

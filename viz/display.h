@@ -1,5 +1,5 @@
-// A display to draw on where there is none. Debian's VTK 9.1 draws through X11 only, so on a machine with no screen we
-// start our own virtual X server and end it again.
+// A virtual display for drawing. VTK 9.1 of Debian draws through X11 only, so on a machine without a screen the
+// program starts its own X server and ends it again.
 #pragma once
 #include <sys/types.h>
 
@@ -10,11 +10,11 @@ namespace voussoir {
 /// Whether the environment names a local X display that answers and can draw with OpenGL (GLX).
 bool display_is_usable();
 
-/// Makes sure that a display exists as long as the object lives. With a usable DISPLAY it does nothing; else it starts
-/// Xvfb on a free number, sets DISPLAY, and on destruction ends Xvfb and puts DISPLAY back. The server also ends when
-/// this process dies in any other way. Make it in the main thread (the server ends with the thread that made it),
-/// before other threads read the environment, and let it outlive every render window. Throws InputError when Xvfb is
-/// not installed and RunError when it does not start.
+/// Guarantees a display during the lifetime of the object. With a usable DISPLAY it does nothing. Otherwise it starts
+/// Xvfb with a free number and sets DISPLAY; the destructor ends Xvfb and restores DISPLAY. The server also ends if
+/// this process ends in any other way. Create the object in the main thread (the server ends with the thread that
+/// started it), before other threads read the environment, and destroy it after all render windows. Throws InputError
+/// if Xvfb is not installed and RunError if it does not start.
 class Display {
  public:
   Display();

@@ -1,4 +1,4 @@
-// What is drawn over a picture whatever stands before it: numbered places, and ties.
+// Marks over a picture, visible through everything in front of them: numbered places and ties.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
@@ -15,10 +15,10 @@ namespace voussoir {
 /// A disc with its name at each place.
 void draw_marks(Overlay& overlay, vtkRenderer* renderer, const Sheet& sheet, const std::vector<Mark>& marks);
 
-/// The ties among stored joints, from anchor to anchor, displaced like the stones; those that have yielded in another
-/// colour. Nothing for joints of frames that do not say which are ties.
+/// The ties among stored joints, from anchor to anchor, displaced like the stones. Yielded ties have another colour.
+/// Nothing if the frame does not say which joints are ties.
 void draw_ties(Overlay& overlay, vtkRenderer* renderer, const Sheet& sheet, vtkPolyData* joints, double amplification);
-/// What the colours of the ties that there are mean, for the strip above the picture.
+/// Legend of the colours of the ties, for the strip above the picture.
 std::vector<std::pair<std::string, Colour>> words_of_ties(vtkPolyData* joints);
 
 }  // namespace voussoir

@@ -1,12 +1,12 @@
-// Pictures of vibration modes: the shape over the outline of what is at rest.
+// Pictures of vibration modes: the mode shape over the undeformed outline.
 #pragma once
 #include "solver/modal/modes.h"
 #include "viz/render.h"
 
 namespace voussoir {
 
-/// Draws a mode with its largest displacement as long as `share` of the assembly's diagonal. Title, size, view and
-/// hidden components are those of the options; `notes` are two lines beside the scale. Throws as render_picture().
+/// Draws a mode with its largest displacement equal to `share` of the diagonal of the assembly. Title, size, view and
+/// hidden components are those of the options. `notes` are two lines next to the scale. Throws like render_picture().
 void draw_mode(const Assembly& assembly, const Mode& mode, RenderOptions options,
                const std::array<std::string, 2>& notes, const std::string& png, double share = 0.04);
 

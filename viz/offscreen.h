@@ -11,11 +11,11 @@ namespace voussoir {
 /// font sizes given to VTK are multiplied by it.
 constexpr int kOversampling = 2;
 
-/// A window that is never shown, of kOversampling times `width` × `height` pixels. Throws InputError when the size is
-/// not between 64 and 8000 pixels. A Display must exist.
+/// A window that is not shown, of kOversampling times `width` × `height` pixels. Throws InputError if the size is not
+/// between 64 and 8000 pixels. A Display must exist.
 vtkSmartPointer<vtkRenderWindow> offscreen_window(int width, int height);
 
-/// Draws the window and writes the averaged picture whole or not at all. Throws RunError naming the path.
+/// Draws the window and writes the averaged picture in one step. Throws RunError that names the path.
 void write_png(vtkRenderWindow* window, const std::string& path);
 
 }  // namespace voussoir

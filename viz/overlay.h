@@ -20,7 +20,7 @@ class Overlay {
   /// Baseline of the text at (x, y); `size` is the font's height in pixels.
   void text(double x, double y, const std::string& words, double size, Align align = Align::left,
             const Colour& colour = kInk, bool bold = false);
-  /// The same, turned to read upwards and centred on (x, y).
+  /// The same, rotated to read upwards and centred on (x, y).
   void upright_text(double x, double y, const std::string& words, double size);
   /// Width in pixels that text() takes.
   static double text_width(const std::string& words, double size);
@@ -28,7 +28,7 @@ class Overlay {
   void rectangle(double x, double y, double width, double height, const Colour& colour);
   /// A line through (x, y) pairs.
   void polyline(const std::vector<std::pair<double, double>>& points, double width, const Colour& colour);
-  /// Many at once, one through each list of points.
+  /// Many lines, one through each list of points.
   void polylines(const std::vector<std::vector<std::pair<double, double>>>& lines, double width, const Colour& colour);
   void disc(double x, double y, double radius, const Colour& colour);
   /// A filled polygon, convex or not; (x, y) pairs.
@@ -41,8 +41,8 @@ class Overlay {
 
 /// The largest of 1, 2, 5 × 10^n that is not above `limit` (> 0).
 double nice_below(double limit);
-/// The smallest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 × 10^n that is not below `value` (> 0): a scale up to it is used
-/// by two thirds at least.
+/// The smallest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 × 10^n that is not below `value` (> 0): a scale with this upper
+/// end is used by at least two thirds.
 double nice_above(double value);
 
 }  // namespace voussoir

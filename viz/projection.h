@@ -1,4 +1,4 @@
-// Where points of the scene lie on the finished picture.
+// Positions of points of the scene on the finished picture.
 #pragma once
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
@@ -9,7 +9,7 @@ namespace voussoir {
 
 using Spot = Eigen::Vector2d;  // pixels from the lower left
 
-/// As the camera sees them now.
+/// Projects points with the present camera.
 class Projection {
  public:
   Projection(vtkCamera* camera, const Sheet& sheet)

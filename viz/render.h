@@ -1,4 +1,5 @@
-// Pictures of a state for reports and papers: deformed shape, damage, cracks; drawn off-screen from stored results.
+// Pictures of a state for reports and papers: deformed shape, damage, cracks. They are drawn off-screen from stored
+// results.
 #pragma once
 #include <array>
 #include <string>
@@ -20,7 +21,7 @@ struct Arrow {
   std::string name;
 };
 
-/// A number at a place of the picture, m as drawn (displacements included).
+/// A number at a point of the picture, m, including the drawn displacements.
 struct Mark {
   Vec3 at = Vec3::Zero();
   std::string name;
@@ -31,37 +32,38 @@ struct RenderOptions {
   std::string colour = "opening";  // opening, slip (largest since the start), displacement, component, stone;
                                    // mode: displacement over the largest; of the joints normal, shear,
                                    // utilisation, eccentricity; of a deformable fill plastic, yield, stress
-  bool cracks = true;              // mark the joints that lost their bond, opened or slipped
-  double crack_mm = 1.0;           // mm: a joint that opened or slipped more counts as cracked; 0: or lost its bond
-  std::vector<std::string> hide = {"backfill"};  // components left out; backfill: a deformable fill, too
+  bool cracks = true;              // mark joints that lost their bond, opened or slipped
+  double crack_mm = 1.0;           // mm; a joint with more opening or slip counts as cracked; 0: also one that lost
+                                   // its bond
+  std::vector<std::string> hide = {"backfill"};  // components left out; backfill includes a deformable fill
   std::string cut;                               // "y=0.5" or "y": see viz/cut.h; empty: none
   std::string view = "oblique";                  // front, side, plan, oblique
-  int width = 1800, height = 1000;               // pixels; height 0: as the content needs
-  std::string scale_title;                       // of the colour scale; empty: what the colour is
-  double range = 0.0;                            // mm, %, MPa or kPa, top of the colour scale; 0: from the data
+  int width = 1800, height = 1000;               // pixels; height 0: according to the content
+  std::string scale_title;                       // title of the colour scale; empty: the coloured quantity
+  double range = 0.0;                            // mm, %, MPa or kPa, upper end of the colour scale; 0: from the data
   bool undeformed = false;                       // thin outlines of the undeformed stones
-  bool outline = false;                          // or of the undeformed whole only (needs the joints)
+  bool outline = false;                          // or only the outline of the undeformed whole (needs the joints)
   std::string title;
   std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
   std::vector<Mark> marks;           // drawn over everything, too
   std::vector<Arrow> arrows;         // drawn over everything
-  std::vector<BedJoint> resultants;  // arrows and lines of thrust over everything; true deformations only
+  std::vector<BedJoint> resultants;  // arrows and thrust lines, drawn over everything; only for true deformations
 };
 
-/// Throws InputError for a size, range or amplification that cannot be.
+/// Throws InputError for an invalid size, range or amplification.
 void check_options(const RenderOptions& options);
 
-/// What a picture leaves out if nothing else is asked for: the backfill, unless it is what is coloured.
+/// The components that a picture leaves out by default: the backfill, unless it is coloured.
 std::vector<std::string> usually_hidden(const std::string& colour);
 
-/// What a picture is drawn from: the grids of block_grid(), joint_polydata() and fill_grid(), or of their files.
-/// Without joints there are no cracks.
+/// The input of a picture: the grids of block_grid(), joint_polydata() and fill_grid(), or of their files. Without
+/// joints no cracks are drawn.
 struct PictureGrids {
   vtkUnstructuredGrid* blocks = nullptr;
   vtkPolyData* joints = nullptr;        // may be null
   vtkUnstructuredGrid* fill = nullptr;  // may be null
 };
-/// The files of a stored frame; empty: there is none.
+/// The files of a stored frame; empty: none.
 struct PictureFiles {
   std::string blocks, joints, fill;
 };
@@ -75,8 +77,8 @@ void render_picture(const Assembly& assembly, const Snapshot& snapshot, const Re
 /// The same from a stored frame.
 void render_picture(const PictureFiles& files, const RenderOptions& options, const std::string& png);
 
-/// Top of the colour scale that a picture of this frame would choose by itself, in the scale's unit; 0 where the
-/// colours are a legend. For pictures that shall have one scale.
+/// Upper end of the colour scale that a picture of this frame chooses by itself, in the unit of the scale; 0 if the
+/// colours have a legend. For pictures with a common scale.
 double picture_scale(const PictureFiles& files, const RenderOptions& options);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Resultants of bed joints as arrows over a picture, and the lines of thrust through them.
+// Resultants of bed joints as arrows over a picture, and the thrust lines through them.
 #pragma once
 #include <vtkRenderer.h>
 
@@ -9,14 +9,14 @@
 
 namespace voussoir {
 
-/// Height in pixels above the content that their key takes, below the strip above it.
+/// Height in pixels of their key above the content, below the strip above it.
 double resultants_strip(const Sheet& sheet);
 
-/// What the left side of each joint puts on the right, as the view sees it in space: an arrow whose length is the
-/// force, with its middle where the force goes through the joint; through these places a line along each ring. The
-/// largest arrow is about as long as joints lie apart; where they lie closer than can be drawn, not every one has an
-/// arrow. What an arrow means stands above the picture, on the right. Joints without compression have none, and the
-/// line breaks there.
+/// The force that the left side of each joint exerts on the right side, in the projection of the view: an arrow whose
+/// length is the force, with its middle at the point where the force crosses the joint. A line along each ring goes
+/// through these points. The largest arrow is about as long as the distance between joints. Where joints are too
+/// close, only some have an arrow. The key of the arrows is above the picture, on the right. Joints without
+/// compression have no arrow, and the line is interrupted there.
 void draw_resultants(Overlay& overlay, vtkRenderer* renderer, const Sheet& sheet, const View& view,
                      const std::vector<BedJoint>& beds);
 

@@ -15,7 +15,7 @@
 
 namespace voussoir {
 
-/// Which components a picture leaves out, by name. Throws InputError listing the names when one is unknown.
+/// The components that a picture leaves out, by name. Throws InputError that lists the names if one is unknown.
 class Hidden {
  public:
   explicit Hidden(const std::vector<std::string>& names);
@@ -25,30 +25,30 @@ class Hidden {
   std::vector<bool> hidden_;
 };
 
-/// Faces of the visible stones, or of a fill those that no two tetrahedra share, moved to reference + amplification ×
-/// displacement relative to the base. Points of one stone, and of the fill, are shared by its faces. What lies before
-/// the cut is left out and the section through each stone and tetrahedron is a face of its own. Cell data: the grid's,
-/// taken over face by face; point data: displacement_of_point. Throws InputError for a grid without these fields.
+/// Faces of the visible stones, or of a fill those that no two tetrahedra share, at reference + amplification ×
+/// displacement relative to the base. The faces of a stone, and of the fill, share points. The part in front of the
+/// cut is left out, and the section through each stone and tetrahedron is a separate face. Cell data: those of the
+/// grid, for each face. Point data: displacement_of_point. Throws InputError for a grid without these fields.
 vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hidden& hidden, double amplification,
                                             const std::optional<CutPlane>& cut = {});
 
-/// Edges where faces of a stone meet at an angle, or where a face ends.
+/// Edges at an angle between faces of a stone, or at the end of a face.
 vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces);
 
-/// The outline of the whole: of the edges of undeformed stones what has nothing but air on both its faces, so none of
-/// the edges between stones that join in one face. `faces` are those of the undeformed stones, `joints` all patches.
+/// The outline of the whole: the parts of undeformed edges with air on both adjacent faces, and therefore no edges
+/// between stones that join in one face. `faces` are those of the undeformed stones, `joints` all patches.
 vtkSmartPointer<vtkPolyData> outer_outline(vtkPolyData* faces, vtkPolyData* joints);
 
-/// The patches between visible stones that `shown` picks by their numbers, deformed and cut like the stones. Those that
-/// a contact has taken the place of are left out. Cell data: that of the joints.
+/// The patches between visible stones that `shown` selects by number, deformed and cut like the stones. Patches
+/// replaced by a contact are left out. Cell data: those of the joint.
 vtkSmartPointer<vtkPolyData> joint_faces(vtkPolyData* joints, const Hidden& hidden, double amplification,
                                          const std::function<bool(vtkIdType)>& shown,
                                          const std::optional<CutPlane>& cut = {});
 
-/// When a patch counts as cracked.
+/// Limits from which a patch counts as cracked.
 struct CrackRule {
   double opening = 1e-4, slip = 1e-4;  // m, largest since the start
-  double bonded = 0.5;                 // a patch that had a bond and keeps less of its area
+  double bonded = 0.5;                 // a patch with an original bond that keeps a smaller share of its area
 };
 
 /// The cracked patches between visible stones, deformed and cut like the stones.

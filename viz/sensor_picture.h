@@ -1,11 +1,11 @@
-// A picture of where sensors are on a bridge, and along what they measure.
+// A picture of the positions and directions of sensors on a bridge.
 #pragma once
 #include "viz/render.h"
 
 namespace voussoir {
 
-/// Draws an assembly at rest with an arrow for each sensor, which points to where its readings are positive. Title,
-/// size, view and hidden components are those of the options. Throws as render_picture().
+/// Draws an undeformed assembly with an arrow for each sensor in the direction of positive readings. Title, size, view
+/// and hidden components are those of the options. Throws like render_picture().
 void draw_sensors(const Assembly& assembly, const std::vector<Sensor>& sensors, RenderOptions options,
                   const std::string& png);
 

@@ -1,5 +1,5 @@
-// The general arrangement drawing of an assembly: elevation, plan, sections, dimensions, title block. All that it says
-// was measured from the stones or stands in the notes.
+// The general arrangement drawing of an assembly: elevation, plan, sections, dimensions, title block. All its content
+// is measured from the stones or given in the notes.
 #pragma once
 #include <memory>
 #include <string>
@@ -12,19 +12,19 @@ namespace voussoir {
 struct ArrangementParts;
 
 struct ArrangementNotes {
-  std::string name;    // of what is drawn: "two-spans"
-  std::string source;  // where it is from: "generator bridge"
+  std::string name;    // name of the object: "two-spans"
+  std::string source;  // its origin: "generator bridge"
 };
 
-/// Bridges (stones of component arch) have their spans, rings, supports, fill and widths measured; all else its overall
-/// size. A3, A2 or A1 by what there is to show.
+/// For bridges (stones of component arch) the drawing measures spans, rings, supports, fill and widths; for other
+/// assemblies only the overall size. The sheet is A3, A2 or A1, depending on the content.
 class Arrangement {
  public:
   Arrangement(const Assembly& assembly, const ArrangementNotes& notes);
   ~Arrangement();
-  double width() const;   // px of the drawing; printed at 96 to the inch it has its scale
+  double width() const;   // px; at 96 px per inch the print is true to scale
   double height() const;  // px
-  int pixels() const;     // width of a picture that can be read
+  int pixels() const;     // px, width of a readable picture
   void draw(Drawing& drawing) const;
   std::string svg() const;
 

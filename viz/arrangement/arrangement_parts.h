@@ -1,4 +1,4 @@
-// What a general arrangement drawing consists of: arrangement.cpp lays it out, draw_views.cpp draws the views.
+// Parts of a general arrangement drawing: arrangement.cpp lays them out, draw_views.cpp draws the views.
 #pragma once
 #include <string>
 #include <vector>
@@ -46,11 +46,11 @@ struct ArrangementParts {
   void draw_supports_below(DrawingSheet& sheet, const SheetPlace& place) const;
   double parapet_at(double x) const;  // z of its top at an end, x
 
-  bool bridges_over() const;  // something lies on the vaults
+  bool bridges_over() const;  // there are stones or fill above the vaults
   double deck_at(double x) const { return bridges_over() ? top_over(along, x) : kNotKnown; }
 };
 
-/// What the views take up on paper, their titles and dimensions with them.
+/// The space of the views on paper, with titles and dimensions.
 ViewSize elevation_size(const FlatView& view);
 ViewSize lengthwise_size(const FlatView& view);
 ViewSize plan_size(const FlatView& view);

@@ -1,4 +1,4 @@
-// What of a flat view is seen: areas from the back to the front, and the lines that nothing hides.
+// Visible parts of a flat view: areas from back to front, and the lines that nothing hides.
 #pragma once
 #include <array>
 #include <utility>
@@ -8,20 +8,20 @@
 
 namespace voussoir {
 
-/// Widths of lines of a drawing: joints between stones; edges, and where one component ends; the outline of the whole,
-/// and wherever one sees past an edge.
+/// Line widths of a drawing: joints between stones; edges and borders between components; the outline of the whole and
+/// edges with a gap in depth behind them.
 enum class LineKind { joint, edge, outline };
 constexpr std::size_t kLineKinds = 3;
 using FlatLine = std::pair<Vec3, Vec3>;  // (u, v, 0), m
 
-/// Answers what is in front at a place of a view.
+/// Finds the nearest face at a point of a view.
 class InFront {
  public:
   explicit InFront(const FlatView& view);
-  /// The nearest face there; −1 for none.
+  /// The nearest face at the point; −1 for none.
   std::ptrdiff_t at(const Vec3& place) const;
   double depth(std::size_t face, const Vec3& place) const;
-  /// Calls `pair(i, j)`, i < j, once for each two faces whose boxes meet.
+  /// Calls `pair(i, j)`, i < j, once for each two faces whose boxes overlap.
   template <class Pair>
   void near_pairs(Pair&& pair) const;
   double size() const { return size_; }  // m, of the whole view
@@ -37,15 +37,15 @@ class InFront {
   std::vector<std::vector<std::size_t>> cells_;
 };
 
-/// Faces in an order in which they can be painted over one another: of two that overlap on the sheet the farther one
-/// first (Newell, Newell & Sancha 1972, for convex faces that do not cross). Faces of one `colour` (a number for each
-/// face) follow one another where that is possible.
+/// An order of the faces in which they can be painted over one another: of two that overlap on the sheet the farther
+/// one is first (Newell, Newell & Sancha 1972, for convex faces that do not cross). Faces of one `colour` (a number
+/// for each face) follow one another where possible.
 std::vector<std::size_t> painting_order(const FlatView& view, const InFront& front, const std::vector<int>& colour);
 
-/// The parts that are seen of the edges of all faces, by kind; parts shorter than `resolution` (m) are not told apart.
+/// The visible parts of the edges of all faces, by kind. Parts shorter than `resolution` (m) are not distinguished.
 std::array<std::vector<FlatLine>, kLineKinds> visible_lines(const FlatView& view, const InFront& front,
                                                             double resolution);
-/// The parts of a line on a face that are seen.
+/// The visible parts of a line on a face.
 std::vector<FlatLine> visible_parts(const InFront& front, std::size_t face, const FlatLine& line, double resolution);
 
 }  // namespace voussoir

@@ -11,11 +11,12 @@ SheetBox title_block_size(const Assembly& assembly);
 void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& assembly, const ArrangementNotes& notes,
                       const SheetPlan& placement, const std::vector<std::string>& remarks);
 
-/// Spans and supports with what was measured, equal neighbours in one row. Of no size where there are no spans.
+/// The table of spans and supports with their dimensions; equal neighbours share one row. Its size is zero if there
+/// are no spans.
 SheetBox schedule_size(const Measures& measures);
 void draw_schedule(DrawingSheet& sheet, const SheetBox& box, const Measures& measures);
 
-/// A bar of a round length, 20 to 50 mm long.
+/// A scale bar of a round length, 20 to 50 mm long.
 void draw_scale_bar(DrawingSheet& sheet, double x, double y, double scale);
 
 /// "1:125", "1:12.5".

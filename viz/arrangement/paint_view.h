@@ -15,10 +15,10 @@ struct SheetPlace {
   Vec3 at(const Vec3& p) const { return {x(p.x()), y(p.y()), 0.0}; }
 };
 
-/// Where the content (u, v) of a view begins, from the upper left of its box.
+/// Position of the content (u, v) of a view, from the upper left of its box.
 SheetPlace place_in(const SheetBox& box, const ViewSize& size, const Box& content, double scale);
 
-/// What is not cut stands behind a section in paler colours.
+/// Draws a view. In a section, parts that are not cut have paler colours.
 void paint_view(DrawingSheet& sheet, const FlatView& view, const SheetPlace& place);
 
 /// A patch in the colour and hatch of a component, for the legend.

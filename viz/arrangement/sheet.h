@@ -1,4 +1,4 @@
-// Texts and dimension lines of a drawing on paper, in mm from the upper left; no text lies on another.
+// Texts and dimension lines of a drawing on paper, in mm from the upper left. Texts do not overlap.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 namespace voussoir {
 
 constexpr double kPixelsPerMm = 96.0 / 25.4;  // CSS: prints true to scale
-// mm: height of letters with what is above and below them, and lengths of marks
+// mm: height of letters with the space above and below them, and lengths of marks.
 constexpr double kSmallText = 2.6, kPlainText = 3.0, kHeadText = 4.0, kTickLength = 2.0, kDimensionRow = 6.5;
 
 struct SheetBox {
@@ -18,7 +18,7 @@ struct SheetBox {
   }
 };
 
-/// A stop of a chain of dimensions: its place along the chain and where the line that leads to it begins, mm.
+/// A point of a chain of dimensions: its position along the chain, and the start of its extension line, mm.
 struct ChainStop {
   double at = 0.0, from = 0.0;
 };
@@ -34,21 +34,21 @@ class DrawingSheet {
   void areas(const std::vector<Drawing::Path>& outlines, const std::string& colour);
   void rectangle(const SheetBox& box, const std::string& fill, const std::string& stroke, double width = 0.13);
 
-  /// Text whose baseline begins, has its middle or ends at (x, y); upright reads upwards, its middle at (x, y).
-  /// Whatever lies below.
+  /// Text whose baseline begins, is centred or ends at (x, y). Upright text reads upwards and is centred at (x, y). It
+  /// is drawn over anything below.
   void text(double x, double y, const std::string& words, double size = kSmallText, Align align = Align::start,
             bool bold = false, bool upright = false);
-  /// The same where no other text is; on white. False where there is one. Fonts differ; it surely takes less than
-  /// width_of().
+  /// The same on a white background, but only if no other text is there; otherwise returns false. Fonts differ: the
+  /// text takes at most width_of().
   bool try_text(double x, double y, const std::string& words, Align align = Align::middle, bool upright = false);
   static double width_of(const std::string& words, double size = kSmallText);
-  /// The words, their end left out where they would take more room, mm.
+  /// The text, shortened at its end to fit the given width, mm.
   static std::string fitting(std::string words, double room, double size = kSmallText);
 
-  /// Title of the view in a box, underlined, its middle at x.
+  /// Title of the view in a box, underlined and centred at x.
   void title(const SheetBox& box, double middle, const std::string& words);
-  /// A chain of dimensions along x at height y, one text between each two stops (none where it is empty), and likewise
-  /// along y. Texts that do not fit between their stops are put beside the line.
+  /// A chain of dimensions along x at height y, with one text between each two points (none if it is empty), and
+  /// likewise along y. Texts that do not fit between their points are put next to the line.
   void chain_along_x(double y, const std::vector<ChainStop>& stops, const std::vector<std::string>& texts);
   void chain_along_y(double x, const std::vector<ChainStop>& stops, const std::vector<std::string>& texts,
                      bool outside_left);
@@ -56,7 +56,7 @@ class DrawingSheet {
   void arrow(double x1, double y1, double x2, double y2, double width = 0.18);
 
   const std::vector<SheetBox>& texts() const { return texts_; }
-  int left_out() const { return left_out_; }  // texts of chains for which there was no place
+  int left_out() const { return left_out_; }  // number of texts of chains that did not fit
 
  private:
   bool free(const SheetBox& box) const;
@@ -69,8 +69,7 @@ class DrawingSheet {
   int left_out_ = 0;
 };
 
-/// A length in m as it stands at a dimension line: to the centimetre, below a metre to the millimetre where that says
-/// more.
+/// A length in m as text on a dimension line: to the centimetre; below a metre to the millimetre if needed.
 std::string length_text(double metres);
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// The crack map of an assembly, as inspectors draw it: both elevations, the deck and the unrolled intrados of each
-// vault, to one scale, with the cracked joints by width; legend and a table of the widest cracks.
+// The crack map of an assembly in the form that inspectors use: both elevations, the deck and the unrolled intrados of
+// each vault at one scale, with the cracked joints by width, a legend and a table of the widest cracks.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,22 +11,22 @@
 namespace voussoir {
 
 struct CrackMapNotes {
-  std::string name;    // of what is drawn: "demo"
-  std::string source;  // where it is from: "state at 12.5 s"
+  std::string name;    // name of the object: "demo"
+  std::string source;  // its origin: "state at 12.5 s"
 };
 
 class CrackMap {
  public:
-  /// Cracks are numbered by `by`, and those of at least `threshold` (m) then are drawn.
+  /// Cracks are found and numbered in the state `by`; those of at least `threshold` (m) in this state are drawn.
   CrackMap(const Assembly& assembly, const Snapshot& snapshot, const CrackMapNotes& notes,
            double threshold = kCrackThreshold, CrackState by = CrackState::ever);
-  /// The widest first; none where nothing exceeds the threshold.
+  /// The widest first; empty if nothing exceeds the threshold.
   const std::vector<Crack>& cracks() const { return cracks_; }
-  /// Whether a drawing of what is open now differs from that of what ever was.
+  /// Whether a drawing of the present state differs from that of the largest values.
   bool has_changed() const;
-  double width() const;   // px of the drawing; printed at 96 to the inch it has its scale
+  double width() const;   // px; at 96 px per inch the print is true to scale
   double height() const;  // px
-  int pixels() const;     // width of a picture that can be read
+  int pixels() const;     // px, width of a readable picture
   void draw(Drawing& drawing, CrackState state) const;
   std::string svg(CrackState state) const;
 

@@ -10,8 +10,9 @@ constexpr std::size_t kNumberedCracks = 10;  // on the map and in its table
 struct CrackLegend {
   const CrackMapNotes& notes;
   const std::vector<Crack>& cracks;
-  double threshold = 0.0;                                      // m
-  CrackState state = CrackState::ever, by = CrackState::ever;  // drawn, and found by
+  double threshold = 0.0;  // m
+  CrackState state = CrackState::ever,
+             by = CrackState::ever;  // state that is drawn, and state in which cracks are found
   bool any_fell = false;
   std::vector<std::string> remarks;
 };

@@ -1,4 +1,4 @@
-// One view of a crack map: the stones' pattern and the edges of cracked joints that are seen in it.
+// One view of a crack map: the pattern of the stones and the visible edges of cracked joints.
 #pragma once
 #include <array>
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace voussoir {
 
-/// Widths of cracks that are drawn alike.
+/// A class of crack widths with the same line.
 struct WidthClass {
   double from = 0.0;        // m
-  const char* colour = "";  // of the line: ever darker
-  double line = 0.0;        // mm, ever thicker
+  const char* colour = "";  // colour of the line, darker with each class
+  double line = 0.0;        // mm, width of the line, thicker with each class
 };
-/// From 0.3, 1, 3, 10 and 30 mm on.
+/// The classes, from 0.3, 1, 3, 10 and 30 mm.
 const std::vector<WidthClass>& width_classes();
-/// The class of a width (m); the lowest below all.
+/// The class of a width (m); the lowest class for smaller widths.
 std::size_t width_class(double width);
 
-/// An edge of a cracked joint where a surface shows it.
+/// A visible edge of a cracked joint on a surface.
 struct CrackTrace {
   std::size_t joint = 0;  // of Assembly::joints
   std::size_t crack = 0;  // of the cracks
@@ -28,8 +28,8 @@ struct CrackTrace {
 };
 
 struct CrackView {
-  std::string title, u_name;        // "x", "s": what the scale below counts
-  bool mirrored = false;            // u runs against it
+  std::string title, u_name;        // "x", "s": quantity of the scale below
+  bool mirrored = false;            // u is opposite to this quantity
   double u_from = 0.0, u_to = 0.0;  // m, of the scale
   std::array<std::vector<FlatLine>, kLineKinds> pattern;
   std::vector<CrackTrace> traces;
@@ -37,20 +37,20 @@ struct CrackView {
   Box extent() const;           // of the pattern
 };
 
-/// What both need to know.
+/// Input of both kinds of view.
 struct CrackedAssembly {
   const Assembly& assembly;
   const std::vector<Crack>& cracks;
   std::vector<bool> fell;  // of each block
 };
-/// Blocks that have gone farther than kStoneFell relative to the base.
+/// Blocks that have moved farther than kStoneFell relative to the base.
 std::vector<bool> fallen_blocks(const Assembly& assembly, const Snapshot& snapshot);
 
 /// An assembly seen along an axis, without some blocks.
 CrackView seen_view(const CrackedAssembly& cracked, const SheetAxes& axes, const std::vector<std::int64_t>& without,
                     const std::string& title);
-/// The intrados of a vault unrolled: s along it from the left springing to the right, w along the barrel upwards, as
-/// seen from above.
+/// The unrolled intrados of a vault, seen from above: s along it from the left springing to the right, w along the
+/// barrel upwards.
 CrackView unrolled_view(const CrackedAssembly& cracked, const Intrados& vault);
 
 }  // namespace voussoir

@@ -1,16 +1,16 @@
-// Where a crack is, which way it runs and how long it is.
+// Position, direction and length of a crack.
 #pragma once
 #include "geometry/rings.h"
 #include "viz/crack_map/cracks.h"
 
 namespace voussoir {
 
-/// Frame and words of cracks between two parts.
+/// Frame and texts of cracks between two parts.
 class CrackWords {
  public:
   CrackWords(const Assembly& assembly, const std::vector<Intrados>& vaults)
       : assembly_(assembly), vaults_(vaults), between_rings_(assembly) {}
-  /// Fills where, direction and length from parts, joints and box.
+  /// Sets where, direction and length of a crack from its parts, joints and box.
   void describe(Crack& crack) const;
 
  private:

@@ -1,4 +1,4 @@
-// Cracks: joints that have opened or slid and hang together (docs/theory/crack-map.md).
+// Cracks: connected joints that have opened or slid (docs/theory/crack-map.md).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace voussoir {
 
-constexpr double kCrackThreshold = 3e-4;  // m: what the eye finds from nearby
-constexpr double kStoneFell = 1.0;        // m: how far a stone goes on falling says nothing
+constexpr double kCrackThreshold = 3e-4;  // m, width that the eye sees from nearby
+constexpr double kStoneFell = 1.0;        // m, displacement of a fallen stone; larger values have no meaning
 
-enum class CrackState { ever, now };  // the largest since the start; at present
+enum class CrackState { ever, now };  // ever: largest value since the start; now: at present
 
 /// Opening and slip of a joint, m.
 struct JointGap {
@@ -27,23 +27,23 @@ struct JointGaps {
   JointGap ever, now;
   const JointGap& in(CrackState state) const { return state == CrackState::ever ? ever : now; }
 };
-/// Of each of the assembly's joints, as the snapshot says; of those that a contact has taken the place of by how far
-/// the two stones have moved apart since they were built.
+/// Opening and slip of each joint of the assembly in a snapshot. If a contact has replaced a joint, its opening is the
+/// separation of the two stones since they were built.
 std::vector<JointGaps> joint_gaps(const Assembly& assembly, const Snapshot& snapshot);
-/// By how much the joint's block b has gone farther than a at a point that both had as built, m.
+/// Displacement of block b relative to block a at a point that both had as built, m.
 Vec3 moved_apart(const Assembly& assembly, const Snapshot& snapshot, const Joint& joint, const Vec3& at);
 
-/// What two stones belong to: "arch 0", "spandrel wall y−".
+/// The part of a stone: "arch 0", "spandrel wall y−".
 struct CrackedPart {
   Component component = Component::block;
   std::int32_t part = 0;
   auto operator<=>(const CrackedPart&) const = default;
 };
 std::string part_words(const CrackedPart& part);
-/// Spandrels, parapets and walls by themselves.
+/// Spandrels, parapets and walls are separate parts.
 bool is_wall(Component component);
 
-/// Joints over the threshold between the same two parts, each of which touches another.
+/// Joints above the threshold between the same two parts, each touching another.
 struct Crack {
   int number = 0;                    // from 1, the widest first
   std::vector<std::size_t> joints;   // of Assembly::joints, ascending
@@ -52,12 +52,12 @@ struct Crack {
   Box box;                           // m
   double length = 0.0;               // m, from end to end along the surface
   double area = 0.0;                 // m2, of its joints
-  JointGap ever, now;                // greatest of any of its joints
+  JointGap ever, now;                // largest values of its joints
   double width() const { return ever.width(); }
 };
 
-/// The cracks whose joints have ever opened or slid by `threshold` (m) or more; widest first. Ties, and joints with
-/// blocks of backfill, which is soil, are none. The places are those as built.
+/// The cracks whose joints have ever opened or slid by at least `threshold` (m), the widest first. Ties and joints
+/// with blocks of backfill (soil) are not cracks. Positions are those as built.
 std::vector<Crack> find_cracks(const Assembly& assembly, const std::vector<JointGaps>& gaps,
                                const std::vector<Intrados>& vaults, double threshold, CrackState state);
 
@@ -68,7 +68,7 @@ std::vector<Crack> find_cracks(const Assembly& assembly, const Snapshot& snapsho
 /// cracks.csv (docs/formats.md).
 std::string crack_table(const std::vector<Crack>& cracks);
 
-/// A length in mm, "0.42", "18": as many digits as an inspector would read.
+/// A length in mm, "0.42", "18", with as many digits as an inspector reads.
 std::string width_text(double metres);
 
 }  // namespace voussoir

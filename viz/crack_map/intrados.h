@@ -6,10 +6,10 @@
 
 namespace voussoir {
 
-/// A vault as a cylinder over the section of its intrados that is square to the barrel.
+/// A vault as a cylinder over the profile of its intrados square to the barrel.
 struct Intrados {
   std::int32_t part = 0;         // of component arch
-  Vec3 along = Vec3::UnitX();    // unit, level, square to the barrel, from left to right
+  Vec3 along = Vec3::UnitX();    // unit vector, horizontal, square to the barrel, from left to right
   Vec3 axis = Vec3::UnitY();     // unit, of the barrel, towards y+
   Vec3 origin = Vec3::Zero();    // m, of both
   Polygon profile;               // (along, z, 0), m, from the left springing to the right one
@@ -23,13 +23,13 @@ struct Intrados {
   };
   Place unrolled(const Vec3& x) const;
   double length() const { return arc.back(); }
-  /// Whether a point lies on it, with a tenth of the vault's thickness to spare.
+  /// Whether a point is on the intrados, with a tolerance of a tenth of the thickness of the vault.
   bool holds(const Vec3& x) const;
-  /// 0 at the left springing, 1 at the right one.
+  /// Share of the span: 0 at the left springing, 1 at the right one.
   double share_of_span(const Vec3& x) const;
 };
 
-/// Of every vault whose intrados can be measured, from left to right.
+/// The intrados of every vault for which it can be measured, from left to right.
 std::vector<Intrados> find_intrados(const Measures& measures);
 
 }  // namespace voussoir

@@ -11,11 +11,11 @@ namespace voussoir {
 
 struct ChartCurve {
   std::string name = {};               // in the legend; empty: not listed
-  std::vector<double> x = {}, y = {};  // what is not finite breaks the curve
+  std::vector<double> x = {}, y = {};  // values that are not finite interrupt the curve
   std::string colour = "#1f1f24";
   double width = 1.8;       // px
   std::string dashes = {};  // "6 3"
-  bool dots = false;        // at each point, for few points
+  bool dots = false;        // a dot at each point, for few points
 };
 
 struct ChartBand {
@@ -33,23 +33,24 @@ struct ChartDots {
 };
 
 struct LineChart {
-  std::string title = {}, x_label = {}, y_label = {};  // labels with units: "period (s)"
+  std::string title = {}, x_label = {}, y_label = {};  // labels with units: "period, s"
   double width = 1000.0, height = 380.0;
   bool log_x = false, log_y = false;
-  std::optional<double> x_low = {}, x_high = {}, y_low = {}, y_high = {};  // of the axes; else around what is shown
-  std::vector<ChartBand> bands = {};                                       // drawn first
+  std::optional<double> x_low = {}, x_high = {}, y_low = {},
+                        y_high = {};  // limits of the axes; otherwise around the data
+  std::vector<ChartBand> bands = {};  // drawn first
   std::vector<ChartCurve> curves = {};
   std::vector<ChartDots> dots = {};
 };
 
-/// Height of the whole drawing, px: the chart's own and its legend above.
+/// Height of the drawing, px: the chart and its legend above.
 double height_of(const LineChart& chart);
 void draw(Drawing& drawing, const LineChart& chart);
 
-/// As SVG; empty where there is nothing to show.
+/// The chart as SVG; empty if there is nothing to show.
 std::string line_chart(const LineChart& chart);
 
-/// Gives the curves the colours of lines in turn, and dashes once these are used up.
+/// Gives the curves the line colours in turn, and dashes when all colours are used.
 void number_curves(LineChart& chart);
 
 /// Largest and smallest of every share of the curve, in their order: as much as a width of pixels can show.

@@ -4,9 +4,9 @@
 
 namespace voussoir {
 
-/// Prints an HTML file on A4, as its style says, to a PDF file, whole or not at all. By the first of chromium,
-/// chromium-browser, google-chrome and chrome that is in PATH. Throws InputError that says what to install where there
-/// is none, RunError with what the browser said when it fails or takes more than two minutes.
+/// Prints an HTML file on A4 with its own style to a PDF file, in one step. It uses the first of chromium,
+/// chromium-browser, google-chrome and chrome in PATH. Throws InputError that says what to install if there is none,
+/// and RunError with the output of the browser if it fails or takes more than two minutes.
 void print_page(const std::string& html, const std::string& pdf);
 
 }  // namespace voussoir

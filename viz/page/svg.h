@@ -1,4 +1,4 @@
-// A drawing as SVG text, to stand inside an HTML page.
+// A drawing as SVG text for use in an HTML page.
 #pragma once
 #include "viz/page/drawing.h"
 
@@ -9,7 +9,7 @@ std::string escaped(std::string_view text);
 
 class SvgDrawing : public Drawing {
  public:
-  /// `description` is what a screen reader says.
+  /// `description` is the text for screen readers.
   SvgDrawing(double width, double height, std::string_view description);
   void curve(const Path& points, const std::string& colour, double width = 1.0, const char* dashes = "") override;
   void area(const Path& points, const std::string& fill) override;

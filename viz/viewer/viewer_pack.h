@@ -1,5 +1,5 @@
-// Numbers of view.html in few bytes: quantised, as differences, compressed by deflate. The page's unpack.js
-// reads what this writes.
+// Compact storage of the numbers of view.html: quantised, as differences, compressed by deflate. unpack.js of the page
+// reads this format.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -8,15 +8,16 @@
 
 namespace voussoir {
 
-/// Values that change from frame to frame. Item i has in each frame `groups` × `width` numbers, kept as shares of the
-/// largest of its group over all frames in whole `steps` (at most 32767): an error of at most 0.51 / steps of that.
+/// Values that change from frame to frame. In each frame, item i has `groups` × `width` numbers, stored as shares of
+/// the largest of its group over all frames in integer `steps` (at most 32767). The error is at most 0.51 / steps of
+/// that largest value.
 struct PackedSeries {
   std::size_t items = 0, groups = 1, width = 1;
   int steps = 2047;
   std::vector<std::vector<double>> frames;  // each items × groups × width
 };
 
-/// Sections of little-endian numbers one after the other.
+/// Consecutive sections of little-endian numbers.
 class ViewerPack {
  public:
   void add(const std::string& name, const std::vector<std::uint32_t>& numbers);
@@ -26,9 +27,9 @@ class ViewerPack {
   /// to the frame before, modulo 2¹⁶, zigzag; first all low bytes, then all high ones).
   void add(const std::string& name, const PackedSeries& series);
 
-  /// Where each section lies: {"name": {"type": "u4", "offset": 0, "count": 12}}; of a series also its sizes.
+  /// Position of each section: {"name": {"type": "u4", "offset": 0, "count": 12}}; for a series also its sizes.
   const nlohmann::json& sections() const { return sections_; }
-  /// All sections, compressed (zlib, RFC 1950). Throws RunError when memory does not suffice.
+  /// All sections, compressed (zlib, RFC 1950). Throws RunError if there is not enough memory.
   std::string compressed() const;
 
  private:
@@ -37,7 +38,7 @@ class ViewerPack {
   nlohmann::json sections_ = nlohmann::json::object();
 };
 
-/// Bits of a scale that is no less than `largest` (finite, not negative), with so few digits that many are alike.
+/// Bits of a scale not smaller than `largest` (finite, not negative), with so few digits that many scales are equal.
 float coarse_scale(double largest);
 
 }  // namespace voussoir

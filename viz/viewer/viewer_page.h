@@ -1,4 +1,4 @@
-// view.html: a page that shows a scene in three dimensions, to turn and to ask. One file, with three.js (MIT) in it.
+// view.html: an interactive page with a scene in three dimensions. One file that contains three.js (MIT).
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -6,17 +6,16 @@
 
 namespace voussoir {
 
-/// Whether three.js was there when the program was built.
+/// Whether three.js was found during the build.
 bool has_viewer();
 
-/// Throws RunError, which says what to install, where it was not.
+/// Throws RunError that says what to install if it was not found.
 void require_viewer();
 
-/// The page. Throws as require_viewer(), InputError for a scene
-/// without stones or without frames.
+/// The page. Throws like require_viewer(), and InputError for a scene without stones or without frames.
 std::string viewer_page(const ViewerScene& scene);
 
-/// The numbers of a scene as the page holds them: what it is in words and where the numbers lie ("sections"), and the
+/// The data of a scene in the page: a JSON description with the position of the numbers ("sections"), and the
 /// compressed bytes. For tests.
 struct ViewerData {
   nlohmann::json scene;
@@ -24,7 +23,7 @@ struct ViewerData {
 };
 ViewerData viewer_data(const ViewerScene& scene);
 
-/// JSON that can stand inside a script element whatever its texts are.
+/// JSON that is safe inside a script element for any texts.
 std::string script_json(const nlohmann::json& json);
 
 }  // namespace voussoir

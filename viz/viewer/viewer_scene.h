@@ -1,4 +1,4 @@
-// What view.html shows, as plain data: stones and the surface of the fill as built, and how they move in each frame.
+// The content of view.html as plain data: stones and the surface of the fill as built, and their motion in each frame.
 #pragma once
 #include <array>
 #include <string>
@@ -22,13 +22,13 @@ struct ViewerFill {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// What a stone shows of its joints: largest opening and slip since the start (m), largest mean compression and shear
-/// of a joint at present (Pa).
+/// Values of a stone from its joints: largest opening and slip since the start (m), largest mean compression and shear
+/// stress of a joint at present (Pa).
 enum ViewerValue { opening_value, slip_value, compression_value, shear_value };
 using ViewerValues = std::array<double, 4>;
 
-/// What two stones bear between them at present, all their joints together: normal force (N, compression positive),
-/// shear force (N, sum of the joints' magnitudes), largest opening (m).
+/// Forces between two stones at present, over all their joints: normal force (N, compression positive), shear force
+/// (N, sum of the magnitudes), largest opening (m).
 using ViewerForces = std::array<double, 3>;
 
 struct ViewerFrame {
@@ -36,16 +36,16 @@ struct ViewerFrame {
   std::vector<Vec3> displacement,
       rotation;                      // per stone, relative to the base: m, of the centroid; rotation vector, rad
   std::vector<Vec3> fill;            // m, per node of the fill, relative to the base
-  std::vector<ViewerValues> values;  // per stone; empty: none
-  std::vector<ViewerForces> forces;  // per pair; shorter where later frames bring new pairs
+  std::vector<ViewerValues> values;  // for each stone; empty: none
+  std::vector<ViewerForces> forces;  // for each pair; shorter if later frames add pairs
 };
 
 struct ViewerScene {
-  std::string title, what;                // name of the run; what kind of thing, in words
-  bool modes = false;                     // frames are shapes of small displacements, the largest 1, that swing
+  std::string title, what;                // name of the run; kind of content, in words
+  bool modes = false;                     // frames are mode shapes of small displacements (largest: 1) that oscillate
   std::vector<ViewerStone> stones;        // by their block number
   ViewerFill fill;                        // empty: none
-  std::vector<std::array<int, 2>> pairs;  // stones with joints between them, the lower first; second −1: the fill
+  std::vector<std::array<int, 2>> pairs;  // pairs of stones with joints, the lower number first; second −1: the fill
   std::vector<ViewerFrame> frames;
 };
 
