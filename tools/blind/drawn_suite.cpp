@@ -1,5 +1,5 @@
 // The rule by which the second and the third suite are drawn. It was written before either was run, and is not changed
-// with a look at what they gave.
+// in view of their results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace voussoir {
 
 namespace {
 
-/// Random numbers of one trial: each purpose has a stream of its own.
+/// Random numbers of one trial: each purpose has its own stream.
 class Draw {
  public:
   Draw(std::uint64_t seed, int trial) : seed_(seed), trial_(trial) {}
@@ -81,7 +81,7 @@ std::vector<std::string> places_of(const std::string& effect, const std::string&
   return sides;
 }
 
-/// How much of it: a range of each parameter, drawn evenly on a logarithmic scale.
+/// The amount of an effect: a range for each parameter, drawn evenly on a logarithmic scale.
 struct Amount {
   const char *effect, *parameter;
   double low, high;
@@ -115,7 +115,7 @@ std::string drawn_effect(const Draw& draw, const std::string& effect, const std:
   return effect_text(draw, effect, draw.one_of("place of " + effect, places_of(effect, bridge)));
 }
 
-/// The sorts of faults in their order; the channel is found once there is a plan of sensors.
+/// The kinds of sensor faults in order. The channel is determined when the sensor plan is known.
 std::string drawn_fault(const Draw& draw, int sort) {
   const double u = draw.between("channel", 0.0, 1.0);
   const auto channel = [&](const char* which) { return fmt::format("sensor_fault channel {{{}{:.4f}}}", which, u); };
@@ -140,7 +140,7 @@ std::string drawn_fault(const Draw& draw, int sort) {
   }
 }
 
-/// What the bridge and its measurement have otherwise, whatever is hidden.
+/// Other deviations of the bridge and its measurement, independent of the hidden effects.
 BlindTrial drawn_truth(const Draw& draw, std::uint64_t seed, int number) {
   BlindTrial t;
   t.bridge = draw.happens("bridge", 0.5) ? "cs1" : "cs2";
@@ -154,7 +154,7 @@ BlindTrial drawn_truth(const Draw& draw, std::uint64_t seed, int number) {
   return t;
 }
 
-/// Once the bridge is known: fill, bond, spans, parapets.
+/// Deviations that depend on the bridge: fill, bond, spans, parapets.
 void draw_making(const Draw& draw, BlindTrial& t) {
   const double fill = draw.between("fill", 0.0, 1.0);
   if (fill < 0.35) {
@@ -171,7 +171,7 @@ void draw_making(const Draw& draw, BlindTrial& t) {
   if (t.bridge == "cs1" && draw.happens("gaps", 0.5)) t.parapet_gaps = draw.whole("number of gaps", 1, 4);
 }
 
-/// Effects that diagnose is not allowed to try, with what resembles them.
+/// Effects that are excluded from the diagnosis, together with similar ones.
 void draw_without(const Draw& draw, int sort, BlindTrial& t) {
   const Plan plan = plan_of(t.bridge);
   const std::string pier = fmt::format("pier {}", draw.whole("pier", 0, plan.spans - 2));
@@ -196,7 +196,7 @@ void draw_without(const Draw& draw, int sort, BlindTrial& t) {
   }
 }
 
-/// Damage in a place that no effect has.
+/// Damage that no effect describes.
 void draw_loosened(const Draw& draw, int sort, BlindTrial& t) {
   const Plan plan = plan_of(t.bridge);
   const double factor = draw.log_between("factor", 0.01, 0.05);

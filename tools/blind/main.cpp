@@ -1,5 +1,5 @@
-// voussoir-blind: hides effects in measurements, has them diagnosed by the program, which is given nothing but the case
-// and the measurements, and scores what it says.
+// voussoir-blind: hides effects in measurements, runs the diagnosis with only the case and the measurements, and
+// scores the result.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Request {
   bool list = false, invariance = false;
 };
 
-/// False where --help was all.
+/// False if --help was given.
 bool read_request(int argc, char** argv, Request& r) {
   namespace po = boost::program_options;
   po::options_description described("Options");
@@ -58,7 +58,7 @@ void list_trials(const Suite& suite, const Request& r) {
   }
 }
 
-/// Trials of a suite side by side, in the order of their numbers.
+/// Runs trials of a suite in parallel, in the order of their numbers.
 class Runner {
  public:
   Runner(const Suite& suite, const Request& request) : suite_(suite), request_(request) {

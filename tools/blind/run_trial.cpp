@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of answer.toml, which says it first.
+/// The trace from answer.toml, which is its first entry.
 double trace_in(const std::string& file) {
   std::ifstream text(file);
   std::string name, equals;
@@ -44,7 +44,7 @@ std::vector<std::vector<std::string>> sensor_rows(const std::string& text) {
   return rows;
 }
 
-/// hide's words without what is hidden.
+/// The arguments of hide except the hidden effects.
 std::vector<std::string> hide_words(const BlindTrial& t, const std::string& program, const std::string& model,
                                     const std::string& output) {
   std::vector<std::string> words = {program, "hide", model, "-o", output};
@@ -60,7 +60,7 @@ std::vector<std::string> hide_words(const BlindTrial& t, const std::string& prog
   return words;
 }
 
-/// The trial's effects; channels are those of the plan that its sensors are.
+/// The effects of the trial, with channels of its sensor plan.
 std::vector<std::string> effects_of(const BlindTrial& t, const std::string& program, const std::string& model,
                                     const std::string& folder, const std::string& log) {
   std::vector<std::string> effects = t.effects;
@@ -118,7 +118,7 @@ TrialRun run_trial(const BlindTrial& t, const std::string& program, const std::s
   run.log = folder + "/log.txt";
   fs::remove_all(folder);
   fs::create_directories(folder + "/seen");
-  // The case and the measurements lie apart from the answer.
+  // The case and the measurements are kept apart from the answer.
   const std::string model = folder + "/seen/case.toml";
   std::ofstream(model) << case_of(t);
   run.effects = effects_of(t, program, model, folder, run.log);

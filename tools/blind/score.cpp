@@ -30,23 +30,23 @@ Named parse_named(const std::string& text) {
   return n;
 }
 
-/// Also of the same sort: a late clock is not a wrong gain.
+/// Whether the kind is also the same: a late clock is not a wrong gain.
 bool same(const json& effect, const Named& hidden) {
   const bool sort = std::all_of(hidden.values.begin(), hidden.values.end(),
                                 [&](const auto& value) { return effect["parameters"].contains(value.first); });
   return effect["name"] == hidden.name && effect["where"] == hidden.where && sort;
 }
 
-/// A hidden value in the terms of the case. What is a share of, or a factor on, the stiffness of single joints of
-/// masonry stands for a stiffness per area; joints of a true bridge whose blocks are smaller are stiffer for the same
-/// material. The interface with the fill does not follow the size of blocks.
+/// A hidden value in the terms of the case. A share of, or a factor on, the stiffness of single masonry joints
+/// represents a stiffness per area. If the true bridge has smaller blocks, its joints are stiffer for the same
+/// material. The interface with the fill does not depend on the block size.
 double in_terms_of_case(const Named& hidden, const std::string& name, double value, double mesh) {
   const bool joints = name == "stiffness_share" || hidden.name == "spandrel_separation";
   return joints ? value / mesh : value;
 }
 
-/// Of the hidden values, how many the program has within two of its standard deviations. One that it does not fit, such
-/// as the gain of a reversed channel, is right where it is the same.
+/// Number of hidden values that the program gives within two of its standard deviations. A value that it does not fit,
+/// such as the gain of a reversed channel, must be equal.
 void score_values(const json& effect, const Named& hidden, Outcome& o) {
   for (const auto& [name, said] : hidden.values) {
     if (!effect["parameters"].contains(name)) continue;
@@ -62,8 +62,8 @@ bool named_place(const json& d, const std::string& list, const std::string& wher
          d[list][0]["where"].get<std::string>().find(where) != std::string::npos;
 }
 
-/// Out of the library. What diagnose may not name must end unexplained. What no effect makes is right, too, under the
-/// name of one that acts on the part it is in: what is asked for is the place.
+/// Score out of the library. Effects excluded from the diagnosis must end unexplained. Changes that no effect
+/// describes are also right under the name of an effect that acts on the same part, because only the place counts.
 void score_outside(const json& d, double confident, Outcome& o) {
   const BlindTrial& trial = *o.trial;
   const bool unexplained = d["verdict"] == "unexplained" && named_place(d, "nameless", trial.where);
@@ -84,7 +84,7 @@ void score_named(const json& d, double confident, Outcome& o) {
     right += named ? 1.0 : tied ? 0.5 : 0.0;
     if (hidden.name == "sensor_fault") o.faults_right += named;
   }
-  // What is named beside the truth counts against it.
+  // Additional effects count against the score.
   o.score = right / double(std::max(d["effects"].size(), o.effects.size()));
   o.wrong = right == 0.0 && d["verdict"] == "found" && o.probability > confident;
 }

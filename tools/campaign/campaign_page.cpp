@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a table has; NaN where it has no such column.
+/// The value of a column in a row; NaN if the table has no such column.
 double value_at(const CampaignTable& table, const char* column, std::size_t run) {
   const NumberColumn* found = table.find(column);
   return found ? found->values[run] : NAN;
@@ -53,7 +53,7 @@ std::string facts(const CampaignTable& table) {
   return failures.empty() ? text : text + heading("Runs that failed") + list(failures);
 }
 
-/// One demand over the peak ground acceleration: a series a case.
+/// One demand against the peak ground acceleration, one series for each case.
 std::string demand_chart(const CampaignTable& table, const char* column, const std::string& title) {
   if (!table.find(column) || !table.find("im.pga")) return "";
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
@@ -77,12 +77,14 @@ std::string demand_chart(const CampaignTable& table, const char* column, const s
   double least = INFINITY, most = 0.0;
   for (const ChartDots& dots : chart.dots)
     for (const double y : dots.y) least = std::min(least, y), most = std::max(most, y);
-  chart.log_y = least > 0.0 && most > 30.0 * least;  // a bridge that falls beside one that stands
+  chart.log_y = least > 0.0 && most > 30.0 * least;  // so that a bridge that falls and one that stands are both
+                                                     // readable
   if (!chart.log_y) chart.y_low = 0.0;
   return line_chart(chart);
 }
 
-/// Record and scale whose demands, as shares of the largest of each case, are the largest in the mean over the cases.
+/// The record and scale with the largest demands, as the mean over the cases of the share of the largest demand of
+/// each case.
 std::pair<std::string, double> worst_shaking(const CampaignTable& table) {
   std::map<std::string, double> largest;  // by case
   const auto demand = [&](std::size_t r) {
@@ -100,8 +102,8 @@ std::pair<std::string, double> worst_shaking(const CampaignTable& table) {
   return worst == sums.end() ? std::pair<std::string, double>() : worst->first;
 }
 
-/// Top of a scale of openings (mm) that tells these runs apart: 1, 2 or 5 times a power of ten near the geometric mean
-/// of their largest openings.
+/// Upper end of a scale of openings (mm) that distinguishes these runs: 1, 2 or 5 times a power of ten near the
+/// geometric mean of their largest openings.
 double common_range(const CampaignTable& table, const std::vector<std::size_t>& runs) {
   double sum = 0.0;
   int count = 0;
@@ -118,7 +120,7 @@ double common_range(const CampaignTable& table, const std::vector<std::size_t>& 
   return decade * (mean < 1.5 * decade ? 1.0 : mean < 3.5 * decade ? 2.0 : mean < 7.5 * decade ? 5.0 : 10.0);
 }
 
-/// Of each case, the last frame of the run with the worst shaking, all on the same scale.
+/// Pictures of the last frame of the worst run of each case, all with the same scale.
 std::string damage_pictures(const CampaignTable& table, const std::string& directory) {
   const auto [record, scale] = worst_shaking(table);
   std::vector<std::size_t> runs;
@@ -188,7 +190,7 @@ std::string median_text(std::vector<double> openings) {
                        : fmt::format("{:.1f} mm, {}", 1e3 * median, damage_word(median));
 }
 
-/// Means over the runs of a case; empty cells where a case has no such component.
+/// Means over the runs of a case; empty cells if a case has no such component.
 std::string damage_section(const CampaignTable& table) {
   constexpr std::string_view ending = ".broken_share";
   std::vector<std::string> components;
@@ -227,7 +229,7 @@ std::string damage_section(const CampaignTable& table) {
 void write_campaign_page(const std::string& directory) {
   const CampaignTable table = read_table(directory + "/table.csv");
   std::string body = facts(table);
-  std::error_code ignored;  // writing says what is wrong
+  std::error_code ignored;  // the error occurs again when the page is written
   fs::create_directories(directory + "/images", ignored);
   for (const auto& [column, name, title] : {std::tuple{"edp.keystone_x", "keystones", "Keystones, longitudinal"},
                                             std::tuple{"edp.spandrel_y", "spandrels", "Spandrel walls, transverse"}})

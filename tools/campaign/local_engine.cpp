@@ -23,8 +23,8 @@ struct Child {
   std::size_t run = 0;
 };
 
-/// The program's own fault, as against being ended from outside: to be kept as a failure, and not tried again and
-/// again.
+/// Whether a signal means a fault of the program, and not an end from outside. Such a run is recorded as failed and
+/// not repeated.
 bool crash(int signal) {
   for (const int fault : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP})
     if (signal == fault) return true;
@@ -71,7 +71,7 @@ class Local {
     if (fs::create_directories(folder, failed); failed)
       throw RunError("the folder {} cannot be made: {}", folder, failed.message());
     const LogFile output(folder + "/" + output_name);
-    // In a group of its own: Ctrl-C on a terminal goes to the campaign, which passes it on once.
+    // Each run has its own process group: Ctrl-C in a terminal reaches only the campaign, which passes it on once.
     const pid_t child = start({.words = {work_.program, "campaign-run", work_.directory, run.id, "--threads",
                                          std::to_string(sharing_.threads), "--parent", std::to_string(::getpid())},
                                .out = output.descriptor,

@@ -24,7 +24,8 @@ std::string hash_of(const PlannedRun& run) {
   return fmt::format("{:016x}", run.hash);
 }
 
-/// One line without the folder's name: a campaign may be moved, and its table says the same wherever it was run.
+/// The reason as one line without the name of the folder, so that the table of a campaign does not depend on its
+/// folder.
 std::string tidy(std::string text, const std::string& directory) {
   for (std::size_t at = text.find(directory + "/"); at != std::string::npos; at = text.find(directory + "/"))
     text.erase(at, directory.size() + 1);
@@ -67,7 +68,7 @@ void write_outcome(const std::string& directory, const PlannedRun& run, Outcome 
                   {"reason", tidy(outcome.reason, directory)},
                   {"seconds", outcome.seconds},
                   {"goes_on", outcome.goes_on}};
-  std::error_code ignored;  // of what cannot be made the next line says why
+  std::error_code ignored;  // the next line reports a folder that cannot be made
   fs::create_directories(folder_of(directory, run), ignored);
   write_json(file_of(directory, run), j, 1);
 }
@@ -79,7 +80,7 @@ std::size_t forget_failures(const std::string& directory, const Plan& plan) {
     if (outcome.status != Status::failed) continue;
     ++count;
     std::error_code failed;
-    // What begins anew loses its case first: without it there is no run to go on with, whenever this is cut short.
+    // The case file is removed first. Without it the run cannot be continued, even if the removal is interrupted.
     if (!outcome.goes_on)
       for (const char* name :
            {"case.toml", "assembly.h5", "history.h5", "checkpoints", "vtk", "images", "summary.json"})

@@ -25,7 +25,7 @@ constexpr std::size_t longest_slug = 40, most_runs = 100000;
 
 std::uint64_t more(std::uint64_t hash, const std::string& text) {
   hash = hash_bytes(text.data(), text.size(), hash);
-  return hash_bytes("", 1, hash);  // where one text ends and the next begins counts
+  return hash_bytes("", 1, hash);  // the boundary between texts is part of the hash
 }
 
 std::uint64_t more(std::uint64_t hash, double value) {
@@ -42,7 +42,7 @@ std::uint64_t source_hash(const MotionSource& source) {
   return hash;
 }
 
-/// The file's stem; with its folder where another has the same.
+/// The stem of the file name, with its folder if another file has the same stem.
 std::vector<std::string> case_names(const std::vector<std::string>& files) {
   std::vector<std::string> stems, names;
   for (const std::string& file : files) stems.push_back(fs::path(file).stem().string());
@@ -94,7 +94,7 @@ PlannedRecord plan_record(const Settings& s, const Shaking& shaking, std::vector
   return r;
 }
 
-/// Of one case: values of all keys, sample by sample.
+/// The values of all keys of one case for each sample.
 std::vector<std::vector<double>> draw_samples(const Settings& s, const Case& c) {
   std::vector<std::vector<double>> samples(std::size_t(std::max(1, s.samples)));
   for (const Sampled& sampled : s.sampled)
@@ -111,7 +111,7 @@ std::vector<std::vector<double>> draw_samples(const Settings& s, const Case& c) 
   return samples;
 }
 
-/// That the numbers all runs set are numbers of the case.
+/// Checks that the keys set in all runs are numbers of the case.
 void check_set(const Settings& s, const Case& c) {
   for (const auto& [key, value] : s.run.set) try {
       if (key.starts_with("stage.")) throw InputError("'{}' belongs to a stage. Keys of stages cannot be set", key);
@@ -121,7 +121,7 @@ void check_set(const Settings& s, const Case& c) {
     }
 }
 
-/// What a run does not vary, set in the case's text.
+/// The text of a case with the changes that all runs share.
 toml::table changed(toml::table table, const Plan& plan, const std::vector<double>& values) {
   if (plan.run.block_scale > 0.0) set_number(table, "bridge.block_scale", plan.run.block_scale);
   for (const auto& [key, value] : plan.run.set) set_number(table, key, value);
@@ -130,7 +130,7 @@ toml::table changed(toml::table table, const Plan& plan, const std::vector<doubl
   return table;
 }
 
-/// That each case can be what the samples make of it.
+/// Checks that each case is valid for all samples.
 void check_samples(const Settings& s, const Plan& plan, const Case& c,
                    const std::vector<std::vector<double>>& samples) {
   const toml::table file = written_out(c);

@@ -84,7 +84,7 @@ EngineSettings read_engine(const json& j, const std::string& place) {
   return e;
 }
 
-/// Of one run: its record's, scaled.
+/// The measures of one run: those of its record, scaled.
 json intensity_json(const Plan& plan, const PlannedRun& run) {
   const std::vector<Measure> list = measures(plan.periods);
   json intensity = json::object();
@@ -211,7 +211,7 @@ void write_record(const Shaking& shaking, const PlannedRecord& planned, const st
   write_atomically(folder + "/motion.toml", motion_source_text(shaking.source, names));
 }
 
-/// Throws unless all runs of the plan in the folder are in this one, too.
+/// Throws InputError unless all runs of the plan in the folder are part of this one.
 void check_extends(const Plan& plan, const std::string& directory) {
   const Plan old = read_plan(directory);
   std::map<std::string, std::uint64_t> hashes;
@@ -263,7 +263,8 @@ Plan read_plan(const std::string& directory) {
   plan.periods = need<std::vector<double>>(j, "periods", path);
   plan.run = read_run_settings(need<json>(j, "settings", path), path);
   plan.engine = read_engine(need<json>(j, "engine", path), path);
-  plan.left_out = value_or<std::vector<std::string>>(j, "left_out", {}, path);  // plans of earlier programs have none
+  plan.left_out =
+      value_or<std::vector<std::string>>(j, "left_out", {}, path);  // plans of earlier versions do not have this list
   for (const json& c : need<json>(j, "cases", path))
     plan.cases.push_back(
         {need<std::string>(c, "name", path), slug_in(c, path), unhex(need<std::string>(c, "hash", path), path)});
@@ -290,7 +291,7 @@ void write_draft(const Draft& draft, const std::string& directory) {
   for (std::size_t i = 0; i < draft.records.size(); ++i)
     write_record(draft.records[i], draft.plan.records[i], directory);
   write_atomically(directory + "/campaign.toml", draft.text);
-  write_atomically(file_of(directory), text);  // last: whoever reads it finds the rest
+  write_atomically(file_of(directory), text);  // written last, so that a reader finds all other files
 }
 
 }  // namespace voussoir::campaign

@@ -67,7 +67,7 @@ Sampled read_sampled(TableReader& table) {
   return s;
 }
 
-/// [[record]]: what a motion stage has, with a name.
+/// [[record]]: the keys of a motion stage, and a name.
 Shaking read_shaking(TableReader& table, const std::string& path) {
   Shaking s;
   s.name = table.required_text("name");
@@ -81,7 +81,7 @@ Shaking read_shaking(TableReader& table, const std::string& path) {
   return s;
 }
 
-/// axes = ["x", "y"]: the components of recordings that shake; the others are left out.
+/// axes = ["x", "y"]: the components that are used; the others are removed.
 void keep_axes(TableReader& campaign, std::vector<Shaking>& records) {
   if (!campaign.has("axes")) return;
   const std::vector<std::string> names = {"x", "y", "z"};
@@ -208,7 +208,7 @@ void read_output(TableReader& campaign, Settings& s) {
   }
 }
 
-/// What comes before the significant part of records; what comes after it the plan knows.
+/// Removes the quiet part before the significant part of records. The plan removes the part after it.
 void leave_out_quiet(Settings& s, bool significant) {
   s.significant = significant;
   for (Shaking& shaking : s.records)

@@ -1,5 +1,5 @@
-// Runs as tasks of Slurm job arrays. The script that Slurm is given is always the same text: which program, which
-// campaign and which runs come to it as arguments, so that nothing in a name can become a command.
+// Runs as tasks of Slurm job arrays. The script for Slurm is constant. Program, campaign and runs are arguments of it,
+// so that no name can become a command.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,13 +107,14 @@ class Slurm {
     return list;
   }
 
-  /// Asks Slurm which runs of a batch it still has; says why runs wait.
+  /// Asks Slurm for the runs of a batch that have not ended, and reports why runs wait.
   std::set<std::string> still_there(const Batch& batch) {
     std::set<std::string> runs;
     if (batch.job.empty()) return runs;
     const Answer answer = ask({"squeue", "--noheader", "--array", "--jobs=" + batch.job, "--format=%K|%T|%r"});
     if (answer.status != 0) {
-      if (answer.err.find("Invalid job id") != std::string::npos) return runs;  // it has forgotten the job: all ended
+      if (answer.err.find("Invalid job id") != std::string::npos)
+        return runs;  // Slurm no longer knows the job: all runs have ended
       say_once("squeue does not answer: " + first_line(answer.err));
       return {batch.runs.begin(), batch.runs.end()};
     }
@@ -145,7 +146,8 @@ class Slurm {
     for (const Batch& batch : batches_)
       if (live_.contains(batch.name) && !still_there(batch).empty()) live.insert(batch.name);
     live_ = live;
-    Tally t = tally(work_.directory, plan_);  // after asking: who has left has written its outcome
+    Tally t = tally(work_.directory, plan_);  // counted after asking Slurm, so that runs that left Slurm have written
+                                              // their outcome
     t.running = tally_.running;
     tally_ = t;
     return !live_.empty();
@@ -172,8 +174,7 @@ class Slurm {
     const int threads = std::max(1, e.threads);
     std::string array = fmt::format("--array=0-{}", batch.runs.size() - 1);
     if (e.runs_at_once > 0) array += fmt::format("%{}", e.runs_at_once);
-    // Slurm would put something else in place of a % or a backslash in the name of an output file, so it opens none:
-    // the script does.
+    // Slurm replaces % and backslashes in the names of output files. The script opens the file instead.
     std::vector<std::string> list = {"sbatch",    "--parsable",        "--job-name=voussoir",
                                      array,       "--ntasks=1",        fmt::format("--cpus-per-task={}", threads),
                                      "--chdir=/", "--output=/dev/null"};

@@ -30,9 +30,10 @@ void check_columns(const CsvReader& reader) {
   for (const std::string& name : columns)
     if (!is_number_column(name) &&
         std::find(fixed_columns().begin(), fixed_columns().end(), name) == fixed_columns().end())
-      reader.fail(reader.heading_row(),
-                  fmt::format("unknown column '{}'{}; columns of numbers have the names im.NAME, edp.NAME or damage.NAME",
-                              shown(name), short_suggestion(name, fixed_columns())));
+      reader.fail(
+          reader.heading_row(),
+          fmt::format("unknown column '{}'{}; columns of numbers have the names im.NAME, edp.NAME or damage.NAME",
+                      shown(name), short_suggestion(name, fixed_columns())));
   for (const char* name : {"run", "case", "record", "status"})
     if (std::find(columns.begin(), columns.end(), name) == columns.end())
       reader.fail(
@@ -58,7 +59,7 @@ double number_of(const CsvReader& reader, std::string_view word, const std::stri
   return value;
 }
 
-/// Where the cells of a column that is no number column go.
+/// Stores a cell of a column that is not a number column.
 void take_cell(const CsvReader& reader, CampaignRun& run, const std::string& column, std::string_view cell) {
   if (column == "run") run.run = cell;
   if (column == "case") run.case_name = cell;
@@ -88,7 +89,7 @@ void read_row(CsvReader& reader, CampaignTable& table) {
   table.runs.push_back(std::move(run));
 }
 
-/// One line, quoted where it must be; nothing for nothing.
+/// A cell in one line, quoted if necessary; empty for an empty text.
 std::string text_cell(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Numbers of one run by column; columns come to be in the order of their names, not of their appearance.
+/// Numbers of one run by column. The columns are sorted by name.
 using Numbers = std::map<std::string, double>;
 
 /// Of a JSON object, where there is one.
@@ -28,7 +28,7 @@ void take(const json& object, const char* key, const std::string& column, Number
   if (object.is_object() && object.contains(key) && object[key].is_number()) into[column] = object[key].get<double>();
 }
 
-/// The edp.* and damage.* of a summary.
+/// The edp.* and damage.* columns of a summary.
 Numbers numbers_of(const json& summary) {
   Numbers n;
   if (!summary.is_object()) return n;
@@ -50,7 +50,7 @@ Numbers numbers_of(const json& summary) {
   return n;
 }
 
-/// Demands first, the means before the places; then damage.
+/// Order of columns: demands first, means before places; then damage.
 int rank(const std::string& column) {
   int i = 0;
   for (const char* prefix : {"edp.keystone_x", "edp.spandrel_y", "edp.place.", "edp.sensor.", "edp."}) {
@@ -125,7 +125,7 @@ void write_h5(const Plan& plan, const CampaignTable& table, const std::string& p
   write_runs(file, table.runs);
   for (const NumberColumn& column : table.columns) {
     std::string name = column.name;
-    std::ranges::replace(name, '/', ':');  // which would be a group
+    std::ranges::replace(name, '/', ':');  // a slash would make a group
     file.write("columns/" + name, column.values, {}, unit_of(plan, column.name));
   }
   file.save();

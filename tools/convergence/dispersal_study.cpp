@@ -1,4 +1,4 @@
-// The study of how a fill spreads what stands on it: pressures at a rigid base beside closed forms and rules of codes.
+// The study of load dispersal by a fill: pressures at a rigid base compared with closed forms and rules of codes.
 #include <fmt/format.h>
 
 #include "tools/convergence/studies.h"
@@ -11,7 +11,8 @@ namespace {
 using ladder::BasePressure;
 using ladder::Dispersal;
 
-/// One thing that is compared over the depths: computed, or a closed form. What lies on another curve is not drawn.
+/// One row of the comparison over the depths: computed, or a closed form. A row that coincides with another curve is
+/// not drawn.
 struct Spread {
   std::string name;
   std::function<BasePressure(Dispersal)> of;

@@ -1,4 +1,5 @@
-// voussoir-convergence: how results depend on points, joint stiffness, time step and load rate, as tables and pictures.
+// voussoir-convergence: dependence of results on integration points, joint stiffness, time step and load rate, as
+// tables and pictures.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -120,8 +120,8 @@ Assembly rocking_block(double kn) {
                    2.0, 0.0);
 }
 
-/// Base acceleration A sin(2πt/T) (1 − cos(2πt/T)) along x: begins and ends with three vanishing derivatives and leaves
-/// no velocity, so that nothing but the step is of limited smoothness. In 4000 pieces.
+/// Base acceleration A sin(2πt/T) (1 − cos(2πt/T)) along x. It begins and ends with three vanishing derivatives and
+/// leaves no velocity, so that only the time step limits the smoothness. In 4000 pieces.
 GroundMotion smooth_pulse(double amplitude, double length) {
   GroundMotion motion;
   motion.dt = length / 4000.0;
@@ -137,8 +137,9 @@ double critical(const Assembly& assembly, const SolverSettings& settings) {
   return critical_step(run.model(), run.state()).step;
 }
 
-/// The motion after gravity, sampled sample_count times until `duration`. The number of steps at 0.8 of the critical
-/// one is rounded up to whole samples; other shares go in proportion, so that all sample at the same times.
+/// The response after gravity, sampled sample_count times until `duration`. The number of time steps at 0.8 of the
+/// critical one is rounded up to whole samples. Other shares are in proportion, so that all runs have the same sample
+/// times.
 PulseResponse respond(const Assembly& assembly, const GroundMotion& motion, double duration, double share) {
   SolverSettings settings = undamped({0, 0, -gravity});
   settings.step.equilibrium_tolerance = 1e-10;
@@ -289,7 +290,7 @@ LetGo let_go(double share) {
   const Block& block = assembly.blocks[std::size_t(assembly.groups.at("top").front())];
   result.exact = std::sqrt(kn * 1.0 / block.mass);
   const double quarter = 0.5 * pi / result.exact;
-  // Whole steps to the quarter after a cycle.
+  // A whole number of time steps to the quarter after a cycle.
   const auto steps = std::size_t(std::ceil(5.0 * quarter / (share * critical(assembly, settings))));
   result.dt = 5.0 * quarter / double(steps);
   settings.step.time_step = settings.output.history_every = result.dt;

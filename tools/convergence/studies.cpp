@@ -17,7 +17,7 @@ const std::vector<double> step_shares = {0.8, 0.4, 0.2, 0.1, 0.05};        // of
 constexpr double reference_share = 0.00625;                                // of the critical step
 const std::vector<double> durations = {0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10};  // s
 
-/// 1/kn, m/Pa: what the errors of near rigid blocks go with.
+/// 1/kn, m/Pa: the errors of near rigid blocks are proportional to it.
 std::vector<double> compliances() {
   std::vector<double> values;
   for (double kn : stiffnesses) values.push_back(1.0 / kn);
@@ -45,7 +45,7 @@ StudyChart study_chart(const std::string& name, const std::string& title, const 
   return {name, {.title = title, .x_label = x_label, .y_label = y_label, .width = 900.0, .height = 540.0}};
 }
 
-/// The same of errors that fall.
+/// The same for decreasing errors.
 StudyChart log_log(const std::string& name, const std::string& title, const std::string& x_label,
                    const std::string& y_label) {
   StudyChart chart = study_chart(name, title, x_label, y_label);
@@ -53,7 +53,7 @@ StudyChart log_log(const std::string& name, const std::string& title, const std:
   return chart;
 }
 
-// --- Points a side ---
+// --- Points per side ---
 
 /// Largest absolute value of a series up to `end`.
 double largest(const ChartCurve& series, double end) {
@@ -63,7 +63,7 @@ double largest(const ChartCurve& series, double end) {
   return most;
 }
 
-/// Beyond the kernel, e/b = 1/6; finely, because the error swings.
+/// Outside the kern, e/b = 1/6; in small increments, because the error oscillates.
 StudyChart bed_chart() {
   StudyChart chart = study_chart("points", "Partly open square joint: rotation against the closed form",
                                  "eccentricity / side", "error of the rotation, %");

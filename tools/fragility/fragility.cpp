@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t curve_points = 81;
 constexpr double farthest_beyond = 3.0;  // the curve is drawn so far beyond the intensities of the runs, as a factor
 
-/// The number of a record among those met so far; runs of which no record is said stand for themselves.
+/// The number of a record among the records so far. Each run without a record counts as its own record.
 std::size_t record_number(SelectedRuns& s, const CampaignRun& run) {
   const std::string& name = run.record.empty() ? run.run : run.record;
   const auto at = std::find(s.records.begin(), s.records.end(), name);
@@ -29,7 +29,7 @@ Estimate estimate(Method method, const std::vector<CloudRun>& trials, const std:
 
 void choose(Fragility& f) {
   const Estimate counts = estimate_counts(f.selection.trials, f.levels);
-  if (f.limit.demand == collapse_demand) {  // it has no size
+  if (f.limit.demand == collapse_demand) {  // collapse has no size
     f.chosen = counts;
     return;
   }
@@ -41,7 +41,7 @@ void choose(Fragility& f) {
   f.other = other_way ? counts : cloud;
 }
 
-/// Evenly spaced in the logarithm, over the runs and the rise of the curve, but not far beyond the runs.
+/// Intensities evenly spaced in the logarithm, over the runs and the rise of the curve, but not far beyond the runs.
 std::vector<CurvePoint> empty_curve(const Fragility& f) {
   double low = INFINITY, high = 0.0;
   for (const CloudRun& t : f.selection.trials) low = std::min(low, t.im), high = std::max(high, t.im);
@@ -58,8 +58,8 @@ std::vector<CurvePoint> empty_curve(const Fragility& f) {
   return points;
 }
 
-/// From 5 to 95 %: percentiles that allow for a bias of the estimate (Efron 1981: as far as its own place among the
-/// replicates is off their middle) and for the few records behind them (Hesterberg 2015: Student's t, and n for n − 1).
+/// The range from 5 to 95 %: percentiles that correct the bias of the estimate (Efron 1981: by its rank among the
+/// replicates) and the small number of records (Hesterberg 2015: Student's t, and n for n − 1).
 CurveBand band_of(std::vector<double>& values, double estimate, std::size_t records) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
@@ -130,7 +130,7 @@ SelectedRuns select(const CampaignTable& table, const std::string& case_name, co
     CloudRun t;
     t.im = intensity[i];
     t.collapsed = run.status == RunStatus::collapsed;
-    // A demand with a sign (where a keystone has moved to) counts by its size; a collapse is beyond all sizes.
+    // A signed demand (such as the position of a keystone) counts by its magnitude. A collapse exceeds all magnitudes.
     t.demand = t.collapsed || !demand ? LognormalFit::nan : std::abs(demand->values[i]);
     t.beyond = t.collapsed || t.demand >= limit.threshold;
     if (run.status == RunStatus::failed)

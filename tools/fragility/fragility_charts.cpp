@@ -17,7 +17,7 @@ using Points = std::vector<std::pair<double, double>>;
 constexpr double kWidth = 860.0, kPlotHeight = 360.0, kLeft = 74.0, kRight = 20.0, kBelow = 46.0;  // px
 constexpr double kEntry = 22.0, kRug = 9.0;                                                        // px, a row
 
-/// Where a chart's plot lies: below its legend, and beside or between its rugs.
+/// The plot area of a chart: below its legend, and next to or between the marks of the runs.
 struct Plot {
   double top = 0.0, bottom = 0.0;
   ChartAxis x, y;
@@ -27,7 +27,7 @@ std::string case_colour(std::size_t index) {
   return colour_code(line_colour(index));
 }
 
-/// See-through, so that bands that overlap are both seen.
+/// Transparent, so that overlapping bands are both visible.
 std::string tint(std::size_t index) {
   const Colour c = line_colour(index);
   return fmt::format("rgba({:.0f},{:.0f},{:.0f},0.16)", 255.0 * c[0], 255.0 * c[1], 255.0 * c[2]);
@@ -74,7 +74,7 @@ void draw_curve(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::
   drawing.curve(middle, case_colour(index), 2.4);
 }
 
-/// The share at each level, the number of its runs beside it.
+/// The share at each level, with the number of its runs.
 void draw_levels(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {
   for (const Count& c : f.counts)
     drawing.marker(
@@ -82,7 +82,7 @@ void draw_levels(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std:
         fmt::format("{}: {:.0f} of {:.0f} runs at {}", f.case_name, c.beyond, c.runs, with_unit(c.im, f.im)));
 }
 
-/// A stroke a run; a row a case, beyond above the plot, within below it.
+/// A mark for each run, in a row for each case: above the plot if it exceeds the limit, below if not.
 void draw_rug(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {
   for (const CloudRun& t : f.selection.trials) {
     const double x = plot.x.at(t.im), row = kRug * double(index);
@@ -91,7 +91,7 @@ void draw_rug(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::si
   }
 }
 
-/// Curves go on beyond the runs; as far as the runs, and where the curves rise.
+/// Range of the curves: the runs, and the rise of the curves.
 ChartAxis intensity_axis(const std::vector<const Fragility*>& curves) {
   std::vector<double> values;
   for (const Fragility* f : curves) {
@@ -121,7 +121,7 @@ void draw_line_of(SvgDrawing& drawing, const Plot& plot, const Line& line, std::
   if (!line.known()) return;
   for (double off : {-line.scatter, 0.0, line.scatter}) {
     Points points;
-    for (int i = 0; i <= 60; ++i) {  // in pieces, so that what lies outside is left out
+    for (int i = 0; i <= 60; ++i) {  // in pieces, so that parts outside are left out
       const double im = plot.x.low * std::pow(plot.x.high / plot.x.low, i / 60.0);
       const double y = std::exp(line.intercept + line.slope * std::log(im) + off);
       points.emplace_back(plot.x.at(im), y >= plot.y.low && y <= plot.y.high ? plot.y.at(y) : std::nan(""));

@@ -9,7 +9,7 @@ namespace voussoir {
 
 namespace {
 
-/// Where each outcome was seen, in ln im.
+/// Range of ln im of each outcome.
 struct Ranges {
   double within_low = INFINITY, within_high = -INFINITY, beyond_low = INFINITY, beyond_high = -INFINITY;
 };
@@ -24,8 +24,8 @@ Ranges ranges_of(const std::vector<Count>& counts) {
   return r;
 }
 
-/// All runs are on their side of one intensity x, but for those at x itself. Where fewer than half of them go beyond,
-/// the median lies above it, and below the next intensity; where more do, the other way round.
+/// All runs are on their side of one intensity x, except those at x. If fewer than half of the runs at x exceed the
+/// limit, the median is above x and below the next intensity; otherwise below x and above the previous one.
 void bound_by_one_level(const std::vector<Count>& counts, double x, LognormalFit& fit) {
   double next = INFINITY, last = -INFINITY;
   fit.identified = Identified::one_mixed;

@@ -13,7 +13,7 @@ namespace voussoir {
 
 namespace {
 
-/// What a ground motion is like, not how strong it is.
+/// Characteristics of a ground motion other than its intensity.
 constexpr std::array<const char*, 4> characteristics = {"im.d595", "im.d575", "im.magnitude", "im.distance"};
 
 bool is_characteristic(const std::string& name) {
@@ -31,7 +31,7 @@ std::vector<double> scaled_values(const std::vector<double>& column, const std::
   return values;
 }
 
-/// Those of the case that stand and have both numbers, above 0.
+/// The runs of the case without collapse that have both numbers above 0.
 std::vector<std::size_t> rows_with(const CampaignTable& table, const std::string& case_name,
                                    const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<std::size_t> rows;
@@ -64,8 +64,8 @@ MeasurePair pairing_of(const CampaignTable& table, const std::string& case_name,
   return p;
 }
 
-/// ln L of the counts, summed over the cases; −∞ where in one the counts fall with the intensity, or where runs are
-/// lacking that another intensity has.
+/// ln L of the counts, summed over the cases. −∞ if in one case the counts fall with the intensity, or if runs are
+/// missing that another intensity has.
 double plausibility(const CampaignTable& table, const std::vector<std::string>& cases, const LimitState& limit,
                     const std::string& im, std::size_t most_runs) {
   double sum = 0.0;
@@ -98,7 +98,7 @@ std::string most_plausible(const CampaignTable& table, const std::vector<std::st
   return best;
 }
 
-/// Runs with a damage and all of the demands: those that are compared are compared over the same.
+/// Runs with a damage and all demands, so that all demands are compared over the same runs.
 struct Compared {
   std::vector<std::size_t> rows;
   Clusters clusters;
@@ -131,7 +131,7 @@ double correlation_at(const std::vector<double>& x, const std::vector<double>& y
   return rank_correlation(a, b);
 }
 
-/// How often the first demand stays ahead of the second.
+/// Share of resamples in which the first demand remains ahead of the second.
 double share_ahead(const Compared& c, const std::vector<double>& first, const std::vector<double>& second,
                    const std::vector<double>& damage, int replicates, std::uint64_t seed) {
   RandomStream random(seed);

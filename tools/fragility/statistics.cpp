@@ -34,7 +34,7 @@ double product_sum(const std::vector<double>& x, const std::vector<double>& y) {
   return sum;
 }
 
-/// What a line in x leaves of y.
+/// Residuals of y after a line in x.
 std::vector<double> residuals(const std::vector<double>& x, const std::vector<double>& y) {
   const double slope = product_sum(x, y) / product_sum(x, x), mx = mean_of(x), my = mean_of(y);
   std::vector<double> left;

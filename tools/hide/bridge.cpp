@@ -38,7 +38,7 @@ void set_key(Case& c, const std::string& key, const std::string& word) {
   }
 }
 
-/// The case as far as it is known what the true bridge has otherwise.
+/// The case with the values of --truth.
 Case as_it_is(const Case& model, const HideRequest& request) {
   Case c = model;
   for (const auto& [key, word] : request.truth) set_key(c, key, word);
@@ -46,13 +46,13 @@ Case as_it_is(const Case& model, const HideRequest& request) {
   return c;
 }
 
-/// The bridge with other dimensions and other blocks. Dimensions that cannot be together are drawn again.
+/// The bridge with other dimensions and block sizes. Impossible combinations of dimensions are drawn again.
 Assembly surveyed_wrongly(const Case& model, const HideRequest& request) {
   const Case truth = as_it_is(model, request);
   for (int tries = 0;; ++tries) {
     Case c = truth;
-    // Two dimensions that are the same number are one on the bridge: backing that reaches the end still does, instead
-    // of ending a centimetre short of it behind a slot of fill.
+    // Two dimensions with the same value are one dimension of the bridge. Backing that reaches the end then still does
+    // so, instead of ending a centimetre before it with a slot of fill.
     std::map<double, double> errors;
     for (const Parameter& p : keys_of(find_generator(c.generator), c.generator_input).parameters) {
       double& value = c.generator_input.values.at(p.name);

@@ -13,7 +13,7 @@ namespace voussoir {
 
 namespace {
 
-/// Where a box of the assembly's blocks reaches.
+/// Bounding box of the blocks of the assembly.
 Box extent(const Assembly& assembly) {
   Box all;
   for (const Block& block : assembly.blocks) {
@@ -27,7 +27,7 @@ Box extent(const Assembly& assembly) {
 class Instruments {
  public:
   explicit Instruments(const Assembly& assembly) : assembly_(&assembly) {}
-  /// At the block nearest to a point, on it.
+  /// The nearest point on the block nearest to a point.
   void add(Vec3 at, const std::string& axes) {
     const Box box = block_box(assembly_->blocks[std::size_t(nearest_block(*assembly_, at).block)]);
     at = at.cwiseMax(box.low).cwiseMin(box.high);
@@ -55,7 +55,7 @@ Vec3 middle_of(const Assembly& assembly, const std::string& group) {
 
 enum class Plan { sparse, rich, dense };
 
-/// Channels of a plan; those of a richer one come after those of a poorer one where they are not among them.
+/// Channels of a plan. The additional channels of a larger plan come after those of a smaller plan.
 std::vector<MeasuredSensor> planned(const Assembly& assembly, Plan plan) {
   Instruments all(assembly);
   const Box box = extent(assembly);
@@ -83,7 +83,7 @@ std::vector<MeasuredSensor> planned(const Assembly& assembly, Plan plan) {
   return all.sensors;
 }
 
-/// So many of the plan's channels, in its order: one of each axis, then any.
+/// The given number of channels of the plan, in its order: one of each axis, then any.
 std::vector<MeasuredSensor> drawn(const Assembly& assembly, int channels, const HideRequest& request) {
   std::vector<MeasuredSensor> pool = planned(assembly, Plan::rich);
   if (int(pool.size()) < channels) pool = planned(assembly, Plan::dense);

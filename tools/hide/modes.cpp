@@ -10,7 +10,8 @@
 namespace voussoir {
 
 std::vector<MeasuredMode> true_modes(const Response& r, const HideRequest& request, double ratio) {
-  return expected_modes(r, request.modes, {request.noise, 2.0 * request.noise, ratio});  // shapes: half as well
+  return expected_modes(r, request.modes,
+                        {request.noise, 2.0 * request.noise, ratio});  // shapes have twice the standard deviation
 }
 
 std::vector<MeasuredMode> measured_modes(const Response& truth, const std::vector<Sensor>& sensors,
@@ -39,7 +40,7 @@ double trace_of(const Assembly& bare, const Response& truth, const std::vector<S
     problem.features.modes.push_back(feature_of(mode, sensors.size()));
   problem.damping = bare_ratio;
   problem.modes = int(problem.features.modes.size()) + 8;
-  problem.error.shape = 0.01;  // as diagnose takes it without what its mesh does
+  problem.error.shape = 0.01;  // as in diagnose without the error of its mesh
   set_covariance(problem);
   const Hypothesis materials = {calibrations(bare), {}};
   return fit(problem, materials, Eigen::VectorXd::Zero(Eigen::Index(materials.size())), 8).misfit;

@@ -40,7 +40,7 @@ void soften(Assembly& assembly, std::size_t joint) {
   assembly.joints[joint].ks *= left_of_stiffness;
 }
 
-/// The gap steps from course to course, as the stones do.
+/// The gap follows the head joints from course to course.
 void open_at(Assembly& assembly, const std::vector<ParapetJoint>& joints, double x) {
   std::map<long, const ParapetJoint*> nearest;  // by course
   for (const ParapetJoint& j : joints) {

@@ -11,7 +11,7 @@ namespace voussoir {
 
 namespace {
 
-/// A support that moves otherwise than the ground's record says.
+/// A support whose motion differs from the recorded ground motion.
 struct MovedSupport {
   std::size_t support = 0;  // of supports()
   double factor = 1.0, delay = 0.0;
@@ -27,7 +27,7 @@ std::vector<MovedSupport> moved_supports(const Assembly& assembly, const HideReq
   return all;
 }
 
-/// How much a support's motion (m/s2) differs from the ground's at a time.
+/// Difference between the motion of a support and that of the ground at a time, m/s2.
 Vec3 astray(const GroundMotion& ground, const MovedSupport& moved, double time) {
   return moved.factor * base_acceleration(&ground, time - moved.delay) - base_acceleration(&ground, time);
 }
@@ -48,8 +48,8 @@ Eigen::VectorXd relative_acceleration(const Eigen::VectorXd& a, double dt, doubl
   return result;
 }
 
-/// Noise of each sensor's channel, five times the request's share of what it records. A dead one, which records
-/// nothing, has that of the quietest that does.
+/// Noise of the channel of each sensor: five times the share of the request of its signal. A dead channel has the
+/// noise of the quietest live channel.
 void add_channel_noise(Recording& record, const std::vector<Sensor>& sensors, const HideRequest& request) {
   std::vector<double> sizes;
   double quietest = 1e300;

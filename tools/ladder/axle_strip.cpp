@@ -1,5 +1,5 @@
-// An axle on a bare arch, from place to place: collapse loads of the program against limit analysis of the same blocks,
-// and the place where the arch bears least.
+// An axle at several places on a bare arch: collapse loads by the solver against limit analysis of the same blocks,
+// and the place with the smallest collapse load.
 #include <algorithm>
 
 #include "geometry/road.h"

@@ -1,5 +1,5 @@
-// A whole bridge let go in the shape of its first mode: the frequency of the run against the eigenvalue, without
-// damping and with the Maxwell damping of the bridges' cases.
+// A whole bridge released in the shape of its first mode: the frequency of the run against the eigenvalue, without
+// damping and with the Maxwell damping of the bridge cases.
 #include "solver/base/error.h"
 #include "solver/modal/damped_mode.h"
 #include "tools/ladder/decay.h"
@@ -20,8 +20,8 @@ Assembly restrained_bridge() {
   return assembly;
 }
 
-/// Of the block that moves most, over eight cycles; with damping a first one is left out, in which slow branches
-/// settle.
+/// Frequency of the block with the largest motion over eight cycles. With damping the first cycle, in which slow
+/// branches settle, is left out.
 Decay rings(const Assembly& assembly, const Mode& mode, const DampingSettings& damping) {
   SolverSettings settings = undamped();
   settings.damping = damping;

@@ -1,5 +1,5 @@
-// Two free blocks, hard or soft, fly at each other and part again: momentum is kept through the contacts that come and
-// go, and the soft ones, whose patches change while they press hard, are not thrown apart.
+// Two free blocks, hard or soft, collide and separate. Momentum is conserved in the contacts. The energy of soft
+// blocks, whose patches change during the contact, must not grow.
 #include "solver/base/error.h"
 #include "tools/ladder/models.h"
 #include "tools/ladder/rung.h"

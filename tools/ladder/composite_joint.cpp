@@ -1,6 +1,6 @@
-// The composite law against its closed forms (docs/theory/joints.md): energies of a point that is pulled, slid and
-// pressed through, what is left after unloading, how far a joint lifts however often it slides, and where the resultant
-// of a crushed hinge acts.
+// The composite law against its closed forms (docs/theory/joints.md): energies of a point that is pulled, sheared and
+// crushed, the state after unloading, the dilation under repeated sliding, and the position of the resultant of a
+// crushed hinge.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -44,12 +44,12 @@ struct Probe {
     fracture += next.fracture, friction += next.friction;
     un = n, us = s, last = next;
   }
-  /// Straight to a jump, in so many steps.
+  /// Moves straight to a jump in the given number of steps.
   void to(double n, double s, int steps) {
     const double n0 = un, s0 = us;
     for (int i = 1; i <= steps; ++i) step(n0 + (n - n0) * i / steps, s0 + (s - s0) * i / steps);
   }
-  /// Slides to a jump under a pressure, for which the normal jump is corrected after every step.
+  /// Slides to a jump under a pressure; the normal jump is corrected after every step.
   void slide_under(double pressure, double s, int steps) {
     const double s0 = us;
     for (int i = 1; i <= steps; ++i) step(un - (pressure + normal()) / mortar_kn, s0 + (s - s0) * i / steps);
@@ -88,7 +88,7 @@ void press(std::vector<Finding>& findings) {
   findings.push_back(near("pressure left", strength_beyond(crushed), p, 0.005, "Pa", "softening curve"));
 }
 
-/// Pressed beyond its strength, let go, pressed again to where it was.
+/// Pressed beyond its strength, unloaded, and reloaded to the same closure.
 void unload(std::vector<Finding>& findings) {
   Probe point(mortar());
   const double down = peak + 2.0 * softening;
@@ -121,8 +121,8 @@ void dilate(std::vector<Finding>& findings) {
                           "(1 - p/p_psi) tan psi u0"));
 }
 
-/// Depth from the edge to the resultant of a block on strips of base that is tilted on and on under a load; the strips
-/// make points that lie close.
+/// Depth from the edge to the resultant of a block on strips of base that is tilted more and more under a load. The
+/// strips give closely spaced points.
 double hinge_lever(double depth, double width, double load) {
   constexpr int strips = 40;
   JointLaw law = mortar();

@@ -28,8 +28,8 @@ Assembly crossing_courses() {
   return joined(std::move(assembly), 3e9, 1.2e9, elastic_law());
 }
 
-/// Largest differences, as shares of the stress: at the corners of the patches, of their wrenches, and what the joints
-/// between the parts of a course carry.
+/// Largest differences, as shares of the stress: at the corners of the patches, of their wrenches, and of the forces
+/// in the joints between the parts of a course.
 struct Differences {
   double stress = 0.0, wrench = 0.0, beside = 0.0;
   int horizontal = 0;  // patches

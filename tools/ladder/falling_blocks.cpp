@@ -66,7 +66,7 @@ Finding overlap_of(const std::string& name, const Fall& f, double allowed) {
   return nothing(name + ": deepest overlap", f.overlap, allowed * side, "m", tight);
 }
 
-/// As a share of the largest kinetic energy; what rounding may do.
+/// Tolerance for rounding, as a share of the largest kinetic energy.
 Finding gain_of(const std::string& name, const Fall& f) {
   return nothing(name + ": growth of energy", f.gain, 1e-9, "-", "first law");
 }
@@ -78,7 +78,7 @@ void raise(Fall& worst, const Fall& f) {
   worst.lowest = std::min(worst.lowest, f.lowest);
 }
 
-/// 4900 J on a corner from 2 m: the spring of a sharp contact gives way by 14 mm, 2.8 %.
+/// 4900 J on a corner from 2 m: the soft contact of a sharp corner is compressed by 14 mm, 2.8 %.
 std::vector<Drop> drops() {
   const Eigen::Quaterniond flat = Eigen::Quaterniond::Identity(), on_edge(Eigen::AngleAxisd(0.6, Vec3::UnitY()));
   const Vec3 diagonal = Vec3(1, 1, 1).normalized(), down = Vec3(0.1, 0.05, -1).normalized();

@@ -17,7 +17,7 @@ double expected(double friction) {
 
 Footing on_soil(double friction, double dilation, double cell, int rest) {
   Footing f{.friction = friction, .dilation = dilation, .cell = cell, .steps = 6000, .rest = rest};
-  const bool wide = friction > 25.0;  // the wedges reach farther
+  const bool wide = friction > 25.0;  // the wedges extend farther
   f.cells_along = int(std::lround((wide ? 14.0 : 8.0) / cell)),
   f.cells_up = int(std::lround((wide ? 6.0 : 4.0) / cell));
   f.settlement = wide ? 100.0 : 30.0;

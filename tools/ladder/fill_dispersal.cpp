@@ -1,5 +1,5 @@
-// How a fill spreads a wheel, or an axle in plane strain, on its way down to a rigid base: an elastic layer on a smooth
-// base against its closed form, and fills on rough bases beside the rules of codes.
+// Dispersal of a wheel load, or an axle in plane strain, by a fill over a rigid base: an elastic layer on a smooth
+// base against its closed form, and fills on rough bases against the rules of codes.
 #include "solver/base/error.h"
 #include "tools/ladder/dispersal.h"
 #include "tools/ladder/rung.h"
@@ -22,8 +22,8 @@ void compare_smooth(const Dispersal& d, std::vector<Finding>& findings) {
       near(name_of(d) + ": width with half of it or more", expected.half_width(), got.half_width(), 0.05, "m", source));
 }
 
-/// CS 454 spreads the load uniformly, two down to one along; beside it the width that bears the load with the greatest
-/// pressure found.
+/// CS 454 distributes the load uniformly with a slope of 2:1. The computed width is the one that carries the load at
+/// the largest pressure.
 Finding compare_rule(const Dispersal& d) {
   const BasePressure got = base_pressure(d);
   if (!got.at_rest)

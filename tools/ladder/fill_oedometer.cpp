@@ -40,7 +40,7 @@ std::vector<Reading> compress(const Material& soil, const std::vector<double>& s
     Reading r;
     rig.stresses();
     r.flowed = rig.flowed();
-    // Volume ratio and height are the same number, and the wall at x = 1 is pressed over what is left of its height.
+    // The volume ratio equals the height, and the wall at x = 1 is pressed over its remaining height.
     r.vertical = rig.force_on(2, top) * height, r.sideways = rig.force_on(0, right);
     readings.push_back(r);
   }

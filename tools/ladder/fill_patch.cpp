@@ -1,5 +1,5 @@
-// The contact patch test: fill between stones whose faces match neither one another nor the fill's triangles, pressed
-// together. Constant pressure passes exactly.
+// The contact patch test: fill between stones whose faces match neither one another nor the triangles of the fill,
+// under pressure. A constant pressure must be transmitted exactly.
 #include "tools/ladder/fill_models.h"
 #include "tools/ladder/rung.h"
 
@@ -31,8 +31,8 @@ Assembly sandwich(const Eigen::Quaterniond& turn) {
                 dry_law(0.7));
 }
 
-/// Where everything is in equilibrium under the pressure, what is left of it, over the pressure: on nodes, and on
-/// stones with their moments.
+/// The residual forces in equilibrium under the pressure, divided by the pressure: on nodes, and on stones with their
+/// moments.
 double worst_remainder(const Eigen::Quaterniond& turn) {
   Bench bench(sandwich(turn));
   State& state = bench.state;

@@ -16,7 +16,7 @@ double acceleration(double degrees) {
   add_box(assembly, {0, 0, -1}, {6, 2, 0}, true);
   FillMesh mesh = box_mesh({0.5, 0.5, 0}, {2, 1.5, 0.4}, 3, 2, 1);
   const double angle = radians(degrees);
-  // A hundred times as stiff as the bridges' fill: a slab as soft as that shudders as it slides.
+  // A hundred times as stiff as the fill of bridges, because a soft slab vibrates as it slides.
   const Material stiff = elastic_fill(1500.0, 80e9 / 3.0, 16e9);
   SolverSettings settings = undamped(9.81 * Vec3(std::sin(angle), 0, -std::cos(angle)));
   settings.damping.kind = DampingSettings::Kind::maxwell;  // of its own vibrations, which would ease the friction

@@ -1,4 +1,4 @@
-// Spin about the intermediate axis with a slight push aside: the block flips over and over (Euler 1765), and keeps its
+// Rotation about the intermediate axis with a small disturbance: the block flips repeatedly (Euler 1765) and conserves
 // energy and momentum.
 #include "solver/base/error.h"
 #include "tools/ladder/models.h"

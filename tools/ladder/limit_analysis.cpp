@@ -1,5 +1,5 @@
-// Limit analysis by linear programming, which the rung `rings` is held against, against values that come from
-// elsewhere: all four-hinge mechanisms of an arch, the least thickness of a semicircle, and a wall that slides.
+// Limit analysis by linear programming, the reference of the rung `rings`, against independent values: all four-hinge
+// mechanisms of an arch, the least thickness of a semicircle, and a sliding wall.
 #include "tools/limit/limit_analysis.h"
 
 #include "tools/ladder/hinge_mechanisms.h"
@@ -34,7 +34,7 @@ Finding of_mechanisms(const std::string& what, const Assembly& assembly) {
               1e-6, "-", "all four-hinge mechanisms, flat-faced voussoirs");
 }
 
-/// Thickness over mean radius at which a semicircle of so many voussoirs just bears its weight.
+/// Thickness divided by mean radius at which a semicircle of the given number of voussoirs just carries its weight.
 double least_thickness(int voussoirs) {
   double low = 0.1, high = 0.12;
   while (high - low > 1e-6) {

@@ -1,4 +1,4 @@
-// A bonded stack turned as a whole through 90° has no stress, and nothing is left behind afterwards.
+// A bonded stack rotated as a whole by 90° has no stress, and no damage afterwards.
 #include "tools/ladder/models.h"
 #include "tools/ladder/rung.h"
 

@@ -1,5 +1,5 @@
-// What is let go in the shape of a mode rings at the frequency that the eigenvalue says: the steps of a run against the
-// assembled stiffness and mass.
+// A structure released in the shape of a mode oscillates at the frequency of the eigenvalue: the time steps of a run
+// against the assembled stiffness and mass.
 #include "solver/base/error.h"
 #include "tools/ladder/decay.h"
 #include "tools/ladder/models.h"

@@ -1,5 +1,6 @@
-// A strip of a segmental arch of one thick ring, of two rings that only rub, and of two rings with headers, under a
-// load near the quarter span: collapse loads of the program against limit analysis of the same blocks.
+// A strip of a segmental arch with one thick ring, with two rings that have only friction between them, and with two
+// rings and headers, under a load near the quarter span: collapse loads by the solver against limit analysis of the
+// same blocks.
 #include "tools/ladder/ring_strip.h"
 #include "tools/ladder/rung.h"
 #include "tools/limit/limit_analysis.h"
@@ -8,7 +9,7 @@ namespace voussoir::ladder {
 
 namespace {
 
-/// With headers the load at which sliding stones collapse depends more on how it was brought on: a wider `share`.
+/// With headers the collapse load of sliding stones depends more on the loading path, so the `share` is wider.
 Finding compared(const std::string& what, const RingStrip& strip, double share, int threads) {
   const Assembly assembly = ring_strip(strip);
   const StripLoad load = load_on(assembly, strip);

@@ -45,7 +45,8 @@ Assembly barrel(double skew, SkewBond bond, double ratio) {
   return assembly;
 }
 
-/// Whether it comes to rest under its weight. What moves by a twentieth of its thickness falls.
+/// Whether the barrel comes to rest under its weight. A displacement of a twentieth of its thickness counts as
+/// collapse.
 bool stands(double skew, SkewBond bond, double ratio) {
   Bench bench(barrel(skew, bond, ratio), undamped({0.0, 0.0, -9.81}));
   RelaxationLimits limits;

@@ -1,5 +1,5 @@
-// Softening joints pulled and sheared through to the end by a driven plate: what they dissipate is the fracture energy
-// times their area, with a stiff plate, and with one so soft that the joint snaps back.
+// Softening joints pulled and sheared to failure by a driven plate. Their dissipation is the fracture energy times
+// their area, with a stiff plate and with one so soft that the joint snaps back.
 #include <fmt/format.h>
 
 #include "solver/base/error.h"
@@ -54,8 +54,9 @@ Pulled pull(double spring, const Vec3& way, double step, int threads) {
   return result;
 }
 
-/// A spring softer than the softening branch (4e8 Pa/m in tension, 8e8 in shear) drives the joint through it in a snap:
-/// at the critical step within three steps, with 1.8 and 1.3 % too much dissipated. So that is tried at a third of it.
+/// A spring softer than the softening branch (4e8 Pa/m in tension, 8e8 in shear) makes the joint snap through: at the
+/// critical time step within three steps, with 1.8 and 1.3 % too much dissipation. These cases therefore use a third
+/// of the critical time step.
 constexpr double critical = 0.0, third = 3e-5;  // s; 0: the program's choice
 
 struct Pull {

@@ -181,8 +181,8 @@ class Program {
     }
   }
 
-  /// The duals of a block's equilibrium are its velocity: a force more on it changes the multiplier by minus that
-  /// velocity, when the pattern's power is one.
+  /// The duals of the equilibrium of a block are its velocity: an additional force on it changes the multiplier by
+  /// minus that velocity, if the power of the pattern is one.
   void read_mechanism(LimitAnalysis& a, const LinearOptimum& optimum) const {
     a.rates.assign(assembly_.blocks.size(), Vec3::Zero());
     for (std::size_t b = 0; b < assembly_.blocks.size(); ++b) {
@@ -257,8 +257,8 @@ LimitAnalysis limit_analysis(const Assembly& assembly, const LimitProblem& probl
 }
 
 LimitAnalysis limit_analysis_without_lift(const Assembly& assembly, const LimitProblem& problem) {
-  constexpr double lift = 1e-3;     // share of friction that is left as dilation
-  constexpr double share = 0.3;     // of the newest solution in the normal forces that friction is taken under
+  constexpr double lift = 1e-3;     // remaining share of the friction as dilation
+  constexpr double share = 0.3;     // weight of the newest solution in the normal forces that limit friction
   constexpr double settled = 1e-3;  // of the multiplier, over ten solutions
   constexpr int most = 100, window = 10;
   LimitAnalysis a = limit_analysis(assembly, problem);

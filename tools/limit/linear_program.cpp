@@ -70,8 +70,8 @@ bool can_solve_linear_programs() {
 
 namespace {
 
-/// Ways of going from vertex to vertex. Equilibrium of blocks is degenerate, and now and then one of them goes round in
-/// circles or loses its accuracy.
+/// Variants of the simplex method. Equilibrium of blocks is degenerate, and sometimes one variant cycles or loses
+/// accuracy.
 struct Way {
   int method, pricing, ratio;
   bool presolve;
@@ -81,7 +81,7 @@ constexpr Way ways[] = {{GLP_PRIMAL, GLP_PT_PSE, GLP_RT_HAR, false},
                         {GLP_DUALP, GLP_PT_PSE, GLP_RT_HAR, false},
                         {GLP_PRIMAL, GLP_PT_PSE, GLP_RT_HAR, true}};
 
-/// What GLPK's answer means; `known` is false when it gave none.
+/// The meaning of the result of GLPK; `known` is false if there is none.
 struct Answer {
   bool known = false;
   LinearOptimum::Kind kind = LinearOptimum::Kind::infeasible;

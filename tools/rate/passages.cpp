@@ -50,7 +50,7 @@ StageSettings standing(const std::vector<RoadLoad>& loads, const Loads& before) 
   return stage;
 }
 
-/// The stages of the case that bring it to rest, and those of all passages.
+/// The stages of the case that bring it to rest, and the stages of all passages.
 std::vector<StageSettings> all_stages(const Case& c, const std::vector<SpanExtent>& spans,
                                       const PassageRequest& request, double factor, std::size_t& first) {
   std::vector<StageSettings> stages = before_vehicles(c).settings.stages;
@@ -110,9 +110,9 @@ const char* passage_word(PassageEnd end) {
   return words[std::size_t(end)];
 }
 
-/// Increments of the largest displacement: d(n) of passage n. They settle when the last is below `settled`, or when
-/// those of the last third are at most half of those of the third before; they grow when they are at least nine tenths
-/// of them.
+/// The end state of the increments d(n) of the largest displacement in passage n. They settle if the last is below
+/// `settled`, or if those of the last third are at most half of those of the third before. They grow if they are at
+/// least nine tenths of them.
 PassageEnd judge(const std::vector<AfterPassage>& after, double settled) {
   const std::size_t passages = after.empty() ? 0 : after.size() - 1;
   if (passages < 3) return PassageEnd::undecided;

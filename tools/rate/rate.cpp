@@ -17,7 +17,7 @@ namespace voussoir {
 
 namespace {
 
-/// Of its loads in its own frame, m.
+/// Range of the loads of a vehicle in its own frame, m.
 std::pair<double, double> reach(const Vehicle& vehicle) {
   std::pair<double, double> reach = {1e300, -1e300};
   const auto take = [&](double from, double to) {
@@ -51,7 +51,7 @@ StageSettings collapse_stage(const RateRequest& request, const Case& c, const Ra
   return stage;
 }
 
-/// The bridge as its stages leave it.
+/// The bridge after its stages.
 struct AtRest {
   SolverSettings settings;
   State state;
@@ -90,7 +90,7 @@ bool is_worse(const RatedPlace& a, const RatedPlace& b) {
   return a.factor < b.factor;
 }
 
-/// Index of the worst place of a vehicle; of equals the first.
+/// Index of the worst place of a vehicle; the first of equal places.
 std::size_t worst_of(const std::vector<RatedPlace>& places, std::size_t vehicle) {
   std::size_t worst = places.size();
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -198,7 +198,7 @@ std::vector<double> fronts(const Vehicle& vehicle, const std::vector<SpanExtent>
 
 namespace {
 
-/// Where the vehicles of a request stand, `step` m from place to place.
+/// Places of the vehicles of a request, `step` m apart.
 std::vector<RatedPlace> places_of(const RateRequest& request, const std::vector<SpanExtent>& spans, double step) {
   std::vector<RatedPlace> places;
   for (std::size_t v = 0; v < request.vehicles.size(); ++v)
