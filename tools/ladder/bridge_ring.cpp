@@ -49,7 +49,7 @@ std::vector<Finding> climb_bridge_ring(int) {
   DampingSettings none;
   none.kind = DampingSettings::Kind::none;
   const Decay free = rings(assembly, mode, none), decay = rings(assembly, mode, {});
-  return {near("cs1-r, first mode let go", mode.frequency, free.frequency, 0.005, "Hz", "eigenvalue of K and M"),
+  return {near("cs1-r, first mode released", mode.frequency, free.frequency, 0.005, "Hz", "eigenvalue of K and M"),
           near("frequency shift of Maxwell damping", damped.frequency / mode.frequency,
                decay.frequency / free.frequency, 0.003, "-", "pole of the damped mode"),
           near("ratio of Maxwell damping", damped.ratio, decay.ratio, 0.02, "-", "pole of the damped mode")};

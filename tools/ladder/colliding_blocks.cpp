@@ -53,7 +53,7 @@ Collision collide(double youngs) {
 }
 
 std::vector<Finding> of(const std::string& name, const Collision& c, double allowed) {
-  return {nothing(name + ": deepest overlap", c.overlap, allowed, "m", "nothing passes through"),
+  return {nothing(name + ": deepest overlap", c.overlap, allowed, "m", "no penetration"),
           nothing(name + ": growth of energy", c.gain, 1e-9, "-", "first law"),
           nothing(name + ": error of the energy balance", c.imbalance, 0.01, "-", "first law"),
           nothing(name + ": change of momentum", c.momentum, 1e-10, "-", "Newton's third law")};

@@ -59,8 +59,7 @@ struct Probe {
 void pull_and_slide(std::vector<Finding>& findings) {
   Probe pulled(mortar());
   pulled.to(5e-3, 0.0, 20000);
-  findings.push_back(
-      near("work of pulling through", mortar_GI, pulled.work, 0.005, "J/m2", "GI: area under the curve"));
+  findings.push_back(near("work of pulling apart", mortar_GI, pulled.work, 0.005, "J/m2", "GI: area under the curve"));
   Probe slid(mortar());
   constexpr double pressure = 5e4, rubbed = 0.7 * pressure, elastic = rubbed / mortar_ks;  // below the cap
   slid.to(-pressure / mortar_kn, 0.0, 1);
@@ -85,7 +84,7 @@ void press(std::vector<Finding>& findings) {
   const double others = 7.0 / 9.0 * fc * peak + 0.1 * fc * (crushed - peak) + 0.5 * p * p / mortar_kn;
   findings.push_back(
       near("work of crushing above a tenth of fc", mortar_Gc, pressed.work - others, 0.005, "J/m2", "Gc"));
-  findings.push_back(near("pressure left", strength_beyond(crushed), p, 0.005, "Pa", "softening curve"));
+  findings.push_back(near("residual pressure", strength_beyond(crushed), p, 0.005, "Pa", "softening curve"));
 }
 
 /// Pressed beyond its strength, unloaded, and reloaded to the same closure.
@@ -100,11 +99,10 @@ void unload(std::vector<Finding>& findings) {
   findings.push_back(
       near("unloading stiffness", mortar_kn * kept, stiffness, 0.005, "Pa/m", "kn S/(S + 0.3 kn kappa)"));
   while (point.normal() < -1.0) point.step(point.un - point.normal() / (mortar_kn * kept), 0.0);
-  findings.push_back(near("closure that stays", 0.7 * crushed, -point.un, 0.005, "m", "0.7 kappa"));
+  findings.push_back(near("permanent closure", 0.7 * crushed, -point.un, 0.005, "m", "0.7 kappa"));
   point.to(-down, 0.0, 100);
-  findings.push_back(near("pressure when it is back", p, -point.normal(), 0.005, "Pa", "elastic cycle"));
-  findings.push_back(
-      nothing("work of the cycle over all work", (point.work - work) / work, 1e-3, "-", "elastic cycle"));
+  findings.push_back(near("pressure after reloading", p, -point.normal(), 0.005, "Pa", "elastic cycle"));
+  findings.push_back(nothing("work of the cycle / total work", (point.work - work) / work, 1e-3, "-", "elastic cycle"));
 }
 
 /// Twenty cycles of ± 1 mm under a pressure, without bond.
@@ -117,7 +115,7 @@ void dilate(std::vector<Finding>& findings) {
   point.to(-pressure / mortar_kn, 0.0, 1);
   for (int i = 0; i < 20; ++i) point.slide_under(pressure, i % 2 ? -1e-3 : 1e-3, 4000);
   const double most = (1.0 - pressure / lift_pressure) * lift * lift_length;
-  findings.push_back(near("lift after twenty reversals", most, point.un + pressure / mortar_kn, 0.01, "m",
+  findings.push_back(near("dilation after twenty reversals", most, point.un + pressure / mortar_kn, 0.01, "m",
                           "(1 - p/p_psi) tan psi u0"));
 }
 

@@ -8,7 +8,7 @@ namespace voussoir::ladder {
 namespace {
 
 constexpr double side = 0.5;  // m
-constexpr const char* tight = "nothing passes through";
+constexpr const char* tight = "no penetration";
 
 struct Fall {
   double overlap = 0.0;    // m, deepest so far
@@ -94,7 +94,7 @@ std::vector<Drop> drops() {
 Fall worst_of_any_way_up() {
   std::mt19937 random(41);
   Fall worst;
-  for (int i = 0; i < 12; ++i) raise(worst, fall({"any way up", random_rotation(random), 0.05, 0.5, 0.01}));
+  for (int i = 0; i < 12; ++i) raise(worst, fall({"any orientation", random_rotation(random), 0.05, 0.5, 0.01}));
   return worst;
 }
 
@@ -123,8 +123,8 @@ std::vector<Finding> climb_falling_blocks(int) {
     raise(all, f);
   }
   const Fall any = worst_of_any_way_up();
-  findings.push_back(overlap_of("12 ways up", any, 0.01));
-  findings.push_back(gain_of("12 ways up", any));
+  findings.push_back(overlap_of("12 orientations", any, 0.01));
+  findings.push_back(gain_of("12 orientations", any));
   raise(all, any);
   findings.push_back(within("lowest centroid of all", side / 2, all.lowest, 0.05 * side, "m", tight));
   findings.push_back(nothing("largest error of the energy balance", all.imbalance, 0.01, "-", "first law"));

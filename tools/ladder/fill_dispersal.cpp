@@ -16,10 +16,10 @@ void compare_smooth(const Dispersal& d, std::vector<Finding>& findings) {
   const std::string source = "elastic layer, Filon 1903";
   const BasePressure got = base_pressure(d), expected = profile(d, smooth_base_pressure);
   if (!got.at_rest) throw RunError("{}: the fill does not come to rest", name_of(d));
-  findings.push_back(near(name_of(d) + ", elastic, smooth base: greatest pressure over the patch's",
+  findings.push_back(near(name_of(d) + ", elastic, smooth base: greatest pressure / pressure of the patch",
                           expected.peak() / d.pressure, got.peak() / d.pressure, 0.05, "-", source));
-  findings.push_back(
-      near(name_of(d) + ": width with half of it or more", expected.half_width(), got.half_width(), 0.05, "m", source));
+  findings.push_back(near(name_of(d) + ": width with at least half of it", expected.half_width(), got.half_width(),
+                          0.05, "m", source));
 }
 
 /// CS 454 distributes the load uniformly with a slope of 2:1. The computed width is the one that carries the load at

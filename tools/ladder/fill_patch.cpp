@@ -71,9 +71,8 @@ double worst_remainder(const Eigen::Quaterniond& turn) {
 
 std::vector<Finding> climb_fill_patch(int) {
   const Eigen::Quaterniond askew = Eigen::Quaterniond(0.8, 0.3, -0.4, 0.2).normalized();
-  return {
-      nothing("forces left over a pressure", worst_remainder(Eigen::Quaterniond::Identity()), 1e-9, "m2", "uniform"),
-      nothing("the same askew", worst_remainder(askew), 1e-9, "m2", "uniform")};
+  return {nothing("residual forces / pressure", worst_remainder(Eigen::Quaterniond::Identity()), 1e-9, "m2", "uniform"),
+          nothing("the same, rotated", worst_remainder(askew), 1e-9, "m2", "uniform")};
 }
 
 }  // namespace

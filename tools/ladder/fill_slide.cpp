@@ -45,7 +45,7 @@ std::vector<Finding> climb_fill_slide(int) {
   const double angle = radians(40.0);
   const double expected = 9.81 * (std::sin(angle) - friction * std::cos(angle));
   return {near("acceleration on a plane of 40 degrees", expected, acceleration(40.0), 5e-3, "m/s2", "Coulomb"),
-          nothing("acceleration on a plane of 30 degrees", acceleration(30.0), 1e-2, "m/s2", "Coulomb: it stays")};
+          nothing("acceleration on a plane of 30 degrees", acceleration(30.0), 1e-2, "m/s2", "Coulomb: no sliding")};
 }
 
 }  // namespace

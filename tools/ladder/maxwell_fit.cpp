@@ -18,7 +18,7 @@ std::vector<Finding> ripple(const MaxwellFit& fit) {
   const double said = std::max(std::abs(fit.lowest - lowest), std::abs(fit.highest - highest));
   return {near("least ratio on 0.5-12 Hz", 0.01976, lowest, 0.003, "-", independent_fit),
           near("greatest ratio on 0.5-12 Hz", 0.02011, highest, 0.003, "-", independent_fit),
-          nothing("error of the fit's own least and greatest", said, 1e-6, "-", "scan of the band")};
+          nothing("error of the least and greatest ratio of the fit", said, 1e-6, "-", "scan of the band")};
 }
 
 std::vector<Finding> climb_maxwell_fit(int) {

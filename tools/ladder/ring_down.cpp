@@ -35,8 +35,8 @@ std::vector<Finding> climb_ring_down(int) {
   const Mode bending = modes_of(Bench(column), 1)[0];
   const std::string source = "eigenvalue of K and M";
   return {
-      near("axial chain of 10 blocks let go", axial.frequency, rings_at(chain, axial), 0.005, "Hz", source),
-      near("bending column of 10 blocks let go", bending.frequency, rings_at(column, bending), 0.005, "Hz", source)};
+      near("axial chain of 10 blocks released", axial.frequency, rings_at(chain, axial), 0.005, "Hz", source),
+      near("bending column of 10 blocks released", bending.frequency, rings_at(column, bending), 0.005, "Hz", source)};
 }
 
 }  // namespace
