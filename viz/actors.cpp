@@ -18,8 +18,8 @@ namespace voussoir {
 
 namespace {
 
-/// The same shape moved towards the reader by `lift` (m), so that lines lie before the faces they border. The picture
-/// of a point does not change: it moves along its own line of sight.
+/// The same shape moved towards the reader by `lift` (m), so that lines are in front of the faces they border. Each
+/// point moves along its own line of sight, so its position in the picture does not change.
 vtkSmartPointer<vtkPolyData> lifted(vtkPolyData* shape, vtkCamera* camera, double lift) {
   Vec3 eye, focus;
   camera->GetPosition(eye.data());
@@ -117,7 +117,7 @@ void add_lights(vtkRenderer* renderer, const View& view) {
   };
   renderer->RemoveAllLights();
   renderer->SetAutomaticLightCreation(0);
-  const double strength = view.perspective ? 1.3 : 1.0;  // seen obliquely, no face is square to the lamps
+  const double strength = view.perspective ? 1.3 : 1.0;  // in an oblique view no face is square to the lamps
   add(-0.5, 0.8, 1.2, 0.75 * strength);
   add(0.8, -0.1, 1.2, 0.50 * strength);
 }

@@ -14,7 +14,7 @@ void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& co
   const double left = 0.5 * (sheet.width - width), bottom = 2.0 * s;
   constexpr int steps = 200;
   const auto at = [&](double share) { return colouring.bottom + share * (colouring.top - colouring.bottom); };
-  for (int i = 0; i < steps; ++i)  // a hair wider than a step, so that no seams show
+  for (int i = 0; i < steps; ++i)  // slightly wider than a step, so that no gaps show
     overlay.rectangle(left + width * i / steps, bottom, width / steps + 0.6, height,
                       colour_on_scale(colouring, at((i + 0.5) / steps)));
   const double part = colouring.top / scale_steps(colouring.top);
@@ -55,12 +55,12 @@ void draw_length_scale(Overlay& overlay, const Sheet& sheet, double left) {
   overlay.text(left + 0.5 * pixels, y + 0.5 * s, fmt::format("{:g} m", length), s, Align::centre);
 }
 
-/// The three axes as the view sees them; one that points at or away from the reader is left out.
+/// The three axes in the view; an axis towards or away from the reader is left out.
 void draw_axes(Overlay& overlay, const Sheet& sheet, const View& view) {
   const double s = sheet.letter, size = 2.4 * s;
   const std::array<std::pair<Vec3, const char*>, 3> axes = {
       {{Vec3::UnitX(), "x"}, {Vec3::UnitY(), "y"}, {Vec3::UnitZ(), "z"}}};
-  double low_x = 0.0, low_y = 0.0;  // how far they reach to the left and down
+  double low_x = 0.0, low_y = 0.0;  // extent to the left and downwards
   for (const auto& [axis, name] : axes) {
     low_x = std::min(low_x, axis.dot(view.right));
     low_y = std::min(low_y, axis.dot(view.up));

@@ -23,9 +23,9 @@ struct Rectangle {
 class Names {
  public:
   Names(Overlay& overlay, const Sheet& sheet) : overlay_(overlay), sheet_(sheet) {}
-  /// Nothing is written over this.
+  /// Marks an area that names must not cover.
   void keep_free(const Rectangle& r) { taken_.push_back(r); }
-  /// Writes a name near `spot`, at first in the direction `towards` (unit) from it.
+  /// Writes a name near `spot`, starting in the direction `towards` (unit vector) from it.
   void place(const Spot& spot, const Spot& towards, const std::string& name, const Colour& colour) {
     const double s = 0.85 * sheet_.letter, width = Overlay::text_width(name, s) + 0.4 * s, height = 1.25 * s;
     const auto around = [&](const Spot& centre) {
@@ -57,7 +57,7 @@ class Names {
   std::vector<Rectangle> taken_;
 };
 
-/// An arrow that is seen end on: its point, or its feathers.
+/// An arrow along the line of sight: its point or its feathers.
 void draw_end_on(Overlay& overlay, const Spot& at, bool towards, double s, const Colour& colour) {
   overlay.disc(at.x(), at.y(), 0.65 * s, colour);
   overlay.disc(at.x(), at.y(), 0.48 * s, {1, 1, 1});
@@ -111,7 +111,7 @@ double arrow_strip(const Sheet& sheet) {
 
 void draw_arrows(Overlay& overlay, vtkRenderer* renderer, const Sheet& sheet, const View& view,
                  const std::vector<Arrow>& arrows) {
-  constexpr double end_on = 0.1;  // share of its length that is left of an arrow on the sheet
+  constexpr double end_on = 0.1;  // share of the length of an arrow that remains on the sheet
   const Projection seen(renderer->GetActiveCamera(), sheet);
   const double s = sheet.letter, length = arrow_length * s;
   Names names(overlay, sheet);

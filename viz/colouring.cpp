@@ -64,7 +64,7 @@ Colouring colour_by_cell(vtkPolyData* faces, const char* field, const char* titl
   return colouring;
 }
 
-/// mm, of the points that belong to a face: a cut leaves others behind.
+/// mm, of the points of faces; a cut leaves other points behind.
 std::vector<double> point_displacements(vtkPolyData* faces) {
   std::vector<double> mm;
   if (!faces) return mm;
@@ -112,7 +112,7 @@ Colouring colour_by_mode(vtkPolyData* stones, vtkPolyData* fill) {
   return colouring;
 }
 
-/// By component, or all in the tone of stone.
+/// By component, or all in the colour of stone.
 Colouring colour_plainly(vtkPolyData* stones, vtkPolyData* fill, bool by_component) {
   vtkDataArray* component = stones->GetCellData()->GetArray("component");
   vtkDataArray* block = stones->GetCellData()->GetArray("block");
@@ -132,7 +132,7 @@ Colouring colour_plainly(vtkPolyData* stones, vtkPolyData* fill, bool by_compone
   return colouring;
 }
 
-/// Stones beside a fill that is coloured: they take part in nothing that the colours say.
+/// Stones next to a coloured fill: the colours do not apply to them.
 void colour_aside(vtkPolyData* stones) {
   paint_faces(stones, [&](vtkIdType i) { return is_fixed(stones, i) ? kFixed : kAside; });
 }
@@ -146,7 +146,7 @@ Colouring colour_by_plastic_strain(vtkPolyData* stones, vtkPolyData* fill, doubl
   return colouring;
 }
 
-/// Where it yields in shear and in tension at once it counts as the latter, which opens it.
+/// Fill that yields both in shear and in tension counts as yielding in tension, which opens the fill.
 Colouring colour_by_yield(vtkPolyData* stones, vtkPolyData* fill) {
   constexpr int tension = 2;
   colour_aside(stones);

@@ -30,8 +30,9 @@ Vec3 area_vector(const Loop& polygon, const Places& places) {
   return sum;
 }
 
-/// Adds the edges that close what is left of a polygon, turned round: those of the section. They run along keep ×
-/// normal; where a polygon that is not convex crosses the plane more than twice, they are every second one in between.
+/// Adds the edges of the section that close the remaining part of a polygon, with reversed direction. They run along
+/// keep × normal. If a non-convex polygon crosses the plane more than twice, they are every second edge between the
+/// crossings.
 void add_rim(const Loop& polygon, std::vector<vtkIdType> crossings, const Places& places, const CutPlane& cut,
              std::multimap<vtkIdType, vtkIdType>& rim) {
   const Vec3 along = (cut.side * Vec3::Unit(cut.axis)).cross(area_vector(polygon, places));
@@ -41,7 +42,7 @@ void add_rim(const Loop& polygon, std::vector<vtkIdType> crossings, const Places
     if (crossings[i] != crossings[i + 1]) rim.emplace(crossings[i + 1], crossings[i]);
 }
 
-/// The loops that directed edges make.
+/// The loops formed by directed edges.
 std::vector<Loop> loops_of(std::multimap<vtkIdType, vtkIdType> edges) {
   std::vector<Loop> loops;
   while (!edges.empty()) {

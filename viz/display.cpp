@@ -53,7 +53,8 @@ pid_t start_xvfb(const Pipe& number) {
     return start({.words = {"Xvfb", "-displayfd", std::to_string(number.ends[1]), "-screen", "0", "1920x1440x24",
                             "-nolisten", "tcp", "-noreset"},
                   .kept = number.ends[1],
-                  .group = Launch::Group::session,  // Ctrl-C in the terminal is for us, who end it when we are done
+                  .group = Launch::Group::session,  // Ctrl-C in the terminal reaches only this program, which ends the
+                                                    // server itself
                   .signal_at_our_end = SIGTERM});
   } catch (const RunError& error) {
     throw InputError(
@@ -79,7 +80,7 @@ Server start_server() {
 
 bool display_is_usable() {
   const char* name = std::getenv("DISPLAY");
-  // A display at the other end of a network connection has no OpenGL worth the name.
+  // A display over a network connection has no usable OpenGL.
   if (!name || (name[0] != ':' && std::strncmp(name, "unix:", 5) != 0)) return false;
   // Xlib is asked at run time (VTK brings it anyway), so that we need not link to it.
   void* library = ::dlopen("libX11.so.6", RTLD_NOW);

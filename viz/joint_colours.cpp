@@ -32,7 +32,7 @@ std::vector<double> joint_values(vtkPolyData* faces, const char* field, double f
 
 constexpr double hardly = 0.05;  // of the top of a scale
 
-/// What `of` is the number of, as a colour; joints without one are bare.
+/// Colours by the numbers `of`; joints without a number are bare.
 ColouredJoints painted(vtkPolyData* faces, Colouring colouring,
                        const std::function<std::optional<Colour>(std::size_t)>& of) {
   ColouredJoints joints{std::move(colouring), vtkSmartPointer<vtkPolyData>::New(), vtkSmartPointer<vtkPolyData>::New()};
@@ -58,7 +58,7 @@ ColouredJoints painted_by(vtkPolyData* faces, const Colouring& colouring, const 
   });
 }
 
-/// Compression upwards, tension downwards in whole parts of the same scale.
+/// Compression upwards and tension downwards, in whole parts of the same scale.
 ColouredJoints joints_by_normal(vtkPolyData* faces, double range) {
   const std::vector<double> compression = joint_values(faces, "normal_traction", -1e-6);
   Colouring colouring{.title = "mean compression of the joints, MPa; outlines only: less than 5 %"};
@@ -81,7 +81,7 @@ ColouredJoints joints_on_one_side(vtkPolyData* faces, const char* field, double 
   return painted_by(faces, colouring, values);
 }
 
-/// The kern ends at a sixth; a joint without tension has opened to half its depth at a third.
+/// The kern ends at a sixth of the depth. At a third, a joint without tension has opened to half its depth.
 ColouredJoints joints_by_eccentricity(vtkPolyData* faces) {
   constexpr std::array<double, 3> ends = {1.0 / 6.0, 1.0 / 3.0, 0.45};
   const std::array<Colour, 4> colours = {scale_colour(0.1), scale_colour(0.35), scale_colour(0.65), scale_colour(1.0)};
@@ -96,7 +96,7 @@ ColouredJoints joints_by_eccentricity(vtkPolyData* faces) {
                                        {"outlines only: almost no compression", {1, 1, 1}}}};
   return painted(faces, colouring, [&](std::size_t i) -> std::optional<Colour> {
     if (compression[i] <= hardly * usual.top) return {};
-    const double value = values[i] * (1.0 - 1e-9);  // what lies on a border is within
+    const double value = values[i] * (1.0 - 1e-9);  // a value on a limit counts as inside
     return colours[std::size_t(std::ranges::lower_bound(ends, value) - ends.begin())];
   });
 }

@@ -33,7 +33,8 @@ Snapshot at_rest(const Assembly& assembly) {
 
 void draw_mode(const Assembly& assembly, const Mode& mode, RenderOptions options,
                const std::array<std::string, 2>& notes, const std::string& png, double share) {
-  constexpr double small = 1e-7;  // m: a mode is small displacements drawn large, so stones turn without growing
+  constexpr double small = 1e-7;  // m; the mode has small displacements and is drawn enlarged, so that stones rotate
+                                  // without changing size
   Snapshot snapshot = rest_snapshot(assembly);
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
     const Vec3 turn = small * mode.shape.row(Eigen::Index(i)).tail<3>();

@@ -58,7 +58,7 @@ void write_png(vtkRenderWindow* window, const std::string& path) {
   grab->Update();
   const auto picture = averaged(grab->GetOutput());
   make_folder_of(path);
-  // In memory first: what is wrong with a disk, VTK says in its own words and on the terminal.
+  // Written to memory first, because VTK reports disk errors only on the terminal.
   auto writer = vtkSmartPointer<vtkPNGWriter>::New();
   writer->WriteToMemoryOn();
   writer->SetInputData(picture);

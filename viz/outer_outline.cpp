@@ -14,8 +14,8 @@ namespace voussoir {
 
 namespace {
 
-constexpr double beside = 2e-3;  // m: how far inside a face it is asked whether a joint covers it
-constexpr double level = 1e-3;   // m: how far off its plane a joint may lie
+constexpr double beside = 2e-3;  // m, distance inside a face at which the program checks for a joint
+constexpr double level = 1e-3;   // m, largest distance of a joint from the plane
 constexpr int piece_count = 4;   // of an edge, each shown or not
 
 /// A convex polygon with its plane.
@@ -73,7 +73,7 @@ using Edge = std::pair<vtkIdType, vtkIdType>;  // points, the lower first
 vtkSmartPointer<vtkPolyData> outer_outline(vtkPolyData* faces, vtkPolyData* joints) {
   const std::map<vtkIdType, std::vector<Flat>> covering = joints_by_block(joints);
   vtkDataArray* block = faces->GetCellData()->GetArray("block");
-  // Of each edge: its pieces that are bare on all faces so far, and the normal of the first of them.
+  // For each edge: its pieces without a joint on all faces so far, and the normal of the first face.
   struct Bare {
     unsigned pieces = (1u << piece_count) - 1;
     Vec3 normal = Vec3::Zero();

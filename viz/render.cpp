@@ -33,8 +33,8 @@ namespace {
 constexpr const char* kFillName = "backfill";
 constexpr Colour kPaleLine = {0.74, 0.74, 0.76};  // stones around the joints that are coloured
 
-/// What the picture is fitted to: all but the stones that are farther off the undeformed whole than a share of its
-/// size. One that fell off and is still falling would make a dot of the bridge.
+/// The content to which the picture is fitted: all stones except those farther from the undeformed whole than a share
+/// of its size. Otherwise a falling stone would reduce the bridge to a dot.
 struct Content {
   vtkNew<vtkPoints> points;
   std::set<vtkIdType> gone;  // blocks
@@ -46,7 +46,7 @@ double diagonal(vtkPoints* points) {
   return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
 }
 
-/// Adds the points of faces that are not too far off; `undeformed` is the box of what is at rest.
+/// Adds the points of faces that are not too far away; `undeformed` is the undeformed box.
 void add_content(Content& content, vtkPolyData* faces, const Box& undeformed) {
   constexpr double far = 0.3;
   vtkDataArray* block = faces->GetCellData()->GetArray("block");
@@ -112,7 +112,7 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
   return words;
 }
 
-/// What is kept free above the content, pixels.
+/// Free height above the content, pixels.
 double above(const Sheet& sheet, const RenderOptions& options) {
   return top_strip(sheet) + (options.arrows.empty() ? 0.0 : arrow_strip(sheet)) +
          (options.resultants.empty() ? 0.0 : resultants_strip(sheet));
@@ -139,7 +139,7 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
                 const RenderOptions& options, double lift) {
   CrackRule rule;
   rule.opening = rule.slip = 1e-3 * options.crack_mm;
-  // After an earthquake most bonds are lost somewhere; what one would see is what has moved.
+  // After an earthquake most bonds are lost somewhere. Visible cracks are the joints that have moved.
   if (options.crack_mm > 0.0) rule.bonded = 0.0;
   const auto cracks = crack_patches(joints, hidden, options.amplification, rule, cut);
   if (cracks->GetNumberOfPolys() == 0) return;
@@ -147,8 +147,8 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
   add_lines(renderer, borders(cracks), 2.2, kCrack, lift);
 }
 
-/// Joints as faces of their own, in the lines of the whole: what lies edge-on to the reader is a line in its colour.
-/// Returns what explains the colours.
+/// Draws joints as faces in front of the lines of the whole. Faces seen edge-on become lines in their colour. Returns
+/// the scale or legend.
 Colouring add_joints(vtkRenderer* renderer, const PictureGrids& grids, const Hidden& hidden,
                      const std::optional<CutPlane>& cut, const RenderOptions& options, const View& view, double lift) {
   if (!grids.joints)
@@ -156,7 +156,7 @@ Colouring add_joints(vtkRenderer* renderer, const PictureGrids& grids, const Hid
   const auto shown = [&](vtkIdType i) { return is_shown_as_joint(grids.joints, i); };
   const auto faces = joint_faces(grids.joints, hidden, options.amplification, shown, cut);
   const ColouredJoints joints = colour_joints(faces, options.colour, options.range);
-  add_faces(renderer, joints.faces, 0.75);  // they lie at all angles, and their colours are to be read
+  add_faces(renderer, joints.faces, 0.75);  // their orientations differ, and their colours must be readable
   add_edge_on(renderer, joints.faces, view, 2.0 * lift);
   add_lines(renderer, borders(joints.faces), 0.6, kOutline, lift);
   add_lines(renderer, borders(joints.bare), 0.5, kPaleLine, 0.0);
@@ -193,7 +193,7 @@ Box visible_box(const PictureGrids& grids, const Hidden& hidden) {
   return box;
 }
 
-/// `outline`: that of what is at rest is drawn too.
+/// `outline`: the undeformed outline is drawn too.
 Content content_of(const Shapes& now, const Shapes& rest, bool outline) {
   Box box;
   Content content;

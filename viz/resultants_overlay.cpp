@@ -15,7 +15,7 @@ namespace {
 constexpr Colour kForce = {0.0, 0.32, 0.55}, kThrust = {0.835, 0.369, 0.0};  // Okabe & Ito (2008)
 
 bool has_thrust(const BedJoint& bed) {
-  constexpr double far = 2.0;  // depths off the middle: next to no compression
+  constexpr double far = 2.0;  // depths from the middle: almost no compression
   return bed.normal > 0.0 && std::abs(bed.eccentricity) < far * bed.depth &&
          std::abs(bed.eccentricity_across) < far * bed.width;
 }
@@ -34,7 +34,7 @@ std::vector<std::vector<Spot>> lines_of_thrust(const std::vector<BedJoint>& beds
   return lines;
 }
 
-/// Pixels between neighbours on the lines: half are farther apart.
+/// Distance in pixels between neighbours on the lines: the median.
 double usual_distance(const std::vector<std::vector<Spot>>& lines) {
   std::vector<double> distances;
   for (const std::vector<Spot>& line : lines)

@@ -46,7 +46,7 @@ std::string facts(const CampaignTable& table) {
        {std::pair{RunStatus::collapsed, "ended because the bridge fell"}, std::pair{RunStatus::failed, "failed"},
         std::pair{RunStatus::missing, "not run yet"}})
     if (count[status] > 0) text += fmt::format(", {} {}", count[status], words);
-  text = paragraph(text + fmt::format("; {:.0f} min of computing.", seconds / 60.0));
+  text = paragraph(text + fmt::format("; computing time {:.0f} min.", seconds / 60.0));
   std::vector<std::string> failures;
   for (const CampaignRun& run : table.runs)
     if (run.status == RunStatus::failed) failures.push_back(fmt::format("{}: {}", run.run, run.reason));

@@ -38,7 +38,7 @@ T need(const json& object, const char* key, const std::string& place) {
   try {
     return found->template get<T>();
   } catch (const json::exception&) {
-    throw InputError("{}: '{}' is {}, which is of the wrong type", place, key, json_excerpt(*found));
+    throw InputError("{}: '{}' is {}, which has the wrong type", place, key, json_excerpt(*found));
   }
 }
 

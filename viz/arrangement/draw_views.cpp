@@ -17,12 +17,12 @@ namespace {
 constexpr double kViewTitle = 7.0;  // mm, above a view
 constexpr double kMark = 7.0;       // mm, of the mark of a section
 
-/// Stops of a chain: places that are known, in order and apart, with the texts between them.
+/// Points of a chain of dimensions: known positions in order and apart, with the texts between them.
 struct Chain {
   std::vector<ChainStop> stops;
   std::vector<std::string> texts;
 
-  /// `text` stands between the stop before and this one; lengths that are nothing are left out.
+  /// `text` is between the previous point and this one. Zero lengths are left out.
   void add(double at, double from, const std::string& text = "") {
     if (!std::isfinite(at)) return;
     if (!stops.empty() && std::abs(stops.back().at - at) < 0.02) return;
@@ -242,14 +242,14 @@ void ArrangementParts::draw_supports_below(DrawingSheet& sheet, const SheetPlace
   for (const MeasuredSupport& s : m.supports)
     if (!levels.contains(s.springing))
       levels[s.springing] = cut_faces(assembly, seen_from_above(), 0.01 * s.height() - s.springing);
-  // Without walls that go on beyond the ends, which nothing hides.
+  // Without walls that extend beyond the ends, which nothing hides.
   const auto under_deck = [&](const FlatFace& face, const MeasuredSupport& s) {
     const Vec3 middle = polygon_centroid(face.corners);
     const double x = middle.x() - (middle.y() - m.middle) * std::tan(m.skew);
     return x > s.x0 - 1e-6 && x < s.x1 + 1e-6;
   };
   for (const MeasuredSupport& s : m.supports) {
-    // Which support it is: what stands over its base in the section along the middle.
+    // The support: the stones above its base in the section along the middle.
     const auto own = std::ranges::find_if(along, [&](const FlatFace& face) {
       const Vec3 middle = polygon_centroid(face.corners);
       return (face.component == Component::pier || face.component == Component::abutment) && !face.fixed &&
@@ -279,7 +279,7 @@ void ArrangementParts::draw_plan(DrawingSheet& sheet, const SheetBox& box) const
   const std::vector<FlatFace>& across = sections.front().pieces;
   const auto first = extent_of(across, Component::parapet, 0), second = extent_of(across, Component::parapet, 1);
   double low = m.moving.low.y(), high = m.moving.high.y();
-  if (!m.spans.empty()) {  // what stands out farther below, as battered piers, is in their sections
+  if (!m.spans.empty()) {  // lower parts that extend farther, such as battered piers, are in their own sections
     Box there;
     for (const FlatFace& face : across)
       if (!face.fixed) {
@@ -298,7 +298,7 @@ void ArrangementParts::draw_plan(DrawingSheet& sheet, const SheetBox& box) const
     chain_of_levels(sheet, place, right + 5.0, right, {low, high}, false);
   }
   if (m.spans.empty() || std::abs(m.skew) < 0.002) return;
-  // Skew: the springing line against what is square to the bridge.
+  // Skew: the angle between the springing line and the transverse direction.
   const MeasuredSpan& s = m.spans.front();
   const double x = place.x(s.left.x()), y = place.y(m.middle), half = 0.5 * place.mm * (high - low);
   sheet.line(x, y - half, x, y + half, 0.2, "9 3 2 3");

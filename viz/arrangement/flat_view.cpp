@@ -34,9 +34,9 @@ Covered covered_area(const Assembly& assembly, const std::vector<bool>& left_out
   return covered;
 }
 
-constexpr double nearly_all = 0.999;  // of a face's area: more is taken to cover it
+constexpr double nearly_all = 0.999;  // share of the area of a face; more counts as covered
 
-/// The face in the sheet's axes; none when it looks away or is seen from its edge.
+/// The face in the axes of the sheet; none if it is turned away or seen edge-on.
 std::optional<FlatFace> flattened(const Polygon& polygon, const SheetAxes& axes) {
   FlatFace face;
   face.normal = polygon_normal(polygon);
@@ -70,7 +70,7 @@ Polygon section_of(const Polyhedron& cell, const Vec3& forward, double place) {
   return points;
 }
 
-/// Sorts the corners of a convex polygon counter-clockwise and drops those that stand there twice.
+/// Sorts the corners of a convex polygon counter-clockwise and removes repeated ones.
 Polygon sorted_corners(Polygon points) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& p : points) middle += p / double(points.size());
@@ -105,7 +105,7 @@ void take_over(FlatFace& face, const Block& block, std::size_t number) {
   face.block = std::int64_t(number), face.fixed = block.fixed;
 }
 
-/// What a section shows of a polygon.
+/// The part of a polygon that a section shows.
 Polygon beyond(const Polygon& polygon, const SheetAxes& axes, const std::optional<ViewCut>& section) {
   if (!section) return polygon;
   if (std::ranges::all_of(polygon, [&](const Vec3& x) { return axes.forward.dot(x) > section->to; })) return {};

@@ -71,7 +71,7 @@ void InFront::near_pairs(Pair&& pair) const {
 
 namespace {
 
-/// 1 when the first is farther off where both are seen, −1 when it is nearer, 0 when they do not overlap.
+/// 1 if the first is farther away where both are visible, −1 if it is nearer, 0 if they do not overlap.
 int which_is_farther(const FlatView& view, const InFront& front, std::size_t a, std::size_t b) {
   const Polygon both = intersect(view.faces[a].corners, view.faces[b].corners, Vec3::UnitZ());
   if (both.size() < 3 || polygon_area(both) < 1e-10 * front.size() * front.size()) return 0;
@@ -86,7 +86,7 @@ int which_is_farther(const FlatView& view, const InFront& front, std::size_t a, 
 
 std::vector<std::size_t> painting_order(const FlatView& view, const InFront& front, const std::vector<int>& colour) {
   const std::size_t n = view.faces.size();
-  std::vector<std::vector<std::size_t>> before(n);  // what is painted over each
+  std::vector<std::vector<std::size_t>> before(n);  // faces painted over each face
   std::vector<std::size_t> waits(n, 0);
   front.near_pairs([&](std::size_t a, std::size_t b) {
     const int farther = which_is_farther(view, front, a, b);
@@ -111,7 +111,7 @@ std::vector<std::size_t> painting_order(const FlatView& view, const InFront& fro
       for (auto q = ready.begin(); q != ready.end(); ++q)
         if (q->second.top() > queue->second.top()) queue = q;
     }
-    // Where faces overlap in a circle the farthest begins.
+    // If faces overlap in a cycle, the farthest is painted first.
     const Entry next = queue == ready.end() ? *left.begin() : queue->second.top();
     if (queue != ready.end()) {
       queue->second.pop();
@@ -130,7 +130,7 @@ namespace {
 
 constexpr double crease = 0.94;  // cosine of the angle from which an edge between two faces of one component is drawn
 
-/// What an edge is at one of its points; none where it is hidden or no edge at all.
+/// The kind of an edge at one of its points; none if it is hidden or not an edge.
 std::optional<LineKind> kind_at(const FlatView& view, const InFront& front, std::size_t f, const Vec3& at,
                                 const Vec3& outward) {
   const FlatFace& face = view.faces[f];

@@ -39,7 +39,7 @@ std::vector<Rim> rim_of(const std::vector<FlatFace>& section, std::int32_t part)
   return rim;
 }
 
-/// Half the width of the opening and its middle at the feet: what the edges of an intrados face.
+/// Half the width of the opening and its middle at the feet; the edges of an intrados face this point.
 std::vector<Rim> intrados_of(const std::vector<Rim>& rim) {
   Box box;
   for (const Rim& edge : rim) box.low = box.low.cwiseMin(edge.from), box.high = box.high.cwiseMax(edge.from);
@@ -81,7 +81,7 @@ double crown_length(const std::vector<Rim>& rim, const MeasuredSpan& span) {
     if (edge.bare && edge.outward().dot(opening - edge.middle()) > 0.0) continue;
     for (const Vec3& corner : {edge.from, edge.to}) {
       const double length = (corner - span.crown).norm();
-      // A corner of the intrados is none of the extrados.
+      // A corner of the intrados does not belong to the extrados.
       if (corner.y() > span.crown.y() + 1e-6 && !(length >= least)) least = length;
     }
   }
@@ -109,7 +109,7 @@ std::optional<MeasuredSpan> measure_span(const std::vector<FlatFace>& section, s
   const double slope = (span.right.y() - span.left.y()) / span.clear();
   const auto above = [&](const Vec3& p) { return p.y() - span.left.y() - slope * (p.x() - span.left.x()); };
   span.crown = *std::ranges::max_element(corners, {}, above);
-  // Of several at one height, as those of a keystone, the one nearest to the middle.
+  // Of several at one height, such as those of a keystone, the one nearest to the middle.
   for (const Vec3& p : corners)
     if (above(p) > above(span.crown) - 1e-9 &&
         std::abs(p.x() - opening.x()) < std::abs(span.crown.x() - opening.x()) - 1e-9)

@@ -25,7 +25,7 @@ struct LegendRow {
   std::vector<std::int32_t> materials;
 };
 
-/// Components in the order of their enumeration, what is fixed in one row at the end.
+/// Components in the order of their enumeration, with all fixed blocks in one row at the end.
 std::vector<LegendRow> legend_rows(const Assembly& assembly) {
   std::map<std::pair<bool, Component>, LegendRow> rows;
   for (const Block& block : assembly.blocks) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLineWidths[kLineKinds] = {0.1, 0.25, 0.5};  // mm
 constexpr const char* kLineInks[kLineKinds] = {"#6b645c", "#2e2a27", "#1f1f24"};
-constexpr double kResolution = 0.8;   // mm: of where a line goes out of sight
+constexpr double kResolution = 0.8;   // mm, resolution of the end of the visible part of a line
 constexpr double kGroundHatch = 1.7;  // mm between the lines
 constexpr double kFillHatch = 2.4;    // mm, likewise; of what is filled in and cut
 
@@ -44,7 +44,7 @@ bool clip(const FlatFace& face, const Vec3& along, const Vec3& across, double of
   return from < to;
 }
 
-/// Hatch lines of one kind over the faces that have it; those of neighbours run through.
+/// Hatch lines of one kind over the faces that have it; those of neighbouring faces are continuous.
 std::vector<FlatLine> hatch(const FlatView& view, const InFront& front, const SheetPlace& place, Hatch kind,
                             bool section) {
   const double spacing = (kind == Hatch::ground ? kGroundHatch : kFillHatch) / place.mm, half = std::sqrt(0.5);
@@ -89,7 +89,7 @@ std::vector<FlatLine> on_sheet(std::vector<FlatLine> lines, const SheetPlace& pl
   return lines;
 }
 
-/// Triangles of one surface would show hair lines between them; each is drawn a little larger.
+/// Triangles of one surface would show thin gaps between them, so each is drawn slightly larger.
 Drawing::Path outline_on_sheet(const FlatFace& face, const SheetPlace& place) {
   Drawing::Path path;
   const Vec3 middle = place.at(polygon_centroid(face.corners));

@@ -23,7 +23,7 @@ std::string length_text(double metres) {
   return fmt::format("{:.2f}", metres);
 }
 
-/// Advances of Helvetica and what has its measures (Arial, Liberation Sans), and a little more.
+/// Character widths of Helvetica and fonts with the same metrics (Arial, Liberation Sans), with a margin.
 double DrawingSheet::width_of(const std::string& words, double size) {
   static const std::string narrow = " .,:;|!'()[]/fijlrtI-", wide = "mwMW%";
   double width = 0.0;

@@ -60,7 +60,7 @@ class EdgesOnFaces {
         return std::abs(front_.depth(f, at) - view_.axes.forward.dot(x)) < near_ && near_face(face, at, near_);
       };
       if (!on(a, p) || !on(b, q)) continue;
-      // A little within the face, so that its neighbours do not decide.
+      // Slightly inside the face, so that its neighbours have no influence.
       const Vec3 along = (b - a).normalized(), across(-along.y(), along.x(), 0.0);
       const Vec3 middle = polygon_centroid(face.corners);
       const Vec3 in = across.dot(middle - a) > 0.0 ? Vec3(near_ * across) : Vec3(-near_ * across);

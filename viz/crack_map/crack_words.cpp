@@ -12,10 +12,10 @@ namespace voussoir {
 
 namespace {
 
-constexpr double kNetwork = 1.5;     // trace over length; one that steps in one sense has √2 at most
-constexpr double kLevel = 20.0;      // degrees: less than this from a direction is that direction
+constexpr double kNetwork = 1.5;     // trace / length; for steps in one direction it is at most √2
+constexpr double kLevel = 20.0;      // degrees; directions within this angle count as equal
 constexpr double kLeafNormal = 0.7;  // |n_y| of a joint that lies parallel to the faces of a wall
-constexpr double kMixed = 0.1;       // of the area: less is none
+constexpr double kMixed = 0.1;       // share of the area; less counts as none
 constexpr double kBedNormal = 0.7;   // |n_z| of a bed joint of a wall
 
 bool is_over_vaults(Component c) {
@@ -33,8 +33,8 @@ bool is_bed(const Joint& joint) {
 
 using Edges = std::vector<std::pair<Vec3, Vec3>>;
 
-/// Axes along which edges reach, the farthest first: those of their second moments about their middle; where the first
-/// two are alike, as in a square, the longest edge and what is square to it.
+/// Axes of the largest extent of edges, the largest first, from their second moments about their middle. If the first
+/// two are similar, as in a square, the longest edge and the direction square to it.
 Mat3 main_axes(const Edges& edges) {
   double length = 0.0, longest = 0.0;
   Vec3 middle = Vec3::Zero(), way = Vec3::UnitX();
@@ -92,7 +92,7 @@ const Intrados* CrackWords::vault_of(const Crack& crack) const {
   if (crack.parts[0].component != Component::arch) return nullptr;  // it comes first
   const auto vault = std::ranges::find(vaults_, crack.parts[0].part, &Intrados::part);
   if (vault == vaults_.end()) return nullptr;
-  // Springings too: what bears the vault and meets its intrados.
+  // Springings too: the support of the vault whose joint reaches the intrados.
   const bool shows = std::ranges::any_of(crack.joints, [&](std::size_t i) {
     return std::ranges::any_of(assembly_.joints[i].polygon, [&](const Vec3& x) { return vault->holds(x); });
   });
@@ -114,8 +114,7 @@ CrackWords::Frame CrackWords::frame_of(const Crack& crack) const {
   return leaves == 0.0 && kMixed < beds && beds < 1.0 - kMixed ? Frame::wall : Frame::space;
 }
 
-/// Sine of the angle from the horizontal: of the plane in which a crack lies, or of its main axis where it lies in
-/// none.
+/// Sine of the angle from the horizontal: of the plane of a crack or, if it is not plane, of its main axis.
 double CrackWords::steepness(const Crack& crack, const Vec3& way) const {
   constexpr double plane = 0.9;  // share of the area with one normal
   Mat3 normals = Mat3::Zero();
@@ -164,8 +163,8 @@ std::string CrackWords::direction(const Crack& crack, Frame frame, const Vec3& w
   return inclined(beds > kMixed && beds < 1.0 - kMixed ? "stepped" : "diagonal", degrees);
 }
 
-/// Length of all its lines on the surface, m: in a vault along the edges that its intrados shows, in a wall so that its
-/// area is that of lines through the thickness.
+/// Length of all its lines on the surface, m: in a vault along the visible edges on the intrados; in a wall such that
+/// its area is that of lines through the thickness.
 double CrackWords::trace(const Crack& crack, Frame frame) const {
   if (frame == Frame::wall) return crack.area / (crack.box.high.y() - crack.box.low.y());
   const Intrados& vault = *vault_of(crack);
@@ -200,7 +199,7 @@ void CrackWords::describe(Crack& crack) const {
   const Mat3 axes = main_axes(edges);
   const bool separates =
       std::ranges::all_of(crack.joints, [&](std::size_t i) { return between_rings_(assembly_.joints[i]); });
-  // On a surface a crack is a line, from its one end to the other; within the masonry it is an area.
+  // On a surface a crack is a line from one end to the other; inside the masonry it is an area.
   Vec3 way = axes.col(0);
   crack.length = reach(edges, way);
   if (frame != Frame::space && !separates) {

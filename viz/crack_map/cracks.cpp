@@ -52,7 +52,7 @@ struct OpenJoint {
   Box box;
 };
 
-/// The sets of those that hang together; joints of one pair of parts only. Swept along x.
+/// The sets of connected joints; only joints of the same pair of parts are connected. Found by a sweep along x.
 std::vector<std::vector<std::size_t>> joined(const Assembly& assembly, std::vector<OpenJoint> open) {
   std::ranges::stable_sort(open, {}, [](const OpenJoint& j) { return j.box.low.x(); });
   DisjointSets sets(open.size());
@@ -80,7 +80,7 @@ void widen(JointGap& gap, const JointGap& by) {
   gap.opening = std::max(gap.opening, by.opening), gap.slip = std::max(gap.slip, by.slip);
 }
 
-/// How far the faces of a joint are from each other, and from where they were side by side.
+/// Distance between the faces of a joint, and between their points that were adjacent as built.
 JointGap gap_between(const Assembly& assembly, const Snapshot& snapshot, const Joint& joint) {
   JointGap gap;
   for (const Vec3& corner : joint.polygon)

@@ -9,7 +9,7 @@ namespace voussoir {
 
 namespace {
 
-/// 1, 2 or 5 times a power of ten, so that steps are at least `apart` px.
+/// 1, 2 or 5 times a power of ten, so that values are at least `apart` px apart.
 double round_step(const ChartAxis& axis, double apart) {
   const double least = apart * (axis.high - axis.low) / std::abs(axis.end - axis.begin);
   const double power = std::pow(10.0, std::floor(std::log10(least)));

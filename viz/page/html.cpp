@@ -55,7 +55,7 @@ pre.case { font-size: 11px; } table.small { font-size: 12px; } code { font-size:
 }
 )";
 
-/// Empty where it is no PNG file that can be read.
+/// Empty if the file is not a readable PNG file.
 std::string png_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -127,7 +127,7 @@ Cell number_cell(double value, const char* none) {
 Cell formatted_cell(double value, const char* format) {
   if (!std::isfinite(value)) return {"none", true};
   std::string text = fmt::format(fmt::runtime(format), value);
-  // What rounds to nothing has no sign.
+  // A value that rounds to zero has no sign.
   if (text.starts_with('-') && text.find_first_of("123456789") == std::string::npos) text.erase(0, 1);
   return {text, true};
 }

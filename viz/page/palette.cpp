@@ -75,7 +75,8 @@ Colour scale_colour(double share) {
                                                       {0.254, 0.265, 0.530},
                                                       {0.283, 0.141, 0.458},
                                                       {0.267, 0.005, 0.329}}};
-  constexpr double kJoin = 0.12;  // below this share stone passes into the scale; its loud yellow end is left out
+  constexpr double kJoin = 0.12;  // below this share the colour passes from stone into the scale, without its bright
+                                  // yellow end
   share = std::clamp(share, 0.0, 1.0);
   if (share < kJoin) return mixture(kStone, scale_colour(kJoin), share / kJoin);
   const double place = share * (viridis.size() - 1);

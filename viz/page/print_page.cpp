@@ -29,7 +29,7 @@ std::string browser() {
       "print it there");
 }
 
-/// The address of a file: what an address would read as something else is written by its bytes.
+/// The address of a file, with special characters encoded by their bytes.
 std::string file_address(const std::string& path) {
   std::string address = "file://";
   for (const char c : fs::absolute(path).string()) {

@@ -51,7 +51,7 @@ std::string escaped(std::string_view text) {
         safe += "&#39;";
         break;
       default:
-        // Control characters are nothing that a page may hold.
+        // Control characters are not allowed in a page.
         if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') safe += c;
     }
   return safe;

@@ -97,7 +97,7 @@ void add_fill(ViewerPack& pack, const ViewerFill& fill, const Vec3& origin) {
   pack.add("fill_edges", sharp_edges(fill.nodes, loops));
 }
 
-/// Of stones and after them of the nodes of the fill, which do not turn.
+/// Motions of the stones and, after them, of the nodes of the fill, which do not rotate.
 PackedSeries motion_of(const ViewerScene& scene) {
   PackedSeries series{
       .items = scene.stones.size() + scene.fill.nodes.size(), .groups = 2, .width = 3, .steps = 2047, .frames = {}};
@@ -124,7 +124,7 @@ PackedSeries values_of(const ViewerScene& scene) {
   return series;
 }
 
-/// Of all frames, or of the last alone where all would be too much for a page.
+/// Forces of all frames, or only of the last if all would be too large for a page.
 PackedSeries forces_of(const ViewerScene& scene, bool all) {
   PackedSeries series{.items = scene.pairs.size(), .groups = 3, .width = 1, .steps = 2047, .frames = {}};
   for (const ViewerFrame& frame : scene.frames) {
@@ -137,7 +137,7 @@ PackedSeries forces_of(const ViewerScene& scene, bool all) {
   return series;
 }
 
-/// What can be coloured by: those that are not zero everywhere, with a round top of the scale over all frames.
+/// Quantities for colours: those that are not zero everywhere, with a round upper end of the scale over all frames.
 nlohmann::json fields_of(const ViewerScene& scene) {
   struct Field {
     const char *name, *title, *unit;

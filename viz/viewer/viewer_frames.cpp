@@ -111,7 +111,7 @@ class SceneBuilder {
  public:
   ViewerScene scene;
 
-  /// `name` stands in errors: the file of the blocks.
+  /// `name` is the file of the blocks, for errors.
   void add_state(const PictureGrids& grids, const std::string& label, const std::string& name) {
     start(grids.blocks, grids.fill, name);
     ViewerFrame frame;
@@ -183,7 +183,7 @@ class SceneBuilder {
         if (end >= int(scene.stones.size()))
           throw InputError("{}: a joint refers to block {}, but there are only {} blocks", name, end,
                            scene.stones.size());
-        if (end < 0 || (tie && tie->GetComponent(j, 0) != 0.0)) continue;  // the fill; a bar bears no stress of stones
+        if (end < 0 || (tie && tie->GetComponent(j, 0) != 0.0)) continue;  // the fill; bars carry no stress of stones
         ViewerValues& values = frame.values[std::size_t(end)];
         values[compression_value] = std::max(values[compression_value], -tension);
         values[shear_value] = std::max(values[shear_value], along);

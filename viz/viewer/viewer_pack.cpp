@@ -56,7 +56,7 @@ void ViewerPack::add(const std::string& name, const PackedSeries& series) {
     for (const std::vector<double>& frame : series.frames)
       for (std::size_t c = 0; c < series.width; ++c) {
         const double value = std::abs(frame[k * series.width + c]);
-        if (value < 1e30) largest = std::max(largest, value);  // a run that broke down may hold anything
+        if (value < 1e30) largest = std::max(largest, value);  // a failed run may contain any value
       }
     scale[k] = coarse_scale(largest);
   }
