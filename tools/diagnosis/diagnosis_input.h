@@ -38,7 +38,7 @@ struct MeasurementPlan {
 /// InputError.
 DiagnosisInput planned_input(const DiagnosisRequest& request, const MeasurementPlan& plan);
 
-/// Reads the measurements and finds what the mesh does. Throws InputError.
+/// Reads the measurements and estimates the error of the mesh. Throws InputError.
 DiagnosisInput diagnosis_input(const DiagnosisRequest& request);
 
 }  // namespace voussoir
