@@ -1,4 +1,6 @@
 // How much a case asks for, before anything is built.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "io/case/sections.h"

@@ -1,5 +1,8 @@
 #include "io/case/flat_case.h"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <sstream>
 
 #include "io/toml/table_reader.h"

@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-/// "0.1.0".
+/// "0.2.0".
 std::string program_version();
 /// Of the sources it was built from, ten digits, with "-dirty" where they were changed since; "unknown" outside of a
 /// repository.
