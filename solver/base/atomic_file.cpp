@@ -18,16 +18,16 @@ namespace {
 std::string plainly(int error) {
   switch (error) {
     case ENOSPC:
-      return "the disk is full: free some space, or write to another one";
+      return "the disk is full. Free some space, or write to another disk";
     case EDQUOT:
-      return "your quota of disk space is used up: free some space, or write to another disk";
+      return "your quota of disk space is used up. Free some space, or write to another disk";
     case EFBIG:
       return "the file would be larger than this process may write (ulimit -f)";
     case EACCES:
     case EROFS:
-      return "no permission to write there: choose another folder";
+      return "you have no permission to write there. Choose another folder";
     case ENOENT:
-      return "the folder does not exist: create it first";
+      return "the folder does not exist. Create it first";
     default:
       return std::strerror(error);
   }
@@ -104,7 +104,7 @@ void write_atomically(const std::string& path, const std::string& text) {
 std::string read_text(const std::string& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) != 0) throw InputError("cannot read {}: {}", path, std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) throw InputError("cannot read {}: it is a folder, expected a file", path);
+  if (S_ISDIR(status.st_mode)) throw InputError("cannot read {}: it is a folder. Name a file", path);
   Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.number < 0) throw InputError("cannot read {}: {}", path, std::strerror(errno));
   std::string text;

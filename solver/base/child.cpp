@@ -143,7 +143,7 @@ bool Pipe::read_to(std::string& text) {
 
 LogFile::LogFile(const std::string& path)
     : descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
-  if (descriptor < 0) throw RunError("{}: cannot be written: {}", path, std::strerror(errno));
+  if (descriptor < 0) throw RunError("cannot write {}: {}", path, std::strerror(errno));
 }
 
 LogFile::~LogFile() {
@@ -177,7 +177,7 @@ bool in_path(const std::string& program) {
 std::string own_program() {
   std::error_code failed;
   const std::string path = std::filesystem::read_symlink("/proc/self/exe", failed).string();
-  if (failed) throw RunError("cannot find the program's own file: {}", failed.message());
+  if (failed) throw RunError("cannot find the executable file of this program: {}", failed.message());
   return path;
 }
 

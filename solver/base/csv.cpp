@@ -48,8 +48,7 @@ void check_characters(const TextFile& file) {
     const std::size_t length = table_character(text.substr(i));
     if (length == 0)
       throw InputError(
-          "{}:{}: byte 0x{:02x} where UTF-8 text is expected: save the file as CSV in UTF-8 with lines that end in a "
-          "line feed",
+          "{}:{}: byte 0x{:02x} is not UTF-8 text. Save the file as CSV in UTF-8 with lines that end in a line feed.",
           file.path, 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(i), '\n'),
           static_cast<unsigned>(static_cast<unsigned char>(text[i])));
     i += length;
@@ -82,9 +81,9 @@ NumberTrouble parse_number(std::string_view word, double& value) {
 std::string explain(NumberTrouble trouble, std::string_view word, const std::string& column) {
   switch (trouble) {
     case NumberTrouble::empty:
-      return fmt::format("the cell in column '{}' is empty, expected a number", shown(column));
+      return fmt::format("the cell in column '{}' is empty, but a number is needed", shown(column));
     case NumberTrouble::out_of_range:
-      return fmt::format("'{}' in column '{}' is beyond what numbers can hold", shown(word), shown(column));
+      return fmt::format("'{}' in column '{}' is outside the range of numbers", shown(word), shown(column));
     case NumberTrouble::not_finite:
       return fmt::format("'{}' in column '{}' is not a finite number", shown(word), shown(column));
     default:
@@ -123,17 +122,17 @@ void CsvReader::fail(int row, const std::string& message) const {
 }
 
 void CsvReader::read_heading() {
-  if (!next_row())
-    throw InputError("{}:1: the file is empty, expected a row with the names of the columns", file_.path);
+  if (!next_row()) throw InputError("{}:1: the file is empty. It must begin with a row of column names.", file_.path);
   heading_row_ = row_;
   separator_ = separator_of(line_);
   std::set<std::string> seen;
   for (std::string_view cell; next_cell(cell);) {
     if (cell.empty())
-      fail(fmt::format("column {} has no name: name it, or remove what separates it", columns_.size() + 1));
+      fail(fmt::format("column {} has no name. Name it, or remove its separator.", columns_.size() + 1));
     if (cell.find('\t') != std::string_view::npos)
-      fail("a tab in the name of a column: separate the cells of all rows by commas or semicolons");
-    if (!seen.emplace(cell).second) fail(fmt::format("column '{}' is there twice: remove or rename one", shown(cell)));
+      fail("the name of a column contains a tab. Separate the cells of all rows by commas or semicolons.");
+    if (!seen.emplace(cell).second)
+      fail(fmt::format("two columns have the name '{}'. Remove or rename one of them.", shown(cell)));
     columns_.emplace_back(cell);
   }
 }
@@ -186,13 +185,15 @@ bool CsvReader::quoted_cell(std::string_view& cell) {
     unquoted_ += line_[i];
   }
   if (i >= line_.size())
-    fail(began, quotes_ == CsvQuotes::within_line ? "a quoted cell does not end on its line: close the quote"
-                                                  : "a quoted cell does not end: close the quote");
+    fail(began, quotes_ == CsvQuotes::within_line ? "a quoted cell does not end on its line. Close the quote."
+                                                  : "a quoted cell does not end. Close the quote.");
   const std::size_t next = std::min(line_.find_first_not_of(blanks, i + 1), line_.size());
   line_done_ = next == line_.size();
   if (!line_done_ && line_[next] != separator_)
-    fail(fmt::format("text after the closing quote of \"{}\", expected '{}': write quotes within a quoted cell twice",
-                     shown(unquoted_), separator_));
+    fail(
+        fmt::format("there is text after the closing quote of \"{}\", where '{}' is expected. Write quotes within a "
+                    "quoted cell twice.",
+                    shown(unquoted_), separator_));
   line_.remove_prefix(line_done_ ? next : next + 1);
   cell = unquoted_;
   return true;
@@ -212,8 +213,10 @@ void CsvReader::end_row() {
 }
 
 void CsvReader::wrong_count(std::size_t count) const {
-  fail(fmt::format("{} {}, expected {} as in the heading: numbers take a decimal point, texts with '{}' in them quotes",
-                   count, count == 1 ? "cell" : "cells", columns_.size(), separator_));
+  fail(
+      fmt::format("the row has {} {}, the heading has {}. Write numbers with a decimal point, and put text that "
+                  "contains '{}' in quotes.",
+                  count, count == 1 ? "cell" : "cells", columns_.size(), separator_));
 }
 
 CsvTable::CsvTable(const TextFile& file, const std::vector<std::string>& required,
@@ -226,7 +229,7 @@ CsvTable::CsvTable(const TextFile& file, const std::vector<std::string>& require
     reader_.end_row();
     rows_.push_back(std::move(row));
   }
-  if (rows_.empty()) fail_heading("no rows below the heading: fill the table, or remove the file");
+  if (rows_.empty()) fail_heading("there are no rows below the heading. Fill the table, or remove the file.");
 }
 
 void CsvTable::check_columns(const std::vector<std::string>& required, const std::vector<std::string>& optional) const {
@@ -236,7 +239,9 @@ void CsvTable::check_columns(const std::vector<std::string>& required, const std
     if (std::find(known.begin(), known.end(), column) == known.end())
       fail_heading(fmt::format("unknown column '{}'{}", shown(column), short_suggestion(column, known)));
   for (const std::string& column : required)
-    if (!has(column)) fail_heading(fmt::format("no column '{}', expected: {}", column, fmt::join(required, ", ")));
+    if (!has(column))
+      fail_heading(
+          fmt::format("the column '{}' is missing; the required columns are: {}", column, fmt::join(required, ", ")));
 }
 
 bool CsvTable::has(const std::string& column) const {
@@ -252,7 +257,7 @@ const std::string& CsvTable::text(std::size_t i, const std::string& column) cons
 }
 
 std::string CsvTable::required_text(std::size_t i, const std::string& column) const {
-  if (text(i, column).empty()) fail(i, fmt::format("the cell in column '{}' is empty, expected a name", column));
+  if (text(i, column).empty()) fail(i, fmt::format("the cell in column '{}' is empty. Enter a name.", column));
   return text(i, column);
 }
 
@@ -272,8 +277,8 @@ double CsvTable::required_number(std::size_t i, const std::string& column) const
 double CsvTable::deviation(std::size_t i, const std::string& column) const {
   const double value = number(i, column).value_or(0.0);
   if (value < 0.0)
-    fail(i,
-         fmt::format("{} is {}: a standard deviation must be 0 or more; leave it empty when unknown", column, value));
+    fail(i, fmt::format("{} is {}. A standard deviation must be 0 or more. Leave the cell empty if it is unknown.",
+                        column, value));
   return value;
 }
 

@@ -11,7 +11,7 @@ void make_folder_of(const std::string& path) {
   if (folder.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw RunError("cannot make the folder {}: {}; choose another one", folder.string(), error.message());
+  if (error) throw RunError("cannot create the folder {}: {}. Choose another folder", folder.string(), error.message());
 }
 
 }  // namespace voussoir

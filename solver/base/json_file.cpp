@@ -13,7 +13,7 @@ json parse_json(const std::string& text, const std::string& path) {
   try {
     return json::parse(text);
   } catch (const json::exception& error) {
-    throw InputError("{} is no valid JSON: {}", path, error.what());
+    throw InputError("{} is not valid JSON: {}", path, error.what());
   }
 }
 

@@ -50,8 +50,8 @@ int run_program(const char* name, int (*run)(int argc, char** argv), int argc, c
     return failed(e.what());
   } catch (const std::bad_alloc&) {
     return failed(
-        "out of memory: what was asked for does not fit into this machine (a bridge that is generated has fewer blocks "
-        "with a larger block_scale)");
+        "out of memory: this task needs more memory than the machine has. A larger block_scale gives a generated "
+        "bridge fewer blocks.");
   } catch (const std::filesystem::filesystem_error& e) {
     return failed(fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::exception& e) {

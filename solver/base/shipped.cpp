@@ -50,8 +50,8 @@ std::string found_in(const std::vector<std::string>& folders, const std::string&
   for (const std::string& folder : folders)
     if (std::string there = folder + "/" + path; fs::exists(there, ignored)) return there;
   throw RunError(
-      "'{}', which comes with the program, is in none of these folders: {}; run the program where it was built or "
-      "installed, or copy the file beside it",
+      "the file '{}' of the program is in none of these folders: {}. Run the program where it was built or installed, "
+      "or copy the file into the folder of the program.",
       path, fmt::join(folders, ", "));
 }
 

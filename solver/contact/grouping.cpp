@@ -317,8 +317,10 @@ void take_joint_order(Model& model, const State& state) {
       const std::int64_t present = model.joint_of_patch[std::size_t(i)];
       if (!here || taken[std::size_t(at.now - tile.first_joint)]++ ||
           at.shape != model.joint_places[std::size_t(present)].shape)
-        throw InputError("the state has joint {} in place {}, where it cannot be: it belongs to another assembly",
-                         joint, i);
+        throw InputError(
+            "the state has joint {} at position {}, which is impossible for this assembly. The state belongs to "
+            "another assembly.",
+            joint, i);
       order.push_back(std::size_t(at.now));
     }
     if (!order.empty()) Joints(model, tile, order).move_model();

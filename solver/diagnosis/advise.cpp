@@ -37,8 +37,7 @@ Difference in_shapes(const DiagnosisProblem& problem, const Trial& a, const Tria
     most.deviations = apart / problem.error.shape;
     const Vec3 at = problem.base.blocks[std::size_t(block)].centroid;
     most.text = fmt::format(
-        "a sensor near ({:.1f}, {:.1f}, {:.1f}) m along {}: mode {} differs there by {:.1f} standard "
-        "deviations",
+        "place a sensor near ({:.1f}, {:.1f}, {:.1f}) m along {}: mode {} differs there by {:.1f} standard deviations",
         at.x(), at.y(), at.z(), "xyz"[axis], problem.features.modes[m].name, most.deviations);
   }
   return most;
@@ -65,7 +64,7 @@ Difference in_frequencies(const DiagnosisProblem& problem, const Trial& a, const
     }
     if (apart / problem.error.frequency <= most.deviations) continue;
     most.deviations = apart / problem.error.frequency;
-    most.text = fmt::format("the period of a further mode ({}, about {:.3f} s): it differs by {:.1f} %",
+    most.text = fmt::format("measure the period of a further mode ({}, about {:.3f} s): it differs by {:.1f} %",
                             ra.words[std::size_t(i)].text(), std::exp(-ra.log_frequency[i]), 100.0 * std::expm1(apart));
   }
   return most;
@@ -78,7 +77,7 @@ Advice advise(const DiagnosisProblem& problem, const Trial& best, const Trial& o
   Advice advice;
   advice.against = other.candidate.full_text();
   const Difference& most = shape.deviations > period.deviations ? shape : period;
-  advice.text = most.deviations > 1.0 ? most.text : "no mode that was looked at tells them apart";
+  advice.text = most.deviations > 1.0 ? most.text : "none of the examined modes distinguishes them";
   return advice;
 }
 

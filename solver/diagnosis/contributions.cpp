@@ -116,7 +116,7 @@ Contributions contributions(const Assembly& assembly) {
   for (const FillElement& e : elements) c.elements.push_back(shear_term(e));
   for (FillRing& ring : fill_rings(elements, assembly.fill.nodes.size())) {
     if (ring.nodes.empty())
-      throw InputError("node {} of the fill belongs to no tetrahedron; leave it out of the mesh", c.rings.size());
+      throw InputError("node {} of the fill belongs to no tetrahedron. Remove it from the mesh.", c.rings.size());
     c.rings.push_back(ring_term(std::move(ring)));
   }
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i)

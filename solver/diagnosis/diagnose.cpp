@@ -124,8 +124,9 @@ void add_advice(const DiagnosisProblem& problem, Diagnosis& d) {
 
 void check(const DiagnosisProblem& problem) {
   if (problem.features.modes.empty())
-    throw InputError("there are no measured modes to compare with; give measured/modes.csv, or recordings");
-  if (fitted_rows(problem) == 0) throw InputError("all measured modes are held back; leave some to be fitted");
+    throw InputError("there are no measured modes. Give measured/modes.csv, or recordings.");
+  if (fitted_rows(problem) == 0)
+    throw InputError("all measured modes are held back. Leave at least one mode for the fit.");
 }
 
 }  // namespace
@@ -151,8 +152,9 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   set_scale(problem, {1.0, d.calibrated.scale.shapes});
   d.plain = fit(problem, none, usual, 0, origin, shared);
   d.plain.best = evaluate(problem, residual_rows(problem), none, usual, origin);
-  say(fmt::format("the case as it is: gap {:.2f}; shapes are as if known {:.2f} times as badly as said", d.plain.gap,
-                  problem.scale.shapes));
+  say(fmt::format(
+      "the case without changes: gap {:.2f}; the errors of the shapes appear {:.2f} times as large as stated",
+      d.plain.gap, problem.scale.shapes));
   d.calibrated = fit(problem, none, d.calibrated.best.x, settings.iterations, origin, shared);
   d.alarms = alarms_of(d.calibrated);
   say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}; {}", d.calibrated.gap, d.alarms.size(),
@@ -179,7 +181,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   if (d.verdict == Diagnosis::Verdict::unexplained) {
     d.best = sound.fit;  // what only helps is not named
     for (std::size_t i = faults; i < d.rounds.size(); ++i) d.rounds[i].accepted = false;
-    say("no effect of the library brings the residuals to noise: looking where stiffness or mass is missing");
+    say("no effect of the library reduces the residuals to noise: the search for missing stiffness or mass begins");
     problem = with_sound_channels;
     // They say where something is missing, not what: no prediction is asked of them, and several are as likely as one.
     DiagnosisSettings lenient = settings;
@@ -196,7 +198,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     const DetectionSettings asked_for = {margin_beside(judged.fit.hypothesis, settings), settings.further_measurements,
                                          settings.threads};
     d.detection = detection(by, judged.fit, *judged.origin, judged.shared, all, asked_for);
-    say(fmt::format("least amounts of {} effects that these data would show", d.detection.least.size()));
+    say(fmt::format("computed the least detectable amounts of {} effects", d.detection.least.size()));
   }
   d.judged = by;
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

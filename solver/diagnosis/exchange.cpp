@@ -20,7 +20,7 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
       ++i;
       continue;
     }
-    say(fmt::format("  {} is not needed any more", out.full_text()));
+    say(fmt::format("  {} is no longer needed", out.full_text()));
     current = *less;
     std::size_t accepted = 0;
     for (Round& round : rounds)
@@ -93,7 +93,7 @@ void exchange(DiagnosisProblem& problem, const DiagnosisSettings& settings, Sear
     const double better = other->fit.log_evidence + std::log(other->candidate.prior) - standing.fit.log_evidence -
                           std::log(there.effects[effect].prior);
     if (better <= 0.0) continue;
-    say(fmt::format("  {} in the place of {}: evidence {:+.1f}", other->candidate.full_text(),
+    say(fmt::format("  {} replaces {}: evidence {:+.1f}", other->candidate.full_text(),
                     there.effects[effect].full_text(), better));
     const auto at = std::find_if(round.trials.begin(), round.trials.end(), [&](const Trial& t) {
       return t.candidate.text() == other->candidate.text() && t.candidate.kind == other->candidate.kind;

@@ -106,7 +106,7 @@ LinearModel linear_model(const Assembly& assembly, const Contributions& parts) {
   LinearModel model;
   const Loose loose = find_loose(k, m, all);
   model.unknowns = without(all, loose.adrift);
-  if (model.unknowns.count == 0) throw InputError("nothing in this assembly is held together: it has no modes");
+  if (model.unknowns.count == 0) throw InputError("no joint of this assembly holds anything, so it has no modes");
   hold_free_ways(k, m, model.unknowns, loose);
   model.k = k.over(model.unknowns);
   model.m = m.over(model.unknowns);

@@ -77,8 +77,8 @@ std::vector<std::string> alarms_of(const Fit& fit) {
     const FitParameter& p = fit.hypothesis.materials[i].parameter;
     const double x = fit.best.x[Eigen::Index(i)];
     if (std::abs(x) > far || fit.at_bound[i])
-      alarms.push_back(fmt::format("{} × {:.2f}, {:+.1f} standard deviations of what is likely{}", p.name, p.value(x),
-                                   x, fit.at_bound[i] ? " (at its bound)" : ""));
+      alarms.push_back(fmt::format("{} × {:.2f}, {:+.1f} standard deviations from its usual value{}", p.name,
+                                   p.value(x), x, fit.at_bound[i] ? " (at its bound)" : ""));
   }
   return alarms;
 }

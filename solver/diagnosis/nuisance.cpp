@@ -185,7 +185,7 @@ std::string other_cut(const Assembly& a, const Assembly& b, double amount, doubl
     return fmt::format("{} blocks instead of {}", b.blocks.size(), a.blocks.size());
   for (std::size_t i = 0; i < a.blocks.size(); ++i)
     if (a.blocks[i].fixed != b.blocks[i].fixed || a.blocks[i].component != b.blocks[i].component)
-      return "blocks of other parts";
+      return "blocks that belong to other parts";
   struct Shared {
     double more = 0.0, outline = 0.0;  // area of b over that of a; of both
   };
@@ -203,7 +203,7 @@ std::string other_cut(const Assembly& a, const Assembly& b, double amount, doubl
   for (const auto& [blocks, shared] : pairs)
     if (std::abs(shared.more) > 2.0 * std::abs(amount) * shared.outline) jumps += std::abs(shared.more);
   if (jumps <= share * all) return {};
-  return fmt::format("joints of {:.2g} m2 come or go", jumps);
+  return fmt::format("joints of {:.2g} m2 appear or disappear", jumps);
 }
 
 void scale_modes(ModalData& m, double factor) {
@@ -231,7 +231,7 @@ Sensitivity Sensitivities::of(const Nuisance& n, const Assembly& base, const Hyp
         s.why.clear();
         return s;
       }
-      s.why = fmt::format("{:+g} {} cuts the bridge otherwise: {}", amount, n.unit, cut);
+      s.why = fmt::format("a change of {:+g} {} divides the bridge differently: {}", amount, n.unit, cut);
     } catch (const std::runtime_error& error) {
       s.why = error.what();
     }

@@ -20,7 +20,7 @@ std::string no_fault(const Fit& fit) {
   if (added.kind != Candidate::Kind::gain || added.parameters.empty()) return {};
   const double gain = added.parameters[0].value(fit.best.x[fit.best.x.size() - 1]);
   if (std::abs(gain - 1.0) >= least_gain_fault) return {};
-  return fmt::format("a gain of {:.2f} is not told from 1", gain);
+  return fmt::format("a gain of {:.2f} cannot be distinguished from 1", gain);
 }
 
 /// Takes out wrong gains that would come out too near 1 to be faults: readings are linear in them.
@@ -135,7 +135,8 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
     if (trials[i]) round.trials.push_back(std::move(*trials[i]));
     if (!failures[i].empty()) round.not_fitted.emplace_back(candidates[chosen[i].candidate].full_text(), failures[i]);
   }
-  for (const auto& [candidate, why] : round.not_fitted) say(fmt::format("  {} is no explanation: {}", candidate, why));
+  for (const auto& [candidate, why] : round.not_fitted)
+    say(fmt::format("  {} is not an explanation: {}", candidate, why));
   weigh(round, current);
   if (!round.trials.empty()) mark_ties(round, all, candidates);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, round.trials.size()); ++i) {

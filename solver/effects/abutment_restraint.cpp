@@ -23,14 +23,16 @@ void apply_abutment_restraint(Assembly& assembly, const std::string& where, cons
 }  // namespace
 
 Effect abutment_restraint() {
-  return {"abutment_restraint",
-          "the ground behind an abutment holds its end face",
-          "Look at the joint between the abutment and what stands behind it: whether it is open or filled, and how "
-          "firm the ground behind the end wall is.",
-          {{"stiffness_share", "-", "of the adjacent material's joint stiffness", 0.0, 2.0, 0.0, 0.5, 0.3}},
-          free_ends,
-          apply_abutment_restraint,
-          nullptr};
+  return {
+      "abutment_restraint",
+      "the ground behind an abutment holds its end face",
+      "Inspect the joint between the abutment and the ground or structure behind it. Check whether it is open or "
+      "filled, and how firm the ground behind the end wall is.",
+      {{"stiffness_share", "-", "stiffness of the restraint as a share of the joint stiffness of the adjacent material",
+        0.0, 2.0, 0.0, 0.5, 0.3}},
+      free_ends,
+      apply_abutment_restraint,
+      nullptr};
 }
 
 }  // namespace voussoir

@@ -75,10 +75,11 @@ std::vector<std::string> places_of_added_mass(const Assembly&) {
 
 Effect added_mass() {
   return {"added_mass",
-          "mass on the deck that the model does not have: pavement, ballast, a water main",
-          "Find out what lies on the bridge that the drawings do not have: surfacing, ballast, services. Open the road "
-          "in one place.",
-          {{"mass_per_length", "kg/m", "over the whole length", 0.0, 50000.0, 0.0, 5000.0, 8000.0}},
+          "the deck carries mass that the model does not include, such as pavement, ballast or a water main",
+          "Look for mass on the bridge that the drawings do not show: surfacing, ballast, services. Open the road in "
+          "one place.",
+          {{"mass_per_length", "kg/m", "added mass per length, over the whole length of the bridge", 0.0, 50000.0, 0.0,
+            5000.0, 8000.0}},
           places_of_added_mass,
           apply_added_mass,
           nullptr};

@@ -34,8 +34,8 @@ std::vector<std::string> places_of_amplitude_stiffness(const Assembly& assembly)
 Effect amplitude_stiffness() {
   return {"amplitude_stiffness",
           "dry joints are partly open at the amplitude of the measurement",
-          "Measure again at another level of vibration: frequencies that fall as it rises show joints that open.",
-          {{"share_open", "-", "of the area of joints without bond", 0.0, 0.95, 0.0, 0.3, 0.2}},
+          "Measure again at another level of vibration. If the frequencies fall when the level rises, joints open.",
+          {{"share_open", "-", "share of the area of the joints without bond that is open", 0.0, 0.95, 0.0, 0.3, 0.2}},
           places_of_amplitude_stiffness,
           apply_amplitude_stiffness,
           nullptr};

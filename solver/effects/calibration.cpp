@@ -55,10 +55,10 @@ std::vector<std::string> places_of_calibration(const Assembly& assembly) {
 
 Effect calibration() {
   return {"calibration",
-          "what every model is unsure of: no effect that is missing, but factors on a material",
+          "factors on the uncertain properties of a material (not a missing effect)",
           "",
-          {{"stiffness", "-", "on the stiffness of its joints", 0.2, 5.0, 1.0, 1.0, 0.25, true},
-           {"density", "-", "on its density", 0.5, 2.0, 1.0, 1.0, 0.05, true}},
+          {{"stiffness", "-", "factor on the stiffness of its joints", 0.2, 5.0, 1.0, 1.0, 0.25, true},
+           {"density", "-", "factor on its density", 0.5, 2.0, 1.0, 1.0, 0.05, true}},
           places_of_calibration,
           apply_calibration,
           nullptr,

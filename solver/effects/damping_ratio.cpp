@@ -10,7 +10,8 @@ void apply_damping_ratio(SolverSettings& settings, const std::string&, const std
   using Kind = DampingSettings::Kind;
   if (settings.damping.kind != Kind::maxwell && settings.damping.kind != Kind::rayleigh)
     throw InputError(
-        "effect damping: the case's damping has no ratio; give [damping] kind maxwell or rayleigh with it");
+        "effect damping: the damping of the case has no ratio. Set [damping] kind to maxwell or rayleigh, with a "
+        "ratio.");
   settings.damping.ratio = values[0];
 }
 
@@ -21,13 +22,14 @@ std::vector<std::string> places_of_damping_ratio(const Assembly&) {
 }  // namespace
 
 Effect damping_ratio() {
-  return {"damping",
-          "the structure damps more, or less, than thought",
-          "Record for longer: damping needs far more periods than a frequency.",
-          {{"ratio", "-", "share of critical", 0.001, 0.2, 0.02, 0.03, 0.5, true}},
-          places_of_damping_ratio,
-          nullptr,
-          apply_damping_ratio};
+  return {
+      "damping",
+      "the damping ratio of the structure is higher or lower than assumed",
+      "Record for longer: an estimate of the damping ratio needs many more periods than an estimate of the frequency.",
+      {{"ratio", "-", "damping ratio, as a share of critical damping", 0.001, 0.2, 0.02, 0.03, 0.5, true}},
+      places_of_damping_ratio,
+      nullptr,
+      apply_damping_ratio};
 }
 
 }  // namespace voussoir

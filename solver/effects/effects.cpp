@@ -44,7 +44,7 @@ const Effect& find_effect(const std::string& name) {
     if (effect.name == name) return effect;
     names.push_back(effect.name);
   }
-  throw InputError("there is no effect '{}'{}; there are: {}", name, suggestion(name, names), fmt::join(names, ", "));
+  throw InputError("unknown effect '{}'{}; the effects are: {}", name, suggestion(name, names), fmt::join(names, ", "));
 }
 
 namespace {
@@ -69,12 +69,12 @@ void complete(EffectSetting& setting) {
   for (const EffectParameter& p : effect.parameters) names.push_back(p.name);
   for (const auto& [name, value] : setting.values)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError("effect {} has no parameter '{}'{}; it has: {}", effect.name, name, suggestion(name, names),
-                       fmt::join(names, ", "));
+      throw InputError("effect {}: unknown parameter '{}'{}; its parameters are: {}", effect.name, name,
+                       suggestion(name, names), fmt::join(names, ", "));
   for (const EffectParameter& p : effect.parameters) {
     const double value = setting.values.emplace(p.name, p.usual).first->second;
     if (!(value >= p.low && value <= p.high))
-      throw InputError("effect {}: {} is {:g}; it must be from {:g} to {:g} {}", effect.name, p.name, value, p.low,
+      throw InputError("effect {}: {} is {:g}. It must be from {:g} to {:g} {}.", effect.name, p.name, value, p.low,
                        p.high, p.unit);
   }
 }
@@ -83,10 +83,10 @@ void apply_effect(Assembly& assembly, const EffectSetting& setting) {
   const Effect& effect = find_effect(setting.name);
   if (effect.apply_to_sensors) return;  // once they are attached
   const std::vector<std::string> places = effect.places(assembly);
-  if (places.empty()) throw InputError("effect {}: this assembly has no place for it ({})", effect.name, effect.help);
+  if (places.empty()) throw InputError("effect {} cannot act anywhere in this assembly ({})", effect.name, effect.help);
   const std::string where = setting.where.empty() && places.size() == 1 ? places[0] : setting.where;
   if (std::find(places.begin(), places.end(), where) == places.end())
-    throw InputError("effect {}: it cannot act at '{}'{}; its places here are: {}", effect.name, where,
+    throw InputError("effect {} cannot act at '{}'{}; its places in this assembly are: {}", effect.name, where,
                      suggestion(where, places), fmt::join(places, ", "));
   if (!effect.apply) return;
   effect.apply(assembly, where, values_of(effect, setting));

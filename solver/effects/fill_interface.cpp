@@ -22,10 +22,10 @@ std::vector<std::string> places_of_fill_interface(const Assembly& assembly) {
 
 Effect fill_interface() {
   return {"fill_interface",
-          "the contact between backfill and masonry is lost, or better than thought",
-          "Look for gaps between the fill and the masonry: from the road along the walls, and where water comes out of "
-          "the vaults.",
-          {{"factor", "-", "on the stiffness of those joints", 0.01, 10.0, 1.0, 0.3, 0.8, true}},
+          "the contact between backfill and masonry is lost, or stiffer than assumed",
+          "Look for gaps between the fill and the masonry: from the road along the walls, and at places where water "
+          "comes out of the vaults.",
+          {{"factor", "-", "factor on the stiffness of these joints", 0.01, 10.0, 1.0, 0.3, 0.8, true}},
           places_of_fill_interface,
           apply_fill_interface,
           nullptr};

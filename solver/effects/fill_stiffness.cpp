@@ -19,10 +19,10 @@ std::vector<std::string> places_of_fill_stiffness(const Assembly& assembly) {
 
 Effect fill_stiffness() {
   return {"fill_stiffness",
-          "the backfill is softer or stiffer than thought",
-          "Probe the fill from the road (penetration tests): what it is made of, how dense and how wet.",
-          {{"factor", "-", "on the stiffness of its joints, or on its moduli as a continuum", 0.05, 20.0, 1.0, 1.0, 0.7,
-            true}},
+          "the backfill is softer or stiffer than assumed",
+          "Probe the fill from the road (penetration tests): determine its material, density and water content.",
+          {{"factor", "-", "factor on the stiffness of its joints, or on its moduli where it is a deformable fill",
+            0.05, 20.0, 1.0, 1.0, 0.7, true}},
           places_of_fill_stiffness,
           apply_fill_stiffness,
           nullptr};

@@ -70,14 +70,15 @@ std::vector<std::string> places_of_foundation_flexibility(const Assembly& assemb
 }  // namespace
 
 Effect foundation_flexibility() {
-  return {"foundation_flexibility",
-          "the soil under a support gives way: it sinks, slides and rocks on springs",
-          "Look for settlement and tilt of the support, and sound the ground beside its foundation (penetration tests, "
-          "a core through the base).",
-          {{"soil_shear_modulus", "Pa", "of the half-space under the base", 1e6, 1e12, 1e12, 1e8, 1.5, true}},
-          places_of_foundation_flexibility,
-          apply_foundation_flexibility,
-          nullptr};
+  return {
+      "foundation_flexibility",
+      "the soil under a support is flexible: the support moves vertically, slides and rocks on springs",
+      "Look for settlement and tilt of the support, and probe the ground next to its foundation (penetration tests, a "
+      "core through the base).",
+      {{"soil_shear_modulus", "Pa", "shear modulus of the half-space under the base", 1e6, 1e12, 1e12, 1e8, 1.5, true}},
+      places_of_foundation_flexibility,
+      apply_foundation_flexibility,
+      nullptr};
 }
 
 }  // namespace voussoir

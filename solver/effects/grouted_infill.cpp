@@ -40,12 +40,12 @@ void apply_grouted_infill(Assembly& assembly, const std::string& where, const st
 
 Effect grouted_infill() {
   return {"grouted_infill",
-          "grout in the infill of piers and abutments",
+          "the infill of piers and abutments is grouted",
           "",
-          {{"tensile_strength", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1e5, 1e5},
-           {"cohesion", "Pa", "of its joints, at least", 0.0, 1e7, 0.0, 1.5e5, 1e5},
-           {"stiffness_factor", "-", "on the stiffness of its joints", 1.0, 20.0, 1.0, 2.0, 0.5, true},
-           {"density_factor", "-", "on its density", 1.0, 1.5, 1.0, 1.05, 0.05, true}},
+          {{"tensile_strength", "Pa", "lower limit for its joints", 0.0, 1e7, 0.0, 1e5, 1e5},
+           {"cohesion", "Pa", "lower limit for its joints", 0.0, 1e7, 0.0, 1.5e5, 1e5},
+           {"stiffness_factor", "-", "factor on the stiffness of its joints", 1.0, 20.0, 1.0, 2.0, 0.5, true},
+           {"density_factor", "-", "factor on its density", 1.0, 1.5, 1.0, 1.05, 0.05, true}},
           places_of_grouted_infill,
           apply_grouted_infill,
           nullptr,

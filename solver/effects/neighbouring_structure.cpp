@@ -56,11 +56,12 @@ std::vector<std::string> places_of_neighbouring_structure(const Assembly& assemb
 
 Effect neighbouring_structure() {
   return {"neighbouring_structure",
-          "another structure stands against an end of the bridge",
-          "Look at what stands against that end: a wall, a slab or a neighbouring bridge, and whether the joint "
-          "between them is open.",
-          {{"stiffness", "N/m", "of its springs to the ground, in each direction", 1e5, 1e12, 1e5, 1e9, 1.5, true},
-           {"mass", "kg", "that moves with the end face", 1e2, 1e7, 1e2, 1e5, 1.5, true}},
+          "another structure is in contact with an end of the bridge",
+          "Inspect the structure at that end (a wall, a slab or a neighbouring bridge). Check whether the joint "
+          "between it and the bridge is open.",
+          {{"stiffness", "N/m", "stiffness of its springs to the ground, in each direction", 1e5, 1e12, 1e5, 1e9, 1.5,
+            true},
+           {"mass", "kg", "mass that moves with the end face", 1e2, 1e7, 1e2, 1e5, 1.5, true}},
           places_of_neighbouring_structure,
           apply_neighbouring_structure,
           nullptr,

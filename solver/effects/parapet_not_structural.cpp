@@ -17,14 +17,15 @@ std::vector<std::string> places_of_parapet_not_structural(const Assembly& assemb
 }  // namespace
 
 Effect parapet_not_structural() {
-  return {"parapet_not_structural",
-          "the parapets weigh but do not stiffen the bridge",
-          "Look at the joints of the parapets: open ones, later ones, or a parapet that was built anew on mortar that "
-          "does not hold.",
-          {{"factor", "-", "on the stiffness of the joints inside them", 0.001, 1.0, 1.0, 0.01, 1.0, true}},
-          places_of_parapet_not_structural,
-          apply_parapet_not_structural,
-          nullptr};
+  return {
+      "parapet_not_structural",
+      "the parapets add weight but do not stiffen the bridge",
+      "Inspect the joints of the parapets. Look for open or later joints, and for a rebuilt parapet on mortar without "
+      "bond.",
+      {{"factor", "-", "factor on the stiffness of the joints inside the parapets", 0.001, 1.0, 1.0, 0.01, 1.0, true}},
+      places_of_parapet_not_structural,
+      apply_parapet_not_structural,
+      nullptr};
 }
 
 }  // namespace voussoir

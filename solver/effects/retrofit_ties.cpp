@@ -69,8 +69,8 @@ void add_tie(Assembly& assembly, double x, double z, const Tie& tie) {
   const std::int64_t stones[2] = {wall_stone(assembly, 0, x, z), wall_stone(assembly, 1, x, z)};
   if (stones[0] < 0 || stones[1] < 0)
     throw InputError(
-        "effect retrofit_ties: at x = {:.2f} m the spandrel walls have no stone at {:g} m below their top; "
-        "choose another depth",
+        "effect retrofit_ties: at x = {:.2f} m the spandrel walls have no stone at {:g} m below their top. Choose "
+        "another depth.",
         x, tie.depth);
   const Vec3 from = anchor(assembly, stones[0], 0, x, z), to = anchor(assembly, stones[1], 1, x, z);
   const Vec3 side(0.05, 0.0, 0.0);  // m, half the width of the strip that stands for the bar
@@ -96,8 +96,8 @@ void apply_retrofit_ties(Assembly& assembly, const std::string& where, const std
   const Tie tie = {values[0], values[1], values[2], values[3], values[4]};
   if (tie.pretension > tie.yield_force)
     throw InputError(
-        "effect retrofit_ties: pretension is {:g} N, more than yield_force, {:g} N: choose less, or a "
-        "stronger tie",
+        "effect retrofit_ties: pretension is {:g} N. It must not exceed yield_force, {:g} N. Lower pretension or raise "
+        "yield_force.",
         tie.pretension, tie.yield_force);
   if (tie.axial_stiffness == 0.0) return;
   const Box walls = box_of_walls(assembly);
@@ -113,13 +113,13 @@ void apply_retrofit_ties(Assembly& assembly, const std::string& where, const std
 
 Effect retrofit_ties() {
   return {"retrofit_ties",
-          "new ties between the spandrel walls: they only pull, and yield",
+          "new ties between the spandrel walls, which act only in tension and yield",
           "",
-          {{"axial_stiffness", "N", "E A of a tie", 0.0, 1e10, 0.0, 2e8, 2e8},
-           {"yield_force", "N", "of a tie", 1e3, 1e9, 2e5, 2e5, 2e5},
-           {"pretension", "N", "of a tie, in the bridge as built", 0.0, 1e9, 0.0, 0.0, 1e4},
-           {"spacing", "m", "along the bridge", 0.2, 100.0, 1.5, 1.5, 1.0},
-           {"depth", "m", "below the top of the walls", 0.05, 50.0, 1.0, 1.0, 1.0}},
+          {{"axial_stiffness", "N", "axial stiffness E A of a tie", 0.0, 1e10, 0.0, 2e8, 2e8},
+           {"yield_force", "N", "yield force of a tie", 1e3, 1e9, 2e5, 2e5, 2e5},
+           {"pretension", "N", "tensile force of a tie in the bridge as built", 0.0, 1e9, 0.0, 0.0, 1e4},
+           {"spacing", "m", "spacing of the ties along the bridge", 0.2, 100.0, 1.5, 1.5, 1.0},
+           {"depth", "m", "depth of the ties below the top of the walls", 0.05, 50.0, 1.0, 1.0, 1.0}},
           places_of_retrofit_ties,
           apply_retrofit_ties,
           nullptr,

@@ -32,10 +32,10 @@ std::vector<std::string> places_of_ring_separation(const Assembly& assembly) {
 Effect ring_separation() {
   return {
       "ring_separation",
-      "the rings of a vault have come apart",
+      "the rings of a vault have separated",
       "Tap the vault from below with a hammer: separated rings sound hollow. A core through the rings, or radar from "
       "below, shows the gap.",
-      {{"factor", "-", "on the stiffness of the joints between rings", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
+      {{"factor", "-", "factor on the stiffness of the joints between the rings", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
       places_of_ring_separation,
       apply_ring_separation,
       nullptr};

@@ -41,13 +41,14 @@ void apply_scour(Assembly& assembly, const std::string& where, const std::vector
 }  // namespace
 
 Effect scour() {
-  return {"scour",
-          "a support has lost its bearing along one side of its base",
-          "Inspect the foundation on that side under water, and measure the bed level along it after the next flood.",
-          {{"lost_share", "-", "of the base's length or width, from that side", 0.0, 0.9, 0.0, 0.3, 0.2}},
-          places_of_scour,
-          apply_scour,
-          nullptr};
+  return {
+      "scour",
+      "the ground under one side of the base of a support is eroded, so this side carries no load",
+      "Inspect the foundation on that side under water, and measure the bed level along it after the next flood.",
+      {{"lost_share", "-", "eroded share of the length or width of the base, from that side", 0.0, 0.9, 0.0, 0.3, 0.2}},
+      places_of_scour,
+      apply_scour,
+      nullptr};
 }
 
 }  // namespace voussoir

@@ -25,14 +25,14 @@ std::vector<std::string> places_of_sensor_fault(const Assembly& assembly) {
 Sensor& channel(std::vector<Sensor>& sensors, const std::string& id) {
   const auto at = std::find_if(sensors.begin(), sensors.end(), [&](const Sensor& s) { return s.id == id; });
   if (at == sensors.end())
-    throw InputError("effect sensor_fault: there is no sensor '{}'; name one of [[sensor]] as \"channel ID\"", id);
+    throw InputError("effect sensor_fault: there is no sensor '{}'. Name one of [[sensor]] as \"channel ID\".", id);
   return *at;
 }
 
 void apply_sensor_fault(std::vector<Sensor>& sensors, const std::string& where, const std::vector<double>& values) {
   const std::size_t gap = where.find(' '), next = where.find(' ', gap + 1);
   if (gap == std::string::npos)
-    throw InputError("effect sensor_fault: '{}' names no channel; give \"channel ID\" or \"channels ID ID\"", where);
+    throw InputError("effect sensor_fault: '{}' names no channel. Give \"channel ID\" or \"channels ID ID\".", where);
   Sensor& first = channel(sensors, where.substr(gap + 1, next == std::string::npos ? next : next - gap - 1));
   if (where.starts_with("channels ") && next != std::string::npos)
     std::swap(first.direction, channel(sensors, where.substr(next + 1)).direction);
@@ -54,12 +54,15 @@ Vec3 mounted(const Vec3& axis, double turn, double tilt) {
 Effect sensor_fault() {
   return {
       "sensor_fault",
-      "a channel has the wrong gain, sign or axis or a late clock, or two of one place are swapped",
+      "a channel has a wrong gain, sign or axis or a late clock, or two channels at one place are exchanged",
       "Check the cable, the axis, the polarity and the calibration of that channel, and record again.",
-      {{"gain", "-", "what it reads of the truth; −1 is a reversed channel, 0 a dead one", -20.0, 20.0, 1.0, 1.0, 0.5},
-       {"delay", "s", "of its clock: in recordings; a run's histories are not shifted", -0.2, 0.2, 0.0, 0.0, 0.02},
-       {"turn", "deg", "of its axis about the vertical, from x to y; after tilt", -180.0, 180.0, 0.0, 0.0, 45.0},
-       {"tilt", "deg", "of its axis upwards; −90 makes a vertical one lie along x", -180.0, 180.0, 0.0, 0.0, 45.0}},
+      {{"gain", "-", "factor on the true value: −1 is a reversed channel, 0 a dead channel", -20.0, 20.0, 1.0, 1.0,
+        0.5},
+       {"delay", "s", "delay of its clock in recordings; the histories of a run are not shifted", -0.2, 0.2, 0.0, 0.0,
+        0.02},
+       {"turn", "deg", "rotation of its axis about the vertical, from x to y, after tilt", -180.0, 180.0, 0.0, 0.0,
+        45.0},
+       {"tilt", "deg", "rotation of its axis upwards; −90 turns a vertical axis to x", -180.0, 180.0, 0.0, 0.0, 45.0}},
       places_of_sensor_fault,
       nullptr,
       nullptr,

@@ -25,9 +25,10 @@ std::vector<std::string> places_of_spandrel_separation(const Assembly& assembly)
 Effect spandrel_separation() {
   return {
       "spandrel_separation",
-      "a spandrel wall has come away from the vaults",
-      "Look at the edge of the vault from below for a crack along the wall, and measure whether the wall leans out.",
-      {{"factor", "-", "on the stiffness of the joints between them", 0.001, 1.0, 1.0, 0.1, 1.0, true}},
+      "a spandrel wall has separated from the vaults",
+      "Inspect the edge of the vault from below for a crack along the wall. Measure whether the wall leans outwards.",
+      {{"factor", "-", "factor on the stiffness of the joints between the wall and the vaults", 0.001, 1.0, 1.0, 0.1,
+        1.0, true}},
       places_of_spandrel_separation,
       apply_spandrel_separation,
       nullptr};

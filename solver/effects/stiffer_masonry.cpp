@@ -6,10 +6,10 @@ namespace voussoir {
 
 Effect stiffer_masonry() {
   return {"stiffer_masonry",
-          "the masonry of a part is stiffer than thought",
-          "Take a core of that part, or measure the speed of sound through it: it may be of another masonry, or backed "
+          "the masonry of a part is stiffer than assumed",
+          "Take a core of that part, or measure the speed of sound through it. It may be of another masonry, or backed "
           "by concrete.",
-          {{"factor", "-", "on the stiffness of its joints", 1.0, 5.0, 1.0, 1.5, 0.3, true}},
+          {{"factor", "-", "factor on the stiffness of its joints", 1.0, 5.0, 1.0, 1.5, 0.3, true}},
           masonry_parts,
           scale_masonry_part,
           nullptr};

@@ -22,7 +22,8 @@ Drive& drive_of(StageSettings& stage, const std::string& group) {
 
 void apply_support_motion(SolverSettings& settings, const std::string& where, const std::vector<double>& values) {
   // The settings are read before there is an assembly whose only support could be meant.
-  if (where.empty()) throw InputError("effect support_motion: which support? Give 'where', such as \"pier 0\"");
+  if (where.empty())
+    throw InputError("effect support_motion: 'where' is missing. Name the support, for example \"pier 0\".");
   for (StageSettings& stage : settings.stages) {
     if (stage.kind != StageSettings::Kind::motion) continue;
     Drive& drive = drive_of(stage, "base " + where);
@@ -34,14 +35,15 @@ void apply_support_motion(SolverSettings& settings, const std::string& where, co
 }  // namespace
 
 Effect support_motion() {
-  return {"support_motion",
-          "one support moves otherwise than the ground's record says",
-          "Put a sensor on that support, beside the one on the ground.",
-          {{"factor", "-", "share of the ground's motion that its base makes", 0.0, 3.0, 1.0, 1.0, 0.3},
-           {"delay", "s", "how much later than the ground; negative: earlier", -0.5, 0.5, 0.0, 0.0, 0.05}},
-          supports,
-          nullptr,
-          apply_support_motion};
+  return {
+      "support_motion",
+      "the motion of one support differs from the ground-motion record",
+      "Place a sensor on that support, in addition to the sensor on the ground.",
+      {{"factor", "-", "factor on the motion of the ground, for the base of the support", 0.0, 3.0, 1.0, 1.0, 0.3},
+       {"delay", "s", "delay of the motion behind that of the ground; negative: earlier", -0.5, 0.5, 0.0, 0.0, 0.05}},
+      supports,
+      nullptr,
+      apply_support_motion};
 }
 
 }  // namespace voussoir

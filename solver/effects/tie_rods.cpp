@@ -44,13 +44,14 @@ void apply_tie_rods(Assembly& assembly, const std::string& where, const std::vec
 }  // namespace
 
 Effect tie_rods() {
-  return {"tie_rods",
-          "tie rods hold the spandrel walls together above a support",
-          "Look for the plates of tie rods on both faces of the walls, and for rods that the drawings do not have.",
-          {{"axial_stiffness", "N", "E A of the rods at one place", 0.0, 1e10, 0.0, 2e8, 2e8}},
-          places_of_tie_rods,
-          apply_tie_rods,
-          nullptr};
+  return {
+      "tie_rods",
+      "tie rods hold the spandrel walls together above a support",
+      "Look for the anchor plates of tie rods on both faces of the walls, and for rods that the drawings do not show.",
+      {{"axial_stiffness", "N", "axial stiffness E A of the rods at one place", 0.0, 1e10, 0.0, 2e8, 2e8}},
+      places_of_tie_rods,
+      apply_tie_rods,
+      nullptr};
 }
 
 }  // namespace voussoir

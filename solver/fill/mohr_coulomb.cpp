@@ -11,18 +11,18 @@ FillLaw fill_law(const Material& m) {
   const double bulk = m.youngs_modulus * m.shear_modulus / (3.0 * (3.0 * m.shear_modulus - m.youngs_modulus));
   if (!(m.density > 0.0) || !(m.youngs_modulus > 0.0) || !(m.shear_modulus > 0.0))
     throw InputError(
-        "the fill's material '{}' has density {} kg/m3, youngs_modulus {} Pa and shear_modulus {} Pa: all must be "
-        "above zero",
+        "the material '{}' of the fill has density {} kg/m3, youngs_modulus {} Pa and shear_modulus {} Pa. All must be "
+        "above 0.",
         m.name, m.density, m.youngs_modulus, m.shear_modulus);
   if (!(m.youngs_modulus < 3.0 * m.shear_modulus) || m.youngs_modulus < 2.0 * m.shear_modulus * (1.0 - 1e-9))
     throw InputError(
-        "the fill's material '{}' has youngs_modulus {:g} Pa and shear_modulus {:g} Pa, a Poisson's ratio of {:.3f}: "
-        "choose a shear_modulus between a third and a half of youngs_modulus (ratio 0 to 0.5)",
+        "the material '{}' of the fill has youngs_modulus {:g} Pa and shear_modulus {:g} Pa, which gives a Poisson's "
+        "ratio of {:.3f}. Choose a shear_modulus between a third and a half of youngs_modulus (ratio 0 to 0.5).",
         m.name, m.youngs_modulus, m.shear_modulus, 0.5 * m.youngs_modulus / m.shear_modulus - 1.0);
   if (m.dilation_angle > m.friction_angle + 1e-12)
     throw InputError(
-        "the fill's material '{}' has a dilation_angle of {:.2f} degrees, above its friction_angle of "
-        "{:.2f}: lower the first",
+        "the material '{}' of the fill has a dilation_angle of {:.2f} degrees, above its friction_angle of {:.2f} "
+        "degrees. Lower the dilation_angle.",
         m.name, m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
   FillLaw law;
   law.density = m.density;

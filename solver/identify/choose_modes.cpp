@@ -148,29 +148,30 @@ std::string doubt(const ModelSource& source, const IdentifiedMode& mode, const S
   const int orders = s.largest_order / 2;
   if (mode.intermittent)
     return fmt::format(
-        "a machine that runs now and then: it stops {} times faster than a structure with its damping of {:.2f} % "
-        "rings down, and loses {:.0f} % of its energy so",
+        "an intermittent machine: it stops {} times faster than free vibration with its damping ratio of {:.2f} % "
+        "decays, and loses {:.0f} % of its energy in these stops",
         mode.stops, 100.0 * mode.damping, 100.0 * mode.stopped);
   if (mode.harmonic)
-    return fmt::format("a harmonic: the kurtosis about its frequency is {:.2f}, that of noise is 3", mode.kurtosis);
+    return fmt::format("a harmonic: the kurtosis about its frequency is {:.2f} (noise: 3)", mode.kurtosis);
   if (mode.damping > 0.0 && mode.damping < s.least_damping)
-    return fmt::format("its damping of {:.3f} % is below {:g} %: a machine, for no masonry has so little",
+    return fmt::format("its damping ratio of {:.3f} % is below {:g} %: a machine, because masonry has more damping",
                        100.0 * mode.damping, 100.0 * s.least_damping);
   if (!(mode.damping > 0.0 && mode.damping < s.largest_damping))
     return fmt::format("its damping ratio is {:.4f}", mode.damping);
-  if (mode.hits < s.least_hits * orders) return fmt::format("stable at {} of {} orders only", mode.hits, orders);
+  if (mode.hits < s.least_hits * orders) return fmt::format("it is stable at only {} of {} orders", mode.hits, orders);
   if (mode.mean_phase < s.least_mean_phase)
     return fmt::format("its points do not move in phase: collinearity {:.2f}", mode.mean_phase);
   if (source.segments >= parts && spread.found < least_found * replicates)
-    return fmt::format("found again without a part of the recording in {} of {} tries only", spread.found, replicates);
+    return fmt::format("it is found again without a part of the recording in only {} of {} tries", spread.found,
+                       replicates);
   // What noise makes is never as stable as that, and never as sure of its frequency and damping.
   if (mode.hits >= sure_hits * orders) return {};
   if (mode.frequency_std > largest_spread * mode.frequency)
-    return fmt::format("stable at {} of {} orders only, its frequency uncertain by {:.1f} %", mode.hits, orders,
-                       100.0 * mode.frequency_std / mode.frequency);
+    return fmt::format("it is stable at only {} of {} orders, and its frequency is uncertain by {:.1f} %", mode.hits,
+                       orders, 100.0 * mode.frequency_std / mode.frequency);
   if (mode.damping_std > sure_damping * mode.damping)
-    return fmt::format("stable at {} of {} orders only, its damping ratio of {:.4f} uncertain by {:.4f}", mode.hits,
-                       orders, mode.damping, mode.damping_std);
+    return fmt::format("it is stable at only {} of {} orders, and its damping ratio of {:.4f} is uncertain by {:.4f}",
+                       mode.hits, orders, mode.damping, mode.damping_std);
   return {};
 }
 
@@ -196,7 +197,7 @@ void sort_out(const ModelSource& source, std::vector<Candidate>& candidates, Ssi
     if (candidate.spread.found > 1) candidate.spread.give(mode);
     std::string reason = doubt(source, mode, candidate.spread);
     if (const IdentifiedMode* first = reason.empty() ? original(result.modes, mode) : nullptr)
-      reason = fmt::format("the mode at {:.3f} Hz again: they cannot be told apart", first->frequency);
+      reason = fmt::format("it cannot be distinguished from the mode at {:.3f} Hz", first->frequency);
     if (reason.empty())
       result.modes.push_back(mode);
     else

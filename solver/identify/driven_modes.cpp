@@ -47,8 +47,8 @@ std::vector<Eigen::Index> finite_lines(const TransferFunctions& t) {
     if (t.values[k].allFinite() && t.magnitude_std[k].allFinite()) lines.push_back(Eigen::Index(k));
   if (Eigen::Index(lines.size()) < least_lines)
     throw InputError(
-        "driven modes: {} lines of the transfer functions are finite, {} are needed; ask for a longer window or a "
-        "higher frequency, or give longer recordings",
+        "driven modes: {} lines of the transfer functions are finite, but {} are needed. Choose a longer window or a "
+        "higher highest frequency, or give longer recordings.",
         lines.size(), least_lines);
   return lines;
 }
@@ -399,14 +399,14 @@ DrivenMode mode_of(const Data& d, const Fitted& f, Eigen::Index m) {
 std::string doubt(const Data& d, const DrivenMode& mode, const DrivenSettings& settings) {
   const double step = d.omega[1] - d.omega[0], omega = two_pi * mode.frequency;
   if (omega < d.omega[0] + edge_lines * step || omega > d.omega.tail(1)[0] - edge_lines * step)
-    return "at the edge of the band";
+    return "it is at the edge of the frequency band";
   if (mode.damping > settings.largest_damping) return fmt::format("its damping ratio is {:.2f}", mode.damping);
   if (!(mode.frequency_std <= settings.largest_spread * mode.frequency))
     return fmt::format("its frequency is uncertain by {:.0f} %", 100.0 * mode.frequency_std / mode.frequency);
   if (mode.mean_phase < settings.least_mean_phase)
     return fmt::format("its points do not move in phase: collinearity {:.2f}", mode.mean_phase);
   if (mode.second > settings.largest_second)
-    return fmt::format("two modes, or not one: the second singular value of its residue is {:.2f} of the first",
+    return fmt::format("it is not a single mode: the second singular value of its residue is {:.2f} of the first",
                        mode.second);
   return {};
 }
@@ -422,7 +422,7 @@ double explained_share(const Data& d, const Eigen::MatrixXcd& left) {
 
 DrivenModes driven_modes(const TransferFunctions& t, const DrivenSettings& settings) {
   if (settings.largest_count < 1)
-    throw InputError("driven modes: 'largest_count' is {}: must be at least 1", settings.largest_count);
+    throw InputError("driven modes: 'largest_count' is {}. It must be at least 1.", settings.largest_count);
   const Data d = weighted(t, settings.smoothed);
   const Fitted f = fitted(d, search(d, settings.largest_count));
   DrivenModes result = {.inputs = t.inputs, .outputs = t.outputs, .modes = {}, .set_aside = {}};

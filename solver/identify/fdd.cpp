@@ -87,7 +87,7 @@ double along(const Fdd& fdd, Eigen::Index line, const Eigen::VectorXcd& shape,
 
 Fdd decompose_spectra(const std::vector<Recording>& recordings, const FddSettings& settings) {
   if (settings.singular_values < 1)
-    throw InputError("spectra: {} singular values are asked for; ask for at least 1", settings.singular_values);
+    throw InputError("spectra: the number of singular values is {}. It must be at least 1.", settings.singular_values);
   const Prepared p = prepare(recordings, settings.highest_frequency);
   const int window = window_samples(p, settings.window, 20.0, "spectra");
   const CrossSpectra spectra = cross_spectra(p.signals, p.dt, window, p.highest_frequency);
@@ -112,8 +112,10 @@ FddPeak peak_near(const Fdd& fdd, double frequency, double reach) {
 
 FddPeak peak_near(const Fdd& fdd, double frequency, const Eigen::VectorXcd& shape, double reach) {
   if (shape.size() != Eigen::Index(fdd.channels.size()))
-    throw InputError("spectra: the shape has {} components, the recordings have {} channels; give one per channel",
-                     shape.size(), fdd.channels.size());
+    throw InputError(
+        "spectra: the shape has {} components, but the recordings have {} channels. Give one component for each "
+        "channel.",
+        shape.size(), fdd.channels.size());
   const std::vector<Eigen::Index> channels = in_both(shape, fdd.vectors.front().col(0));
   if (channels.empty()) return {};
   Eigen::VectorXd curve(fdd.frequencies.size());

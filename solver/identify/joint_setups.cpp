@@ -208,7 +208,8 @@ SsiResult identify_jointly(const std::vector<Setup>& setups, const std::vector<S
   const std::vector<std::string> common = common_references(problems);
   if (common.empty())
     throw InputError(
-        "no channel can be used in all {} setups, which one model of all needs; let their modes be put together",
+        "no channel is usable in all {} setups, but a joint model of the setups needs one. Identify the setups "
+        "separately and combine their modes.",
         setups.size());
   JointProblem joint;
   joint.dt = problems.front().prepared.dt;

@@ -20,21 +20,23 @@ constexpr double rings_alone = 30.0;  // highest line of a spectrum over its med
 
 void check_recording(const Recording& r) {
   if (!(r.dt > 0.0) || !std::isfinite(r.dt))
-    throw InputError("recording '{}': the time step is {} s: must be above 0; check its header", r.name, r.dt);
+    throw InputError("recording '{}': the time step is {} s. It must be above 0. Check the header of the file.", r.name,
+                     r.dt);
   if (r.values.rows() < 2 || r.values.cols() < 1)
-    throw InputError("recording '{}' has {} samples of {} channels: at least 2 samples of 1 channel are needed", r.name,
-                     r.values.rows(), r.values.cols());
+    throw InputError("recording '{}' has {} samples of {} channels. At least 2 samples of 1 channel are needed.",
+                     r.name, r.values.rows(), r.values.cols());
   if (Eigen::Index(r.channels.size()) != r.values.cols())
-    throw InputError("recording '{}' has {} columns but {} channel names; name each column once", r.name,
+    throw InputError("recording '{}' has {} columns but {} channel names. Give one name for each column.", r.name,
                      r.values.cols(), r.channels.size());
   for (std::size_t c = 0; c < r.channels.size(); ++c) {
     if (std::count(r.channels.begin(), r.channels.end(), r.channels[c]) > 1)
-      throw InputError("recording '{}': two channels are called '{}'; give each a name of its own", r.name,
+      throw InputError("recording '{}': two channels have the name '{}'. Give each channel a different name.", r.name,
                        r.channels[c]);
     for (Eigen::Index i = 0; i < r.values.rows(); ++i)
       if (!std::isfinite(r.values(i, Eigen::Index(c))))
-        throw InputError("recording '{}', channel '{}': sample {} is {}: must be a number; cut or fill the gap", r.name,
-                         r.channels[c], i + 1, r.values(i, Eigen::Index(c)));
+        throw InputError(
+            "recording '{}', channel '{}': sample {} is {}. It must be a finite number. Cut out or fill the gap.",
+            r.name, r.channels[c], i + 1, r.values(i, Eigen::Index(c)));
   }
 }
 
@@ -47,7 +49,8 @@ std::vector<std::string> common_channels(const std::vector<Recording>& recording
     if (everywhere) common.push_back(name);
   }
   if (common.empty())
-    throw InputError("the recordings have no channel in common; give those of the same sensors, with the same names");
+    throw InputError(
+        "the recordings have no channel in common. Give recordings of the same sensors, with the same channel names.");
   return common;
 }
 
@@ -122,9 +125,9 @@ std::vector<std::string> channel_faults(const Prepared& p) {
   const Eigen::VectorXd size = standard_deviations(p.signals);
   for (std::size_t c = 0; c < n; ++c) {
     if (is_base_channel(p.channels[c]))
-      fault[c] = "the ground's motion, not a response";
+      fault[c] = "it is the motion of the ground, not a response";
     else if (!(size[Eigen::Index(c)] > 1e-6 * size.maxCoeff()))
-      fault[c] = "does not move";
+      fault[c] = "it does not move";
   }
   if (n < 2) return fault;
   const int window = std::min(512, power_of_two_below(double(p.samples()) / 30.0));
@@ -136,8 +139,9 @@ std::vector<std::string> channel_faults(const Prepared& p) {
   for (std::size_t c = 0; c < n; ++c)
     if (fault[c].empty() && coherence[Eigen::Index(c)] < limit &&
         peak_over_median(spectra, Eigen::Index(c)) < rings_alone)
-      fault[c] = fmt::format("noise: its coherence with the other channels is nowhere above {:.2f} ({:.2f} expected)",
-                             coherence[Eigen::Index(c)], limit);
+      fault[c] =
+          fmt::format("it is noise: its coherence with the other channels is nowhere above {:.2f} ({:.2f} expected)",
+                      coherence[Eigen::Index(c)], limit);
   return fault;
 }
 
@@ -151,7 +155,7 @@ void leave_out_poor(Prepared& p) {
       p.poor.push_back({int(c), fault[c]});
   }
   if (p.used.empty())
-    throw InputError("no channel can be used; '{}': {}; give recordings in which the structure moves",
+    throw InputError("no channel is usable ('{}': {}). Give recordings in which the structure moves.",
                      p.channels.front(), fault.front());
   for (Eigen::MatrixXd& x : p.signals) x = Eigen::MatrixXd(x(Eigen::all, p.used));
 }
@@ -161,8 +165,8 @@ double checked_highest(const std::vector<Recording>& recordings, double highest)
   if (highest == 0.0) return std::min(usual_highest, 0.4 * rate);
   if (!(highest > 0.0) || highest > 0.45 * rate)
     throw InputError(
-        "identification: the highest frequency is {} Hz: with {} samples a second it must be above 0 and "
-        "at most {} Hz; ask for less",
+        "identification: the highest frequency is {} Hz. With {} samples per second it must be above 0 and at most {} "
+        "Hz.",
         highest, rate, 0.45 * rate);
   return highest;
 }
@@ -217,8 +221,8 @@ void check_in_common(const std::vector<Recording>& recordings) {
   if (2 * counts.common >= counts.all) return;
   const DroppedChannel first = dropped_channels(recordings).front();
   throw InputError(
-      "only {} of {} channels are in all recordings ('{}': {}), and with the ground's motion recordings are taken "
-      "together: give recordings of the same sensors, or diagnose each setup by itself",
+      "only {} of {} channels are in all recordings ('{}': {}). With the motion of the ground, all recordings are "
+      "evaluated together. Give recordings of the same sensors, or diagnose each setup separately.",
       counts.common, counts.all, first.name, first.reason);
 }
 
@@ -227,11 +231,11 @@ bool is_base_channel(const std::string& name) {
 }
 
 void check_recordings(const std::vector<Recording>& recordings) {
-  if (recordings.empty()) throw InputError("identification: there is no recording; give at least one");
+  if (recordings.empty()) throw InputError("identification: there is no recording. Give at least one.");
   for (const Recording& r : recordings) {
     check_recording(r);
     if (std::abs(r.dt - recordings.front().dt) > 1e-6 * r.dt)
-      throw InputError("recording '{}' has a time step of {} s, '{}' one of {} s; resample one of them", r.name, r.dt,
+      throw InputError("recording '{}' has a time step of {} s, but '{}' has {} s. Resample one of them.", r.name, r.dt,
                        recordings.front().name, recordings.front().dt);
   }
 }
@@ -268,8 +272,8 @@ Prepared gathered(const std::vector<Recording>& recordings, double highest_frequ
     p.signals.push_back(detrended(decimated(detrended(columns(r, p.channels)), dt, factor, p.highest_frequency)));
     if (p.signals.back().rows() < least_samples)
       throw InputError(
-          "recording '{}' lasts {:.3g} s, too short: at least {:.3g} s are needed to identify modes up to "
-          "{} Hz; record for longer",
+          "recording '{}' lasts {:.3g} s. At least {:.3g} s are needed to identify modes up to {} Hz. Record for "
+          "longer.",
           r.name, r.duration(), p.dt * double(least_samples + 40), p.highest_frequency);
   }
   for (std::size_t c = 0; c < p.channels.size(); ++c) p.used.push_back(int(c));
@@ -294,7 +298,7 @@ int window_samples(const Prepared& p, double seconds, double parts, const char* 
   for (const Eigen::MatrixXd& x : p.signals) longest = std::max(longest, x.rows());
   if (seconds == 0.0) return std::max(16, power_of_two_below(double(longest) / parts));
   if (!(seconds >= 8.0 * p.dt) || seconds > double(longest) * p.dt)
-    throw InputError("{}: the window is {} s: must be from {:.3g} s to {:.3g} s", what, seconds, 8.0 * p.dt,
+    throw InputError("{}: the window is {} s. It must be from {:.3g} s to {:.3g} s.", what, seconds, 8.0 * p.dt,
                      double(longest) * p.dt);
   return power_of_two_below(seconds / p.dt * (1.0 + 1e-9));
 }

@@ -267,9 +267,8 @@ std::vector<std::size_t> order_of(const std::vector<Setup>& setups, const std::v
       std::size_t lost = 0;
       while (std::find(order.begin(), order.end(), lost) != order.end()) ++lost;
       throw InputError(
-          "recording '{}' has no channel in common with '{}': shapes of several setups are put together by sensors "
-          "that "
-          "stay where they are; give recordings with such references, or diagnose each setup by itself",
+          "recording '{}' has no channel in common with '{}'. The shapes of several setups are combined with reference "
+          "sensors that stay in place. Give recordings with such sensors, or diagnose each setup separately.",
           setups[lost].name, setups[order.front()].name);
     }
     order.push_back(best);
@@ -306,12 +305,12 @@ std::string doubt(const Track& track, const std::vector<Setup>& setups, const st
     for (const RejectedMode& aside : results[s].set_aside)
       if (aside.mode.harmonic &&
           std::abs(aside.mode.frequency - track.mode.frequency) < same_machine * track.mode.frequency)
-        return fmt::format("in {} {}", setups[s].name, aside.reason);
+        return fmt::format("in {}: {}", setups[s].name, aside.reason);
   std::size_t components = 0;
   for (const std::complex<double>& value : track.mode.shape) components += known(value);
   if (double(components) < least_known * double(usable))
-    return fmt::format("found in {} of {} setups: {} of {} channels know of it", track.setups, results.size(),
-                       components, usable);
+    return fmt::format("it is found in {} of {} setups, and only {} of {} channels measured it", track.setups,
+                       results.size(), components, usable);
   return {};
 }
 

@@ -85,7 +85,7 @@ CrossSpectra cross_spectra(const std::vector<Eigen::MatrixXd>& signals, double d
   }
   windows.add_to(result.density);
   if (count == 0)
-    throw InputError("spectra: no recording is as long as the window of {} s; ask for a shorter window", dt * window);
+    throw InputError("spectra: no recording is as long as the window of {} s. Choose a shorter window.", dt * window);
   const double scale = 2.0 * dt / (windows.energy() * count);
   for (std::size_t k = 0; k < lines; ++k) {
     const bool alone = k == 0 || 2 * k == std::size_t(window);  // no line of negative frequency to add

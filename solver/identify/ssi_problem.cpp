@@ -18,7 +18,7 @@ constexpr int lags_per_recording = 8;  // a recording shall be that many times a
 void check(const SsiSettings& s) {
   const auto within = [](double value, double low, double high, const char* name) {
     if (!(value >= low && value <= high))
-      throw InputError("identification: '{}' is {}: must be from {} to {}", name, value, low, high);
+      throw InputError("identification: '{}' is {}. It must be from {} to {}.", name, value, low, high);
   };
   within(s.lowest_frequency, 0.0, 1e6, "lowest_frequency");
   if (s.largest_order != 0) within(s.largest_order, 2, 400, "largest_order");
@@ -47,20 +47,21 @@ void resolve(SsiProblem& p) {
   s.highest_frequency = p.prepared.highest_frequency;
   if (s.lowest_frequency == 0.0) s.lowest_frequency = s.highest_frequency / 40.0;
   if (s.lowest_frequency >= s.highest_frequency)
-    throw InputError("identification: the lowest frequency {} Hz is not below the highest, {} Hz; lower it",
+    throw InputError("identification: the lowest frequency is {} Hz. It must be below the highest frequency, {} Hz.",
                      s.lowest_frequency, s.highest_frequency);
   // Few channels cannot hold large models: their modes would split.
   if (s.largest_order == 0) s.largest_order = p.scale.size() < 4 ? 40 : 60;
   const Eigen::Index longest = longest_of(p.prepared);
   const int most = most_block_rows(p.prepared);
   if (s.block_rows > most)
-    throw InputError("identification: {} block rows need {:.3g} s of recording, the longest has {:.3g} s; ask for {}",
-                     s.block_rows, 2.0 * lags_per_recording * s.block_rows * p.prepared.dt,
-                     double(longest) * p.prepared.dt, most);
+    throw InputError(
+        "identification: {} block rows need a recording of {:.3g} s, but the longest recording has {:.3g} s. Choose at "
+        "most {} block rows.",
+        s.block_rows, 2.0 * lags_per_recording * s.block_rows * p.prepared.dt, double(longest) * p.prepared.dt, most);
   if (double(most) * p.prepared.dt < 0.25 / s.lowest_frequency)
     throw InputError(
-        "identification: the longest recording has {:.3g} s, too short for modes at {} Hz: at least {:.3g} "
-        "s are needed; record for longer or ask for a higher lowest_frequency",
+        "identification: the longest recording has {:.3g} s. Modes at {} Hz need at least {:.3g} s. Record for longer, "
+        "or choose a higher lowest_frequency.",
         double(longest) * p.prepared.dt, s.lowest_frequency, 0.5 * lags_per_recording / s.lowest_frequency);
   const int channels = int(p.scale.size()), references = int(p.references.size());
   if (s.block_rows == 0)
@@ -103,7 +104,7 @@ SsiProblem set_up(const std::vector<Recording>& recordings, const SsiSettings& s
   for (std::size_t r = 0; r < recordings.size(); ++r)
     if (p.prepared.signals[r].rows() <= p.products.lags)
       p.too_short.push_back(
-          {recordings[r].name, fmt::format("{:.3g} s, too short: over {:.3g} s of it are correlated",
+          {recordings[r].name, fmt::format("it has {:.3g} s, but the correlations need more than {:.3g} s",
                                            recordings[r].duration(), p.prepared.dt * double(p.products.lags))});
   p.weights = canonical_weights(scaled, p.references, p.settings.block_rows);
   return p;

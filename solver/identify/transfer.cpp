@@ -41,10 +41,12 @@ Roles roles_of(const Prepared& p) {
   Roles roles = sorted(p);
   if (roles.inputs.empty())
     throw InputError(
-        "transfer functions: no channel base_x, base_y or base_z moves in all recordings; give the "
-        "ground's motion under one of these names");
+        "transfer functions: no channel base_x, base_y or base_z moves in all recordings. Give the motion of the "
+        "ground under one of these names.");
   if (roles.outputs.empty())
-    throw InputError("transfer functions: there is no channel but the ground's motion; give those of sensors");
+    throw InputError(
+        "transfer functions: there is no channel except the motion of the ground. Give channels of sensors on the "
+        "structure.");
   return roles;
 }
 
@@ -59,7 +61,7 @@ void check_independent(const CrossSpectra& spectra, const Prepared& p, const std
         if (both > 0.0) least = std::min(least, std::norm(g(inputs[a], inputs[b])) / both);
       }
       if (least > 0.999)
-        throw InputError("transfer functions: '{}' and '{}' are the same motion but for a factor; leave one out",
+        throw InputError("transfer functions: '{}' and '{}' are proportional to each other. Leave out one of them.",
                          p.channels[std::size_t(inputs[b])], p.channels[std::size_t(inputs[a])]);
     }
 }
@@ -110,8 +112,8 @@ TransferFunctions transfer_functions(const std::vector<Recording>& recordings, c
   const double least = double(roles.inputs.size()) + 2.0;
   if (spectra.averages < least)
     throw InputError(
-        "transfer functions: the recordings hold {:.1f} independent windows of {:.3g} s, {} inputs need {}; "
-        "ask for a shorter window",
+        "transfer functions: the recordings contain {:.1f} independent windows of {:.3g} s, but {} inputs need {}. "
+        "Choose a shorter window.",
         spectra.averages, p.dt * window, roles.inputs.size(), least);
   check_independent(spectra, p, roles.inputs);
   TransferFunctions t;

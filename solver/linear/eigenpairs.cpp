@@ -82,7 +82,7 @@ Found search(const Factor& factor, const SparseMatrix& m, double shift, const Ei
     solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw RunError("the eigenvalue iteration did not converge; ask for more or fewer modes");
+    throw RunError("the eigenvalue iteration did not converge. Choose more or fewer modes.");
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -128,8 +128,8 @@ double factorize(Factor& factor, const SparseMatrix& k, const SparseMatrix& m) {
   for (int tries = 0; !factor.compute(k - shift * m); ++tries, shift *= 200.0) {
     if (factor.lacked_memory())
       throw RunError(
-          "there is not enough memory for the factor of {} unknowns; give the assembly fewer blocks (a larger "
-          "block_scale where it is generated)",
+          "there is not enough memory to factor the matrix of {} unknowns. Use fewer blocks (a larger block_scale for "
+          "a generated assembly).",
           k.rows());
     if (tries == 6) throw RunError("the stiffness matrix cannot be factored: it has no finite values");
   }
@@ -168,7 +168,7 @@ bool is_small(const SparseMatrix& m, int count) {
   // Lanczos needs room for a basis; and what is small is done sooner, and whole, by reduction to tridiagonal form.
   const bool small = m.rows() <= dense_below || 3 * count > m.rows();
   if (small && m.rows() > dense_most)
-    throw InputError("{} modes are too many of {} unknowns; ask for at most {}", count, m.rows(), m.rows() / 3);
+    throw InputError("{} modes are too many for {} unknowns. Choose at most {}.", count, m.rows(), m.rows() / 3);
   return small;
 }
 

@@ -16,7 +16,7 @@ void check_mass(const Assembly& assembly, const Model& model, const BlockMatrix&
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Matrix6& block = m.diagonal(std::int32_t(i));
     if (!unknowns.any(i) || (block.allFinite() && block.llt().info() == Eigen::Success)) continue;
-    throw InputError("the mass matrix of {} is singular: mass {} kg; give its material a density above zero",
+    throw InputError("the mass matrix of {} is singular: its mass is {} kg. Give its material a density above 0.",
                      block_label(assembly, model.block_of_body[i]), model.bodies[i].inertial_mass);
   }
 }
@@ -76,14 +76,15 @@ std::vector<std::int64_t> blocks_of(const Model& model, const std::vector<std::i
 }
 
 void check_count(int count, std::int32_t unknowns, std::size_t adrift, int held) {
-  if (count < 1) throw InputError("the number of modes is {}; ask for 1 or more", count);
+  if (count < 1) throw InputError("the number of modes is {}. It must be at least 1.", count);
   if (count <= unknowns) return;
   const std::string left =
       adrift > 0 || held > 0
-          ? fmt::format(" (without {} blocks and {} ways of others that nothing holds)", adrift, held)
+          ? fmt::format(" (without {} blocks and {} degrees of freedom of other blocks that nothing holds)", adrift,
+                        held)
           : "";
-  throw InputError("{} modes are asked for, but the model has {} unknowns{}; ask for at most {}", count, unknowns, left,
-                   unknowns);
+  throw InputError("the number of modes is {}, but the model has {} unknowns{}. Choose at most {}.", count, unknowns,
+                   left, unknowns);
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ Named look_up(const Assembly& assembly, const std::string& name) {
       named.blocks = blocks_of(assembly, component_index(name.substr(0, space)), part);
   }
   if (named.blocks.empty() && !named.fill)
-    throw InputError("construction: there is no \"{}\" in this assembly{}", name,
-                     suggestion(name, names_there(assembly)));
+    throw InputError("construction: this assembly has no \"{}\"{}", name, suggestion(name, names_there(assembly)));
   return named;
 }
 
@@ -97,8 +96,9 @@ class Planner {
 
   void take(const ConstructionStep& step) {
     if (step.add.empty() == step.strike.empty())
-      throw InputError("construction: step {} must either add something or strike centering: give it 'add' or 'strike'",
-                       ++count_);
+      throw InputError(
+          "construction: step {} must either add something or strike centering. Give it either 'add' or 'strike'.",
+          ++count_);
     ++count_;
     if (step.add.empty())
       strike(step);
@@ -118,13 +118,13 @@ class Planner {
     if (tets > 0) words.push_back(fmt::format("{} elements of the fill", tets));
     if (!words.empty())
       throw InputError(
-          "construction: no step adds {}: name them in the 'add' of a step, or add a last step without 'below'",
+          "construction: no step adds {}. Name them in the 'add' of a step, or add a last step without 'below'.",
           fmt::join(words, ", "));
     for (std::size_t i = 0; i < plan_.free.size(); ++i)
       if (plan_.free[i] == never)
-        throw InputError("construction: {} is put on centering that is never struck: add a step with strike = [\"{}\"]",
-                         block_label(assembly_, std::int64_t(i)),
-                         component_names()[std::size_t(assembly_.blocks[i].component)]);
+        throw InputError(
+            "construction: {} stands on centering that is never struck. Add a step with strike = [\"{}\"].",
+            block_label(assembly_, std::int64_t(i)), component_names()[std::size_t(assembly_.blocks[i].component)]);
     return std::move(plan_);
   }
 
@@ -133,7 +133,7 @@ class Planner {
     std::vector<Item> items;
     for (const std::string& name : step.add) collect(name, step.below, items);
     if (items.empty())
-      throw InputError("construction: step {} adds nothing: all of {}{} is there already", count_,
+      throw InputError("construction: step {} adds nothing, because all of {}{} has already been added", count_,
                        fmt::join(step.add, ", "), step.below < 1e300 ? fmt::format(" below {:g} m", step.below) : "");
     double low = 1e300, high = -1e300;
     for (const Item& item : items) low = std::min(low, item.low), high = std::max(high, item.high);
@@ -188,8 +188,8 @@ class Planner {
       }
     if (struck == 0)
       throw InputError(
-          "construction: step {} strikes the centering of {}, and nothing of it stands on any; name what an "
-          "earlier step with centering = true has added",
+          "construction: step {} strikes the centering of {}, but no part of it stands on centering. Name a part that "
+          "an earlier step adds with centering = true.",
           count_, fmt::join(step.strike, ", "));
     plan_.labels.push_back(step.label.empty() ? fmt::format("{}: centering struck", fmt::join(step.strike, ", "))
                                               : step.label);
@@ -222,8 +222,8 @@ void check_held(const Assembly& assembly, const ConstructionPlan& plan) {
       if (assembly.blocks[i].fixed || (there(std::int64_t(i)) && plan.free[i] > step)) held[sets.of(i)] = 1;
     const auto refuse = [&](const std::string& what, const Vec3& at) {
       throw InputError(
-          "construction: in step {} ({}) {} at ({:.2f}, {:.2f}, {:.2f}) m stands in the air: nothing ties it to "
-          "anything fixed or on centering; add what bears it before, or put it on centering",
+          "construction: in step {} ({}) {} at ({:.2f}, {:.2f}, {:.2f}) m has no support: no joints connect it to a "
+          "fixed block or to a part on centering. Add its supports in an earlier step, or place it on centering.",
           step + 1, plan.labels[std::size_t(step)], what, at.x(), at.y(), at.z());
     };
     for (std::size_t i = 0; i < blocks; ++i)

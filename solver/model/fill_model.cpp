@@ -67,8 +67,8 @@ void fill_lane(const FillModel& fill, const Element& element, int lane, TetBatch
   const double volume = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6.0;
   if (!(volume > 0.0))
     throw InputError(
-        "tetrahedron {} of the fill, at ({:.3f}, {:.3f}, {:.3f}) m, has a volume of {:.3g} m3: it must be "
-        "above zero; mesh the fill anew",
+        "tetrahedron {} of the fill, at ({:.3f}, {:.3f}, {:.3f}) m, has a volume of {:.3g} m3. It must be above 0. "
+        "Generate a new mesh of the fill.",
         element.tet, at(0).x(), at(0).y(), at(0).z(), volume);
   for (int k = 0; k < 4; ++k) batch.node[k][lane] = element.nodes[std::size_t(k)];
 }
@@ -232,7 +232,7 @@ FillModel build_fill(const Assembly& assembly, const std::vector<std::int32_t>& 
                               fill.node_of[std::size_t(corners[2])]});
   for (std::size_t i = 0; i < fill.nodes.size(); ++i)
     if (!(fill.mass[i] > 0.0))
-      throw InputError("node {} of the fill belongs to no tetrahedron; leave it out of the mesh", fill.mesh_node[i]);
+      throw InputError("node {} of the fill belongs to no tetrahedron. Remove it from the mesh.", fill.mesh_node[i]);
   return fill;
 }
 

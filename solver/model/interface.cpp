@@ -112,8 +112,7 @@ std::vector<InterfacePatch> interface_patches(const Assembly& assembly, const Mo
   for (const FillJoint& joint : assembly.fill_joints) {
     if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
       throw InputError(
-          "the patch between block {} and triangle {} of the fill has kn = {}, ks = {} Pa/m; both must be "
-          "positive",
+          "the patch between block {} and triangle {} of the fill has kn = {} and ks = {} Pa/m. Both must be above 0.",
           joint.block, joint.triangle, joint.kn, joint.ks);
     patches.push_back(make_patch(assembly, joint, model));
   }

@@ -81,7 +81,7 @@ void add_bodies(const Assembly& assembly, Model& model) {
   }
   const std::size_t tets = assembly.fill.tets.size();
   if (movable == 0 && tets == 0)
-    throw InputError("the assembly has no block that can move: every one of its {} is fixed", assembly.blocks.size());
+    throw InputError("the assembly has no block that can move: all its {} blocks are fixed", assembly.blocks.size());
   if (movable == 0) {  // nothing but fill: what a tetrahedron weighs is the measure
     double mass = 0.0;
     for (const double m : model.fill.mass) mass += m;
@@ -98,12 +98,12 @@ void add_bodies(const Assembly& assembly, Model& model) {
 
 PatchShape joint_shape(const Joint& joint, std::size_t index, const Model& model) {
   if (!(joint.kn > 0.0) || !(joint.ks > 0.0))
-    throw InputError("joint {} between blocks {} and {} has kn = {}, ks = {} Pa/m; both must be positive", index,
+    throw InputError("joint {} between blocks {} and {} has kn = {} and ks = {} Pa/m. Both must be above 0.", index,
                      joint.a, joint.b, joint.kn, joint.ks);
   if (model.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie && joint.polygon.size() != 4)
     throw InputError(
-        "joint {} between blocks {} and {} is a tie with a polygon of {} corners; it must have 4, two at "
-        "each anchor",
+        "joint {} between blocks {} and {} is a tie with a polygon of {} corners. It must have 4 corners, two at each "
+        "anchor.",
         index, joint.a, joint.b, joint.polygon.size());
   return patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
 }

@@ -76,7 +76,7 @@ LineRule lobatto_rule(int n) {
     const double a = std::sqrt(3.0 / 7.0);
     return {5, {-1.0, -a, 0.0, a, 1.0}, {1.0 / 20, 49.0 / 180, 64.0 / 180, 49.0 / 180, 1.0 / 20}};
   }
-  throw InputError("points_per_side is {}; it must be 3, 4 or 5", n);
+  throw InputError("points_per_side is {}. It must be 3, 4 or 5.", n);
 }
 
 std::vector<PatchPoint> rectangle_points(const PatchShape& rectangle, int per_side) {

@@ -32,7 +32,7 @@ double gain(double f, double low, double high, int order) {
 }  // namespace
 
 void taper(std::vector<double>& values, double share) {
-  if (!(share >= 0.0 && share <= 0.5)) throw InputError("taper is {}: expected a share from 0 to 0.5", share);
+  if (!(share >= 0.0 && share <= 0.5)) throw InputError("taper is {}. It must be a share from 0 to 0.5.", share);
   const auto n = std::size_t(share * double(values.size()));
   for (std::size_t i = 0; i < n; ++i) {
     const double weight = 0.5 * (1.0 - std::cos(pi * double(i) / double(n)));
@@ -44,16 +44,18 @@ void taper(std::vector<double>& values, double share) {
 std::vector<double> band_pass(const std::vector<double>& values, double dt, double f_low, double f_high, int order) {
   const double highest = 0.5 / dt;
   if (!(f_low >= 0.0 && f_high >= 0.0 && f_low < highest && f_high < highest))
-    throw InputError("band-pass from {} to {} Hz: expected corners below {:.4g} Hz, half the sampling rate", f_low,
-                     f_high, highest);
+    throw InputError(
+        "band-pass from {} to {} Hz: the corner frequencies must be below {:.4g} Hz, half the sampling rate", f_low,
+        f_high, highest);
   constexpr double lowest = 1e-3;  // Hz; the zeros at the ends are as long as 1.5 n / corner
   for (const double corner : {f_low, f_high})
     if (corner > 0.0 && corner < lowest)
-      throw InputError("band-pass from {} to {} Hz: expected corners of 0 (open) or at least {} Hz", f_low, f_high,
-                       lowest);
+      throw InputError(
+          "band-pass from {} to {} Hz: each corner frequency must be 0 (no filter on this side) or at least {} Hz",
+          f_low, f_high, lowest);
   if (f_low > 0.0 && f_high > 0.0 && f_low >= f_high)
-    throw InputError("band-pass from {} to {} Hz: expected the lower corner first", f_low, f_high);
-  if (order < 1 || order > 16) throw InputError("band-pass of order {}: expected 1 to 16", order);
+    throw InputError("band-pass from {} to {} Hz: the lower corner frequency must come first", f_low, f_high);
+  if (order < 1 || order > 16) throw InputError("the order of the band-pass is {}. It must be from 1 to 16.", order);
   const double pad = 1.5 * order / (f_low > 0.0 ? f_low : f_high > 0.0 ? f_high : highest);  // s
   const auto zeros = std::size_t(std::ceil(pad / dt));
   const std::size_t n = good_length(values.size() + 2 * zeros);
@@ -72,9 +74,10 @@ std::vector<double> band_pass(const std::vector<double>& values, double dt, doub
 std::vector<double> resample(const std::vector<double>& values, double dt, double new_dt) {
   constexpr double shortest = 1e-5, longest = 1.0, most = 1e7;  // s, s, samples
   if (!(new_dt >= shortest && new_dt <= longest))
-    throw InputError("resampling to a step of {} s: expected {} to {} s", new_dt, shortest, longest);
+    throw InputError("resampling to a time step of {} s: the time step must be from {} to {} s", new_dt, shortest,
+                     longest);
   if (const double samples = dt / new_dt * double(values.size()); samples > most)
-    throw InputError("resampling {} s to a step of {} s makes {:.3g} samples: expected at most {:g}",
+    throw InputError("resampling {} s to a time step of {} s gives {:.3g} samples. At most {:g} are allowed.",
                      dt * double(values.size()), new_dt, samples, most);
   if (values.size() < 2 || new_dt == dt) return values;
   const std::vector<double> from =

@@ -28,13 +28,13 @@ double pulse_length(const PulseSettings& pulse) {
     const bool half = pulse.kind == PulseSettings::Kind::half_sine && pulse.frequency > 0.0;
     if (half && std::abs(2.0 * pulse.frequency * pulse.length - 1.0) > 1e-6)
       throw InputError(
-          "half-sine pulse has length {} s and frequency {} Hz, which contradict: length is 1/(2 frequency) "
-          "= {} s; give one of the two",
+          "the half-sine pulse has length {} s and frequency {} Hz, which contradict each other: the length is 1/(2 "
+          "frequency) = {} s. Give only one of the two.",
           pulse.length, pulse.frequency, 0.5 / pulse.frequency);
     return pulse.length;
   }
-  if (pulse.kind == PulseSettings::Kind::rectangular) throw InputError("rectangular pulse needs 'length' in s");
-  if (!(pulse.frequency > 0.0)) throw InputError("{} pulse needs 'frequency' in Hz or 'length' in s", kind);
+  if (pulse.kind == PulseSettings::Kind::rectangular) throw InputError("the rectangular pulse needs 'length' in s");
+  if (!(pulse.frequency > 0.0)) throw InputError("the {} pulse needs 'frequency' in Hz or 'length' in s", kind);
   return (pulse.kind == PulseSettings::Kind::sine ? 1.0 : 0.5) / pulse.frequency;
 }
 
@@ -50,8 +50,8 @@ GroundMotion make_pulse(const PulseSettings& pulse) {
   const double finest = frequency > 0.0 ? std::min(length / 1000.0, 1.0 / (400.0 * frequency)) : length / 1000.0;
   // In doubles first: what is asked for may be more than any whole number holds.
   if (!((pulse.start + length) / finest < 5e7))
-    throw InputError("pulse of {} s at {} Hz starting at {} s needs more than 50 million samples: shorten it", length,
-                     frequency, pulse.start);
+    throw InputError("the pulse of {} s at {} Hz that starts at {} s needs more than 50 million samples. Shorten it.",
+                     length, frequency, pulse.start);
   const auto cells = std::int64_t(std::ceil(length / finest - 1e-9));
   const double dt = length / double(cells);
   const auto first = std::int64_t(std::llround(pulse.start / dt));

@@ -209,17 +209,20 @@ Eigen::VectorXd best_within_all(const Quadratic& q, const Bounds& bounds, double
 
 void check(const SelectionProblem& p) {
   const std::size_t n = p.events.size();
-  if (p.count < 1 || n < p.count) throw InputError("{} records wanted, {} are there", p.count, n);
+  if (p.count < 1 || n < p.count) throw InputError("{} records are required, but {} are available", p.count, n);
   if (!(p.low > 0.0 && p.low <= 1.0 && p.high >= 1.0))
     throw InputError(
-        "bounds of the mean over the target are {} and {}: expected the first above 0 and at most 1, the "
-        "second at least 1",
+        "the bounds of the mean over the target are {} and {}. The first must be above 0 and at most 1, the second at "
+        "least 1.",
         p.low, p.high);
   if (!(p.least > 0.0 && p.least < p.most))
-    throw InputError("factors from {} to {}: expected the first above 0 and below the second", p.least, p.most);
+    throw InputError("the scale factors are from {} to {}. The first must be above 0 and below the second.", p.least,
+                     p.most);
   if (p.per_event < 1 || count_sets(p) < 1.0)
-    throw InputError("{} records with at most {} of one event: there are not enough events; allow more of one", p.count,
-                     p.per_event);
+    throw InputError(
+        "{} records with at most {} of one event are required, but there are not enough events. Allow more records of "
+        "one event.",
+        p.count, p.per_event);
 }
 
 }  // namespace

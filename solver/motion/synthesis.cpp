@@ -162,7 +162,7 @@ double jennings_envelope(double t, double rise, double strong, double duration) 
 void check_synthetic(const SyntheticSettings& s) {
   const auto positive = [](double value, const char* name, const char* unit) {
     if (!(value > 0.0) || !std::isfinite(value))
-      throw InputError("synthetic motion: '{}' is {} {}: must be above 0", name, value, unit);
+      throw InputError("synthetic motion: '{}' is {} {}. It must be above 0.", name, value, unit);
   };
   if (s.spectrum) {
     check_target(*s.spectrum);
@@ -173,15 +173,17 @@ void check_synthetic(const SyntheticSettings& s) {
   positive(s.frequency, "frequency", "Hz");
   positive(s.bandwidth, "bandwidth", "(damping ratio)");
   positive(s.dt, "dt", "s");
-  if (!s.axes[0] && !s.axes[1] && !s.axes[2]) throw InputError("synthetic motion: 'axes' is empty: name x, y or z");
+  if (!s.axes[0] && !s.axes[1] && !s.axes[2]) throw InputError("synthetic motion: 'axes' is empty. Name x, y or z.");
   if (!(s.rise > 0.0 && s.rise <= s.strong && s.strong < 1.0))
-    throw InputError("synthetic motion: 'rise' {} and 'strong' {} must satisfy 0 < rise <= strong < 1", s.rise,
-                     s.strong);
-  if (s.dt > 0.1) throw InputError("synthetic motion: 'dt' is {} s: must be at most 0.1 s", s.dt);
+    throw InputError("synthetic motion: 'rise' is {} and 'strong' is {}. They must satisfy 0 < rise <= strong < 1.",
+                     s.rise, s.strong);
+  if (s.dt > 0.1) throw InputError("synthetic motion: 'dt' is {} s. It must be at most 0.1 s.", s.dt);
   if (s.duration < 20.0 * s.dt)
-    throw InputError("synthetic motion: 'duration' {} s holds fewer than 20 steps of 'dt' {} s", s.duration, s.dt);
+    throw InputError("synthetic motion: 'duration' is {} s, which is fewer than 20 time steps of 'dt', {} s",
+                     s.duration, s.dt);
   if (s.duration / s.dt > 1e6)
-    throw InputError("synthetic motion: {} s at {} s are more than a million samples", s.duration, s.dt);
+    throw InputError("synthetic motion: 'duration' {} s divided by 'dt' {} s gives more than a million samples",
+                     s.duration, s.dt);
 }
 
 GroundMotion synthesize(const SyntheticSettings& settings) {

@@ -17,13 +17,14 @@ struct Shape {
 };
 
 std::size_t letter(const TargetSpectrum& t) {
-  if (t.soil < 'A' || t.soil > 'E') throw InputError("soil '{}': expected A, B, C, D or E", t.soil);
+  if (t.soil < 'A' || t.soil > 'E') throw InputError("the soil class is '{}'. It must be A, B, C, D or E.", t.soil);
   return std::size_t(t.soil - 'A');
 }
 
 double topography(const TargetSpectrum& t) {
   constexpr double factors[] = {1.0, 1.2, 1.2, 1.4};
-  if (t.topography < 1 || t.topography > 4) throw InputError("topography T{}: expected T1, T2, T3 or T4", t.topography);
+  if (t.topography < 1 || t.topography > 4)
+    throw InputError("the topographic class is T{}. It must be T1, T2, T3 or T4.", t.topography);
   return factors[t.topography - 1];
 }
 
@@ -74,13 +75,14 @@ double eta_of(const TargetSpectrum& t) {
 }  // namespace
 
 void check_target(const TargetSpectrum& t) {
-  if (!(t.ag > 0.0 && t.ag < 5.0)) throw InputError("ag is {} g: expected above 0 and below 5 g", t.ag);
+  if (!(t.ag > 0.0 && t.ag < 5.0)) throw InputError("ag is {} g. It must be above 0 and below 5 g.", t.ag);
   if (t.code == TargetCode::ntc2018) {
-    if (!(t.f0 >= 2.0 && t.f0 < 5.0)) throw InputError("f0 is {}: expected 2.2 to 3 or near it", t.f0);
-    if (!(t.tc > 0.0 && t.tc < 2.0)) throw InputError("tc is {} s: expected Tc*, above 0 and below 2 s", t.tc);
+    if (!(t.f0 >= 2.0 && t.f0 < 5.0))
+      throw InputError("f0 is {}. It must be at least 2 and below 5; usual values are 2.2 to 3.", t.f0);
+    if (!(t.tc > 0.0 && t.tc < 2.0)) throw InputError("tc is {} s. It must be Tc*, above 0 and below 2 s.", t.tc);
   }
   if (!(t.damping > 0.0 && t.damping < 0.3))
-    throw InputError("damping is {}: expected above 0 and below 0.3", t.damping);
+    throw InputError("damping is {}. It must be above 0 and below 0.3.", t.damping);
   shape_of(t);
 }
 

@@ -53,11 +53,12 @@ void Simulation::step_by_newton(const StageSettings& stage, double share) {
   stepper_.loads = step_loads(stage, share);
   stepper_.prepare();
   Machine machine = machine_at(stage, share);
-  equilibrium_ =
-      newton_step(stepper_, settings_.step.equilibrium_tolerance, stage.quasi_static.push ? &machine : nullptr,
-                  observers_.stop, [&](int i, double r) {
-                    report_progress(true, fmt::format("share {:.4g}, Newton {}: out-of-balance {:.1e}", share, i, r));
-                  });
+  equilibrium_ = newton_step(
+      stepper_, settings_.step.equilibrium_tolerance, stage.quasi_static.push ? &machine : nullptr, observers_.stop,
+      [&](int i, double r) {
+        report_progress(true,
+                        fmt::format("share {:.4g}, Newton iteration {}: out-of-balance force {:.1e}", share, i, r));
+      });
   if (equilibrium_.converged) take_multiplier(machine);
 }
 
@@ -87,7 +88,8 @@ void Simulation::step_by_relaxation(const StageSettings& stage, double share) {
   equilibrium_ = relax(
       stepper_, settings_.step.equilibrium_tolerance, limits, observers_.stop,
       [&](std::int64_t step, double r) {
-        report_progress(false, fmt::format("share {:.4g}, relaxation step {}: out-of-balance {:.1e}", share, step, r));
+        report_progress(false,
+                        fmt::format("share {:.4g}, relaxation step {}: out-of-balance force {:.1e}", share, step, r));
       },
       stage.quasi_static.push ? &machine : nullptr);
   if (equilibrium_.converged) take_multiplier(machine);
@@ -168,8 +170,8 @@ Stop Simulation::approach(const StageSettings& stage, Stop from, const Stop& to)
     }
     log(fmt::format("share {:.5g}: {:.5g} kN at {:.5g} mm ({})", wanted.share, 1e-3 * step_row_.force,
                     1e3 * step_row_.displacement,
-                    equilibrium_.relaxed ? fmt::format("{} steps of relaxation", equilibrium_.steps)
-                                         : fmt::format("{} iterations of Newton", equilibrium_.iterations)));
+                    equilibrium_.relaxed ? fmt::format("{} relaxation steps", equilibrium_.steps)
+                                         : fmt::format("{} Newton iterations", equilibrium_.iterations)));
     if (halved == 0) return to;
     from = wanted;
     --halved;
@@ -193,8 +195,8 @@ bool Simulation::begin_steps(const StageSettings& stage) {
   position_.along = pattern_displacement(model_, state_, step_pattern_);
   if (equilibrium_at(stage, {}, stage.method != StageSettings::Method::newton)) return true;
   failure_ = fmt::format(
-      "there is no equilibrium where the stage '{}' begins: {}. Begin with a gravity stage, and look at where it "
-      "leaves the stones",
+      "there is no equilibrium at the beginning of the stage '{}': {}. Begin with a gravity stage, and check the "
+      "positions of the stones at its end",
       stage.label, equilibrium_.account);
   return false;
 }
@@ -202,12 +204,13 @@ bool Simulation::begin_steps(const StageSettings& stage) {
 /// A path that ends before its last stop is an answer in the last stage, and a failure in others.
 RunEnd Simulation::lose(const StageSettings& stage, const Stop& from, const Stop& to) {
   const std::string text = fmt::format(
-      "stage '{}': equilibrium is lost between the shares {:.5g} and {:.5g}, after {:.5g} kN at {:.5g} mm; the last "
-      "equilibrium is kept",
+      "stage '{}': equilibrium is lost between the shares {:.5g} and {:.5g}, after {:.5g} kN at {:.5g} mm. The run "
+      "keeps the last equilibrium",
       stage.label, from.share, to.share, 1e-3 * step_row_.force, 1e3 * step_row_.displacement);
   log(text);
   if (std::size_t(position_.stage) + 1 == settings_.stages.size()) return RunEnd::finished;
-  failure_ = text + ". The stages after it are not begun: ask for less of this one, or make it the last";
+  failure_ =
+      text + ". The later stages are not started. Reduce the load or displacement of this stage, or make it the last";
   return RunEnd::failed;
 }
 

@@ -22,14 +22,14 @@ std::string runaway_text(const Assembly& assembly, const Model& model, const Sta
   };
   if (last.inverted_tet >= 0)
     return fmt::format(
-        "tetrahedron {} of the fill at {} has lost its volume; the fill has flowed farther than this mesh follows: "
-        "stop the run before, give the fill more cohesion, or mesh it coarser there",
+        "tetrahedron {} of the fill at {} has lost its volume: the fill has deformed more than this mesh allows. Stop "
+        "the run earlier, give the fill more cohesion, or use a coarser mesh there",
         last.inverted_tet, place(mesh.tets[std::size_t(last.inverted_tet)][0]));
   const std::string what = last.runaway_body >= 0
                                ? body_name(assembly, model, last.runaway_body)
                                : fmt::format("node {} of the fill at {}", last.runaway_node, place(last.runaway_node));
   return what +
-         " moves faster than 1000 m/s or not at a finite speed; lower [analysis] safety or time_step, and look at its "
+         " moves faster than 1000 m/s or its speed is not finite. Lower [analysis] safety or time_step, and check its "
          "joints";
 }
 
@@ -63,7 +63,7 @@ std::string not_finite_text(const Assembly& assembly, const Stepper& stepper, co
   for (const auto& [name, term] : energy_terms())
     if (!std::isfinite(energies.*term)) terms += fmt::format("{}{}", terms.empty() ? "" : ", ", name);
   if (terms.empty()) return {};
-  return fmt::format("these terms of the energy balance are not finite: {}; {}", terms,
+  return fmt::format("these terms of the energy balance are not finite: {} ({})", terms,
                      first_not_finite(assembly, stepper));
 }
 

@@ -140,16 +140,17 @@ void Simulation::scale_and_say() {
   scale();
   stepper_.prepare();
   if (!observers_.log) return;
-  if (!scaling_.at_work()) return log("mass scaling: none is needed");
+  if (!scaling_.at_work()) return log("mass scaling is not needed");
   log(fmt::format(
-      "mass scaling: critical step {:.4g} s instead of {:.4g} s; inertia of {} blocks raised (at most × "
-      "{:.3g}), mass of {} of them{} (at most × {:.3g}): {:.4f} % of the mass added, weights unchanged",
+      "mass scaling: the critical time step is {:.4g} s instead of {:.4g} s; the inertia of {} blocks is increased (at "
+      "most × {:.3g}), and the mass of {} of them{} (at most × {:.3g}); the added mass is {:.4f} %, and the weights "
+      "are unchanged",
       critical_step(model_, reference).step, before, scaling_.bodies, scaling_.largest_rotary, scaling_.heavier,
       scaling_.nodes > 0 ? fmt::format(" and of {} nodes of the fill", scaling_.nodes) : "", scaling_.largest,
       100 * scaling_.share));
   const std::vector<double> shifts = frequency_shifts(model_, reference, scaling_, frequencies_compared);
   if (shifts.empty()) return;
-  log(fmt::format("mass scaling: the first {} frequencies fall by at most {:.3g} %, the first by at most {:.3g} %",
+  log(fmt::format("mass scaling: the first {} frequencies decrease by at most {:.3g} %, the lowest by at most {:.3g} %",
                   shifts.size(), 100 * *std::max_element(shifts.begin(), shifts.end()), 100 * shifts.front()));
 }
 
@@ -157,25 +158,25 @@ void Simulation::choose_step() {
   if (scales_mass()) scale_and_say();
   const CriticalStep critical = critical_step(model_, state_);
   if (critical.highest <= 0.0 && settings_.step.time_step <= 0.0)
-    throw InputError("no joint holds any block, so there is no critical step: set [analysis] time_step");
+    throw InputError("no joint holds any block, so there is no critical time step. Set [analysis] time_step.");
   const double factor = damping_step_factor(settings_.damping, critical.highest);
   const double limit = critical.highest > 0.0 ? critical.step * factor : 1e300;
   if (settings_.step.time_step > limit)
     throw InputError(
-        "[analysis] time_step = {:.4g} s is above the critical step of {:.4g} s ({:.4g} s undamped, × {:.3f} for "
-        "damping), set by {}: lower it, or leave it out for {} × critical",
+        "[analysis] time_step = {:.4g} s is above the critical time step of {:.4g} s ({:.4g} s undamped, × {:.3f} for "
+        "damping) of {}. Lower it, or leave it out: the program then uses {} × the critical time step.",
         settings_.step.time_step, limit, critical.step, factor, short_name(*assembly_, model_, critical),
         settings_.step.safety);
   position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
   if (const std::string why = too_many_steps(end_time(), position_.dt); !why.empty())
-    throw InputError("the time step, set by {}, {}: give its joints less stiffness or it more mass",
+    throw InputError("the time step, set by {}, {}. Lower the stiffness of its joints, or increase its mass.",
                      critical.body >= 0 ? short_name(*assembly_, model_, critical) : "[analysis] time_step", why);
   position_.highest = critical.highest;
   position_.stiffest = bound_.of_bodies(stepper_);
   position_.stiffest_node = bound_.of_nodes(stepper_);
   stepper_.dt = position_.dt;
   if (critical.body < 0) return;
-  log(fmt::format("critical step {:.4g} s undamped, set by {}; with damping × {:.3f}; step used {:.4g} s",
+  log(fmt::format("critical time step {:.4g} s undamped, set by {}; × {:.3f} with damping; time step used {:.4g} s",
                   critical.step, describe_fastest(*assembly_, model_, critical), factor, position_.dt));
 }
 
@@ -270,7 +271,7 @@ void Simulation::change_contacts() {
   position_.highest = critical.highest;
   stepper_.damping = damping_at_work(settings_.damping, step, critical.highest);
   if (worth_saying)
-    log(fmt::format("t = {:.4f} s: new contacts lower the step to {:.4g} s, set by {}", state_.time(), step,
+    log(fmt::format("t = {:.4f} s: new contacts reduce the time step to {:.4g} s, set by {}", state_.time(), step,
                     short_name(*assembly_, model_, critical)));
 }
 
@@ -315,7 +316,8 @@ void Simulation::sample(const BodyPass& pass) {
   worst_balance_ = std::max(worst_balance_, std::abs(s.balance_error));
   if (exploded_.empty()) exploded_ = not_finite_text(*assembly_, stepper_, e);
   if (exploded_.empty() && !(std::abs(s.balance_error) < runaway_balance))
-    exploded_ = fmt::format("the energy balance is off by {:.3g} times its largest term", std::abs(s.balance_error));
+    exploded_ =
+        fmt::format("the error of the energy balance is {:.3g} times its largest term", std::abs(s.balance_error));
   s.base_acceleration = base_acceleration(stepper_.motion, state_.time() - stepper_.stage_start);
   if (observers_.history) observers_.history(*this, s);
 }
@@ -442,9 +444,9 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
     costs_.steps += seconds_since(begun) - (costs_.history - sampled);
     if (last_.outcome == StepOutcome::runaway || !exploded_.empty()) {
       failure_ =
-          fmt::format("at t = {:.4f} s {}", state_.time(),
+          fmt::format("at t = {:.4f} s: {}", state_.time(),
                       last_.outcome == StepOutcome::runaway ? runaway_text(*assembly_, model_, state_, last_)
-                                                            : exploded_ + "; lower [analysis] safety or time_step");
+                                                            : exploded_ + ". Lower [analysis] safety or time_step");
       return RunEnd::failed;
     }
     if (last_.outcome == StepOutcome::contacts) change_contacts();
@@ -459,7 +461,7 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
       write_checkpoint(false);
       saved_ = Clock::now();
     }
-    report_progress(false, fmt::format("{:.1f} % of patches point by point",
+    report_progress(false, fmt::format("{:.1f} % of the patches evaluated point by point",
                                        100.0 * double(last_.points) /
                                            double(std::max<std::int64_t>(1, last_.points + last_.intact))));
   }

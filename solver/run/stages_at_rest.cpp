@@ -54,17 +54,18 @@ void Simulation::find_equilibrium(const StageSettings& stage, bool from_unloaded
   const bool stones_alone = stepper_.model->fill.empty();
   if (stage.method == StageSettings::Method::newton || (by_itself && stones_alone)) {
     equilibrium_ = newton_equilibrium(stepper_, tolerance, observers_.stop, [&](int i, double r) {
-      report_progress(true, fmt::format("Newton {}: out-of-balance {:.1e}", i, r));
+      report_progress(true, fmt::format("Newton iteration {}: out-of-balance force {:.1e}", i, r));
     });
     log(equilibrium_.account);
   }
   if (!equilibrium_.converged && !stopped() && stage.method != StageSettings::Method::newton) {
-    if (by_itself && stones_alone) log("falling back to dynamic relaxation (a mechanism, or joints that slide)");
+    if (by_itself && stones_alone)
+      log("the solver continues with dynamic relaxation (there is a mechanism, or joints slide)");
     RelaxationLimits limits;
     limits.displacement = extent(model_);  // what has gone so far falls, and would for ever
     limits.from_unloaded = from_unloaded;
     equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
-      report_progress(false, fmt::format("relaxation step {}: out-of-balance {:.1e}", step, r));
+      report_progress(false, fmt::format("relaxation step {}: out-of-balance force {:.1e}", step, r));
     });
     log(equilibrium_.account);
   }
@@ -112,7 +113,7 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
     const Array<double>& from = equilibrium_.earlier.empty() ? before.pose : equilibrium_.earlier;
     moving_ = farthest_moved(model_, from, state_, named);
     failure_ = fmt::format("no equilibrium under gravity{}: {}{}{}", construction_failed_, equilibrium_.account,
-                           moving_.empty() ? "" : "\nOn their way, in the last steps:",
+                           moving_.empty() ? "" : "\nThese stones still moved in the last relaxation steps:",
                            moved_text(*assembly_, model_, moving_, before, from, state_));
     return false;
   }
@@ -130,8 +131,9 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
     return true;
   }
   moving_ = moved;
-  failure_ = "the assembly does not stand as it was built: it came to rest, but " + words +
-             "\nSet allow_motion = true in this [[stage]] to go on from there, or mend what holds these stones";
+  failure_ = "the assembly does not stay where it was built. It came to rest, but " + words +
+             "\nSet allow_motion = true in this [[stage]] to continue from this position, or correct the supports of "
+             "these stones";
   return false;
 }
 
@@ -145,8 +147,8 @@ bool Simulation::collapse(const StageSettings& stage) {
       stepper_, stage.collapse, settings_.step.equilibrium_tolerance,
       [&](double multiplier) { return places_.at_work({}, loads(multiplier)); }, observers_.stop,
       [&](const CollapseTry& one, double residual) {
-        report_progress(false, fmt::format("multiplier {:.5g}, step {}: out-of-balance {:.1e}", one.multiplier,
-                                           one.steps, residual));
+        report_progress(false, fmt::format("multiplier {:.5g}, relaxation step {}: out-of-balance force {:.1e}",
+                                           one.multiplier, one.steps, residual));
       });
   if (stopped()) return false;
   log(collapse_.account);
@@ -163,8 +165,8 @@ bool Simulation::collapse(const StageSettings& stage) {
                                   stage.collapse.displacement * model_.typical_size, stepper_.threads, observers_.stop);
     if (stopped()) return false;
     (above ? collapse_.falls_above : collapse_.stands_below) = moves == above;
-    log(fmt::format("dynamic run with the multiplier raised to {:.5g}: {}{}", multiplier,
-                    moves ? "it moves away" : "it stands", moves == above ? "" : " (not as the static solver says)"));
+    log(fmt::format("dynamic run at the multiplier {:.5g}: {}{}", multiplier, moves ? "it moves away" : "it stands",
+                    moves == above ? "" : " (this contradicts the static solver)"));
   }
   log(collapse_headline(*assembly_, collapse_));
   return true;

@@ -175,7 +175,7 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
 
   if (!stands(0.0) && !stopped())
     throw RunError(
-        "there is no equilibrium even without the pattern of the collapse stage: begin with a gravity stage");
+        "there is no equilibrium even without the load pattern of the collapse stage. Begin with a gravity stage.");
   State good = *stepper.state, lost = good;
   double increment = settings.to / 16.0;
   while (!stopped() && result.multiplier < settings.to) {

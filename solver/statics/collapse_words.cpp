@@ -45,7 +45,7 @@ std::string mechanism_text(const Assembly& assembly, const std::vector<Mechanism
 }
 
 std::string moving_part(const Assembly& assembly, const CollapseLoss& loss) {
-  const std::string fill = loss.fill ? " and the fill about them" : "";
+  const std::string fill = loss.fill ? " and the fill around them" : "";
   if (loss.blocks.empty()) return loss.fill ? "the fill" : "nothing";
   if (loss.loaded_only)
     return fmt::format("{} loaded {}{}", loss.blocks.size(), loss.blocks.size() == 1 ? "block" : "blocks", fill);
@@ -63,9 +63,8 @@ std::string collapse_headline(const Assembly& assembly, const Collapse& c) {
   if (!c.found) return fmt::format("The assembly still stands at a multiplier of {:.4g}.", c.multiplier);
   if (c.falls_above == false)
     return fmt::format(
-        "The static and the dynamic solver disagree: equilibrium is lost at a multiplier of {:.4g} by the static one, "
-        "but "
-        "the dynamic run stands above it. {:.4g} is no collapse load.",
+        "The static and the dynamic solver disagree: the static solver loses equilibrium at a multiplier of {:.4g}, "
+        "but the dynamic run stands above it. {:.4g} is not a collapse load.",
         c.multiplier, c.multiplier);
   std::string text = fmt::format(
       "{} loss of equilibrium at a multiplier of {:.4g}: {} ({:.0f} % of the mass that can "
@@ -73,7 +72,7 @@ std::string collapse_headline(const Assembly& assembly, const Collapse& c) {
       c.loss.local ? "Local" : "Global", c.multiplier, moving_part(assembly, c.loss), 100.0 * c.loss.share);
   if (c.loss.rest_stands)
     text += *c.loss.rest_stands ? " The rest stands without them." : " The rest does not stand without them either.";
-  if (c.stands_below == false) text += " The dynamic run does not stand below it: not as the static solver says.";
+  if (c.stands_below == false) text += " The dynamic run does not stand below it, which contradicts the static solver.";
   return text;
 }
 

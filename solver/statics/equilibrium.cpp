@@ -136,7 +136,7 @@ class TangentInverse {
     const double most = large() ? 5e6 * double(model_.bodies.size()) : 1e300;  // 0.2 to 0.4 ms a body
     if (factor_.compute(k_.over(unknowns_), most)) return true;
     if (factor_.operations() > most)
-      remark_ = fmt::format(" (multigrid does not solve for its step, and a factor would take {:.1e} operations)",
+      remark_ = fmt::format(" (multigrid did not converge, and a direct factorisation would take {:.1e} operations)",
                             factor_.operations());
     return false;
   }

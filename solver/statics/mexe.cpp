@@ -17,24 +17,27 @@ constexpr double most_provisional = 70.0;               // t
 
 void check(double value, double low, double high, const char* what, const char* unit, const char* remedy) {
   if (value >= low && value <= high) return;
-  throw InputError("MEXE: {} is {:g}{}: must be from {:g} to {:g}{}; {}", what, value, unit, low, high, unit, remedy);
+  throw InputError("MEXE: {} is {:g}{}. It must be from {:g} to {:g}{}. {}", what, value, unit, low, high, unit,
+                   remedy);
 }
 
 void check_factor(double value, const char* what) {
   if (value > 0.0 && value <= 2.0) return;
-  throw InputError("MEXE: {} is {:g}: must be above 0 to 2; take it from the tables of BA 16/97", what, value);
+  throw InputError("MEXE: {} is {:g}. It must be above 0 and at most 2. Take it from the tables of BA 16/97.", what,
+                   value);
 }
 
 void check_input(const MexeInput& in) {
-  check(in.span, least_span, most_span, "the span", " m", "assess other spans by a model");
+  check(in.span, least_span, most_span, "the span", " m", "Use a model to assess other spans.");
   if (!(in.rise > 0.0 && in.rise <= in.span))
-    throw InputError("MEXE: the rise is {:g} m: must be above 0 to the span, {:g} m", in.rise, in.span);
+    throw InputError("MEXE: the rise is {:g} m. It must be above 0 and at most the span, {:g} m.", in.rise, in.span);
   if (!(in.quarter_rise > 0.0 && in.quarter_rise < in.rise))
     throw InputError(
-        "MEXE: the rise at the quarter points is {:g} m: must be above 0 and less than at the crown, {:g} m",
+        "MEXE: the rise at the quarter points is {:g} m. It must be above 0 and less than the rise at the crown, {:g} "
+        "m.",
         in.quarter_rise, in.rise);
-  if (!(in.ring > 0.0)) throw InputError("MEXE: the thickness of the barrel is {:g} m: must be above 0", in.ring);
-  if (!(in.fill >= 0.0)) throw InputError("MEXE: the fill over the crown is {:g} m: must be 0 or more", in.fill);
+  if (!(in.ring > 0.0)) throw InputError("MEXE: the thickness of the barrel is {:g} m. It must be above 0.", in.ring);
+  if (!(in.fill >= 0.0)) throw InputError("MEXE: the fill over the crown is {:g} m. It must be 0 or more.", in.fill);
   check_factor(in.barrel, "the barrel factor F_b");
   check_factor(in.fill_factor, "the fill factor F_f");
   check_factor(in.width, "the width factor F_w");
@@ -48,8 +51,9 @@ void check_input(const MexeInput& in) {
 double span_rise_factor(const MexeInput& in, double ratio) {
   if (in.span_rise) return *in.span_rise;
   if (ratio <= 4.0) return 1.0;
-  throw InputError("MEXE: span / rise is {:.3g}, more than 4: give the span/rise factor F_sr from BA 16/97, figure 3/3",
-                   ratio);
+  throw InputError(
+      "MEXE: span / rise is {:.3g}, which is more than 4. Give the span/rise factor F_sr from BA 16/97, figure 3/3.",
+      ratio);
 }
 
 /// BA 16/97 3.12.
@@ -65,7 +69,7 @@ MexeResult mexe(const MexeInput& in) {
   out.fill = in.fill_at_most_ring ? std::min(in.fill, in.ring) : in.fill;
   out.total = in.ring + out.fill;
   check(out.total, least_total, most_total, "the thickness of barrel and fill at the crown", " m",
-        "assess other arches by a model");
+        "Use a model to assess other arches.");
   // BA 16/97 3.10, in t and m.
   out.provisional = std::min(most_provisional, 740.0 * out.total * out.total / std::pow(in.span, 1.3));
   out.span_rise_ratio = in.span / in.rise;

@@ -114,10 +114,11 @@ DampingAtWork maxwell_at_work(const DampingSettings& settings, double step) {
     work.account += fmt::format(" {:.4f} at {:.3f} Hz,", fit.stiffness[j], fit.frequency[j]);
   }
   work.step_factor = 1.0 / std::sqrt(1.0 + total);
-  work.account += fmt::format(" ratio {:.3f}–{:.3f} % on {}–{} Hz; stiffness × {:.3f} at {} Hz, × {:.3f} at {} Hz",
-                              100 * fit.lowest, 100 * fit.highest, settings.band[0], settings.band[1],
-                              maxwell_stiffening(fit, settings.band[0]), settings.band[0],
-                              maxwell_stiffening(fit, settings.band[1]), settings.band[1]);
+  work.account +=
+      fmt::format(" damping ratio {:.3f}–{:.3f} % from {} to {} Hz; stiffness × {:.3f} at {} Hz, × {:.3f} at {} Hz",
+                  100 * fit.lowest, 100 * fit.highest, settings.band[0], settings.band[1],
+                  maxwell_stiffening(fit, settings.band[0]), settings.band[0],
+                  maxwell_stiffening(fit, settings.band[1]), settings.band[1]);
   return work;
 }
 
@@ -151,7 +152,7 @@ DampingAtWork damping_at_work(const DampingSettings& settings, double step, doub
       settings.kind == DampingSettings::Kind::maxwell || settings.kind == DampingSettings::Kind::rayleigh;
   if (by_ratio && settings.ratio < least_damping_ratio) {  // branches without stiffness would store q² / 0
     DampingAtWork work;
-    work.account = "no damping (the ratio is zero)";
+    work.account = "no damping (the damping ratio is zero)";
     return work;
   }
   switch (settings.kind) {

@@ -30,7 +30,7 @@ const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::s
   if (known.empty())
     throw InputError("{} the group '{}', but the assembly has no group of {} blocks", who, name,
                      fixed ? "fixed" : "free");
-  throw InputError("{} the group '{}', which the assembly does not have{}", who, name, suggestion(name, known));
+  throw InputError("{} the group '{}', which does not exist in the assembly{}", who, name, suggestion(name, known));
 }
 
 void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Model& model) {
@@ -38,7 +38,7 @@ void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Mo
     for (std::int64_t block : group_of(assembly, guide.group, "a [[guide]] is for", true)) {
       if (!assembly.blocks[std::size_t(block)].fixed)
         throw InputError(
-            "a [[guide]] is for the group '{}', but its block {} is free already: only fixed blocks are guided",
+            "a [[guide]] is for the group '{}', but its block {} is already free. Only fixed blocks can be guided.",
             guide.group, block);
       Body& body = model.bodies[std::size_t(model.body_of_block[std::size_t(block)])];
       for (int c = 0; c < 3; ++c)
@@ -63,13 +63,13 @@ void check_against_guide(const StageSettings& stage, const Drive& drive, const G
     if (!guide.free[c]) continue;
     if (drive.velocity[long(c)] != 0.0 || drive.displacement[long(c)] != 0.0)
       throw InputError(
-          "stage '{}' drives the group '{}' along {}, but a [[guide]] leaves it free there: set that number "
-          "to 0, or hold it",
+          "stage '{}' drives the group '{}' along {}, but a [[guide]] leaves it free along this axis. Set this "
+          "component to 0, or hold the axis.",
           stage.label, drive.group, "xyz"[c]);
     if (!drive.with_ground())
       throw InputError(
-          "stage '{}' moves the group '{}' otherwise than the ground ('factor', 'delay'), but a [[guide]] leaves it "
-          "free along {}: take both numbers away, or hold it",
+          "stage '{}' moves the group '{}' differently from the ground ('factor', 'delay'), but a [[guide]] leaves it "
+          "free along {}. Remove both keys, or hold the axis.",
           stage.label, drive.group, "xyz"[c]);
   }
 }
@@ -88,7 +88,7 @@ void check_drives(const Assembly& assembly, const std::vector<StageSettings>& st
       for (std::int64_t block : group_of(assembly, drive.group, "stage '" + stage.label + "' drives", true)) {
         if (!assembly.blocks[block].fixed)
           throw InputError(
-              "stage '{}' drives the group '{}', but its block {} is free: only fixed blocks can be driven",
+              "stage '{}' drives the group '{}', but its block {} is free. Only fixed blocks can be driven.",
               stage.label, drive.group, block);
         if (!driven.insert(block).second)
           throw InputError("stage '{}' drives block {} twice, the second time in the group '{}'", stage.label, block,
@@ -102,13 +102,13 @@ void check_placements(const Assembly& assembly, const std::vector<StageSettings>
     for (const Placement& p : stages[i].placements) {
       if (i > 0 && stages[i - 1].timed())
         throw InputError(
-            "stage '{}' places the group '{}', but the blocks may be moving then: place them in the first "
-            "stage, or in one after a gravity stage",
+            "stage '{}' places the group '{}', but the blocks may be moving at that time. Place them in the first "
+            "stage, or in a stage after a gravity stage.",
             stages[i].label, p.group);
       for (std::int64_t block : group_of(assembly, p.group, "stage '" + stages[i].label + "' places", false))
         if (assembly.blocks[std::size_t(block)].fixed)
           throw InputError(
-              "stage '{}' places the group '{}', but its block {} is fixed: only free blocks can be placed",
+              "stage '{}' places the group '{}', but its block {} is fixed. Only free blocks can be placed.",
               stages[i].label, p.group, block);
     }
 }

@@ -25,8 +25,10 @@ const Kernels& chosen() {
     if (std::string(each->name) == wish) return *each;
     names.emplace_back(each->name);
   }
-  throw InputError("VOUSSOIR_KERNELS is \"{}\": this program on this processor has {}; leave it unset for the last",
-                   wish, fmt::join(names, ", "));
+  throw InputError(
+      "VOUSSOIR_KERNELS is \"{}\". This program on this processor supports {}. Leave it unset to use the last of "
+      "these.",
+      wish, fmt::join(names, ", "));
 }
 
 }  // namespace

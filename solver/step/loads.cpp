@@ -100,8 +100,8 @@ void add_points(const Assembly& assembly, const Model& model, const ForceLoad& l
   const std::vector<std::int64_t>& blocks = group_of(assembly, load.group, "a load acts on", false);
   if (load.at && blocks.size() > 1)
     throw InputError(
-        "a load acts at a point of the group '{}', which has {} blocks: name a group of one block, or "
-        "leave out 'at' to share the force by mass",
+        "a load acts at a point of the group '{}', which has {} blocks. Name a group of one block, or leave out 'at' "
+        "to distribute the force by mass.",
         load.group, blocks.size());
   double mass = 0.0;
   for (std::int64_t block : blocks) mass += assembly.blocks[block].mass;
@@ -109,7 +109,7 @@ void add_points(const Assembly& assembly, const Model& model, const ForceLoad& l
     const Block& b = assembly.blocks[block];
     if (model.bodies[std::size_t(model.body_of_block[std::size_t(block)])].still())
       throw InputError(
-          "a load acts on the group '{}', but its block {} is fixed: only free and guided blocks can be loaded",
+          "a load acts on the group '{}', but its block {} is fixed. Only free and guided blocks can be loaded.",
           load.group, block);
     PointLoad point;
     point.body = model.body_of_block[block];
@@ -131,8 +131,9 @@ double evened(const RoadShare& share, const RoadArea& wanted, const RoadLoad& lo
   const double whole = wanted.area();
   if (std::abs(share.area - whole) > part_of_gaps * whole)
     throw InputError(
-        "{} stands on x = {:.3f} to {:.3f} m, y = {:.3f} to {:.3f} m, and {:.3g} m2 of that are no road, which lies "
-        "within y = {:.3f} to {:.3f} m between what stands on it: move it across, or choose a narrower vehicle",
+        "{} stands on x = {:.3f} to {:.3f} m, y = {:.3f} to {:.3f} m, but {:.3g} m2 of this area is not road. The road "
+        "lies within y = {:.3f} to {:.3f} m, between the parapets or other parts on it. Move the vehicle sideways, or "
+        "choose a narrower vehicle.",
         load.of, wanted.x0, wanted.x1, wanted.y0, wanted.y1, whole - share.area, road.y0, road.y1);
   return whole / share.area;
 }

@@ -120,7 +120,8 @@ MassScaling scale_mass(Model& model, const State& state, double step, double lim
   if (share > limit)
     throw InputError(
         "[analysis] mass_scaling_step = {:.4g} s would add {:.3g} % of the mass, more than mass_scaling_limit = {:.4g} "
-        "({:.3g} %): lower the step, raise the limit, or leave out mass_scaling_step for the largest step within it",
+        "({:.3g} %). Lower the time step, raise the limit, or leave out mass_scaling_step to use the largest time step "
+        "within the limit.",
         step, 100 * share, limit, 100 * limit);
   return raise_to(model, rates, ceiling);
 }

@@ -20,8 +20,8 @@ std::string too_many_steps(double time, double dt) {
   const double steps = dt > 0.0 ? time / dt : 0.0;
   if (steps <= most_steps) return "";
   return fmt::format(
-      "is {:g} s: {:g} s of simulated time would be {:.2g} steps, which take {} at a microsecond each, the least there "
-      "is; expected at most {:g} steps",
+      "is {:g} s: {:g} s of simulated time would need {:.2g} time steps, which take at least {} at one microsecond "
+      "each. At most {:g} time steps are allowed",
       dt, time, steps, wall_time(least_cost * steps), most_steps);
 }
 

@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{std::string("records = \"empty.json\""), std::string(""), {"empty.json", "empty"}},
         Bad{std::string("records = \"broken.json\""),
             std::string(""),
-            {"broken.json", "no valid JSON", "motion select"}},
+            {"broken.json", "not valid JSON", "motion select"}},
         Bad{std::string("records = \"nameless.json\""), std::string(""), {"record number 1", "no 'name'"}},
         Bad{std::string("records = \"lost.json\""), std::string(""), {"nowhere.txt"}},
         Bad{std::string("records = \"units.json\""), std::string(""), {"gal", "m/s2, g or cm/s2"}},

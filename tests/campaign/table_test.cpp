@@ -89,7 +89,7 @@ TEST(CampaignTable, IsWrittenAsItWas) {
 }
 
 TEST(CampaignTable, SaysWhatIsWrong) {
-  EXPECT_EQ(error_of("").substr(0, 37), "DIR/table.csv:1: the file is empty, e");
+  EXPECT_EQ(error_of("").substr(0, 37), "DIR/table.csv:1: the file is empty. I");
   EXPECT_EQ(error_of(heading), "DIR/table.csv:1: there are no runs below the heading. Run the campaign first");
   EXPECT_EQ(error_of("run,case,record\na,b,c\n"),
             "DIR/table.csv:1: the column 'status' is missing. A table of a campaign has the columns run, case, record "
@@ -98,13 +98,13 @@ TEST(CampaignTable, SaysWhatIsWrong) {
             "DIR/table.csv:1: unknown column 'staus': did you mean 'status'?; c");
   EXPECT_EQ(error_of("run,case,record,status,im.\na,b,c,done,1\n").substr(0, 37),
             "DIR/table.csv:1: unknown column 'im.'");
-  EXPECT_EQ(error_of("run,case,record,status,im.a,im.a\na,b,c,done,1,1\n").substr(0, 44),
-            "DIR/table.csv:1: column 'im.a' is there twic");
+  EXPECT_EQ(error_of("run,case,record,status,im.a,im.a\na,b,c,done,1,1\n").substr(0, 49),
+            "DIR/table.csv:1: two columns have the name 'im.a'");
   expect_error("a,c,r,,,,done,,,x,1\n", "DIR/table.csv:2: 'x' in column 'im.pga' is not a number");
   expect_error("a,c,r,,,,done,,,inf,1\n", "DIR/table.csv:2: 'inf' in column 'im.pga' is not a finite number");
   expect_error("a,c,r,,two,,done,,,1,1\n", "DIR/table.csv:2: 'two' in column 'scale' is not a number");
-  expect_error("a,c,r,,,,done,,,1,1\nb,c,r,,,,done,,,1\n", "DIR/table.csv:3: 10 cells, expected 11");
-  expect_error("a,c,r,,,,done,,,1,1,2\n", "DIR/table.csv:2: 12 cells, expected 11");
+  expect_error("a,c,r,,,,done,,,1,1\nb,c,r,,,,done,,,1\n", "DIR/table.csv:3: the row has 10 cells, the heading has 11");
+  expect_error("a,c,r,,,,done,,,1,1,2\n", "DIR/table.csv:2: the row has 12 cells, the heading has 11");
   expect_error("a,c,r,,,,finished,,,1,1\n", "DIR/table.csv:2: 'finished' in column 'status': expected one of: done, ");
   expect_error(",c,r,,,,done,,,1,1\n", "DIR/table.csv:2: the cell in column 'run' is empty");
   expect_error("a,c,r,,,,done,,,1,1\na,c,r,,,,done,,,1,1\n", "DIR/table.csv:3: run 'a' occurs twice");

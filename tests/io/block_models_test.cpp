@@ -130,7 +130,7 @@ void expect_refused(const std::string& bytes, const std::string& name, const std
 }
 
 TEST(BlockModels, DamagedCompasFilesAreNamed) {
-  expect_refused("{", "a.json", "no valid JSON");
+  expect_refused("{", "a.json", "not valid JSON");
   expect_refused("[]", "a.json", "holds no faces");
   expect_refused("3", "a.json", "block 0");
   expect_refused("{\"dtype\": \"compas.geometry/Brep\", \"data\": {}}", "a.json", "compas.geometry/Brep");

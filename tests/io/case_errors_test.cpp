@@ -331,7 +331,7 @@ const std::vector<Wrong> table = {
      {"c.toml:5: 'force'", "1e+300"}},
     {"StepsWithoutEnd",
      head + "[analysis]\ntime_step = 1e-15\n" + free_stage,
-     {"c.toml:4: 'time_step'", "2 s of simulated time would be 2e+15 steps", "63.4 years", "at most 1e+11"}},
+     {"c.toml:4: 'time_step'", "2 s of simulated time would need 2e+15 time steps", "63.4 years", "At most 1e+11"}},
     {"CheckpointsWithoutEnd",
      head + "[output]\ncheckpoint_every = 1e-9\n" + free_stage,
      {"c.toml:4: 'checkpoint_every'", "2e+09 checkpoints", "at most 100000"}},

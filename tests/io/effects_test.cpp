@@ -139,18 +139,18 @@ TEST(EffectCase, WrongKeysSayLineAndRemedy) {
   };
   holds("[[effect]]\nwhere = \"all\"\n", {"c.toml:4:", "name"});
   holds("[[effect]]\nname = \"scours\"\n", {"c.toml:4:", "did you mean 'scour'"});
-  holds("[[effect]]\nname = \"damping\"\nrate = 0.1\n", {"c.toml:4:", "no parameter 'rate'", "ratio"});
+  holds("[[effect]]\nname = \"damping\"\nrate = 0.1\n", {"c.toml:4:", "unknown parameter 'rate'", "ratio"});
   holds("[[effect]]\nname = \"damping\"\nratio = 3\n", {"c.toml:4:", "ratio is 3", "from 0.001 to 0.2"});
   holds("[[effect]]\nname = \"damping\"\nratio = \"much\"\n", {"c.toml:6:", "'ratio'"});
   holds("[damping]\nkind = \"local\"\n[[effect]]\nname = \"damping\"\n", {"c.toml:6:", "has no ratio"});
-  holds("[[effect]]\nname = \"damping\"\nwhere = \"pier 0\"\n", {"its places here are: all"});
-  holds("[[effect]]\nname = \"scour\"\n", {"c.toml", "its places here are: abutment left x-"});
-  holds("[[effect]]\nname = \"support_motion\"\n", {"c.toml:4:", "which support", "pier 0"});
+  holds("[[effect]]\nname = \"damping\"\nwhere = \"pier 0\"\n", {"its places in this assembly are: all"});
+  holds("[[effect]]\nname = \"scour\"\n", {"c.toml", "its places in this assembly are: abutment left x-"});
+  holds("[[effect]]\nname = \"support_motion\"\n", {"c.toml:4:", "Name the support", "pier 0"});
   holds("[[effect]]\nname = \"support_motion\"\nwhere = \"pier 9\"\n",
-        {"c.toml", "its places here are: abutment left"});
-  holds("[[effect]]\nname = \"parapet_not_structural\"\n", {"c.toml", "no place"});
-  holds("[[effect]]\nname = \"grouted_infill\"\n", {"c.toml", "no place", "infill"});
-  holds("[[effect]]\nname = \"retrofit_ties\"\n", {"c.toml", "its places here are: abutment left"});
+        {"c.toml", "its places in this assembly are: abutment left"});
+  holds("[[effect]]\nname = \"parapet_not_structural\"\n", {"c.toml", "cannot act anywhere"});
+  holds("[[effect]]\nname = \"grouted_infill\"\n", {"c.toml", "cannot act anywhere", "infill"});
+  holds("[[effect]]\nname = \"retrofit_ties\"\n", {"c.toml", "its places in this assembly are: abutment left"});
   holds("[joints.masonry-masonry]\nkind = \"tie\"\n", {"c.toml:5:", "brittle", "elastic"});
 }
 

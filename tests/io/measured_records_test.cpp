@@ -42,17 +42,17 @@ TEST_F(MeasuredFolder, WrongRecords) {
   expect_begins(with("a2", "base_w"),
                 "records/wind.csv:1: channel 'base_w' is neither a sensor of sensors.csv nor the "
                 "ground's motion: did you mean 'base_x'?");
-  expect_begins(with("a2", "a1"), "records/wind.csv:1: column 'a1' is there twice");
+  expect_begins(with("a2", "a1"), "records/wind.csv:1: two columns have the name 'a1'");
   expect_begins(with("t,", "time,"), "records/wind.csv:1: no column 't'");
   expect_begins(record_problem("t\n0\n"), "records/wind.csv:1: no channels");
   expect_begins(record_problem(""), "records/wind.csv:1: the file is empty");
-  expect_begins(with("\n0.015000,", "\n0.015000,1,"), "records/wind.csv:5: 4 cells, expected 3");
+  expect_begins(with("\n0.015000,", "\n0.015000,1,"), "records/wind.csv:5: the row has 4 cells, the heading has 3");
   expect_begins(with("\n0.015000,", "\n0.015000 "), "records/wind.csv:5: ");
   expect_begins(with("\n0.015000,", "\n0.015000,nan\n#"),
                 "records/wind.csv:5: 'nan' in column 'a1' is not a finite number; fill");
   expect_begins(with("\n0.015000,", "\n0.015000,,1\n#"),
-                "records/wind.csv:5: the cell in column 'a1' is empty, expected a number; fill");
-  expect_begins(with("\n0.015000,", "\n0.015000,1\n#"), "records/wind.csv:5: 2 cells, expected 3");
+                "records/wind.csv:5: the cell in column 'a1' is empty, but a number is needed; fill");
+  expect_begins(with("\n0.015000,", "\n0.015000,1\n#"), "records/wind.csv:5: the row has 2 cells, the heading has 3");
   expect_begins(with("\n0.015000,", "\n0.017000,"), "records/wind.csv:5: time step 0.007 s, elsewhere 0.005 s");
   expect_begins(with("\n0.015000,", "\n0.010000,"),
                 "records/wind.csv:5: time 0.01 s after 0.01 s: times must increase");

@@ -154,31 +154,34 @@ TEST_F(MeasuredFolder, WrongTables) {
   write("modes.csv", modes);
   const auto sensor = [&](const std::string& row) { return problem("sensors.csv", "id,x,y,z,direction\n" + row); };
   expect_begins(problem("sensors.csv", ""), "sensors.csv:1: the file is empty");
-  expect_begins(problem("sensors.csv", "# x\n\nid,x,y,z,direction\n"), "sensors.csv:3: no rows below the heading");
+  expect_begins(problem("sensors.csv", "# x\n\nid,x,y,z,direction\n"),
+                "sensors.csv:3: there are no rows below the heading");
   expect_begins(problem("sensors.csv", "id,x,y,z,directon\na,0,0,0,x\n"),
                 "sensors.csv:1: unknown column 'directon': did you mean 'direction'?");
   expect_begins(problem("sensors.csv", "id,x,y,z\na,0,0,0\n"),
-                "sensors.csv:1: no column 'direction', expected: id, x, y, z, direction");
-  expect_begins(problem("sensors.csv", "id,x,x,y,z,direction\n"), "sensors.csv:1: column 'x' is there twice");
+                "sensors.csv:1: the column 'direction' is missing; the required columns are: id, x, y, z, direction");
+  expect_begins(problem("sensors.csv", "id,x,x,y,z,direction\n"), "sensors.csv:1: two columns have the name 'x'");
   expect_begins(problem("sensors.csv", "id,x,y,z,direction,\n"), "sensors.csv:1: column 6 has no name");
-  expect_begins(problem("sensors.csv", "id\tx\ty\tz\tdirection\n"), "sensors.csv:1: a tab in the name of a column");
-  expect_begins(
-      problem("sensors.csv", "id;x;y;z;direction\na;0;0;0;1;0;0\n"),
-      "sensors.csv:2: 7 cells, expected 5 as in the heading: numbers take a decimal point, texts with ';' in");
-  expect_begins(sensor("a,0,0,0,x\nb,0,0,1\n"), "sensors.csv:3: 4 cells, expected 5");
-  expect_begins(sensor("a,0,0,0,x\nb,0,5,0,0,1,x\n"), "sensors.csv:3: 7 cells, expected 5");
+  expect_begins(problem("sensors.csv", "id\tx\ty\tz\tdirection\n"),
+                "sensors.csv:1: the name of a column contains a tab");
+  expect_begins(problem("sensors.csv", "id;x;y;z;direction\na;0;0;0;1;0;0\n"),
+                "sensors.csv:2: the row has 7 cells, the heading has 5. Write numbers with a decimal point, and put "
+                "text that contains ';' in");
+  expect_begins(sensor("a,0,0,0,x\nb,0,0,1\n"), "sensors.csv:3: the row has 4 cells, the heading has 5");
+  expect_begins(sensor("a,0,0,0,x\nb,0,5,0,0,1,x\n"), "sensors.csv:3: the row has 7 cells, the heading has 5");
   expect_begins(sensor("a,0,0,0,\n"), "sensors.csv:2: the cell in column 'direction' is empty");
   expect_begins(sensor(",0,0,0,x\n"), "sensors.csv:2: the cell in column 'id' is empty");
-  expect_begins(sensor("a,0,,0,x\n"), "sensors.csv:2: the cell in column 'y' is empty, expected a number");
+  expect_begins(sensor("a,0,,0,x\n"), "sensors.csv:2: the cell in column 'y' is empty, but a number is needed");
   expect_begins(sensor("a,0,1m,0,x\n"), "sensors.csv:2: '1m' in column 'y' is not a number");
   expect_begins(sensor("a,0,\"1,5\",0,x\n"),
                 "sensors.csv:2: '1,5' in column 'y' is not a number: write a decimal point, not a comma");
   expect_begins(sensor("a,0,+-1,0,x\n"), "sensors.csv:2: '+-1' in column 'y' is not a number");
   expect_begins(sensor("a,0,nan,0,x\n"), "sensors.csv:2: 'nan' in column 'y' is not a finite number");
-  expect_begins(sensor("a,0,1e999,0,x\n"), "sensors.csv:2: '1e999' in column 'y' is beyond what numbers can hold");
+  expect_begins(sensor("a,0,1e999,0,x\n"), "sensors.csv:2: '1e999' in column 'y' is outside the range of numbers");
   expect_begins(sensor("a,0,\"1,0,x\n"), "sensors.csv:2: a quoted cell does not end on its line");
-  expect_begins(sensor("a,0,\"1\"2,0,x\n"), "sensors.csv:2: text after the closing quote of \"1\", expected ','");
-  expect_begins(sensor("\xe4,0,1,0,x\n"), "sensors.csv:2: byte 0xe4 where UTF-8 text is expected");
+  expect_begins(sensor("a,0,\"1\"2,0,x\n"),
+                "sensors.csv:2: there is text after the closing quote of \"1\", where ',' is expected");
+  expect_begins(sensor("\xe4,0,1,0,x\n"), "sensors.csv:2: byte 0xe4 is not UTF-8 text");
   expect_begins(sensor("a\rb,0,1,0,x\n"), "sensors.csv:2: byte 0x0d");
   expect_begins(problem("sensors.csv", std::string("i\0d\0", 4)), "sensors.csv:1: byte 0x00");
   EXPECT_EQ(sensor("\xc3\xa4,0,1,0,x\n"), "");
@@ -214,7 +217,7 @@ TEST_F(MeasuredFolder, ContradictoryModes) {
   expect_begins(mode("1,inf,,,,\n"), "modes.csv:2: 'inf' in column 'period'");
   expect_begins(mode("1,,,,,\n"), "modes.csv:2: the cell in column 'period' is empty");
   expect_begins(mode(",0.4,,,,\n"), "modes.csv:2: the cell in column 'mode' is empty");
-  expect_begins(mode("1,0.4,-0.1,,,\n"), "modes.csv:2: period_std is -0.1: a standard deviation must be 0 or more");
+  expect_begins(mode("1,0.4,-0.1,,,\n"), "modes.csv:2: period_std is -0.1. A standard deviation must be 0 or more");
   expect_begins(mode("1,0.4,,1,,\n"), "modes.csv:2: damping is 1: must be from 0 to below 1");
   expect_begins(mode("1,0.4,,-0.01,,\n"), "modes.csv:2: damping is -0.01");
   expect_begins(mode("1,0.4,,0.01,-1,\n"), "modes.csv:2: damping_std is -1");

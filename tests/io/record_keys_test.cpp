@@ -86,11 +86,11 @@ TEST(RecordKeys, SyntheticMotionsAreNotMadeForTheGeometry) {
   EXPECT_NE(describe_file(folder.write("c.toml", head + keys)).find("5000 s of synthetic motion"), std::string::npos);
   // What is wrong with the keys is said all the same.
   for (const CaseUse use : {CaseUse::run, CaseUse::geometry}) {
-    EXPECT_NE(fault(folder, "synthetic = { peak = 1.0, duration = 0.01 }\n", use).find("fewer than 20 steps"),
+    EXPECT_NE(fault(folder, "synthetic = { peak = 1.0, duration = 0.01 }\n", use).find("fewer than 20 time steps"),
               std::string::npos);
     EXPECT_NE(fault(folder, "synthetic = { peak = 1e3 }\nscale = 100\n", use).find("peak of 1e+05 m/s2"),
               std::string::npos);
-    EXPECT_NE(fault(folder, "synthetic = { peak = 1.0, rise = 0.9 }\n", use).find("'rise' 0.9"), std::string::npos);
+    EXPECT_NE(fault(folder, "synthetic = { peak = 1.0, rise = 0.9 }\n", use).find("'rise' is 0.9"), std::string::npos);
   }
 }
 

@@ -457,16 +457,16 @@ TEST(Effects, AskedWronglySayWhatIsRight) {
     EXPECT_NE(text.find(piece), std::string::npos) << text;
   };
   holds(message("abutment_restrain", "both", {}), "did you mean 'abutment_restraint'");
-  holds(message("scour", "pier 7 x-", {}), "its places here are: abutment left x-");
-  holds(message("scour", "pier 1 x-", {{"lost_share", 1.5}}), "lost_share is 1.5; it must be from 0 to 0.9");
-  holds(message("scour", "pier 1 x-", {{"lost", 0.5}}), "has no parameter 'lost'");
+  holds(message("scour", "pier 7 x-", {}), "its places in this assembly are: abutment left x-");
+  holds(message("scour", "pier 1 x-", {{"lost_share", 1.5}}), "lost_share is 1.5. It must be from 0 to 0.9");
+  holds(message("scour", "pier 1 x-", {{"lost", 0.5}}), "unknown parameter 'lost'");
   holds(message("joint_softening", "arch 9", {}), "arch 0");
-  holds(message("grouted_infill", "arch 0", {}), "its places here are: pier 0");
-  holds(message("bonded_joints", "infill", {}), "its places here are: arch 0");
+  holds(message("grouted_infill", "arch 0", {}), "its places in this assembly are: pier 0");
+  holds(message("bonded_joints", "infill", {}), "its places in this assembly are: arch 0");
   holds(message("bonded_joints", "all", {{"tensile_strength", -1.0}}), "must be from 0 to 1e+07 Pa");
-  holds(message("retrofit_ties", "pier 7", {}), "its places here are: abutment left");
-  holds(message("retrofit_ties", "all", {{"pretension", 3e5}}), "more than yield_force, 200000 N");
-  holds(message("retrofit_ties", "pier 0", {{"depth", 30.0}}), "at 30 m below their top; choose another depth");
+  holds(message("retrofit_ties", "pier 7", {}), "its places in this assembly are: abutment left");
+  holds(message("retrofit_ties", "all", {{"pretension", 3e5}}), "must not exceed yield_force, 200000 N");
+  holds(message("retrofit_ties", "pier 0", {{"depth", 30.0}}), "at 30 m below their top. Choose another depth");
 }
 
 }  // namespace VOUSSOIR_FILE

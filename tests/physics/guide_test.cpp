@@ -199,22 +199,22 @@ TEST(Guide, RefusesWhatCannotBeGuided) {
   settings.guides[0].group = "baem";
   refused(settings, "did you mean 'beam'");
   settings.guides[0].group = "block";
-  refused(settings, "only fixed blocks are guided");
+  refused(settings, "Only fixed blocks can be guided");
   settings = guided();
   settings.guides.clear();
-  refused(settings, "only free and guided blocks can be loaded");
+  refused(settings, "Only free and guided blocks can be loaded");
   settings = guided();
   StageSettings moved;
   moved.kind = StageSettings::Kind::free;
   moved.duration = 0.1;
   moved.drives = {{"beam", Vec3::Zero(), {0, 0, 0.01}}};
   settings.stages.push_back(moved);
-  refused(settings, "leaves it free there");
+  refused(settings, "leaves it free along this axis");
   StageSettings& shaken = settings.stages.back();
   shaken.kind = StageSettings::Kind::motion;
   shaken.drives[0].displacement.setZero();
   shaken.drives[0].delay = 0.1;
-  refused(settings, "otherwise than the ground ('factor', 'delay'), but a [[guide]] leaves it free along z");
+  refused(settings, "differently from the ground ('factor', 'delay'), but a [[guide]] leaves it free along z");
 }
 
 }  // namespace VOUSSOIR_FILE

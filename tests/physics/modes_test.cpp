@@ -145,8 +145,8 @@ TEST(Modes, AskedWronglySayWhatIsRight) {
     return "no error";
   };
   EXPECT_EQ(message(axial_chain_of(2), 13),
-            "13 modes are asked for, but the model has 12 unknowns; ask for at most 12");
-  EXPECT_EQ(message(axial_chain_of(2), 0), "the number of modes is 0; ask for 1 or more");
+            "the number of modes is 13, but the model has 12 unknowns. Choose at most 12.");
+  EXPECT_EQ(message(axial_chain_of(2), 0), "the number of modes is 0. It must be at least 1.");
   Assembly massless = axial_chain_of(2);
   massless.blocks[1].mass = 0.0;
   massless.blocks[1].inertia.setZero();

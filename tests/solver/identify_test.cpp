@@ -116,7 +116,7 @@ TEST(Identify, LeavesOutPoorChannelsAndTheGround) {
   const SsiResult result = identify_modes({r});
   ASSERT_EQ(result.poor.size(), 3U);
   EXPECT_EQ(result.poor[0].channel, 8);
-  EXPECT_EQ(result.poor[0].reason, "does not move");
+  EXPECT_EQ(result.poor[0].reason, "it does not move");
   EXPECT_EQ(result.poor[1].channel, 9);
   EXPECT_NE(result.poor[1].reason.find("coherence"), std::string::npos);
   EXPECT_EQ(result.poor[2].channel, 10);
@@ -329,7 +329,7 @@ TEST(Identify, RefusesWhatCannotBe) {
           settings.highest_frequency == 0.0 ? refusal([&] { transfer_functions({r}); }) : std::string(words)})
       EXPECT_NE(text.find(words), std::string::npos) << text;
   };
-  EXPECT_NE(refusal([] { identify_modes({}); }).find("give at least one"), std::string::npos);
+  EXPECT_NE(refusal([] { identify_modes({}); }).find("Give at least one"), std::string::npos);
   Recording r = good;
   r.dt = 0.0;
   refused(r, "must be above 0");
@@ -340,28 +340,28 @@ TEST(Identify, RefusesWhatCannotBe) {
   refused(r, "sample 18 is nan");
   r = good;
   r.values = Eigen::MatrixXd(good.values.topRows(1));
-  refused(r, "at least 2 samples");
+  refused(r, "At least 2 samples");
   r.values = Eigen::MatrixXd(good.values.topRows(50));
-  refused(r, "record for longer");
+  refused(r, "Record for longer");
   r = good;
   r.channels[3] = "s0";
-  refused(r, "two channels are called 's0'");
+  refused(r, "two channels have the name 's0'");
   r.channels.pop_back();
   refused(r, "8 columns but 7 channel names");
   refused(good, "at most 22.5 Hz", {.highest_frequency = 30.0});
-  refused(good, "is not below the highest", {.highest_frequency = 10.0, .lowest_frequency = 12.0});
-  refused(good, "too short for modes at 0.01 Hz", {.highest_frequency = 10.0, .lowest_frequency = 0.01});
-  refused(good, "ask for", {.highest_frequency = 10.0, .block_rows = 5000});
+  refused(good, "must be below the highest", {.highest_frequency = 10.0, .lowest_frequency = 12.0});
+  refused(good, "Modes at 0.01 Hz need at least", {.highest_frequency = 10.0, .lowest_frequency = 0.01});
+  refused(good, "Choose at most", {.highest_frequency = 10.0, .block_rows = 5000});
   refused(good, "'segments' is 1", {.highest_frequency = 10.0, .segments = 1});
   Recording other = good;
   other.dt = 0.01;
-  EXPECT_NE(refusal([&] { identify_modes({good, other}); }).find("resample"), std::string::npos);
+  EXPECT_NE(refusal([&] { identify_modes({good, other}); }).find("Resample"), std::string::npos);
   other.dt = 0.02;
   for (std::string& name : other.channels) name += "'";
   EXPECT_NE(refusal([&] { identify_modes({good, other}); }).find("no channel in common"), std::string::npos);
   r = good;
   r.values.setZero();
-  EXPECT_NE(refusal([&] { identify_modes({r}); }).find("no channel can be used"), std::string::npos);
+  EXPECT_NE(refusal([&] { identify_modes({r}); }).find("no channel is usable"), std::string::npos);
 }
 
 TEST(Transfer, RefusesWhatCannotBe) {
@@ -372,7 +372,7 @@ TEST(Transfer, RefusesWhatCannotBe) {
   EXPECT_EQ(refusal([&] { transfer_functions({r}); }), "");
   EXPECT_NE(refusal([&] { transfer_functions({r}, {.window = 55.0}); }).find("shorter window"), std::string::npos);
   r.values.col(1) = -2.0 * r.values.col(0);
-  EXPECT_NE(refusal([&] { transfer_functions({r}); }).find("the same motion"), std::string::npos);
+  EXPECT_NE(refusal([&] { transfer_functions({r}); }).find("are proportional to each other"), std::string::npos);
   r.channels = {"base_x", "a", "b", "c", "d", "e", "f", "g"};
   r.values.col(0).setZero();
   EXPECT_NE(refusal([&] { transfer_functions({r}); }).find("no channel base_x"), std::string::npos);

@@ -173,7 +173,7 @@ TEST(Merging, OneModelNeedsACommonReference) {
     }
     return std::string();
   }();
-  EXPECT_NE(text.find("no channel can be used in all 3 setups"), std::string::npos) << text;
+  EXPECT_NE(text.find("no channel is usable in all 3 setups"), std::string::npos) << text;
 }
 
 TEST(Merging, SetupsOfAnotherDayGoModeByMode) {
@@ -240,7 +240,7 @@ TEST(Merging, ARecordingTooShortIsNamed) {
   const SsiResult result = identify_modes(recordings, settings);
   ASSERT_EQ(result.too_short.size(), 1u);
   EXPECT_EQ(result.too_short[0].name, "short");
-  EXPECT_EQ(result.too_short[0].reason, "2.76 s, too short: over 3.16 s of it are correlated");
+  EXPECT_EQ(result.too_short[0].reason, "it has 2.76 s, but the correlations need more than 3.16 s");
 }
 
 }  // namespace VOUSSOIR_FILE

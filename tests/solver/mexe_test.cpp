@@ -61,13 +61,13 @@ TEST(Mexe, LimitsAreNamed) {
   const auto holds = [](const std::string& text, const std::string& piece) {
     EXPECT_NE(text.find(piece), std::string::npos) << text;
   };
-  holds(message([](MexeInput& in) { in.span = 18.5; }), "the span is 18.5 m: must be from 1.5 to 18 m");
+  holds(message([](MexeInput& in) { in.span = 18.5; }), "the span is 18.5 m. It must be from 1.5 to 18 m");
   holds(message([](MexeInput& in) { in.span = std::nan(""); }), "the span is nan");
-  holds(message([](MexeInput& in) { in.ring = in.fill = 0.1; }), "is 0.2 m: must be from 0.25 to 1.8 m");
-  holds(message([](MexeInput& in) { in.ring = in.fill = 0.95; }), "is 1.9 m: must be from 0.25 to 1.8 m");
-  holds(message([](MexeInput& in) { in.quarter_rise = 1.6; }), "less than at the crown, 1.57 m");
+  holds(message([](MexeInput& in) { in.ring = in.fill = 0.1; }), "is 0.2 m. It must be from 0.25 to 1.8 m");
+  holds(message([](MexeInput& in) { in.ring = in.fill = 0.95; }), "is 1.9 m. It must be from 0.25 to 1.8 m");
+  holds(message([](MexeInput& in) { in.quarter_rise = 1.6; }), "less than the rise at the crown, 1.57 m");
   holds(message([](MexeInput& in) { in.condition = 0.0; }), "F_cM is 0");
-  holds(message([](MexeInput& in) { in.rise = 1.0, in.quarter_rise = 0.8; }), "more than 4: give the span/rise factor");
+  holds(message([](MexeInput& in) { in.rise = 1.0, in.quarter_rise = 0.8; }), "more than 4. Give the span/rise factor");
 }
 
 TEST(Mexe, FlatArchesNeedTheSpanRiseFactor) {

@@ -97,7 +97,7 @@ TEST(Setups, WithoutAReferenceAreRefused) {
     FAIL() << "expected an error";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    for (const char* part : {"'two'", "no channel in common", "stay", "by itself"})
+    for (const char* part : {"'two'", "no channel in common", "stay", "separately"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
 }

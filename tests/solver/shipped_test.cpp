@@ -27,7 +27,7 @@ TEST(Shipped, NamesTheFoldersLookedAt) {
     FAIL();
   } catch (const RunError& error) {
     const std::string text = error.what();
-    for (const std::string word : {"'no/such/file'", "share/voussoir", "beside it"})
+    for (const std::string word : {"'no/such/file'", "share/voussoir", "copy the file into"})
       EXPECT_NE(text.find(word), std::string::npos) << text;
   }
 }

@@ -79,8 +79,9 @@ TEST(Target, WhatThereIsNotIsRefused) {
     return test::message_of<InputError>([&] { check_target(t); });
   };
   EXPECT_EQ(fault([](TargetSpectrum&) {}), "");
-  EXPECT_EQ(fault([](TargetSpectrum& t) { t.soil = 'F'; }), "soil 'F': expected A, B, C, D or E");
-  EXPECT_EQ(fault([](TargetSpectrum& t) { t.topography = 5; }), "topography T5: expected T1, T2, T3 or T4");
+  EXPECT_EQ(fault([](TargetSpectrum& t) { t.soil = 'F'; }), "the soil class is 'F'. It must be A, B, C, D or E.");
+  EXPECT_EQ(fault([](TargetSpectrum& t) { t.topography = 5; }),
+            "the topographic class is T5. It must be T1, T2, T3 or T4.");
   EXPECT_NE(fault([](TargetSpectrum& t) { t.ag = 0.0; }).find("ag is 0 g"), std::string::npos);
   EXPECT_NE(fault([](TargetSpectrum& t) { t.tc = NAN; }).find("tc is nan"), std::string::npos);
 }

@@ -160,7 +160,7 @@ TEST(CaseErrors, SensorsOffTheStructure) {
 
 TEST(CaseErrors, AStepThatIsTooLarge) {
   expect_refused_with("[output]", "[analysis]\ntime_step = 0.01\n[output]",
-                      {"time_step = 0.01 s", "critical step", "block"});
+                      {"time_step = 0.01 s", "critical time step", "block"});
 }
 
 TEST(CaseErrors, PlacementsOfWhatIsNotThereOrFixed) {

@@ -63,12 +63,13 @@ TEST(Construction, IsRefusedWhereItLeavesSomethingOut) {
   };
   refused("construction = \"stages\"\n", {"'construction'", "did you mean \"staged\"?"});
   refused("construction = [ { add = [\"pier\"] } ]\n", {"bridge.toml", "no step adds", "of arch"});
-  refused("construction = [ { add = [\"vault\"] } ]\n", {"there is no \"vault\"", "expected one of: abutment, arch"});
-  refused("construction = [ { add = [\"piers\"] } ]\n", {"there is no \"piers\"", "did you mean 'pier'?"});
+  refused("construction = [ { add = [\"vault\"] } ]\n",
+          {"this assembly has no \"vault\"", "expected one of: abutment, arch"});
+  refused("construction = [ { add = [\"piers\"] } ]\n", {"this assembly has no \"piers\"", "did you mean 'pier'?"});
   refused(
       "construction = [ { add = [\"parapet\"] }, { add = [\"pier\", \"abutment\", \"infill\", \"arch\", \"backing\", "
       "\"spandrel\", \"backfill\"] } ]\n",
-      {"step 1", "stands in the air", "on centering"});
+      {"step 1", "has no support", "on centering"});
   refused("construction = [ { label = \"nothing\" } ]\n", {"'add'", "or 'strike'"});
   refused("lift = 2.0\n", {"'lift'", "construction = \"staged\""});
   refused("[[stage]]\nkind = \"gravity\"\nconstruction = \"staged\"\n",

@@ -184,7 +184,7 @@ TEST(Fragility, SaysWhatIsWrong) {
   expect_error(fragility(folder, {"--im", "sa_0.3"}), 2, {"no column 'im.sa_0.3'", "im.sa_0.30"});
   expect_error(fragility(folder, {"--bootstrap", "-1"}), 2, {"--bootstrap is -1"});
   for (const auto& [json, piece] : std::vector<std::pair<std::string, std::string>>{
-           {"{", "is no valid JSON"},
+           {"{", "is not valid JSON"},
            {R"({"limit_states": 3})", "'limit_states' must be a list"},
            {R"({"limit_states": [3]})", "needs 'name', 'demand' and 'threshold'"},
            {R"({"limit_states": [{"name": "d", "demand": "edp.keystone_x"}]})", "needs a number 'threshold'"},

@@ -125,7 +125,7 @@ TEST(Modal, AskedWronglySaysWhatIsRight) {
   refused({}, {"CASE is missing"});
   refused({"nothing.toml"}, {"no file or folder nothing.toml"});
   refused({"column.toml", "-n", "0"}, {"--modes is 0"});
-  refused({"column.toml", "-n", "61"}, {"61 modes", "60 unknowns", "at most 60"});
+  refused({"column.toml", "-n", "61"}, {"number of modes is 61", "60 unknowns", "at most 60"});
   refused({"column.toml", "--state", "broken"}, {"--state is broken", "intact or gravity"});
   refused({"column.toml", "--geometric"}, {"--state gravity"});
   refused({"column.toml", "--as-stored"}, {"--as-stored", "is a case"});

@@ -133,7 +133,7 @@ TEST(Motion, WrongWordsAreExplained) {
   expect_error(voussoir(with_target({"motion", "select", "nowhere"}), there), 2, {"nowhere", "give a folder"});
   expect_error(voussoir(with_target({"motion", "select", "."}), there), 2, {"no record with two horizontal"});
   expect_error(voussoir({"motion", "process", "a_EW.txt", "--band", "5", "1", "-o", "o"}, there), 2,
-               {"lower corner first"});
+               {"lower corner frequency must come first"});
   for (const auto& [option, value] :
        {std::pair{"--step", "1e9"}, {"--step", "nan"}, {"--taper", "-1"}, {"--order", "99"}})
     expect_error(voussoir({"motion", "process", "a_EW.txt", option, value, "-o", "o"}, there), 2,

@@ -104,7 +104,7 @@ TEST(Rate, SaysWhatItNeeds) {
   EXPECT_NE(voussoir({"rate", "bridge.toml"}, {.folder = folder.path()}).err.find("--vehicle"), std::string::npos);
   const Outcome wide = rate(folder, {"--lane", "1.2"});
   EXPECT_EQ(wide.status, 2);
-  EXPECT_NE(wide.err.find("no road"), std::string::npos) << wide.err;
+  EXPECT_NE(wide.err.find("is not road"), std::string::npos) << wide.err;
   const Outcome nowhere = rate(folder, {"--from", "40"});
   EXPECT_EQ(nowhere.status, 2);
   EXPECT_NE(nowhere.err.find("--from and --to leave no place for axle"), std::string::npos) << nowhere.err;
