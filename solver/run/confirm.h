@@ -1,4 +1,4 @@
-// A dynamic second opinion on static collapse loads.
+// Dynamic confirmation of static collapse loads.
 #pragma once
 #include <atomic>
 
@@ -7,9 +7,10 @@
 
 namespace voussoir {
 
-/// Runs the settings' stages, raises the loads to `loads` within `rise` seconds (eased) and holds them twice as long,
-/// with the settings' damping. True when a body moves by more than `limit` (m) while they are held and does not slow
-/// down, or moves farther than a block's size, or the run fails. A motion that slows down is a settlement.
+/// Runs the stages of the settings, raises the loads smoothly to `loads` within `rise` seconds and holds them for twice
+/// this time, with the damping of the settings. Returns true if a body moves by more than `limit` (m) during this hold
+/// and does not slow down, if it moves farther than the size of a block, or if the run fails. A motion that slows down
+/// is a settlement.
 bool moves_away(const Assembly& assembly, const SolverSettings& settings, const Loads& loads, double rise, double limit,
                 int threads, const std::atomic<bool>* stop);
 

@@ -1,4 +1,4 @@
-// Words for a step that has run away.
+// Messages for a run whose motion or energy has grown without limit.
 #pragma once
 #include <string>
 
@@ -8,10 +8,10 @@ namespace voussoir {
 
 /// "block 12 (arch)".
 std::string body_name(const Assembly& assembly, const Model& model, std::int32_t body);
-/// What an advance that ended in StepOutcome::runaway met, where, and what to do about it.
+/// Cause, place and remedy for an advance that ended in StepOutcome::runaway.
 std::string runaway_text(const Assembly& assembly, const Model& model, const State& state, const Advance& last);
-/// Which terms of the ledger are not finite, and the first stone, joint or contact where something is not; empty when
-/// all terms are.
+/// Names the terms of the energy balance that are not finite, and the first stone, joint or contact with a value that
+/// is not finite. Empty if all terms are finite.
 std::string not_finite_text(const Assembly& assembly, const Stepper& stepper, const Energies& energies);
 
 }  // namespace voussoir

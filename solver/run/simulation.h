@@ -1,4 +1,4 @@
-// A run: the stages of a case one after the other. It calls its observers and knows nothing of files.
+// A run: executes the stages of a case in order and passes results to its observers. It reads and writes no files.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -19,7 +19,7 @@ namespace voussoir {
 class Simulation;
 struct Standing;  // solver/run/moved.h
 
-/// Where a run stands, for the progress line.
+/// Progress of a run, for the progress line.
 struct Progress {
   std::string stage;             // "gravity", "motion …"
   bool timed = true;             // false in stages that take no simulated time
@@ -27,83 +27,86 @@ struct Progress {
   double share = 0.0;            // of the whole run
   double speed = 0.0;            // simulated over wall time
   double left = 0.0;             // s of wall time
-  std::string note;              // "Newton 2: 1e-7", "3 % of joints point by point"
+  std::string note;              // state of the iteration, or the share of patches evaluated point by point
 };
 
-/// Where a quasi-static stage is on its way: of an equilibrium.
+/// Position of an equilibrium on the path of a quasi-static stage.
 struct StepRow {
   double share = 0.0;         // of the loads and drives
-  double multiplier = 0.0;    // of the loads: the share, or what a machine has found; 0 where there are none
+  double multiplier = 0.0;    // of the loads: the share, or the value found with a testing machine; 0 without loads
   double displacement = 0.0;  // m, since the stage began: of the loaded points along the loads, of the first drive, or
-                              // of a load that moves
-  double force = 0.0;         // N: of the loads in all, or what drives the first drive along its way
+                              // of a moving load
+  double force = 0.0;         // N: sum of the loads, or the force that moves the first drive along its path
 };
 
 /// One row of the history.
 struct Sample {
   double time = 0.0;
   Energies energies;
-  double balance_error = 0.0;  // of the energy balance, over the largest term so far
+  double balance_error = 0.0;  // error of the energy balance over its largest term so far
   Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
   std::int64_t contacts = 0;
   std::int64_t stage = 0;             // index in the settings
   std::vector<double> broken_shares;  // of the bonds of bonded_families()
-  std::vector<Vec3> reactions;        // N, of held_groups(): what holds or drives them
-  std::vector<double> accelerations;  // m/s2, of the assembly's sensors along their directions; 0 where no time passes
-  StepRow step;                       // zero but in quasi-static stages
+  std::vector<Vec3> reactions;        // N, forces that hold or drive the held_groups()
+  std::vector<double> accelerations;  // m/s2, at the sensors of the assembly along their directions; 0 in stages
+                                      // without simulated time
+  StepRow step;                       // zero except in quasi-static stages
 };
 
 struct Observers {
   std::function<void(const Simulation&, const Sample&)> history;
   std::function<void(Simulation&)> fields;
-  /// A stage (its index in the settings) has just ended, and its end is not stored yet.
+  /// Called when a stage (its index in the settings) has ended, before its end is stored.
   std::function<void(const Simulation&, std::int64_t stage)> ended;
   std::function<void(Simulation&, bool stage_end)> checkpoint;
-  /// At the beginning of each stage with time and then every `control_every` s of it (0: at every time step): sees the
-  /// state and may call Simulation::push().
+  /// Called at the beginning of each stage with time and then every `control_every` s of simulated time (0: at every
+  /// time step). It may read the state and call Simulation::push().
   std::function<void(Simulation&)> control;
   double control_every = 0.0;
   std::function<void(const Progress&)> progress;
   std::function<void(const std::string&)> log;
-  const std::atomic<bool>* stop = nullptr;  // set by a signal: the run stops at the next step
+  const std::atomic<bool>* stop = nullptr;  // set by a signal: the run stops at the next time step
 };
 
-/// Where the wall time of a run has gone, s; of this part of it, if it was resumed.
+/// Wall-clock time of a run by activity, s. After a restart it covers the part since the restart.
 struct RunCosts {
   double equilibrium = 0.0, steps = 0.0, searches = 0.0;
-  double history = 0.0, fields = 0.0, reports = 0.0, checkpoints = 0.0;  // by the observers; history with its energies
+  double history = 0.0, fields = 0.0, reports = 0.0, checkpoints = 0.0;  // time of the observers; `history` includes
+                                                                         // the energies
 };
 
 enum class RunEnd { finished, interrupted, failed };
 
-/// What must be known beside the state's arrays to go on exactly where a run stopped.
+/// Data that a restart needs in addition to the arrays of the state to continue a run exactly.
 struct RunPosition {
   std::int64_t stage = 0;
   double stage_start = 0.0;                    // s
   double dt = 0.0;                             // s
   double highest = 0.0;                        // rad/s, of the intact assembly
   double stiffest = 0.0, stiffest_node = 0.0;  // 1/s2, see ContactBound
-  double stage_begun = 0.0;                    // 1 once the present stage has its step and damping
-  double stops = 0.0;                          // of a quasi-static stage: how many of its steps are done
-  double along = 0.0;                          // m: pattern_displacement() when it began
-  double multiplier = 0.0;                     // of a machine, at the last of these steps
+  double stage_begun = 0.0;                    // 1 once the time step and damping of the present stage are set
+  double stops = 0.0;                          // number of finished increments of a quasi-static stage
+  double along = 0.0;                          // m: pattern_displacement() at its beginning
+  double multiplier = 0.0;                     // multiplier of the testing machine at the last of these increments
 };
 
 class Simulation {
  public:
-  /// `threads` as asked for; fewer are used where the model is too small to share.
+  /// `threads` is the requested number. A small model uses fewer.
   Simulation(const Assembly& assembly, const SolverSettings& settings, int threads, Observers observers);
 
-  /// Whom the run tells from now on.
+  /// Replaces the observers.
   void observe(Observers observers) { observers_ = std::move(observers); }
-  /// Throws InputError for a step of the user's own that this assembly does not bear; before anything is written.
+  /// Throws InputError if the time step of the case is too large for this assembly. Call it before any file is written.
   void check();
-  /// Goes on from a checkpoint: call after the state's arrays have been read into state() and unpacked.
+  /// Restarts from a checkpoint. Call it after the arrays of the state have been read into state() and unpacked.
   void restore(const RunPosition& position);
-  /// Runs the remaining stages, to `until` (s of simulated time; negative: all).
+  /// Runs the remaining stages up to `until` (s of simulated time; negative: all stages).
   RunEnd run(double until = -1.0);
-  /// Dead forces that act beside those of the stages in all time steps to come, until the next call. They are no part
-  /// of the state: whoever goes on from a checkpoint has to push again. Throws InputError for a body that cannot move.
+  /// Sets dead forces that act in addition to the loads of the stages in all following time steps, until the next call.
+  /// They are not part of the state: after a restart they must be set again. Throws InputError for a body that cannot
+  /// move.
   void push(std::vector<PointLoad> forces);
   double time_step() const { return position_.dt; }  // s; 0 before the first stage with time
 
@@ -114,19 +117,20 @@ class Simulation {
   const RunPosition& position() const { return position_; }
   const SolverSettings& settings() const { return settings_; }
   const std::string& failure() const { return failure_; }  // after RunEnd::failed
-  /// After RunEnd::failed in a gravity stage: the bodies that are on their way, or that have come to rest elsewhere.
+  /// After RunEnd::failed in a gravity stage: the bodies that still move, or that came to rest at another position.
   const std::vector<std::int32_t>& moving() const { return moving_; }
   const Equilibrium& equilibrium() const { return equilibrium_; }
-  /// Groups of fixed blocks, guided and driven ones among them: whose reactions a Sample holds.
+  /// Groups of fixed blocks, including guided and driven ones. A Sample contains their reactions.
   const std::vector<std::string>& held_groups() const { return held_groups_; }
-  const Collapse& collapse() const { return collapse_; }        // of a collapse stage, empty without
-  bool quasi_static() const;                                    // whether any stage is
-  const MassScaling& mass_scaling() const { return scaling_; }  // once the step is chosen
+  const Collapse& collapse() const { return collapse_; }        // of a collapse stage, else empty
+  bool quasi_static() const;                                    // whether any stage is quasi-static
+  const MassScaling& mass_scaling() const { return scaling_; }  // valid once the time step is chosen
   int threads() const { return stepper_.threads; }
   const RunCosts& costs() const { return costs_; }
-  double end_time() const;                                                               // s, of all stages
-  double worst_balance() const { return worst_balance_; }                                // largest share so far
-  void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }  // of the part before a restart
+  double end_time() const;                                 // s, of all stages
+  double worst_balance() const { return worst_balance_; }  // largest share so far
+  /// Takes over the worst balance of the part of the run before a restart.
+  void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }
 
  private:
   void begin_stage(const StageSettings& stage);
@@ -189,16 +193,15 @@ class Simulation {
   RunCosts costs_;
   ContactBound bound_;
   LoadPlaces places_;
-  std::int64_t part_of_way_ = -1;  // of loads that move
-  LoadsAtWork stage_loads_;        // without what is pushed
-  std::vector<PointLoad> pushed_;
-  double controlled_ = -1.0;  // s: when control was last asked
+  /// Replaces the observers.
+  void observe(Observers observers) { observers_ = std::move(observers); }
+  std::int64_t part_of_way_ = -1;  // of moving loads
   LostBonds lost_bonds_;
   LoadsAtWork step_pattern_;  // of a quasi-static stage
   StepRow step_row_;
-  double step_time_ = 0.0;  // s, of the last of its equilibria
+  double step_time_ = 0.0;  // s, at its last equilibrium
   double worst_balance_ = 0.0;
-  std::string exploded_;  // why the ledger is not to be believed; empty while it is
+  std::string exploded_;  // why the energy balance has failed; empty while it is valid
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now(), reported_{}, saved_ = started_;
   double started_time_ = 0.0;
 };
