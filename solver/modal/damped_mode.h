@@ -1,4 +1,4 @@
-// A mode under the damping of a case: what it rings at and how it decays.
+// Frequency and damping ratio of a mode with the damping of a case.
 #pragma once
 #include "solver/model/settings.h"
 
@@ -11,7 +11,7 @@ struct DampedMode {
 };
 
 /// `frequency` (Hz) is the undamped one. All joints have the same damping per stiffness and all bodies the same per
-/// mass, so the shape stays; the small steps of a run change nothing that shows (docs/theory/modes.md).
+/// mass, so the mode shape does not change. The effect of the finite time step is negligible (docs/theory/modes.md).
 DampedMode damped_mode(const DampingSettings& damping, double frequency);
 
 }  // namespace voussoir

@@ -13,18 +13,18 @@ using BlockMotions = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 /// Per node of the fill's mesh: displacement, world axes.
 using NodeMotions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// A mode in words.
+/// Description of a mode.
 struct ModeWords {
   std::string direction;  // longitudinal (x), transverse (y), vertical (z), torsional; local, rigid motion, mechanism,
                           // unstable
-  int order = 0;          // 1 + changes of sign along the assembly's longest axis; 0 where that says nothing
+  int order = 0;          // 1 + changes of sign along the longest axis of the assembly; 0 if it has no meaning
   std::string detail;     // "with vertical"; of a local mode and a mechanism, the component that moves
   std::string text() const;  // "transverse, 1st order"
 };
 
 struct Mode {
-  double eigenvalue = 0.0;  // rad2/s2; negative where the state is unstable
-  double frequency = 0.0;   // Hz; 0 for a rigid motion or a mechanism, or where the eigenvalue is negative
+  double eigenvalue = 0.0;  // rad2/s2; negative if the state is unstable
+  double frequency = 0.0;   // Hz; 0 for a rigid motion or a mechanism, or if the eigenvalue is negative
   double period() const { return frequency > 0.0 ? 1.0 / frequency : 0.0; }  // s; 0: none
   BlockMotions shape;  // largest displacement 1 (1/m: rotations per metre of it), positive in its largest component
   NodeMotions nodes;   // of the fill's mesh, to the same scale
@@ -44,18 +44,18 @@ struct ModesReport {
 struct Modes {
   std::vector<Mode> modes;
   double mass = 0.0;                 // kg, of all blocks that can move, and of the fill
-  std::vector<std::int64_t> adrift;  // blocks that nothing holds: left out
-  std::vector<std::int64_t> partly;  // blocks that can move some way on their own: held in that way
+  std::vector<std::int64_t> adrift;  // blocks that nothing holds; they are left out
+  std::vector<std::int64_t> partly;  // blocks that can move freely in some direction; they are held in it
   ModesReport report;
 };
 
-/// The `count` lowest modes at the present placement, and up to `extra` more where there are as many. With `wrenches`
-/// (see add_geometric_stiffness) theirs is included. Throws InputError for more modes than unknowns, when nothing
-/// is held together, or for a block whose mass matrix is singular, which it names.
+/// The `count` lowest modes at the present placement, and up to `extra` more if they exist. With `wrenches` the
+/// geometric stiffness is included (see add_geometric_stiffness). Throws InputError if there are fewer unknowns than
+/// modes, if no joint holds anything, or if the mass matrix of a block, which it names, is singular.
 Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
                  const Array<double>* wrenches = nullptr, int extra = 0);
 
-/// Where most of the kinetic energy of a mode goes.
+/// Direction and order of a mode, from the distribution of its kinetic energy.
 ModeWords mode_words(const Assembly& assembly, const Mode& mode);
 
 /// Modal assurance criterion |φᵀ W ψ|² / (φᵀ W φ)(ψᵀ W ψ) over the displacements of paired blocks, W their masses
@@ -65,7 +65,7 @@ struct BlockPairs {
   std::vector<double> mass;                                   // kg, of a's
   double share = 0.0;                                         // of the mass of a that has a partner
 };
-/// What pairing needs to know of an assembly's blocks; mass zero where a block is fixed.
+/// Data of the blocks for pairing; the mass of a fixed block is zero.
 struct BlockPlaces {
   std::vector<Vec3> centroid;  // m, reference placement
   std::vector<double> mass;    // kg

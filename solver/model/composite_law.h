@@ -1,5 +1,5 @@
 // The composite law: tension cut-off, Coulomb friction and a cap for crushing, all of them softening, at one point of a
-// patch (docs/theory/joints.md). Part of laws.h, which is what to include.
+// patch (docs/theory/joints.md). Include laws.h, not this file.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,7 @@
 namespace voussoir {
 
 /// exp(−x) of x ≥ 0 by its series within a factor √2 (Abramowitz & Stegun 1964, 4.2.1), to the rounding of x. The
-/// library's function is chosen for the processor at hand, so that one program would not give the same bits on all of
-/// them.
+/// function of the library depends on the processor, so that it would not give the same bits on all processors.
 inline double fading(double x) {
   if (x > 700.0) return 0.0;
   constexpr double log_2 = 0.693147180559945309417;
@@ -18,8 +17,8 @@ inline double fading(double x) {
   return std::ldexp(sum, -int(halvings));
 }
 
-/// The root of f in (0, end), where f(0) = `first` > 0 and f(end) = `last` ≤ 0: false position with halving of the end
-/// that stays (Illinois: Dowell & Jarratt 1971).
+/// The root of f in (0, end), where f(0) = `first` > 0 and f(end) = `last` ≤ 0. The method is false position that
+/// halves the function value at an end that stays (Illinois: Dowell & Jarratt 1971).
 template <class F>
 double first_root(const F& f, double first, double end, double last) {
   const double small = 1e-15 * std::max(first, -last);
@@ -43,11 +42,11 @@ double first_root(const F& f, double first, double end, double last) {
   return root;
 }
 
-/// What the cap holds against inelastic jump, and what of the stiffness is left.
+/// Strength of the cap and remaining stiffness as functions of the inelastic jump.
 class CrushingCurve {
  public:
   static constexpr double begin = 1.0 / 3.0, middle = 0.5, rest = 0.1;  // shares of the strength
-  /// Share of the inelastic jump that stays when the stress is taken off (Birtel & Mark 2006).
+  /// Share of the inelastic jump that remains after unloading (Birtel & Mark 2006).
   static constexpr double lasting = 0.7;
   /// Gc over the strength and the length of the first half of the softening (Lourenço 1996: 67/75 with these shares).
   static constexpr double fullness = 5.0 / 6.0 - rest + (middle - rest) * (middle - rest);
@@ -68,14 +67,14 @@ class CrushingCurve {
     if (y < 1.0) return strength_ * (1.0 - (1.0 - middle) * y * y);
     return strength_ * (rest + (middle - rest) * fading((y - 1.0) / (middle - rest)));
   }
-  /// Pa/m: how fast it rises; negative past the peak.
+  /// Pa/m: derivative of the strength; negative past the peak.
   double slope(double crushed) const {
     if (crushed < peak_) return 2.0 * strength_ * (1.0 - begin) / peak_ * (1.0 - crushed / peak_);
     const double y = (crushed - peak_) / width_;
     if (y < 1.0) return -strength_ / width_ * y;
     return -strength_ / width_ * fading((y - 1.0) / (middle - rest));
   }
-  /// The strength in effective stress: over the share of the stiffness that is left.
+  /// Strength in effective stress: divided by the remaining share of the stiffness.
   double effective(double crushed) const { return strength(crushed) + (1.0 - lasting) * kn_ * crushed; }
   double kept(double crushed) const { return crushed > 0.0 ? strength(crushed) / effective(crushed) : 1.0; }
 
@@ -83,16 +82,16 @@ class CrushingCurve {
   double strength_, peak_, width_, kn_;  // Pa, m, m, Pa/m
 };
 
-/// The least Gc (J/m2) with which crushing is stable under a given jump: kn and ks must outweigh the steepest
-/// softening, fc² fullness / Gc, in whatever direction the cap yields (docs/theory/joints.md).
+/// The least Gc (J/m2) for stable crushing under a prescribed jump: kn and ks must exceed the steepest softening, fc²
+/// fullness / Gc, for every direction in which the cap yields (docs/theory/joints.md).
 inline double least_compressive_energy(const JointLaw& law, double kn, double ks) {
   const double least = std::min(kn, ks) * std::min(1.0, std::sqrt(law.cap_shear));
   const double firm = std::min(kn, CrushingCurve::lasting * least + (1.0 - CrushingCurve::lasting) * kn);
   return CrushingCurve::fullness * law.compressive_strength * law.compressive_strength / firm;
 }
 
-/// The pressure p (Pa) at which the most shear that a point without bond can have, c_res + p tan φ_res, reaches the cap
-/// at its first size: √(p² + Css (c_res + p tan φ_res)²) = fc/3. Negative: at any.
+/// The pressure p (Pa) at which the largest shear of a point without bond, c_res + p tan φ_res, reaches the initial
+/// cap: √(p² + Css (c_res + p tan φ_res)²) = fc/3. A negative value means that it does so at every pressure.
 inline double plain_pressure(const LawConstants& law) {
   if (law.crushing <= 0.0) return 1e300;
   const double begin = CrushingCurve::begin * law.crushing, c = law.residual_cohesion, t = law.residual_tan_friction;
@@ -100,14 +99,14 @@ inline double plain_pressure(const LawConstants& law) {
   return rest < 0.0 ? -1.0 : (std::sqrt(b * b + a * rest) - b) / a;
 }
 
-/// What is left of the stiffness of a point: 1 but for composite points that have crushed.
+/// Remaining share of the stiffness of a point: 1 except at crushed points of the composite law.
 inline double kept_stiffness(const LawConstants& law, double kn, double crushed) {
   return crushed > 0.0 ? CrushingCurve(law, kn).kept(crushed) : 1.0;
 }
 
 /// Tension cut-off and Coulomb friction that soften together, and an elliptic cap (Lourenço & Rots 1997), with damaged
-/// unloading and a dilation that fades with slip and pressure (van Zijl 2004). Results are in jumps of the undamaged
-/// stiffness, so that the traction is (kn n, ks s, ks t) as with the other laws.
+/// unloading and a dilation that fades with slip and pressure (van Zijl 2004). The resulting jumps refer to the
+/// undamaged stiffness, so that the traction is (kn n, ks s, ks t) as for the other laws.
 struct CompositeLaw {
   static constexpr bool crushes = true;
   static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
@@ -130,14 +129,14 @@ struct CompositeLaw {
  private:
   static constexpr double last_bond = 1e-4;  // share of the bond below which it counts as lost
 
-  /// A point on its way: its elastic jump, m.
+  /// A point during its update: its elastic jump, m.
   struct Point {
     const LawConstants& law;
     double kn, ks;  // Pa/m, undamaged
     PointMemory& memory;
     double n = 0.0, s = 0.0, t = 0.0;
     double kept;          // share of the stiffness
-    double pulled = 0.0;  // what this update's opening has added to the exponent of softening
+    double pulled = 0.0;  // increase of the softening exponent by the opening of this update
     PointResult result;
 
     Point(const LawConstants& l, double normal, double shear, PointMemory& m)
@@ -147,7 +146,7 @@ struct CompositeLaw {
     double stored() const { return 0.5 * kept * (kn * n * n + ks * (s * s + t * t)); }
     double bond() const { return 1.0 - memory.softening; }
     double cohesion(double bond) const { return law.residual_cohesion + bond * (law.cohesion - law.residual_cohesion); }
-    /// Its friction goes with the cohesion (Lourenço & Rots 1997).
+    /// Friction softens in proportion to the cohesion (Lourenço & Rots 1997).
     double tan_friction(double bond) const {
       return law.residual_tan_friction + bond * (law.tan_friction - law.residual_tan_friction);
     }
@@ -169,7 +168,8 @@ struct CompositeLaw {
       return tangent;
     }
 
-    /// Opens a bonded point until it bears T exp(−opening/w), w = GI/T0; a branch too steep for the spring is brittle.
+    /// Opens a bonded point until its traction is T exp(−opening/w), w = GI/T0. A softening branch that is too steep
+    /// for the spring is brittle.
     void pull() {
       const double k = kept * kn, tension = law.most_tension * bond();
       if (k * n <= tension) return;
@@ -189,7 +189,7 @@ struct CompositeLaw {
       result.fracture += before;
     }
 
-    /// Slides until Coulomb's limit bears the shear.
+    /// Slides until the shear is at Coulomb's limit.
     void slide(double tan_dilation) {
       const double k = kept * ks, trial = k * shear(), limit = slip_limit(bond(), n);
       if (trial <= limit) return;
@@ -213,8 +213,8 @@ struct CompositeLaw {
       const double pressed = n;
       slip_by(slip, tan_dilation);
       const double lost =
-          0.5 * (limit + k * shear() + kept * kn * (pressed + n) * tan_dilation) * slip;  // less what dilation lifts
-      const double rubbed = memory.broken ? 0.0 : std::min(held * slip, lost);  // a point may slip while it is pulled
+          0.5 * (limit + k * shear() + kept * kn * (pressed + n) * tan_dilation) * slip;  // less the work of dilation
+      const double rubbed = memory.broken ? 0.0 : std::min(held * slip, lost);            // a point in tension can slip
       result.fracture += rubbed;
       result.friction += lost - rubbed;
       if (!memory.broken) set_bond(end_bond);
@@ -226,13 +226,13 @@ struct CompositeLaw {
       const double drop = law.cohesion - law.residual_cohesion;
       return drop > 0.0 ? law.mode_2 / drop : 0.0;
     }
-    /// Whether the limit falls more slowly than the spring of stiffness k can follow.
+    /// Whether the limit decreases slowly enough for the spring of stiffness k to follow.
     bool softens_in_time(double k) const {
       const double drop = law.cohesion - law.residual_cohesion +
                           std::max(0.0, -kept * kn * n) * (law.tan_friction - law.residual_tan_friction);
       return k * slip_width() > drop * bond();
     }
-    /// Exponents of opening and slip together, as the root of the sum of their squares (Lourenço & Rots 1997).
+    /// The exponents of opening and slip are combined as the root of the sum of their squares (Lourenço & Rots 1997).
     double bond_after(double slip) const {
       const double rubbed = slip / slip_width();
       return bond() * fading(std::sqrt(pulled * pulled + rubbed * rubbed) - pulled);
@@ -257,9 +257,9 @@ struct CompositeLaw {
       memory.slip += slip;
     }
 
-    /// Associated return to the cap p² + Css τ² = strength², p the pressure, in effective stress; true if it yielded.
-    /// With the multiplier x/(1 − x) over kn the pressure falls to its (1 − x)th part, the shear to its
-    /// shear_left(x)th.
+    /// Associated return to the cap p² + Css τ² = strength² with p the pressure, in effective stress. Returns true if
+    /// the point yielded. With the multiplier x/(1 − x) over kn the pressure falls to the fraction 1 − x and the shear
+    /// to the fraction shear_left(x).
     bool crush() {
       const double pressure = std::max(0.0, -kn * n), drag = ks * shear(), css = law.cap_shear;
       const double trial = std::sqrt(pressure * pressure + css * drag * drag);
@@ -283,7 +283,7 @@ struct CompositeLaw {
       yield(holds / trial, x, shear_left(x), crushed(x), curve);
       return true;
     }
-    /// What is lost: mean stress times plastic jump, and mean energy times the stiffness that goes.
+    /// Dissipated energy: mean stress times plastic jump, and mean energy times the loss of stiffness.
     void yield(double touched, double x, double left, double crushed, const CrushingCurve& curve) {
       const double kept_then = kept;
       const double closing = n < 0.0 ? -n * x : 0.0, along = shear() * (1.0 - left);
@@ -301,8 +301,8 @@ struct CompositeLaw {
 
   static bool is_open(const Point& p) { return p.memory.broken && p.n >= 0.0; }
 
-  /// It carries nothing, its plastic shear jump follows, and of the normal one it keeps what is crushed: it closes
-  /// again where the crushed faces touch, without a kick.
+  /// An open point carries nothing. Its plastic shear jump follows the total jump, and its plastic normal jump keeps
+  /// the crushed part. It therefore closes where the crushed faces touch, without a sudden force.
   static PointResult open(double us, double ut, Point& p) {
     p.memory.n = -p.memory.closure;
     p.memory.s = us, p.memory.t = ut;

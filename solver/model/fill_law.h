@@ -1,4 +1,4 @@
-// What one material of the fill is made of, as the elements take it.
+// Constants of one fill material for the elements.
 #pragma once
 #include "geometry/assembly.h"
 
@@ -12,12 +12,12 @@ struct FillLaw {
   double major = 1.0, minor = 1.0;            // 1 + sin φ, 1 − sin φ
   double flow_major = 1.0, flow_minor = 1.0;  // the same of ψ
   double strength = 0.0;                      // 2 c cos φ, Pa
-  double cone = 1.0;                          // 1 + sin² φ / 3: of the circular cone inside the hexagonal one
+  double cone = 1.0;  // 1 + sin² φ / 3: constant of the circular cone inside the hexagonal one
   double stiff() const { return bulk + 4.0 / 3.0 * shear; }  // λ + 2 μ
   double lame() const { return bulk - 2.0 / 3.0 * shear; }   // λ
 };
-/// Throws InputError for moduli that are not positive, or give a Poisson's ratio below 0, and for a dilation above the
-/// friction.
+/// Throws InputError for moduli that are not positive or give a Poisson's ratio below 0, and for a dilation angle above
+/// the friction angle.
 FillLaw fill_law(const Material& material);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What changes of the fill: part of the state (solver/model/state.h), in the order of FillModel.
+// Variables of the fill: part of the state (solver/model/state.h), in the order of FillModel.
 #pragma once
 #include "solver/model/fill_model.h"
 
@@ -10,7 +10,7 @@ enum TetYield : std::uint8_t {
   yields_in_tension = 2,
   has_yielded_in_shear = 4,
   has_yielded_in_tension = 8,
-  built_deformed = 16  // its nodes had moved before it was there: its plastic memory is the shape it was made in
+  built_deformed = 16  // its nodes had moved before it was added: its plastic memory is its shape at that time
 };
 
 constexpr int plastic_width = 8, strain_rows = 7;
@@ -33,8 +33,8 @@ struct FillMemory {
 
 /// At rest in the reference placement.
 FillMemory initial_fill(const FillModel& fill);
-/// Gives every tetrahedron room for `count` branches; with the same number as before they are kept, else they start
-/// relaxed.
+/// Gives every tetrahedron memory for `count` branches. If the number is unchanged the values are kept, else they start
+/// at zero.
 void set_fill_branches(const FillModel& fill, FillMemory& memory, int count);
 
 /// First of the eight lanes of number c of a batch's plastic memory.

@@ -1,6 +1,6 @@
-// The deformable fill as the step sees it: nodes ordered along a space-filling curve and cut into tiles; the tetrahedra
-// of a tile are those whose first node in that order lies in it, eight of them side by side. A tile adds up what its
-// tetrahedra put on their nodes, as tiles of bodies do with wrenches.
+// The deformable fill in the layout of the time step. Nodes are ordered along a space-filling curve and divided into
+// tiles. The tetrahedra of a tile are those whose first node in that order lies in it; eight of them are computed side
+// by side. A tile sums the forces of its tetrahedra on their nodes, as tiles of bodies sum wrenches.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace voussoir {
 
 constexpr int node_width = 4;
 
-/// Eight tetrahedra of one material, a lane each; further lanes repeat the last one and put nothing on its nodes. Their
-/// shapes follow from where the nodes are; in single precision they are read (FillModel::shapes).
+/// Eight tetrahedra of one material, one in each lane. Spare lanes repeat the last tetrahedron and exert no forces. The
+/// shapes follow from the node positions; in single precision they are read (FillModel::shapes).
 struct alignas(64) TetBatch {
   std::int32_t node[4][lane_count];
-  std::int32_t sum[4][lane_count];  // where the tile adds up what they put on their nodes
+  std::int32_t sum[4][lane_count];  // positions at which the tile sums their nodal forces
   std::int32_t count = 0;
   std::int32_t law = 0;
 };
@@ -35,14 +35,14 @@ struct FillTile {
 constexpr std::int32_t tile_nodes = 128;
 
 struct FillModel {
-  std::vector<FillLaw> laws;  // of the assembly's materials that the fill is made of, for each step of building
+  std::vector<FillLaw> laws;              // of the materials of the fill, for each construction step
   std::vector<std::int32_t> step_of_law;  // of the ConstructionPlan; 0 without any
   std::vector<Vec3> nodes;                // m, reference placement
   Array<double> place;                    // the same, node_width a node, the last zero
   std::vector<double> mass;               // kg, lumped
   std::vector<double> inertial;           // kg, differs from mass only in relaxations
   Array<double> weight;            // J, Σ κ V of the tetrahedra around a node: weights its mean volumetric strain
-  std::vector<std::uint8_t> held;  // bit c: displacement c keeps the velocity it has
+  std::vector<std::uint8_t> held;  // bit c: the velocity of displacement c is prescribed
   std::vector<std::array<std::int32_t, 3>> triangles;  // the surface's nodes, in the order of FillMesh::triangles
   std::vector<std::int32_t> node_of;                   // of FillMesh::nodes
   std::vector<std::int32_t> mesh_node;                 // and back
@@ -51,7 +51,7 @@ struct FillModel {
   Array<TetBatch> batches;
   Array<float> shapes;  // shape_rows of lanes a batch: gradients of corners 1 to 3 (x, y, z each, 1/m), volume (m3)
   std::vector<FillTile> tiles;
-  // Sums of each node in the order they are added up: first of each node (and one past the end), places of the sums.
+  // Sums of each node in the order of addition: first entry of each node (and one past the end), positions of the sums.
   std::vector<std::int32_t> first_sum, sums;
   std::size_t sum_count() const { return tiles.empty() ? 0 : std::size_t(tiles.back().end_sum); }
   bool empty() const { return nodes.empty(); }
@@ -67,10 +67,10 @@ struct TetShape {
 TetShape tet_shape(const std::array<std::int32_t, 4>& corners, const std::vector<Vec3>& nodes);
 TetShape tet_shape(const FillModel& fill, std::size_t batch, int lane);
 
-/// Throws InputError for a material that cannot be one of a fill, or a tetrahedron without positive volume.
-/// `steps`: in which step of building each tetrahedron comes; empty: all at once.
+/// Throws InputError for a material that is not valid for a fill, or a tetrahedron without positive volume. `steps`:
+/// the construction step of each tetrahedron; empty: all at once.
 FillModel build_fill(const Assembly& assembly, const std::vector<std::int32_t>& steps = {});
-/// Masses and weights of the nodes from the laws. Nodes that nothing is there of are held.
+/// Masses and weights of the nodes from the laws. Nodes without any present tetrahedron are held.
 void lump(FillModel& fill);
 
 }  // namespace voussoir

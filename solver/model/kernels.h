@@ -1,5 +1,5 @@
-// The innermost loops of a step, compiled for several instruction sets in one program; which one is at work is settled
-// when the program starts.
+// The innermost loops of a time step, compiled for several instruction sets in one program. The set is chosen when the
+// program starts.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct FillReport;
 struct BodyPass;
 struct BodyReport;
 
-/// What is called through a table; arguments as the member functions of the same names have them.
+/// Table of functions. The arguments are those of the member functions with the same names.
 struct Kernels {
   const char* name;          // for VOUSSOIR_KERNELS: "sse2", "avx2", "avx512" or "plain"
   const char* instructions;  // in words: "AVX-512"
@@ -36,12 +36,12 @@ struct Kernels {
   std::vector<std::array<double, 6>> (*cauchy_stress)(const FillModel& fill, const FillMemory& memory);
 };
 
-/// Those at work: the environment's VOUSSOIR_KERNELS, else the widest that this processor runs. Settled at the first
-/// call. Throws InputError for a name that this program does not have, or that the processor does not run, naming those
-/// that there are.
+/// The kernels in use: those named by the environment variable VOUSSOIR_KERNELS, else the widest that this processor
+/// supports. They are chosen at the first call. Throws InputError, which lists the usable names, for a name that this
+/// program does not contain or this processor does not support.
 const Kernels& kernels();
 
-/// Those that this program holds and this processor runs, from the narrowest to the widest.
+/// The kernels that this program contains and this processor supports, from the narrowest to the widest.
 std::vector<const Kernels*> usable_kernels();
 
 }  // namespace voussoir

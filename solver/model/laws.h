@@ -1,6 +1,6 @@
 // Joint laws at one point of a patch. A law is a struct with `update`: given the jump and the point's memory it returns
-// the elastic jump (traction over stiffness) and updates the memory. A new law is a new struct here (or in a file of
-// its own) and one line in with_law().
+// the elastic jump (traction over stiffness) and updates the memory. A new law is a new struct here (or in a separate
+// file) and one line in with_law().
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace voussoir {
 
-/// Constants of a law at work (tangents instead of angles).
+/// Constants of a law for the computation (tangents instead of angles).
 struct LawConstants {
   JointLaw::Kind kind = JointLaw::Kind::brittle;
   double tension = 0.0, cohesion = 0.0, tan_friction = 0.0;     // Pa, Pa, –: while bonded
@@ -18,11 +18,11 @@ struct LawConstants {
   double tan_dilation = 0.0;
   double mode_1 = 0.0, mode_2 = 0.0;  // J/m2, softening
   double prestress = 0.0;             // Pa, tie
-  // Composite: Pa (0: none), J/m2, m (0: as much as elastic), –, m (0: none), Pa (0: none).
+  // Composite: Pa (0: no crushing), J/m2, m (0: the elastic jump), –, m (0: no decay), Pa (0: no decay).
   double crushing = 0.0, mode_c = 0.0, crushing_peak = 0.0, cap_shear = 0.0;
   double dilation_length = 0.0, dilation_pressure = 0.0;
-  double plain_pressure = 0.0;  // Pa, up to which a point without bond crushes nothing, whatever its shear
-  // What the elastic path compares with: nothing limits an elastic law, and tension ends at the apex of the cone.
+  double plain_pressure = 0.0;  // Pa, up to which a point without bond does not crush, for any shear
+  // Limits of the elastic path. An elastic law has none, and tension ends at the apex of the cone.
   double most_tension = 0.0, most_cohesion = 0.0, slope = 0.0;
 };
 LawConstants law_constants(const JointLaw& law);
@@ -32,18 +32,18 @@ inline bool is_composite(const LawConstants& law) {
 inline bool crushes(const LawConstants& law) {
   return law.crushing > 0.0;
 }
-/// Whether a joint of this law begins with a bond that it can lose; elastic ones count, though they never do.
+/// Whether a joint of this law begins with a bond that it can lose. Elastic joints count although they never lose it.
 inline bool has_bond(const LawConstants& law) {
   return law.kind == JointLaw::Kind::elastic || law.tension > 0.0 || law.cohesion > law.residual_cohesion;
 }
 
-/// What a point remembers: plastic jump (normal, s, t), whether the bond is lost, how far it has softened.
+/// Memory of a point: plastic jump (normal, s, t), loss of the bond, and softening.
 struct PointMemory {
   double n = 0.0, s = 0.0, t = 0.0;  // m
-  double softening = 0.0;            // 0 intact … 1 gone; softening and composite laws only
+  double softening = 0.0;            // 0 intact … 1 fully softened; softening and composite laws only
   bool broken = false;
-  // Composite law only, m: inelastic jump of crushing, what of the normal one is crushed (it stays when the point
-  // opens), and length of all slip.
+  // Composite law only, m: inelastic jump of crushing, crushed part of the normal jump (it remains when the point
+  // opens), and accumulated slip.
   double crushed = 0.0, closure = 0.0, slip = 0.0;
 };
 
@@ -51,13 +51,13 @@ struct PointMemory {
 struct PointResult {
   double n = 0.0, s = 0.0, t = 0.0;
   double friction = 0.0, fracture = 0.0;
-  bool elastic = true;  // neither slid, opened nor broke in this update
+  bool elastic = true;  // the point did not slide, open or break in this update
   bool open = false;    // carries nothing
 };
 
-/// An unbonded point: open when pulled, else Coulomb with return to the cone along the shear direction; with a dilation
-/// angle, slip |Δus| opens the joint by |Δus| tan ψ. While it is open the plastic shear jump follows the total one, so
-/// that it closes without a shear kick.
+/// An unbonded point: open in tension, else Coulomb friction with return to the cone along the shear direction. With a
+/// dilation angle, slip |Δus| opens the joint by |Δus| tan ψ. While the point is open its plastic shear jump follows
+/// the total jump, so that it closes without a sudden shear force.
 inline PointResult coulomb(const LawConstants& law, double kn, double ks, double un, double us, double ut,
                            double cohesion, double tan_friction, PointMemory& memory) {
   PointResult r;
@@ -65,7 +65,7 @@ inline PointResult coulomb(const LawConstants& law, double kn, double ks, double
   if (n >= 0.0) {
     memory.s = us;
     memory.t = ut;
-    memory.n = 0.0;  // a joint that has opened forgets its dilation
+    memory.n = 0.0;  // an opened joint has no dilation any more
     r.open = true;
     r.elastic = false;
     return r;
@@ -86,13 +86,13 @@ inline PointResult coulomb(const LawConstants& law, double kn, double ks, double
   r.n = un - memory.n;
   r.s = keep * s;
   r.t = keep * t;
-  r.friction = (keep * trial + kn * r.n * law.tan_dilation) * slip;  // shear work less what dilation lifts
+  r.friction = (keep * trial + kn * r.n * law.tan_dilation) * slip;  // shear work less the work of dilation
   r.elastic = false;
   return r;
 }
 
-/// Mohr–Coulomb with tension cut-off; past either the bond is lost for good (as in the distinct element codes that
-/// masonry analysts use: Hart, Cundall & Lemos 1988; Lemos 2007).
+/// Mohr–Coulomb with tension cut-off. Past either limit the bond is lost permanently, as in the usual distinct element
+/// codes for masonry (Hart, Cundall & Lemos 1988; Lemos 2007).
 struct BrittleLaw {
   static constexpr bool crushes = false;
   static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
@@ -111,7 +111,7 @@ struct BrittleLaw {
       const double before = 0.5 * (kn * n * n + ks * (s * s + t * t));
       PointResult r = coulomb(law, kn, ks, un, us, ut, law.residual_cohesion, law.residual_tan_friction, memory);
       const double after = 0.5 * (kn * r.n * r.n + ks * (r.s * r.s + r.t * r.t));
-      r.fracture = std::max(0.0, before - after);  // what the spring held and lost at once
+      r.fracture = std::max(0.0, before - after);  // energy of the spring that is lost at once
       r.friction = 0.0;
       r.elastic = false;
       return r;
@@ -122,7 +122,8 @@ struct BrittleLaw {
 
 /// Linear softening of tension and cohesion with fracture energies GI, GII: one softening variable, driven by the
 /// plastic opening over wI = 2 GI / ft and the plastic slip over wII = 2 GII / c (after Lourenço & Rots 1997, linear
-/// instead of exponential). A branch too steep for the spring (snap-back) is brittle. Friction is not softened.
+/// instead of exponential). A softening branch that is too steep for the spring (snap-back) is brittle. Friction does
+/// not soften.
 struct SofteningLaw {
   static constexpr bool crushes = false;
   static PointResult update(const LawConstants& law, double kn, double ks, double un, double us, double ut,
@@ -132,7 +133,7 @@ struct SofteningLaw {
     PointResult r;
     double n = un - memory.n;
     const double soft_cohesion = residual(law, memory.softening);
-    // The cone may end below the tension limit: nothing is pulled beyond its apex.
+    // The cone can end below the tension limit. Tension does not exceed its apex.
     const double apex = law.tan_friction > 0.0 ? soft_cohesion / law.tan_friction : 1e300;
     const double tension = std::min(law.tension * (1.0 - memory.softening), apex);
     if (kn * n > tension) {
@@ -160,7 +161,7 @@ struct SofteningLaw {
       if (memory.softening + slip / width >= 1.0) return lose_bond(law, kn, ks, un, us, ut, memory);
       const double keep = 1.0 - ks * slip / trial;
       if (!(limit >= 0.0) || keep < 0.0)
-        return lose_bond(law, kn, ks, un, us, ut, memory);  // softer than anything left to hold
+        return lose_bond(law, kn, ks, un, us, ut, memory);  // less stiff than the remaining strength requires
       memory.s += (1.0 - keep) * s;
       memory.t += (1.0 - keep) * t;
       memory.softening += slip / width;
@@ -187,7 +188,7 @@ struct SofteningLaw {
     const double before = 0.5 * (kn * n * n + ks * (s * s + t * t));
     memory.broken = true;
     memory.softening = 1.0;
-    memory.n = 0.0;  // the cracked faces touch again where they did at first
+    memory.n = 0.0;  // the cracked faces touch again at their original position
     PointResult r = coulomb(law, kn, ks, un, us, ut, law.residual_cohesion, law.residual_tan_friction, memory);
     r.fracture = std::max(0.0, before - 0.5 * (kn * r.n * r.n + ks * (r.s * r.s + r.t * r.t)));
     r.friction = 0.0;
@@ -208,9 +209,9 @@ struct ElasticLaw {
   }
 };
 
-/// A bar that only pulls and yields without hardening. Its jump is negative when it is stretched (tie_jump()), so that
-/// it is pressed when taut and open when slack, like a dry contact; what it has yielded is its plastic jump, which
-/// stays when it goes slack.
+/// A bar that acts only in tension and yields without hardening. Its jump is negative when it is stretched
+/// (tie_jump()). It therefore counts as compressed when taut and open when slack, like a dry contact. Its plastic jump
+/// is the yielded length, which remains when it is slack.
 struct TieLaw {
   static constexpr bool crushes = false;
   static PointResult update(const LawConstants& law, double kn, double, double un, double, double,

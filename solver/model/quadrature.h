@@ -1,5 +1,5 @@
-// Integration points of a patch: on its boundary as well as inside, exact for quadratics, so that the elastic stiffness
-// is exact (A kn, A ks, kn I, ks J) and the joint can hinge about its edge.
+// Integration points of a patch, on its boundary and inside. The rule is exact for quadratics, so that the elastic
+// stiffness is exact (A kn, A ks, kn I, ks J), and the points on the boundary allow the joint to hinge about its edge.
 #pragma once
 #include <vector>
 
@@ -17,7 +17,7 @@ struct LineRule {
   int count = 0;
   double x[5] = {}, w[5] = {};
 };
-/// Of 3, 4 or 5 points; InputError for other numbers.
+/// The rule with 3, 4 or 5 points. Throws InputError for other numbers.
 LineRule lobatto_rule(int points);
 
 /// Plane frame and moments of a polygon. Axes s, t are principal (∫ s t dA = 0), n = s × t.
@@ -36,12 +36,13 @@ struct PatchShape {
 /// with `per_side` = 3, 4 or 5 points a side, every other polygon with m sides the fan rule of 2 m + 1 points.
 PatchShape patch_shape(const Polygon& polygon, const Vec3& normal, int per_side);
 
-/// The rule's points on a rectangle, as patch_shape() has them: so they need not be kept.
+/// The points of the rule on a rectangle, equal to those of patch_shape(). They need not be stored.
 std::vector<PatchPoint> rectangle_points(const PatchShape& rectangle, int per_side);
 
-/// Four points of equal weight at (±√(∫s²/A), ±√(∫t²/A)): exact for quadratics on any polygon, because it has the area,
-/// centroid and second moments of it, and never outside a convex one (Kannan, Lovász & Simonovits 1995, theorem 4.1: a
-/// convex body in isotropic position holds the ball of radius √((n + 2)/n), which in the plane is √2).
+/// Four points of equal weight at (±√(∫s²/A), ±√(∫t²/A)): exact for quadratics on any polygon, because they have the
+/// same area, centroid and second moments. On a convex polygon they are never outside (Kannan, Lovász & Simonovits
+/// 1995, theorem 4.1: a convex body in isotropic position contains the ball of radius √((n + 2)/n), which is √2 in the
+/// plane).
 std::vector<PatchPoint> moment_points(const PatchShape& shape);
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// The state of a run: everything that changes, and nothing that can be recomputed. Its arrays are what a checkpoint
-// holds and what the state hash covers.
+// The state of a run: all variables that change, and none that can be recomputed. A checkpoint stores its arrays, and
+// the state hash covers them.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,22 +12,22 @@
 
 namespace voussoir {
 
-/// How a patch is being computed.
+/// How a patch is computed.
 enum PatchMode : std::uint8_t {
   mode_points = 1,  // point by point (else as six generalised springs)
   mode_broken = 2,  // intact path: the whole patch has lost its bond (or never had one)
-  mode_gone = 4,    // carries nothing for good: replaced by a contact, or its bodies have parted; or a free slot
+  mode_gone = 4,    // permanently without force: replaced by a contact, or its bodies have separated; or a free slot
   mode_open = 8,    // intact path, or a contact: wholly open at the last pass
   mode_slid = 16,   // intact path: its rigid plastic slip is not zero
   // Composite joints point by point:
-  mode_plain = 32,  // all bonds are lost, nothing is crushed, nothing dilates: as a brittle joint that has broken
-  mode_lanes = 64,  // it was computed as such at the last pass
+  mode_plain = 32,  // all bonds are lost, no point is crushed and none dilates: equal to a broken brittle joint
+  mode_lanes = 64,  // it was computed in this way at the last pass
 };
 
 /// Memory of a set of patches; tables of points are laid out as point_index() says.
 struct PatchMemory {
   Array<double> point;       // 2 columns: plastic jump s, t (m)
-  Array<double> point_rest;  // 2 columns: plastic jump n (m), softening; the step reads them where a law needs them
+  Array<double> point_rest;  // 2 columns: plastic jump n (m), softening; the time step reads them if a law needs them
   Array<double>
       point_crush;  // 3 columns: inelastic jump, closure and slip (m); none without joints of the composite law
   Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and open
@@ -45,25 +45,25 @@ constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the 
 constexpr int searched_width = 8;
 
 struct State {
-  // scalars: time, base velocity and displacement (3 + 3), energies of contacts that are gone (friction, fracture,
-  // damping), elastic energy that new clippings of patches took out, energy at the start of the motion, largest energy
-  // term so far
+  // scalars: time, base velocity and displacement (3 + 3), energies of removed contacts (friction, fracture, damping),
+  // elastic energy removed when patches were clipped again, energy at the start of the motion, largest energy term so
+  // far
   Array<double> scalars = Array<double>(13, 0.0);
-  Array<std::int64_t> counters = Array<std::int64_t>(5, 0);  // steps, contact searches, contacts made, last step at
-                                                             // which patches were grouped, next at whose end it is
-                                                             // looked how far bodies have moved
+  Array<std::int64_t> counters = Array<std::int64_t>(5, 0);  // time steps, contact searches, contacts made, last time
+                                                             // step at which patches were grouped, next time step at
+                                                             // whose end displacements of bodies are checked
 
   Array<double> pose;      // pose_width a body; displacement since the reference placement
   Array<double> motion;    // motion_width a body; velocities at the last half step
   Array<double> baseline;  // pose_width a body: placement at the end of the last gravity stage, relative to the base
-  Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion when its
-                           // contacts were last looked for; 1 once it is lost
+  Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion at the last
+                           // contact search; 1 once it is lost
   Array<float> listed;     // the same when its pairs were last listed
 
   // Pairs of cells that are near each other without a joint between them, sorted.
   Array<std::int32_t> pair_cells;  // CellPair each
   Array<float> pair_seen;          // 8 a pair: placement of one body in the frame of the other when they were last
-                                   // examined (m, quaternion); how far it may move before they must be again (m)
+                                   // examined (m, quaternion); distance it may move before the next examination (m)
 
   Array<std::int32_t> joint_order;  // index in Assembly::joints of each of Model::joints, see solver/contact/grouping
   Array<float> built;               // 6 of each of Assembly::joints: Patch::built; empty without a ConstructionPlan
@@ -71,11 +71,11 @@ struct State {
   Array<double> slip;               // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
   Array<float> branch;              // per batch 6 × branches × 8: q of the six generalised jumps
   Array<double> branch_work;        // 8 a tile: work done on the branches of the intact path (J)
-  Array<double> support_work;       // 1 a tile: work of what holds or drives still bodies, on the tile's joints (J)
+  Array<double> support_work;       // 1 a tile: work of the forces that hold or drive still bodies, on the joints of
+                                    // the tile (J)
 
-  // Contacts found during the run live in slots, eight to a batch; a slot that is free has mode_gone and a patch
-  // without points. Which slot a contact takes depends on those before it, so batches and free slots are part of the
-  // state.
+  // Contacts found during the run are stored in slots, eight to a batch. A free slot has mode_gone and a patch without
+  // points. The slot of a contact depends on the earlier contacts, so batches and free slots are part of the state.
   std::vector<Patch> contacts;
   Array<std::int32_t> contact_tiles;    // 2 a batch: tile, rows of points
   Array<ContactBatch> contact_batches;  // the same patches side by side: made from them, not written
@@ -108,31 +108,32 @@ struct State {
   double& starting_energy() { return scalars[11]; }
   double& largest_energy() { return scalars[12]; }
 
-  /// Whether a body has fallen below all that the assembly was: contacts are not looked for any more.
+  /// Whether a body has fallen below the original assembly. The solver no longer searches for its contacts.
   bool lost(std::size_t body) const { return searched[searched_width * body + 7] > 0.0f; }
   bool has_contact(std::size_t slot) const { return !(contact.mode[slot] & mode_gone); }
   std::int64_t contact_count() const;
 
-  /// All arrays by name, contacts and interface flattened; call unpack() after reading into them.
+  /// All arrays by name, with contacts and interface as flat arrays. Call unpack() after reading into them.
   std::vector<NamedArray> arrays();
   void unpack(const Model& model);
 };
 
-/// Room in State::contact_batches for eight contacts of a tile with up to so many points; not in the other arrays.
+/// Adds a batch to State::contact_batches for eight contacts of a tile with at most this number of rows of points. The
+/// other arrays are unchanged.
 void append_contact_batch(State& state, std::int32_t tile, std::int32_t rows);
-/// Mirrors State::contacts[slot] (points included) in its batch.
+/// Copies State::contacts[slot], including its points, into its batch.
 void fill_contact_lane(State& state, std::size_t slot);
 
-/// Of a body since its reference placement.
+/// Rotation of a body since its reference placement.
 inline Eigen::Quaterniond rotation_of(const State& state, std::size_t body) {
   const double* p = &state.pose[pose_width * body];
   return {p[3], p[4], p[5], p[6]};
 }
 
-/// All bodies and the base at rest.
+/// Sets the velocities of all bodies and the base to zero.
 void stop_motion(State& state);
 
-/// Where a patch is among batches of eight: contacts and patches with the fill by their slots.
+/// Position of a patch in the batches of eight. For contacts and patches with the fill it follows from the slot.
 struct BatchPlace {
   std::size_t batch = 0, lane = 0;
 };
@@ -160,11 +161,11 @@ inline std::size_t branch_index(int branches, std::size_t batch, int c, int k) {
   return lane_count * ((6 * batch + std::size_t(c)) * std::size_t(branches) + std::size_t(k));
 }
 
-/// At rest in the reference placement, bonds as the laws say, no damping branches.
+/// The state at rest in the reference placement, with the bonds of the laws and without damping branches.
 State initial_state(const Model& model);
 
-/// Gives every patch room for `count` branches. With the same number as before they are kept, else they start relaxed,
-/// q = 0.
+/// Gives every patch memory for `count` branches. If the number is unchanged the values are kept, else they start at q
+/// = 0.
 void set_branches(const Model& model, State& state, int count);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// From the number of damping branches, known when a run begins, to kernels compiled for it.
+// Selects kernels that are compiled for the number of damping branches, which is known when a run begins.
 #pragma once
 #include <type_traits>
 

@@ -1,19 +1,19 @@
-// A bridge that is built step by step: what is not there yet, and what is free of stress when it comes
-// (docs/theory/construction.md).
+// Construction of a bridge step by step: absent parts, and new parts without stress (docs/theory/construction.md).
 #pragma once
 #include "solver/model/state.h"
 
 namespace voussoir {
 
-/// Before the first step: no joint carries anything, no patch with the fill is there. The model must have a plan.
+/// Sets the state before the first step: no joint carries a force, and there is no patch with the fill. The model must
+/// have a plan.
 void clear_site(const Model& model, State& state);
 
-/// What a step adds is there now. A joint whose two stones are, is made: the jump that it has is the one at which it is
-/// free of stress. So are patches with the fill, and tetrahedra in the shape that their nodes give them.
+/// Adds the parts of a step. A joint is made when both its stones are present; its present jump is then its stress-free
+/// jump. The same holds for patches with the fill and for the present shapes of tetrahedra.
 void add_step(std::int32_t step, Model& model, State& state);
 
-/// The model while only the steps up to this one are done: what is not there yet, or stands on centering, is held and
-/// weighs nothing to the rest; contacts are not looked for.
+/// The model after the steps up to this one. Absent parts and parts on centering are held, and absent parts have no
+/// weight. There is no contact search.
 Model during_step(const Model& model, std::int32_t step);
 
 }  // namespace voussoir

@@ -1,21 +1,22 @@
-// Hinges of an arch as it stands: where its joints have turned open.
+// Hinges of an arch in a snapshot: joints that have opened by rotation.
 #pragma once
 #include "solver/statics/collapse.h"
 #include "solver/step/snapshot.h"
 
 namespace voussoir {
 
-/// A hinge of an arch: neighbouring joints that opened on the same side count as one, at the one that turned most.
+/// A hinge of an arch: neighbouring joints that opened on the same side count as one hinge, at the joint with the
+/// largest rotation.
 struct Hinge {
   std::int64_t a = 0, b = 0;  // blocks
-  std::string edge;           // that stays closed: "intrados" or "extrados"
+  std::string edge;           // the closed edge: "intrados" or "extrados"
   Vec3 place = Vec3::Zero();  // m, middle of that edge, as built
   double turn = 0.0;          // rad, of this joint
 };
 
-/// Of arches along x: among the joints between voussoirs, and of voussoirs with fixed bases, those that have turned by
-/// at least `share` of what the one that turned most has, and by `least` (rad). Turns are taken to be small. In the
-/// order of the assembly's joints.
+/// Finds the hinges of arches along x, among the joints between voussoirs and between voussoirs and fixed bases: those
+/// whose rotation is at least `share` of the largest rotation and at least `least` (rad). Rotations are assumed to be
+/// small. The order is that of the joints of the assembly.
 std::vector<Hinge> find_hinges(const Assembly& assembly, const Snapshot& snapshot, double share = 0.1,
                                double least = 1e-3);
 

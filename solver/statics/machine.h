@@ -1,24 +1,24 @@
-// A loading machine: a pattern of loads pushed by a head through a stiff spring, so that what follows the largest load
-// can be followed too.
+// A testing machine: its head pushes a load pattern through a stiff spring, so that the path beyond the largest load
+// can be followed.
 #pragma once
 #include "solver/statics/pattern.h"
 
 namespace voussoir {
 
 /// The multiplier of the pattern is λ = stiffness (head − a), a the displacement along the pattern since the reference
-/// placement (pattern_displacement()). With the head held a structure whose load falls as it goes on is stable while it
-/// falls less steeply than the spring.
+/// placement (pattern_displacement()). With a fixed head, a structure whose load decreases is stable as long as the
+/// decrease is less steep than the spring.
 struct Machine {
   LoadsAtWork pattern;     // one_a_point(); `from` at multiplier 0, `to` at 1
   double head = 0.0;       // m, since the reference placement
   double stiffness = 0.0;  // 1/m; chosen by brace()
   double multiplier = 0.0;
 
-  /// Chooses a spring a quarter as stiff as what holds the loaded body or node that is held least for its load, in a
-  /// relaxation of inertia of its own (`model`, M ≥ K), and makes the loaded ones heavier by what it asks for:
-  /// (Σ wᵢ uᵢ)² ≤ Σ |wᵢ| uᵢ², with Σ |wᵢ| = 1.
+  /// Chooses the stiffness of the spring for a relaxation (`model`, M ≥ K): a quarter of the stiffness of the loaded
+  /// body or node with the least stiffness for its load. It increases the inertia of the loaded bodies and nodes
+  /// accordingly: (Σ wᵢ uᵢ)² ≤ Σ |wᵢ| uᵢ², with Σ |wᵢ| = 1.
   void brace(Model& model);
-  /// The multiplier at the present placement, and the loads that go with it.
+  /// Computes the multiplier at the present placement and sets the corresponding loads.
   void push(const Model& model, const State& state, LoadsAtWork& loads);
 };
 

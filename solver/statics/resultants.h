@@ -1,11 +1,11 @@
-// What joints carry at rest: the force of every patch.
+// Joint forces at equilibrium: the force of every patch.
 #pragma once
 #include "solver/step/snapshot.h"
 #include "solver/step/stepper.h"
 
 namespace voussoir {
 
-/// What a patch puts on its block a; block b bears the opposite.
+/// Force of a patch on its block a. The force on block b is the opposite.
 struct PatchForce {
   Vec3 force = Vec3::Zero();         // N
   Vec3 moment = Vec3::Zero();        // N m, about the origin of the world
@@ -13,15 +13,15 @@ struct PatchForce {
   double largest_compression = 0.0;  // Pa, at an integration point or corner; positive
 };
 
-/// An equilibrium as joints bear it.
+/// Joint forces of an equilibrium.
 struct RestForces {
   Snapshot snapshot;               // without its fill
   std::vector<PatchForce> forces;  // of Snapshot::patches, in their order
   bool empty() const { return forces.empty(); }
 };
 
-/// Evaluates every patch once, on a copy of the state. The state must be at rest, without damping branches: what
-/// branches bear is not counted.
+/// Evaluates every patch once, on a copy of the state. The state must be at rest and without damping branches, because
+/// forces in branches are not counted.
 RestForces forces_at_rest(const Model& model, const State& state);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// The steps of a quasi-static stage.
+// The increments of a quasi-static stage.
 #pragma once
 #include <vector>
 
@@ -6,14 +6,14 @@
 
 namespace voussoir {
 
-/// One equilibrium that is asked for.
+/// One required equilibrium.
 struct Stop {
-  double way = 0.0;    // of the whole path, 0 to 1
+  double way = 0.0;    // position on the whole path, 0 to 1
   double share = 0.0;  // of loads and drives
 };
 
-/// Every leg of the path from corner to corner in equal steps, as many as its part of the whole way asks for and at
-/// least one. The corners themselves are stops; the beginning, share 0, is none.
+/// Divides every section of the path between two corners into equal increments: a number in proportion to its length,
+/// and at least one. The corners are stops; the beginning, share 0, is not.
 std::vector<Stop> stops_of(const QuasiStaticSettings& settings);
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// The bodies of a step: every one adds up what its tiles have summed of its joints, tile by tile, then the wrenches of
-// its contacts in ascending order, and moves at once. Free bodies go eight side by side.
+// The update of the bodies in a time step. Each body sums the joint wrenches of its tiles, tile by tile, then the
+// wrenches of its contacts in ascending order, and moves immediately. Free bodies are computed eight side by side.
 //
 // Leapfrog: v and L live at half steps. v⁺ = v⁻ + dt (F/m + g), L⁺ = L⁻ + dt T in the spatial frame; ω = R Ib⁻¹ Rᵀ L at
 // the half step from a predicted half rotation (Fincham 1992), the quaternion by the exponential map.
@@ -9,19 +9,19 @@
 
 namespace voussoir {
 
-/// Contacts of each body in ascending order: 2 × index, plus 1 where the body is the contact's second one. Patches of
-/// the interface with the fill follow, numbered after the contacts' slots.
+/// Contacts of each body in ascending order: 2 × index, plus 1 if the body is the second one of the contact. Patches of
+/// the interface with the fill follow; their numbers come after the slots of the contacts.
 struct Incidence {
   std::vector<std::int32_t> first;  // per body, and one past the end
   std::vector<std::int32_t> contacts;
 };
 Incidence find_incidence(const Model& model, const State& state);
 
-/// Constants of eight bodies next to each other; those that the ground or a guide holds are left out.
+/// Constants of eight consecutive bodies, without those that the ground or a guide holds.
 struct alignas(64) BodyBatch {
   Lanes centroid[3], mass, inertial_mass, radius;
   Lanes inverse_inertia[6];  // xx, yy, zz, xy, xz, yz
-  Lanes free;                // 1 of a free body, else 0; no mask, so that it is laid out alike for all processors
+  Lanes free;                // 1 for a free body, else 0; not a mask, so that the layout is the same for all processors
   [[gnu::always_inline]] LaneMask are_free() const { return less(splat(0.0), free); }
 };
 Array<BodyBatch> make_body_batches(const Model& model);
@@ -32,13 +32,14 @@ struct BodyUpdate {
   Triple<double> velocity;                                   // m/s at the next half step
   Triple<double> momentum;                                   // kg m2/s at the next half step
   double loss = 0.0;                                         // J, body damping over this step
-  Triple<double> load = {0, 0, 0}, load_moment = {0, 0, 0};  // the loads' part of force and moment
+  Triple<double> load = {0, 0, 0}, load_moment = {0, 0, 0};  // part of the loads in force and moment
 };
 
 struct BodyReport {
-  // Where they were looked at: how far a body has moved since its place was noted, and how far one goes in a step, m.
+  // If displacements were checked: largest displacement of a body since its position was noted, and largest
+  // displacement in one time step, m.
   double farthest = 0.0, fastest = 0.0;
-  std::int32_t runaway = -1;  // lowest body whose velocity is not finite or past any sense
+  std::int32_t runaway = -1;  // lowest body whose velocity is not finite or exceeds the limit
   void merge(const BodyReport& other) {
     farthest = std::max(farthest, other.farthest);
     fastest = std::max(fastest, other.fastest);
@@ -48,7 +49,8 @@ struct BodyReport {
 
 struct Energies;
 
-/// Where Model::still are at one step, and how fast at the half step before it; rows as State::pose and State::motion.
+/// Positions of the bodies Model::still at one time step, and velocities at the half step before; rows as State::pose
+/// and State::motion.
 struct StillPlaces {
   Array<double> pose, motion;
 };
@@ -61,19 +63,20 @@ struct BodyPass {
   const Incidence* incidence = nullptr;
   const double* contact_wrenches = nullptr;
   const BodyBatch* batches = nullptr;
-  const std::vector<Energies>* energies = nullptr;  // of each tile, where a sample has them computed beforehand
+  const std::vector<Energies>* energies = nullptr;  // of each tile, if they were computed in advance for a sample
   double dt = 0.0;                                  // s
   double mass_rate = 0.0;                           // 1/s, Rayleigh
   double local = 0.0;                               // Cundall
-  bool looks = false;                               // at where bodies are by the end of the step, see BodyReport
-  const Array<std::int32_t>* drive = nullptr;  // of each body, which of drive_velocity is its own or -1; empty: none
-  std::vector<Vec3> drive_velocity;            // relative to the ground, at the next half step
-  const LoadsAtWork* loads = nullptr;          // none: nothing beside gravity
-  double load_share = 1.0;                     // at this step
-  Vec3 base_velocity_now = Vec3::Zero();       // at the last half step
-  Vec3 base_velocity_next = Vec3::Zero();      // at the next half step
-  Vec3 base_displacement_next = Vec3::Zero();  // at the next step
-  // Of Model::still at the next step and half step; none: the state's bodies are moved one by one.
+  bool looks = false;                               // whether displacements are checked at the end of the time step,
+                                                    // see BodyReport
+  const Array<std::int32_t>* drive = nullptr;       // of each body: index in drive_velocity, or -1; empty: none
+  std::vector<Vec3> drive_velocity;                 // relative to the ground, at the next half step
+  const LoadsAtWork* loads = nullptr;               // none: only gravity acts
+  double load_share = 1.0;                          // at this step
+  Vec3 base_velocity_now = Vec3::Zero();            // at the last half step
+  Vec3 base_velocity_next = Vec3::Zero();           // at the next half step
+  Vec3 base_displacement_next = Vec3::Zero();       // at the next step
+  // Of Model::still at the next time step and half step; none: the bodies of the state are moved one by one.
   const StillPlaces *still_now = nullptr, *still_next = nullptr;
 
   /// Of a fixed body at the next half step.
@@ -84,7 +87,7 @@ struct BodyPass {
   BodyUpdate update(std::size_t body) const;
   void turn(std::size_t body, Triple<double> moment, BodyUpdate& update) const;
   BodyUpdate held_update(std::size_t body, const Triple<double>& patches, const Triple<double>& moment) const;
-  /// Work of what holds or drives the still bodies that a tile's joints touch, on those joints over the step, J.
+  /// Work over the time step of the forces that hold or drive the still bodies, on the joints of a tile, J.
   double support_work(const Tile& tile) const;
   /// Moves the bodies [begin, end); `begin` is the first of a batch.
   BodyReport bodies(std::size_t begin, std::size_t end) const;
@@ -101,8 +104,8 @@ struct BodyPass {
   void look_at(std::size_t body, const BodyUpdate& next, BodyReport& report) const;
 };
 
-/// Work over a step of what holds or drives a still body on which joints put this force (N), J; velocities (m/s) at
-/// both half steps.
+/// Work over a time step of the forces that hold or drive a still body, J. `force` (N) is the force of the joints on
+/// it; velocities (m/s) at both half steps.
 double holding_work(const double* force, const double* velocity_now, const double* velocity_next, double dt);
 
 /// Work of the loads on a body over half a step at this velocity and angular momentum, J.

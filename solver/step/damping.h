@@ -1,4 +1,4 @@
-// Damping: Maxwell branches beside every elastic stiffness, Rayleigh, local.
+// Damping: Maxwell branches parallel to every elastic stiffness, Rayleigh damping, local damping.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-/// Branches of relative stiffness α and relaxation frequency f beside a unit spring.
+/// Branches of relative stiffness α and relaxation frequency f parallel to a unit spring.
 struct MaxwellFit {
   std::vector<double> stiffness;       // α_j, of the elastic stiffness
   std::vector<double> frequency;       // f_j, Hz
@@ -31,21 +31,21 @@ struct RayleighTerms {
 };
 RayleighTerms rayleigh_terms(const DampingSettings& settings);
 
-/// Below this share of critical there is no damping.
+/// Damping ratios below this value count as no damping.
 constexpr double least_damping_ratio = 1e-9;
 
-/// Damping as the step uses it.
+/// Damping constants for the time step.
 struct DampingAtWork {
   Branches branches;
   double mass_rate = 0.0;    // 1/s: Rayleigh's mass term
   double local = 0.0;        // Cundall's coefficient
-  double step_factor = 1.0;  // the critical step is multiplied by this
+  double step_factor = 1.0;  // factor on the critical time step
   std::string account;       // one line for the log
 };
 
 /// `step` in s; `highest` is the largest undamped circular frequency (rad/s), for the stability of the Rayleigh term.
 DampingAtWork damping_at_work(const DampingSettings& settings, double step, double highest);
-/// The factor alone, before a step is chosen.
+/// Only the factor on the critical time step, before a time step is chosen.
 double damping_step_factor(const DampingSettings& settings, double highest);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Fixed blocks that the stages of a run move, and free ones that they put somewhere else.
+// Fixed blocks that stages move, and free blocks that stages place at another position.
 #pragma once
 #include "geometry/assembly.h"
 #include "solver/model/model.h"
@@ -6,29 +6,30 @@
 
 namespace voussoir {
 
-/// The blocks of a group. Throws InputError "`who` the group '…'" with the nearest name when there is none; `fixed`: of
-/// the groups of fixed blocks, else of those of free ones.
+/// The blocks of a group. If the group does not exist, throws an InputError that begins with "`who` the group '…'" and
+/// suggests a name: of the groups of fixed blocks if `fixed`, else of those of free blocks.
 const std::vector<std::int64_t>& group_of(const Assembly& assembly, const std::string& name, const std::string& who,
                                           bool fixed);
 
-/// Where the blocks of a drive are relative to the ground, m, `time` (s) after the beginning of a stage of this
-/// duration (s): its own path, and by how much its share of the ground's motion u, perhaps delayed, differs from that
-/// motion,
+/// Position of the blocks of a drive relative to the ground, m, `time` (s) after the beginning of a stage of this
+/// duration (s). It is the path of the drive, plus the scaled and delayed motion u of the ground, minus that motion,
 ///   d(t) = Drive::at(t) + factor u(t − delay) − u(t).
-/// `ground` is not looked at when the blocks move with the ground.
+/// `ground` is not used if the blocks move with the ground.
 Vec3 drive_path(const Drive& drive, const GroundPath& ground, double time, double duration);
 
-/// Throws InputError when a stage drives a group that the assembly does not have, a block that is not fixed, a block
-/// twice, or one along an axis on which it is free.
+/// Throws InputError if a stage drives an unknown group, a block that is not fixed, a block twice, or a block along an
+/// axis on which it is free.
 void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages, const std::vector<Guide>& guides);
 
-/// Lets fixed bodies move where guides say so. Throws InputError for groups that are not there or not fixed.
+/// Releases fixed bodies along the axes of their guides. Throws InputError for groups that do not exist or are not
+/// fixed.
 void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Model& model);
 
-/// Names of the groups of fixed blocks alone, guided and driven ones among them, in the order of their names.
+/// Names of the groups that consist of fixed blocks only, including guided and driven ones, in alphabetical order.
 std::vector<std::string> names_held(const Assembly& assembly);
 
-/// The same for placements: of free blocks, in stages that begin from rest (the first, or after one without time).
+/// The same for placements. They need free blocks and a stage that begins at rest (the first, or one after a stage
+/// without simulated time).
 void check_placements(const Assembly& assembly, const std::vector<StageSettings>& stages);
 
 }  // namespace voussoir

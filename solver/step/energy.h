@@ -1,4 +1,5 @@
-// The energy ledger, joules. What was put in equals what is stored plus what is lost, or the run is not to be believed.
+// The energy balance in joules. The external work equals the stored plus the dissipated energy; otherwise the results
+// of the run are not valid.
 #pragma once
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ struct Energies {
   double plastic = 0.0;          // dissipated by the fill's flow
   double joint_damping = 0.0;    // dissipated by branches
   double body_damping = 0.0;     // dissipated by local and mass damping
-  double clipping = 0.0;         // elastic energy that new clippings of patches took out (or, negative, put in)
+  double clipping = 0.0;         // elastic energy removed (negative: added) when patches were clipped again
   double external_work = 0.0;    // done by the moving ground, driven blocks and loads
   double stored() const { return kinetic + gravitational + elastic + damping_springs; }
   double lost() const { return friction + fracture + plastic + joint_damping + body_damping + clipping; }
@@ -33,15 +34,15 @@ struct Energies {
   }
 };
 
-/// Every term of the ledger by its name, in the order above.
+/// Every term of the energy balance with its name, in the order above.
 const std::vector<std::pair<const char*, double Energies::*>>& energy_terms();
 
-/// At a sampling point of the step, or after patches_only(): positions and patches are at this step; `pass` knows the
-/// velocities to come.
+/// Call at a sampling point of the time step or after patches_only(): positions and patches are at this time step, and
+/// `pass` contains the next velocities.
 Energies compute_energies(const Stepper& stepper, const BodyPass& pass);
-/// The part of a tile: its joints, its contacts, its bodies.
+/// The energies of one tile: of its joints, contacts and bodies.
 Energies energies_of_tile(const Stepper& stepper, const BodyPass& pass, std::size_t tile);
-/// The part of one of the fill's tiles.
+/// The energies of one tile of the fill.
 Energies energies_of_fill(const FillPass& pass, std::size_t tile);
 
 }  // namespace voussoir

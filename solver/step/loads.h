@@ -10,14 +10,14 @@ namespace voussoir {
 
 class Road;
 
-/// A force that keeps its direction, on a point that moves with its body.
+/// A force of constant direction on a point that moves with its body.
 struct PointLoad {
   std::int32_t body = 0;
   Vec3 arm = Vec3::Zero();                      // m, from the centroid, reference axes
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  // N
 };
 
-/// What acts beside gravity: each load rises from one value to another as `share` goes from 0 to 1.
+/// Loads in addition to gravity. Each load changes from one value to another as `share` goes from 0 to 1.
 struct LoadsAtWork {
   Vec3 acceleration_from = Vec3::Zero(), acceleration_to = Vec3::Zero();  // m/s2, on all free bodies
   std::vector<PointLoad> points;                                          // by body
@@ -26,32 +26,33 @@ struct LoadsAtWork {
 
   bool accelerates() const { return !acceleration_from.isZero(0.0) || !acceleration_to.isZero(0.0); }
   bool none() const { return first.empty() && nodes_to.empty() && !accelerates(); }
-  /// On one body at its present placement: force (N) and moment about its centroid (N m), world axes.
+  /// Force (N) and moment about the centroid (N m) on one body in its present placement, world axes.
   void act(const Model& model, const State& state, std::size_t body, double share, Triple<double>& force,
            Triple<double>& moment) const;
   /// Adds forces on points of some of the model's bodies.
   void add(std::vector<PointLoad> more, std::size_t bodies);
 };
 
-/// Share of the way from rest to rest: the cycloid τ − sin 2πτ / 2π, τ = time / duration held between 0 and 1.
+/// Share of a path from rest to rest: the cycloid τ − sin 2πτ / 2π with τ = time / duration, limited to 0 to 1.
 double eased(double time, double duration);
 
-/// These and loads that move, `time` (s) after the beginning of their stage.
+/// `loads` together with the moving loads at `time` (s) after the beginning of their stage.
 Loads with_moving(Loads loads, const std::vector<MovingLoad>& moving, double time);
-/// In how many parts of equal time a stage of this duration (s) takes what moves in it: it is where it has to be at the
-/// ends of each, and between them shares of both places add up to it. Their sum and moment are then exact at any time.
+/// Number of equal time intervals into which a stage of this duration (s) divides its moving loads. A load is at its
+/// exact position at the ends of each interval; in between, the program distributes it to the two positions. Its sum
+/// and moment are therefore exact at any time.
 std::int64_t parts_of_way(const std::vector<MovingLoad>& moving, double duration);
 
-/// What acts at the end of a stage: its own loads, or those that an earlier one has left.
+/// Loads at the end of a stage: its own loads, or those of an earlier stage that remain.
 Loads loads_after(const std::vector<StageSettings>& stages, std::size_t stage);
 
-/// Where loads of an assembly act. Its road is found when the first load lies on it.
+/// Points of application of loads on an assembly. The road is determined when the first load lies on it.
 class LoadPlaces {
  public:
   LoadPlaces(const Assembly& assembly, const Model& model) : assembly_(&assembly), model_(&model) {}
-  /// Throws InputError for a group that the assembly does not have, that holds a fixed block, or that has more than one
-  /// block where the force has a point, and for a load on the road beside it. Forces on a group are shared in
-  /// proportion to mass, pressures on the road by where they lie (RoadShare).
+  /// Throws InputError for a group that does not exist, that contains a fixed block, or that has more than one block if
+  /// the force acts at a point, and for a road load outside the road. Forces on a group are distributed in proportion
+  /// to mass, pressures on the road according to their position (RoadShare).
   LoadsAtWork at_work(const Loads& from, const Loads& to) const;
 
  private:
@@ -63,8 +64,8 @@ class LoadPlaces {
   mutable std::shared_ptr<const Road> road_;
 };
 
-/// What acts in a collapse stage at a multiplier: `base` and the multiplied pattern, or gravity turned about the
-/// stage's axis by the arc tangent of the multiplier.
+/// Loads in a collapse stage at a multiplier: `base` and the multiplied pattern, or gravity rotated about the axis of
+/// the stage by the arc tangent of the multiplier.
 Loads loads_at(const Loads& base, const StageSettings& stage, const Vec3& gravity, double multiplier);
 
 }  // namespace voussoir

@@ -1,32 +1,33 @@
-// Selective mass scaling: inertia, never weight, for the bodies and nodes that hold the critical step down.
+// Selective mass scaling: raises the inertia, but not the weight, of the bodies and nodes that limit the critical time
+// step.
 #pragma once
 #include "solver/step/local_rates.h"
 
 namespace voussoir {
 
-/// What mass scaling has done to a model.
+/// Effect of mass scaling on a model.
 struct MassScaling {
   double share = 0.0;             // added mass over the mass of all that can move
-  std::int64_t bodies = 0;        // with more inertia than they had
-  std::int64_t heavier = 0;       // and, of them, with more mass
-  std::int64_t nodes = 0;         // of the fill, with more mass
+  std::int64_t bodies = 0;        // number of bodies with increased inertia
+  std::int64_t heavier = 0;       // number of these with increased mass
+  std::int64_t nodes = 0;         // number of nodes of the fill with increased mass
   double largest = 1.0;           // factor on one mass
   double largest_rotary = 1.0;    // factor on one body's inertia tensor
-  std::vector<Mat3> true_tensor;  // of all bodies, before, kg m2, reference axes
+  std::vector<Mat3> true_tensor;  // of all bodies, without scaling, kg m2, reference axes
   bool at_work() const { return bodies > 0 || nodes > 0; }
 };
 
-/// Raises all bodies whose own rates (see LocalRate) are above `ceiling` (1/s2) to it: the mass by that of
-/// displacements, the inertia tensor by that of displacements and rotations; and all such nodes. The assembly's ω_max²
-/// is then at most 4 × ceiling, without a fill.
+/// Lowers the own rates (see LocalRate) of all bodies and nodes above `ceiling` (1/s2) to it. The mass is scaled by the
+/// rate of displacements, and the inertia tensor by that of displacements and rotations. Without a fill, ω_max² of the
+/// assembly is then at most 4 × ceiling.
 MassScaling raise_to(Model& model, const std::vector<LocalRate>& rates, double ceiling);
 
-/// Scales so that the critical step reaches `step` (s), or, with step = 0, so that the added share of mass is `limit`.
-/// Throws InputError when the step would take more than the limit.
+/// Scales so that the critical time step reaches `step` (s) or, with step = 0, so that the added share of mass is
+/// `limit`. Throws InputError if the time step requires more than the limit.
 MassScaling scale_mass(Model& model, const State& state, double step, double limit);
 
-/// Bounds of what that costs the lowest frequencies of the intact assembly, as a share of each, ascending: each is
-/// lower than with the true inertia, by no more than that. Ways that nothing holds are left out.
+/// Upper bounds of the reduction of the lowest frequencies of the intact assembly, as a share of each frequency, in
+/// ascending order of frequency. Degrees of freedom that nothing holds are left out.
 std::vector<double> frequency_shifts(const Model& model, const State& state, const MassScaling& scaling, int count);
 
 }  // namespace voussoir

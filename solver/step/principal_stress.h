@@ -4,8 +4,8 @@
 
 namespace voussoir {
 
-/// The largest compression of a stress (xx, yy, zz, xy, yz, xz; Pa, tension positive): minus its least principal value,
-/// negative where all of them pull.
+/// The largest compression of a stress (xx, yy, zz, xy, yz, xz; Pa, tension positive): minus its least principal value;
+/// negative if all principal stresses are tensile.
 double largest_compression(const std::array<double, 6>& stress);
 
 }  // namespace voussoir

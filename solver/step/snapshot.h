@@ -1,5 +1,5 @@
-// The state of a run at one instant, in the terms files and pictures use. Made by the solver, written by io, drawn by
-// viz.
+// The state of a run at one instant, in the form for files and pictures. The solver makes it, io writes it and viz
+// draws it.
 #pragma once
 #include <Eigen/Geometry>
 #include <array>
@@ -21,13 +21,12 @@ struct PatchSnapshot {
   double opening = 0.0, slip = 0.0;
   double largest_opening = 0.0, largest_slip = 0.0;    // m, since the start
   double normal_traction = 0.0, shear_traction = 0.0;  // Pa, mean over the patch; tension positive
-  // Where the normal tractions' resultant goes through it, as a share of the depth (geometry/kern.h); 0 where nothing
-  // is pressed. Shear over what friction and cohesion allow (shear_capacity()); 0 without shear, 1 where nothing is
-  // allowed.
+  // Eccentricity of the resultant of the normal tractions, as a share of the depth (geometry/kern.h); 0 without
+  // compression. Utilisation: shear over shear_capacity(); 0 without shear, 1 without capacity.
   double eccentricity = 0.0, utilisation = 0.0;
-  double bonded = 1.0;    // share of the patch's area whose bond holds (0 for joints that never had one)
+  double bonded = 1.0;    // bonded share of the area (0 for joints that never had a bond)
   bool had_bond = false;  // the joint started with tensile strength or cohesion
-  bool tie = false;       // a bar: its strip from anchor to anchor; neither opens nor slips
+  bool tie = false;       // a bar, drawn as its strip from anchor to anchor; it does not open or slip
   double yielded = 0.0, largest_tension = 0.0;  // of a tie: plastic stretch (m); Pa, since the start
   bool replaced =
       false;  // a joint that has slid or turned so far that a contact took its place, if the blocks still meet
@@ -43,7 +42,7 @@ struct TetSnapshot {
 
 /// The deformable fill, in the order of FillMesh; empty without one.
 struct FillSnapshot {
-  std::vector<Vec3> displacement;  // m, of each node since the assembly
+  std::vector<Vec3> displacement;  // m, of each node since the reference placement
   std::vector<Vec3> velocity;      // m/s
   std::vector<TetSnapshot> tets;
   bool empty() const { return tets.empty(); }
@@ -52,8 +51,8 @@ struct FillSnapshot {
 struct Snapshot {
   double time = 0.0;                         // s since the start of the run
   Vec3 base_displacement = Vec3::Zero();     // m
-  std::vector<Vec3> displacement;            // m, of each block's centroid since the assembly
-  std::vector<Eigen::Quaterniond> rotation;  // since the assembly
+  std::vector<Vec3> displacement;            // m, of the centroid of each block since the reference placement
+  std::vector<Eigen::Quaterniond> rotation;  // since the reference placement
   std::vector<Vec3> velocity;                // m/s
   std::vector<PatchSnapshot> patches;
   FillSnapshot fill;

@@ -1,11 +1,11 @@
-// How many steps a run may take.
+// Largest number of time steps of a run.
 #pragma once
 #include <string>
 
 namespace voussoir {
 
-/// Why `time` s of simulated time in steps of `dt` s are too many steps to begin with, with their number and the least
-/// wall time; empty when they are not, or when `dt` is not known yet (0).
+/// Message if `time` s of simulated time need too many time steps of `dt` s, with their number and the least wall-clock
+/// time. Empty if the number is acceptable, or if `dt` is not yet known (0).
 std::string too_many_steps(double time, double dt);
 
 }  // namespace voussoir
