@@ -1,5 +1,5 @@
-// What the joints, blocks, fill elements and patches of an intact assembly add to K and M, one by one, straight from
-// the assembly; and products with such sums, which never become a matrix.
+// Contributions of the joints, blocks, fill elements and patches of an intact assembly to K and M, computed directly
+// from the assembly, and products with their sums without forming a matrix.
 #pragma once
 #include "geometry/assembly.h"
 #include "solver/linear/fill_stiffness.h"
@@ -9,19 +9,19 @@ namespace voussoir {
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix15 = Eigen::Matrix<double, 15, 15>;
 
-/// Stiffness of a joint for the motions (du_a, dθ_a, du_b, dθ_b) of its blocks: N/m, N, N m. The patch as in
-/// solver/linear/stiffness.h, all of it bonded; a tie along its axis alone.
+/// Stiffness of a joint for the motions (du_a, dθ_a, du_b, dθ_b) of its blocks: N/m, N, N m. The patch is fully bonded,
+/// as in solver/linear/stiffness.h. A tie acts only along its axis.
 Matrix12 pair_stiffness(const Assembly& assembly, const Joint& joint);
-/// Stiffness of a patch with the fill for the motions (du, dθ) of its block and those of its triangle's corners, all of
-/// it bonded.
+/// Stiffness of a fully bonded patch with the fill for the motions (du, dθ) of its block and those of the corners of
+/// its triangle.
 Matrix15 patch_stiffness(const Assembly& assembly, const FillJoint& patch);
-/// Elements of the fill where they were meshed; nodes as in FillMesh. Throws InputError for a material that cannot be
-/// one of a fill.
+/// Elements of the fill in the geometry of the mesh; nodes as in FillMesh. Throws InputError for a material that is not
+/// valid for a fill.
 std::vector<FillElement> fill_elements(const Assembly& assembly);
 /// diag(m 1, I) of a block: kg, kg m2.
 Matrix6 block_mass(const Block& block);
 
-/// Terms of K and of M; of a difference, or a derivative, of two models likewise. A node n of the fill is the site
+/// Terms of K and M, or of the difference or derivative of two models. A node n of the fill is the site
 /// Unknowns::bodies + n. Units of K are the terms in the order pairs, patches, elements, rings; those of M blocks,
 /// lumps.
 struct Contributions {
@@ -34,7 +34,7 @@ struct Contributions {
     std::array<std::int32_t, 3> nodes = {};
     Matrix15 k;
   };
-  struct Element {  // change of shape alone
+  struct Element {  // deviatoric part only
     std::array<std::int32_t, 4> nodes = {};
     std::array<Vec3, 4> gradient;  // 1/m
     double scale = 0.0;            // N m: V μ
@@ -59,34 +59,34 @@ struct Contributions {
   std::vector<Own> blocks;
   std::vector<Lump> lumps;
 };
-/// Of all joints, blocks, patches and elements in their order, and of the rings about all nodes; fixed blocks have
-/// their masses.
+/// The contributions of all joints, blocks, patches and elements in their order, and of the rings around all nodes.
+/// Fixed blocks have their masses.
 Contributions contributions(const Assembly& assembly);
-/// Terms of one element, and of a ring as fill_rings() has it.
+/// Terms of one element, and of a ring from fill_rings().
 Contributions::Element shear_term(const FillElement& element);
 Contributions::Ring ring_term(FillRing ring);
 
-/// Vectors over the unknowns, one a column; rows lie together, because joints ask for rows.
+/// Vectors over the unknowns, one in each column. The storage is by rows because joints read rows.
 using Vectors = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The same of somebody else, perhaps some columns of more.
+/// A reference to such vectors, or to some of their columns.
 using Basis = Eigen::Ref<const Vectors>;
 
 /// K X and M X.
 Vectors times_stiffness(const Contributions& c, const Unknowns& unknowns, const Vectors& x);
 Vectors times_mass(const Contributions& c, const Unknowns& unknowns, const Vectors& x);
-/// The same of one vector.
+/// The same for one vector.
 Eigen::VectorXd times_stiffness(const Contributions& c, const Unknowns& unknowns, const Eigen::VectorXd& x);
 Eigen::VectorXd times_mass(const Contributions& c, const Unknowns& unknowns, const Eigen::VectorXd& x);
-/// y += factor K x, or factor M x, of those units alone that are listed.
+/// y += factor K x, or factor M x, with the contributions of the listed units only.
 void add_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed, double factor,
                    const Unknowns& unknowns, const Basis& x, Eigen::Ref<Vectors> y);
 void add_mass(const Contributions& c, const std::vector<std::int32_t>& listed, double factor, const Unknowns& unknowns,
               const Basis& x, Eigen::Ref<Vectors> y);
-/// How many rows K, or M, of those has that are not zero.
+/// Number of non-zero rows of K, or M, of the listed units.
 Eigen::Index stiffness_rows(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns);
 Eigen::Index mass_rows(const Contributions& c, const std::vector<std::int32_t>& listed, const Unknowns& unknowns);
-/// Vᵀ K W and Vᵀ M W, without a pass over rows that K and M do not have; of all units, or of those that are listed.
+/// Vᵀ K W and Vᵀ M W of all units, or of the listed ones. Zero rows of K and M are skipped.
 Eigen::MatrixXd project_stiffness(const Contributions& c, const Unknowns& unknowns, const Basis& v, const Basis& w);
 Eigen::MatrixXd project_mass(const Contributions& c, const Unknowns& unknowns, const Basis& v, const Basis& w);
 Eigen::MatrixXd project_stiffness(const Contributions& c, const std::vector<std::int32_t>& listed,

@@ -1,14 +1,14 @@
-// Second thoughts: an early choice may have stood in for what a later one says better.
+// Revision of earlier choices: an early effect may have represented one that a later effect describes better.
 #pragma once
 #include "solver/diagnosis/search_point.h"
 
 namespace voussoir {
 
-/// Takes out effects that a later one has made needless.
+/// Removes effects that a later one has made unnecessary.
 void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit& current,
                      std::vector<Round>& rounds, const std::function<void(const std::string&)>& say);
-/// Alone, an effect may have stood in for its neighbour and a later one: what its round has fitted besides takes its
-/// place if that is better beside the others.
+/// An effect that was chosen alone may have represented its neighbour and a later effect. Another trial of its round
+/// replaces it if that gives a better fit together with the other effects.
 void exchange(DiagnosisProblem& problem, const DiagnosisSettings& settings, SearchPoint& standing,
               std::vector<Round>& rounds, const std::function<void(const std::string&)>& say);
 

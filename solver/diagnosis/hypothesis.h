@@ -1,4 +1,5 @@
-// What may be wrong with a model: parameters that every model is unsure of, and candidates, each an effect at a place.
+// Hypotheses about the errors of a model: uncertain parameters of every model, and candidates, each an effect at a
+// place.
 #pragma once
 #include <functional>
 #include <string>
@@ -19,74 +20,73 @@ struct FitParameter {
   double x(double value) const;
 };
 
-/// A property of a material that every model is unsure of: a factor of the effect `calibration`.
+/// An uncertain property of a material: a factor of the effect `calibration`.
 struct Calibration {
   std::string where, property;  // "masonry", "stiffness"
-  FitParameter parameter;       // x = 0 is the case as it is
+  FitParameter parameter;       // x = 0 is the unchanged case
 };
-/// Those that the assembly's materials have.
+/// The calibrations for the materials of the assembly.
 std::vector<Calibration> calibrations(const Assembly& assembly);
 
-/// An effect at a place, what is wrong with the readings of a sensor, or a factor on a part that has no name.
+/// An effect at a place, a fault of a channel, or an unnamed factor on a part.
 struct Candidate {
   enum class Kind { effect, damping, gain, swap, turn, clock, motion, factor };
   Kind kind = Kind::effect;
   std::string name, where;
-  double prior = 1.0;  // probability before any data, that one of all candidates acts being 1
+  double prior = 1.0;  // prior probability; the sum over all candidates is 1
   std::vector<FitParameter> parameters;
-  std::vector<std::vector<double>> starts;              // x to begin fits at
+  std::vector<std::vector<double>> starts;              // start values of x for fits
   std::vector<std::size_t> sensors;                     // gain, clock: one; swap: two
   std::size_t support = 0;                              // motion: of supports()
-  double gain = 1.0;                                    // gain without a parameter: −1, a polarity; 0, dead
-  double turn = 0.0, tilt = 0.0;                        // turn: deg, as the effect sensor_fault has them
-  Vec3 direction = Vec3::Zero();                        // turn: of the sensor as it is mounted then
+  double gain = 1.0;                                    // gain without a parameter: −1 reversed, 0 dead
+  double turn = 0.0, tilt = 0.0;                        // turn: deg, as in the effect sensor_fault
+  Vec3 direction = Vec3::Zero();                        // turn: direction of the sensor with this fault
   std::function<void(Assembly&, double factor)> apply;  // factor
   std::string text() const;                             // "abutment_restraint at both"
-  std::string full_text() const;                        // of a channel with what is wrong with it: "…, reversed"
+  std::string full_text() const;                        // with the fault of a channel: "…, reversed"
   EffectSetting setting(const double* x) const;
-  bool of_sensors() const {  // what is wrong with a channel
+  bool of_sensors() const {  // a fault of a channel
     return kind == Kind::gain || kind == Kind::swap || kind == Kind::turn || kind == Kind::clock;
   }
 };
 
 struct CandidateChoice {
-  bool damping = false;              // the data say something of it
-  bool clocks = false;               // of phases between sensors
-  bool driven = false;               // of the ground's motion
-  std::vector<std::string> without;  // names that are not to be tried
+  bool damping = false;              // the data contain damping ratios
+  bool clocks = false;               // the data contain phases between sensors
+  bool driven = false;               // the data contain the motion of the ground
+  std::vector<std::string> without;  // names of excluded effects
 };
-/// Every effect of the library at each of its places in this assembly, and the faults of sensors: of those that are in
-/// `sensors`.
+/// Every effect of the library at each of its places in this assembly, and the faults of the given sensors.
 std::vector<Candidate> candidates(const Assembly& assembly, const std::vector<Sensor>& sensors,
                                   const CandidateChoice& choice);
 
-/// Factors on the stiffness and on the mass of each part of the bridge, and springs between its ends and the ground,
-/// along it and across: what is left to try when no effect fits.
+/// Factors on the stiffness and mass of each part of the bridge, and springs between its ends and the ground in the
+/// longitudinal and transverse directions. They are tried when no effect fits.
 std::vector<Candidate> nameless_factors(const Assembly& assembly);
 
-/// What instruments would show of a model's modes.
+/// Modes of a model as the instruments would measure them.
 struct Observed {
   Eigen::VectorXd log_frequency;   // of Hz
   Eigen::MatrixXd readings;        // sensor × mode
-  Eigen::MatrixXcd participation;  // axis × mode, of M-normalised modes; empty: not asked for
+  Eigen::MatrixXcd participation;  // axis × mode, of M-normalised modes; empty: not requested
   Eigen::VectorXd delays;          // s, of each sensor's clock
   double damping = 0.0;            // share of critical
 };
 
-/// A model that is tried: the case's, with factors on its materials and candidates in place.
+/// A trial model: the model of the case with factors on its materials and with candidates applied.
 struct Hypothesis {
   std::vector<Calibration> materials;
   std::vector<Candidate> effects;
 
   std::size_t size() const;  // of x: materials first
   std::vector<FitParameter> parameters() const;
-  /// The effects of a case that is this hypothesis; nameless factors have none.
+  /// The effects of the case that corresponds to this hypothesis. Unnamed factors have no effect.
   std::vector<EffectSetting> settings(const Eigen::VectorXd& x) const;
-  /// Throws InputError where an effect cannot act.
+  /// Throws InputError if an effect cannot act.
   Assembly assembly(const Assembly& base, const Eigen::VectorXd& x) const;
-  /// The same in a copy of the base that is there already.
+  /// The same, applied to an existing copy of the base.
   void change(Assembly& copy, const Eigen::VectorXd& x) const;
-  /// What would be observed of modes, with faults of sensors and motions of supports; `damping` (share of critical) is
+  /// Observations of the modes, with the faults of sensors and motions of supports; `damping` (share of critical) is
   /// that of the case.
   Observed observe(const ModalData& modes, double damping, const Eigen::VectorXd& x) const;
   /// The same with a further candidate.

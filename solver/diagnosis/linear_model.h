@@ -1,17 +1,17 @@
-// Stiffness and mass of an assembly whose joints, and patches with a deformable fill, are all intact, straight from
-// the assembly, without building a model for runs.
+// Stiffness and mass matrices of an assembly with all joints and fill patches intact, directly from the assembly and
+// without the model of a run.
 #pragma once
 #include "solver/diagnosis/contributions.h"
 
 namespace voussoir {
 
 struct LinearModel {
-  Unknowns unknowns;  // sites are the assembly's blocks, then the nodes of its fill
-  SparseMatrix k, m;  // lower triangles; ways that nothing holds are held as in solver/linear/loose.h
+  Unknowns unknowns;  // sites are the blocks of the assembly, then the nodes of its fill
+  SparseMatrix k, m;  // lower triangles; degrees of freedom that nothing holds are held as in solver/linear/loose.h
 };
-/// Throws InputError when nothing is held together.
+/// Throws InputError if no joint holds anything.
 LinearModel linear_model(const Assembly& assembly);
-/// The same of an assembly whose contributions() these are.
+/// The same from the contributions() of the assembly.
 LinearModel linear_model(const Assembly& assembly, const Contributions& parts);
 
 }  // namespace voussoir

@@ -1,14 +1,14 @@
-// Where in the bridge a model disagrees with the measured modes.
+// Locates the parts of the bridge in which a model disagrees with the measured modes.
 #pragma once
 #include "solver/diagnosis/fit.h"
 
 namespace voussoir {
 
-/// How much of what is missing sits in a part of the bridge.
+/// Share of the disagreement in a part of the bridge.
 struct PartResidual {
   std::string part;    // "arch 0", "pier 1", "abutment left", "spandrel y-", "backing", "backfill", …
-  double share = 0.0;  // of the energy of the correcting displacements
-  char axis = 'x';     // along which the residual force does most work
+  double share = 0.0;  // share of the energy of the correcting displacements
+  char axis = 'x';     // axis along which the residual force does most work
 };
 
 struct Location {
@@ -18,11 +18,11 @@ struct Location {
 };
 
 /// The dynamic force residual f = (K − ω²M) φ of each measured mode expanded over the model's modes, and the energy of
-/// u = K⁻¹ f, joint by joint (minimum dynamic residual expansion: Balmès 2000, §4). A mode without a shape is the
-/// computed one that it is paired with.
+/// u = K⁻¹ f, joint by joint (minimum dynamic residual expansion: Balmès 2000, §4). For a mode without a shape, the
+/// paired computed mode is used.
 Location locate(const DiagnosisProblem& problem, const Evaluation& at);
 
-/// The sensitivity of a mode's frequency to the stiffness and the mass of each part: d ln f/d ln k and d ln f/d ln m.
+/// Sensitivity of the frequency of a mode to the stiffness and mass of each part: d ln f/d ln k and d ln f/d ln m.
 struct PartSensitivity {
   std::string part;
   double stiffness = 0.0, mass = 0.0;

@@ -1,4 +1,4 @@
-// How likely it is that what a fit leaves is noise.
+// Probability that the residuals of a fit are noise.
 #pragma once
 #include "solver/diagnosis/fit.h"
 
@@ -6,18 +6,18 @@ namespace voussoir {
 
 struct Tail {
   double probability = 1.0;
-  std::string of;  // the rows that are worst
+  std::string of;  // name of the worst rows
 };
 
-/// Probability of a misfit at least as large if the model were right and all standard deviations a tenth larger: with
-/// hundreds of rows a tenth would make noise look like an effect. Of all rows, or of the kind of rows that is worst
-/// (Bonferroni): hundreds of shape values that agree do not excuse a few frequencies that do not. The scale of each
-/// shape is free, and its phase where that is known.
+/// Probability of a misfit at least as large if the model is correct and all standard deviations are a tenth larger.
+/// (With hundreds of rows, a tenth would make noise look like an effect.) It is the smaller of the values for all rows
+/// and for the worst kind of rows (Bonferroni), so that hundreds of agreeing shape values cannot hide a few wrong
+/// frequencies. The scale of each shape is free, and also its phase if the phase is known.
 Tail tail(const DiagnosisProblem& problem, const Fit& fit);
 /// "a misfit as large has probability 0.02 (frequencies)".
 std::string misfit_text(const Tail& tail);
 
-/// Materials that the fit has pulled farther than their priors like.
+/// Materials that the fit has moved far from their usual values.
 std::vector<std::string> alarms_of(const Fit& fit);
 
 }  // namespace voussoir

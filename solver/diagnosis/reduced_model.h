@@ -1,5 +1,5 @@
-// Models that differ from one whose modes are known, in a basis of few vectors: its modes, and its static response to
-// the residual forces of these in a changed model (docs/theory/diagnosis.md).
+// Models that differ from a model with known modes, in a basis of few vectors: its modes, and its static response to
+// the residual forces of these modes in a changed model (docs/theory/diagnosis.md).
 #pragma once
 #include <memory>
 #include <mutex>
@@ -9,11 +9,11 @@
 
 namespace voussoir {
 
-/// A model whose modes and factor are known, and what each of its parts adds to K and M. Several threads may use it at
-/// once.
+/// A model with known modes and factorisation, and the contributions of its parts to K and M. Several threads may use
+/// it at the same time.
 class Origin {
  public:
-  /// Its lowest modes as response() has them. Throws InputError when nothing is held together.
+  /// Computes the lowest modes as response() does. Throws InputError if no joint holds anything.
   Origin(const Assembly& assembly, const std::vector<Sensor>& sensors, int modes, bool driven = false);
   Origin(const Origin&) = delete;
 
@@ -21,13 +21,13 @@ class Origin {
   const LinearModel& model() const { return model_; }
   const Response& response() const { return response_; }
   const Contributions& parts() const { return parts_; }
-  /// M of each mode's vector.
+  /// M times the vector of each mode.
   const Vectors& momenta() const { return momenta_; }
   /// (K − σ M)⁻¹ F over the origin's unknowns, further rows zero; σ is negligible against all eigenvalues.
   Vectors static_response(const Vectors& forces) const;
   double shift() const { return response_.shift; }  // σ
-  /// A copy of the base, to be changed by effects, for as long as it is held; once there it is used again, for the same
-  /// base, because to copy all cells of all blocks takes longer than to change them.
+  /// A copy of the base that effects may change while the pointer is held. Copies are reused for the same base because
+  /// copying all cells of all blocks takes longer than changing them.
   std::shared_ptr<Assembly> copy_of(const Assembly& base) const;
 
  private:
@@ -42,7 +42,7 @@ class Origin {
     const Assembly* base = nullptr;
     std::vector<std::unique_ptr<Assembly>> free;
   };
-  std::shared_ptr<Copies> copies_ = std::make_shared<Copies>();  // outlives the origin while one is held
+  std::shared_ptr<Copies> copies_ = std::make_shared<Copies>();  // outlives the origin while a copy is held
 };
 
 /// Modes in a basis: λ ascending; q a column a mode, qᵀ (Vᵀ M V) q = 1.

@@ -1,4 +1,4 @@
-// Rows that lie together. Not for use outside this folder.
+// Ranges of consecutive rows. Not for use outside this folder.
 #pragma once
 #include <algorithm>
 
@@ -12,7 +12,7 @@ struct RowRange {
   Eigen::Index count() const { return Eigen::Index(end - begin); }
 };
 
-/// Rows of a kind of a measured mode.
+/// The rows of one kind of a measured mode.
 inline RowRange rows_of(const std::vector<ResidualRow>& rows, int mode, ResidualRow::Kind kind) {
   const auto is = [&](const ResidualRow& row) { return row.mode == mode && row.kind == kind; };
   const auto first = std::find_if(rows.begin(), rows.end(), is);
@@ -20,7 +20,7 @@ inline RowRange rows_of(const std::vector<ResidualRow>& rows, int mode, Residual
   return {std::size_t(first - rows.begin()), std::size_t(last - rows.begin())};
 }
 
-/// Of a value per sensor those of these rows.
+/// Selects the values of these rows from one value for each sensor.
 inline Eigen::VectorXd seen(const std::vector<ResidualRow>& rows, const RowRange& range, const Eigen::VectorXd& all) {
   Eigen::VectorXd v(range.count());
   for (std::size_t i = range.begin; i < range.end; ++i) v[Eigen::Index(i - range.begin)] = all[rows[i].sensor];

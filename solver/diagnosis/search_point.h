@@ -1,4 +1,4 @@
-// What a search stands on: a fit, and the model about which candidates are tried.
+// The present point of a search: a fit, and the model about which candidates are tried.
 #pragma once
 #include <memory>
 #include <optional>
@@ -7,19 +7,20 @@
 
 namespace voussoir {
 
-/// A fit, the model it has with usual materials, about which candidates are tried, and what materials do to that.
+/// A fit, its model at usual materials, about which candidates are tried, and the derivatives of that model with
+/// respect to the materials.
 struct SearchPoint {
   Fit fit;
   std::shared_ptr<const Origin> origin;
   Vectors shared;
 };
 
-/// The model of a hypothesis at x; that of the base is there already.
+/// The model of a hypothesis at x. For the base, the existing model is used.
 std::shared_ptr<const Origin> origin_at(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
                                         const Eigen::VectorXd& x);
-/// x of a fit with its materials as the case has them.
+/// x of a fit with the materials of the case.
 Eigen::VectorXd at_usual_materials(const Fit& fit);
-/// What the materials of a hypothesis do to the responses of the model at x.
+/// Derivatives of the responses of the model at x with respect to the materials of a hypothesis.
 Vectors shared_by_fits(const DiagnosisProblem& problem, const Origin& origin, const Hypothesis& hypothesis,
                        const Eigen::VectorXd& x);
 
@@ -27,11 +28,11 @@ Hypothesis without(Hypothesis hypothesis, std::size_t effect);
 /// x of a fit without the parameters of one of its effects.
 Eigen::VectorXd without(const Fit& fit, std::size_t effect);
 
-/// A fit from x about the model there; nothing where that is no bridge that stands, or the fit does not converge.
+/// A fit from x about the model at x. Empty if that model is not a valid bridge or the fit does not converge.
 std::optional<Fit> fit_if_possible(const DiagnosisProblem& problem, const Hypothesis& hypothesis,
                                    const Eigen::VectorXd& x, int iterations);
 
-/// The fit of a trial, its model, and what the mesh and all that is not exactly known do to that.
+/// Takes over a trial: its fit, its model, and the effects of mesh and nuisances on that model.
 SearchPoint adopt(DiagnosisProblem& problem, const DiagnosisSettings& settings, const Trial& trial,
                   const SearchPoint& before);
 

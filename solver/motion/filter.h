@@ -1,4 +1,4 @@
-// What is done to accelerograms before they shake something: taper, band-pass, resampling.
+// Processing of accelerograms: taper, band-pass, resampling.
 #pragma once
 #include <vector>
 
@@ -6,26 +6,26 @@
 
 namespace voussoir {
 
-/// Half a cosine at both ends, each over this share (0 to 0.5) of the samples.
+/// Applies half a cosine at both ends, each over this share (0 to 0.5) of the samples.
 void taper(std::vector<double>& values, double share);
 
-/// Butterworth filter of order `order`, run forward and backward: no phase, amplitudes
-/// 1/(1 + (f_low/f)^2n) · 1/(1 + (f/f_high)^2n) (half at each corner). A corner of 0 leaves that side open. The record
-/// is continued with zeros for 1.5 n / f_low s at both ends (after Converse & Brady 1992), of which nothing is
-/// returned. Throws InputError for corners out of order or above 1/(2 dt).
+/// Butterworth filter of order `order`, run forward and backward: no phase, amplitudes 1/(1 + (f_low/f)^2n) · 1/(1 +
+/// (f/f_high)^2n) (half at each corner). A corner frequency of 0 means no filter on that side. The record is extended
+/// with zeros for 1.5 n / f_low s at both ends (after Converse & Brady 1992), which are not returned. Throws InputError
+/// for corner frequencies in the wrong order or above 1/(2 dt).
 std::vector<double> band_pass(const std::vector<double>& values, double dt, double f_low, double f_high, int order = 4);
 
-/// The same curve at another step (s). To smaller steps linear between the samples, as the motion is everywhere in the
-/// program; to larger ones after a low-pass at 0.4 of the new sampling rate, so that nothing is folded back.
+/// The same curve with another time step (s). For a smaller time step it is linear between the samples, as everywhere
+/// in the program. For a larger one a low-pass at 0.4 of the new sampling rate is applied first to prevent aliasing.
 std::vector<double> resample(const std::vector<double>& values, double dt, double new_dt);
 
-/// What a user asks for, in this order: taper, band-pass, baseline, resampling.
+/// Processing options in the order of application: taper, band-pass, baseline, resampling.
 struct MotionProcessing {
   double taper = 0.0;            // share at each end
-  double low = 0.0, high = 0.0;  // Hz; 0: open
+  double low = 0.0, high = 0.0;  // Hz; 0: no filter on this side
   int order = 4;
   bool baseline = false;
-  double dt = 0.0;  // s; 0: as it is
+  double dt = 0.0;  // s; 0: unchanged
   bool operator==(const MotionProcessing&) const = default;
 };
 GroundMotion process(const GroundMotion& motion, const MotionProcessing& asked);

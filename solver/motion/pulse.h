@@ -1,4 +1,4 @@
-// Elementary pulses of base acceleration: the motions with known answers that verification rests on.
+// Elementary pulses of base acceleration, which have known solutions for verification.
 #pragma once
 #include <string>
 #include <vector>
@@ -26,9 +26,9 @@ double pulse_length(const PulseSettings& pulse);
 /// Frequency in Hz: as given, else one wave (sine) or half a wave (half_sine) in the length; 0 for rectangular.
 double pulse_frequency(const PulseSettings& pulse);
 
-/// The pulse on a uniform grid that holds its beginning and end; `start` is moved to the nearest grid point, at most
-/// length/2000. At a jump the sample is the mean of both sides, so that the area of the sampled rectangular pulse is
-/// exactly amplitude × length. Throws InputError when the pulse is not defined (see pulse_length).
+/// The pulse on a uniform grid that contains its beginning and end. `start` is moved to the nearest grid point, by at
+/// most length/2000. At a jump the sample is the mean of both sides, so that the area of the sampled rectangular pulse
+/// is exactly amplitude × length. Throws InputError if the pulse is not defined (see pulse_length).
 GroundMotion make_pulse(const PulseSettings& pulse);
 
 }  // namespace voussoir

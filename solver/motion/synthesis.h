@@ -17,10 +17,11 @@ struct SyntheticSettings {
   std::array<bool, 3> axes = {true, false, false};  // x, y, z: independent noise in each
   double frequency = 2.5;                           // Hz, of the ground filter (firm soil)
   double bandwidth = 0.6;                           // damping ratio of the ground filter
-  double rise = 0.15;                               // share of the duration until full strength
-  double strong = 0.55;                             // share of the duration until decay begins
+  double rise = 0.15;                               // share of the duration at which the strong phase begins
+  double strong = 0.55;                             // share of the duration at which the decay begins
   double dt = 0.005;                                // s
-  /// Instead of `peak`: each axis has this response spectrum, z the vertical one. The filter then only begins it.
+  /// Instead of `peak`: each axis has this response spectrum, and z the vertical one. The filter then only gives the
+  /// start values.
   std::optional<TargetSpectrum> spectrum = std::nullopt;
   bool operator==(const SyntheticSettings&) const = default;
 };
@@ -35,14 +36,14 @@ double ground_spectrum(double omega, double ground_omega, double ground_damping)
 double jennings_envelope(double t, double rise, double strong, double duration);
 
 /// Throws InputError when peak, duration, frequency, bandwidth or dt is not positive, no axis is chosen, or there would
-/// be more than a million samples: all that can be wrong with a synthetic motion, without making it.
+/// be more than a million samples. These are all possible errors of a synthetic motion; the motion is not made.
 void check_synthetic(const SyntheticSettings& settings);
 
 /// Sum of cosines with Gaussian coefficients, enveloped, baseline-corrected (zero velocity at the end) and scaled to
-/// the peak. The random numbers are the program's own, so a seed means the same motion anywhere. With a spectrum the
-/// amplitudes of its Fourier components are multiplied by target over response at their periods, again and again, and
-/// their phases kept (Gasparini & Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Costs n log n.
-/// Throws InputError as check_synthetic() does.
+/// the peak. The program has its own random number generator, so a seed gives the same motion on every machine. With a
+/// spectrum, the amplitudes of the Fourier components are repeatedly multiplied by target over response at their
+/// periods, with constant phases (Gasparini & Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Costs
+/// n log n. Throws InputError as check_synthetic() does.
 GroundMotion synthesize(const SyntheticSettings& settings);
 
 }  // namespace voussoir
