@@ -1,4 +1,4 @@
-// Parts of a bridge by name, and what effects do with them. For effects and the diagnosis.
+// Named parts of a bridge, and functions that change them. For effects and the diagnosis.
 #pragma once
 #include <functional>
 #include <set>
@@ -17,9 +17,9 @@ inline BlockSet component(const Assembly& assembly, Component c) {
   return blocks_where(assembly, [c](const Block& b) { return b.component == c; });
 }
 
-/// Masonry parts that can be softer or stiffer than thought: "arch 0" …, "pier 0" …, "abutment left", "abutment right",
+/// Masonry parts that can be softer or stiffer than assumed: "arch 0" …, "pier 0" …, "abutment left", "abutment right",
 /// "spandrel y-", "spandrel y+", "backing"; "arches", "piers", "abutments", "spandrels" where there is more than one;
-/// "all". Only those the assembly has.
+/// "all". Only those that exist in the assembly.
 std::vector<std::string> masonry_parts(const Assembly& assembly);
 /// The blocks of one of them; the infill of a pier or abutment belongs to it.
 BlockSet masonry_part(const Assembly& assembly, const std::string& name);
@@ -27,11 +27,11 @@ BlockSet masonry_part(const Assembly& assembly, const std::string& name);
 /// The part of the bridge that each block belongs to.
 std::vector<std::string> parts_of_blocks(const Assembly& assembly);
 
-/// Supports that have a base: "abutment left", "pier 0", …: the groups "base …".
+/// Supports with a base: "abutment left", "pier 0", …. Their bases are the groups "base …".
 std::vector<std::string> supports(const Assembly& assembly);
 std::int64_t base_of(const Assembly& assembly, const std::string& support);
 
-/// "left", "right", "both": ends whose faces are free.
+/// Ends with free faces: "left", "right", "both".
 std::vector<std::string> free_ends(const Assembly& assembly);
 /// An outer face of a block in the plane of an end.
 struct EndFace {
@@ -39,7 +39,7 @@ struct EndFace {
   std::int32_t cell = 0, face = 0;
   Polygon polygon;  // counter-clockwise seen from outside
 };
-/// The faces of one end ("left": least x): of all blocks but parapets and fixed ones.
+/// The faces of one end ("left": least x) of all blocks except parapets and fixed blocks.
 std::vector<EndFace> end_faces(const Assembly& assembly, bool left);
 Box box_of(const std::vector<EndFace>& faces);
 /// "both" is left and right.
@@ -47,10 +47,10 @@ inline bool acts_at(const std::string& where, bool left) {
   return where == "both" || where == (left ? "left" : "right");
 }
 
-/// {"all"} where the assembly has such blocks, else nothing.
+/// {"all"} if the assembly has such blocks, else empty.
 std::vector<std::string> all_if_any(const Assembly& assembly, Component c);
 
-/// Whether it is a bar, not a joint of masonry.
+/// Whether the joint is a bar and not a masonry joint.
 inline bool is_tie(const Assembly& assembly, const Joint& joint) {
   return assembly.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie;
 }
@@ -58,24 +58,24 @@ inline bool is_tie(const Assembly& assembly, const Joint& joint) {
 /// Multiplies kn and ks of the joints inside a set of blocks, or between two.
 void scale_inside(Assembly& assembly, const BlockSet& part, double factor);
 void scale_between(Assembly& assembly, const BlockSet& one, const BlockSet& other, double factor);
-/// Joints that are `chosen` become at least as strong as this (Pa) and stiffer by a factor; those without limits, and
-/// ties, stay as they are.
+/// Raises the strength of the `chosen` joints to at least these values (Pa) and multiplies their stiffness by a factor.
+/// Joints without strength limits, and ties, are unchanged.
 void strengthen(Assembly& assembly, const std::function<bool(const Joint&)>& chosen, double tension, double cohesion,
                 double factor);
 
-/// Multiplies the density of blocks. Materials that others have too are split.
+/// Multiplies the density of blocks. Materials that other blocks also use are split.
 void scale_density(Assembly& assembly, const BlockSet& part, double factor);
-/// Whether there is backfill, of blocks or as a continuum: {"all"}, else nothing.
+/// {"all"} if there is backfill, of blocks or deformable, else empty.
 std::vector<std::string> all_if_filled(const Assembly& assembly);
-/// Multiplies moduli and density of the deformable fill. Materials that blocks have too are split.
+/// Multiplies moduli and density of the deformable fill. Materials that blocks also use are split.
 void scale_fill(Assembly& assembly, double stiffness, double density);
-/// Multiplies kn and ks of the fill's patches with these blocks.
+/// Multiplies kn and ks of the patches between the fill and these blocks.
 void scale_patches(Assembly& assembly, const BlockSet& part, double factor);
-/// scale_inside() a masonry part by the first of an effect's values: what several effects do.
+/// Calls scale_inside() for a masonry part with the first value of an effect. Several effects use it.
 void scale_masonry_part(Assembly& assembly, const std::string& where, const std::vector<double>& values);
 
-/// Stiffness and law of the joints of this component whose normals are along x: mean over their area; of all masonry
-/// where it has none.
+/// Mean stiffness over the area, and law, of the joints of this component with normals along x. If it has none, those
+/// of all masonry.
 struct Neighbourhood {
   double kn = 0.0, ks = 0.0;  // Pa/m
   std::int32_t law = 0;
@@ -89,8 +89,8 @@ std::int64_t add_box_block(Assembly& assembly, const Vec3& low, const Vec3& high
 /// b. Valid until the next one is added.
 Joint& add_joint(Assembly& assembly, std::int64_t a, std::int64_t b, const Polygon& polygon, const Vec3& normal,
                  double kn, double ks, std::int32_t law);
-/// Joins the faces of an end to a block that stands against them, with a share of the stiffness that the joints of each
-/// face's component have lengthways, but at most `most` (Pa/m), and their law.
+/// Adds joints between the faces of an end and a block in contact with them. Each joint has the law and a share of the
+/// longitudinal stiffness of the joints of the component of its face, but at most `most` (Pa/m).
 void join_end(Assembly& assembly, const std::vector<EndFace>& faces, std::int64_t block, double share,
               double most = 1e300);
 std::int32_t elastic_law_index(Assembly& assembly);

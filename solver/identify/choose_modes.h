@@ -1,4 +1,4 @@
-// Modes that models of all orders have in common.
+// Selects the modes that appear in models of many orders.
 #pragma once
 #include <functional>
 
@@ -12,12 +12,13 @@ struct Models {
   std::function<std::vector<Pole>(int order)> poles;  // ascending in frequency, shapes over the channels in use
 };
 
-/// Data that models can be made of, also without a part of them.
+/// Data for the models. A part of the data can be left out.
 struct ModelSource {
-  SsiSettings settings;                                             // with what was chosen for zeros
-  int segments = 0;                                                 // that the recordings are cut into
-  std::function<Models(const std::vector<bool>& left_out)> models;  // per segment; empty: none is left out
-  std::function<void(IdentifiedMode&)> listen;                      // finds kurtosis and stops: is it a machine?
+  SsiSettings settings;                                             // with the values chosen for settings of 0
+  int segments = 0;                                                 // number of segments of the recordings
+  std::function<Models(const std::vector<bool>& left_out)> models;  // for each segment; empty: none is left out
+  std::function<void(IdentifiedMode&)> listen;                      // computes kurtosis and stops, to recognise
+                                                                    // machines
 };
 
 /// Fills `poles`, `modes` and `set_aside` of the result; shapes are over the channels in use.

@@ -1,4 +1,4 @@
-// Whether a signal about a frequency is a machine's or a structure's.
+// Decides whether the signal at a frequency comes from a machine or from the structure.
 #pragma once
 #include <Eigen/Dense>
 #include <vector>
@@ -6,32 +6,32 @@
 namespace voussoir {
 
 struct Narrowband {
-  double kurtosis = 3.0;     // 3 of narrow-band Gaussian noise, 1.5 of a harmonic
-  double independent = 0.0;  // envelopes that it was found from
+  double kurtosis = 3.0;     // 3 for narrow-band Gaussian noise, 1.5 for a harmonic
+  double independent = 0.0;  // number of independent envelopes
 };
 
-/// Kurtosis of the signals (samples × channels, a matrix a recording) filtered about `frequency` (Hz), projected on the
-/// shape `along` (per channel). `damping` tells how long a mode of that frequency remembers.
+/// Kurtosis of the signals (samples × channels, one matrix for each recording), filtered about `frequency` (Hz) and
+/// projected on the shape `along` (for each channel). `damping` gives the correlation time of a mode at this frequency.
 Narrowband narrowband_kurtosis(const std::vector<Eigen::MatrixXd>& signals, double dt, double frequency, double damping,
                                const Eigen::VectorXcd& along);
 
-/// Jacobsen, Andersen & Brincker (2007): a kurtosis near 1.5. Where too few envelopes were seen to tell, only a damping
-/// next to nothing.
+/// Jacobsen, Andersen & Brincker (2007): a kurtosis near 1.5. With too few envelopes for a decision, only a damping
+/// ratio near zero counts.
 bool is_harmonic(const Narrowband& band, double damping);
 
-/// How the motion at a frequency ends.
+/// Ends of the motion at a frequency.
 struct Stops {
-  int count = 0;       // times at which it stopped faster than its damping lets a structure ring down
-  double share = 0.0;  // of the energy it lost, that it lost then
+  int count = 0;       // number of times at which it stopped faster than free vibration with its damping ratio decays
+  double share = 0.0;  // share of the lost energy that was lost in these stops
 };
 
-/// A structure that is left alone rings down by its damping; a machine that is switched off is still at once. The
-/// envelope of the signals, filtered and projected as above, is compared with what the damping leaves of it a few
+/// The free vibration of a structure decays with its damping ratio; a machine that is switched off stops immediately.
+/// The envelope of the signals, filtered and projected as above, is compared with the decay by the damping ratio a few
 /// windows later.
 Stops fast_stops(const std::vector<Eigen::MatrixXd>& signals, double dt, double frequency, double damping,
                  const Eigen::VectorXcd& along);
 
-/// A machine that runs now and then: most of what goes, goes in such stops.
+/// Whether it is an intermittent machine: most of the energy is lost in such stops.
 bool is_intermittent(const Stops& stops);
 
 }  // namespace voussoir

@@ -1,14 +1,14 @@
-// Recordings of one setup, ready for subspace identification. Private to solver/identify.
+// Prepared recordings of one setup for subspace identification. Private to solver/identify.
 #pragma once
 #include "solver/identify/ssi.h"
 
 namespace voussoir {
 
-/// All that the models of one set of recordings share.
+/// Common data of the models of one set of recordings.
 struct SsiProblem {
   Prepared prepared;
   std::vector<int> references;  // columns of the signals
-  Eigen::VectorXd scale;        // m/s2 per channel in use: the signals are divided by it
+  Eigen::VectorXd scale;        // m/s2 for each used channel: the signals are divided by it
   LaggedProducts products;
   CanonicalWeights weights;
   SsiSettings settings;
@@ -16,20 +16,21 @@ struct SsiProblem {
   Subspace subspace(const std::vector<bool>& left_out = {}) const;
 };
 
-/// Throws InputError as identify_modes() does.
+/// Throws InputError as identify_modes().
 SsiProblem set_up(const std::vector<Recording>& recordings, const SsiSettings& settings);
 
-/// Half a period of the lowest frequency (Reynders & De Roeck 2008), enough for an order with so many references, and
-/// no more than is quick for Hankel matrices of `rows` channels and `columns` references.
+/// Default number of block rows: half a period of the lowest frequency (Reynders & De Roeck 2008), enough for the order
+/// with this number of references, and limited so that Hankel matrices of `rows` channels and `columns` references are
+/// fast.
 int usual_block_rows(const SsiSettings& settings, double dt, int references, int rows, int columns);
 
-/// That recordings of this length allow.
+/// Largest number of block rows for the length of these recordings.
 int most_block_rows(const Prepared& prepared);
 
-/// What a result says of its recordings, without modes.
+/// The result for the recordings, without modes.
 SsiResult described(const SsiProblem& problem);
 
-/// Kurtosis and stops of a mode with a shape over the channels in use.
+/// Computes kurtosis and stops of a mode with a shape over the used channels.
 void listen(const Prepared& prepared, IdentifiedMode& mode);
 
 }  // namespace voussoir

@@ -7,24 +7,24 @@
 
 namespace voussoir {
 
-/// Sums of products of the signals with those of the reference channels, by segment of the recordings.
+/// Sums of products of the signals with those of the reference channels, for each segment of the recordings.
 struct LaggedProducts {
   int lags = 0;
-  std::vector<double> samples;  // per segment: products in each sum
+  std::vector<double> samples;  // for each segment: number of products in each sum
   std::vector<Eigen::MatrixXd>
       sums;  // per segment: block row k − 1 is Σ y(t + k) yref(t)ᵀ; (lags · channels) × references
 };
 
-/// The signals (samples × channels, a matrix a recording) are cut into about `segments` parts of like length, at least
-/// one a recording; recordings not longer than the lags give none.
+/// The signals (samples × channels, one matrix for each recording) are divided into about `segments` parts of similar
+/// length, at least one for each recording. Recordings that are not longer than the lags give none.
 LaggedProducts lagged_products(const std::vector<Eigen::MatrixXd>& signals, const std::vector<int>& references,
                                int lags, int segments);
 
-/// Covariances over all segments but those left out (per segment; empty: none is).
+/// Covariances over all segments except those left out (one flag for each segment; empty: none).
 Eigen::MatrixXd covariances(const LaggedProducts& products, const std::vector<bool>& left_out = {});
 
 /// Canonical weights: Cholesky factors (lower) of the covariance of block_rows successive samples of all channels, and
-/// of the references, each with a thousandth added to the diagonal.
+/// of the references, each with 0.001 added to the diagonal.
 struct CanonicalWeights {
   Eigen::MatrixXd future, past;
 };
@@ -35,8 +35,8 @@ CanonicalWeights canonical_weights(const std::vector<Eigen::MatrixXd>& signals, 
 struct Pole {
   int order = 0;                  // of the model
   std::complex<double> lambda;    // 1/s, imaginary part above 0
-  Eigen::VectorXcd shape;         // per channel in use, the largest component 1
-  bool stable_frequency = false;  // against the nearest pole of the order before
+  Eigen::VectorXcd shape;         // for each used channel, largest component 1
+  bool stable_frequency = false;  // relative to the nearest pole of the previous order
   bool stable_damping = false;
   bool stable_shape = false;
   double frequency() const;  // Hz, |λ| / 2π
@@ -45,8 +45,8 @@ struct Pole {
 };
 
 /// Poles of the system whose observability matrix has the block rows C Aⁱ of `channels` channels: A from `transition`
-/// (order × order), C its first block row. Those with an imaginary part above 0 and up to `highest` (Hz), ascending in
-/// frequency; shapes are multiplied by `scale` (per channel).
+/// (order × order), C its first block row. Returns the poles with an imaginary part above 0 and up to `highest` (Hz),
+/// ascending in frequency. Shapes are multiplied by `scale` (for each channel).
 std::vector<Pole> poles_of(const Eigen::MatrixXd& transition, const Eigen::MatrixXd& first, double dt, double highest,
                            const Eigen::VectorXd& scale);
 
@@ -56,11 +56,11 @@ Eigen::MatrixXd hankel(const Eigen::MatrixXd& covariances, int channels, int blo
 /// The column space of the weighted block Hankel matrix of covariances; poles at any even order up to the largest.
 class Subspace {
  public:
-  /// `covariances` as above with 2 `block_rows` − 1 lags or more of `channels` channels.
+  /// `covariances` as above with at least 2 `block_rows` − 1 lags of `channels` channels.
   Subspace(const Eigen::MatrixXd& covariances, const CanonicalWeights& weights, int channels, int block_rows,
            int largest_order);
-  /// Those with an imaginary part above 0 and up to `highest` (Hz), ascending in frequency. Shapes are multiplied by
-  /// `scale` (per channel).
+  /// The poles with an imaginary part above 0 and up to `highest` (Hz), ascending in frequency. Shapes are multiplied
+  /// by `scale` (for each channel).
   std::vector<Pole> poles(int order, double dt, double highest, const Eigen::VectorXd& scale) const;
   int largest_order() const { return int(shifted_.cols()); }
 
@@ -76,13 +76,13 @@ double assurance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b);
 /// |λ_a − λ_b| / max(|λ_a|, |λ_b|) + 1 − MAC (Reynders, Houbrechts & De Roeck 2012).
 double distance(const Pole& a, const Pole& b);
 
-/// The one nearest to `pole`, −1 when there is none.
+/// Index of the pole nearest to `pole`, or −1 if there is none.
 int nearest(const std::vector<Pole>& poles, const Pole& pole);
 
-/// The one with the least sum of distances to the others, −1 when there is none.
+/// Index of the pole with the least sum of distances to the others, or −1 if there is none.
 int medoid(const std::vector<Pole>& poles);
 
-/// Times a number that makes the largest component 1.
+/// Scales a shape so that its largest component is 1.
 void normalise(Eigen::VectorXcd& shape);
 
 }  // namespace voussoir
