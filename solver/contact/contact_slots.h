@@ -1,5 +1,5 @@
-// Where contacts live in the state: slots, eight to a batch, a batch of one tile and of contacts with about as many
-// points. Contacts come and go without any other being moved.
+// Slots for contacts in the state. Eight slots form a batch, which belongs to one tile and to contacts with a similar
+// number of points. Contacts are added and removed without moving other contacts.
 #pragma once
 #include <map>
 
@@ -7,14 +7,14 @@
 
 namespace voussoir {
 
-/// Gives contacts their slots; made anew for every search, so that the slots depend on the state alone.
+/// Assigns slots to contacts. It is created for every search, so that the slots depend only on the state.
 class ContactSlots {
  public:
   ContactSlots(const Model& model, State& state, const Branches& branches)
       : model_(model), state_(state), branches_(branches.count) {}
-  /// Returns the slot: the lowest that is free and fits, or the first of a new batch.
+  /// Returns the lowest free slot that fits, or the first of a new batch.
   std::size_t add(const NewContact& contact);
-  /// What it has lost goes to the common account of contacts that are gone.
+  /// Adds its dissipated energy to the sum for removed contacts.
   void remove(std::size_t slot);
 
  private:

@@ -1,17 +1,18 @@
-// Whether two stones that touch along an edge are held there by others: then the edge has nothing to carry.
+// Decides whether two stones that touch along an edge are held there by other stones. The edge then carries no force.
 #pragma once
 #include "solver/model/state.h"
 
 namespace voussoir {
 
-/// The joints of each body, both ways; ties are none.
+/// The joints of each body, in both directions, without ties.
 class JointsOfBodies {
  public:
   explicit JointsOfBodies(const Model& model);
 
-  /// Whether a living joint of the two bodies, or a joint of each of them with some other, ends within `reach` (m) of a
-  /// place where they stand now, all of them being about it as they were built. In masonry nearly every edge beside an
-  /// edge and every corner at a corner is such a place: the stones of a bond fill the space around it.
+  /// Whether an active joint of the two bodies, or a joint of each of them with another body, ends within `reach` (m)
+  /// of the present contact position, with all of these bodies near their positions as built. In masonry this holds for
+  /// nearly every edge next to an edge and every corner at a corner, because the stones of a bond fill the space around
+  /// it.
   bool enclose(const State& state, const CellPair& cells, const Vec3& place, double reach) const;
 
  private:

@@ -1,24 +1,24 @@
-// Patches that are computed alike share batches. Eight patches side by side cost what the dearest of them costs: one
-// that goes point by point takes seven others with it. As damage spreads the joints and the contacts of a tile are
-// therefore put in a new order now and then: intact ones first, then those wholly open, those that go point by point,
-// and what is gone.
+// Groups patches that are computed in the same way into batches. Eight patches side by side cost as much as the most
+// expensive of them, so one patch that is evaluated point by point slows down seven others. As damage spreads, the
+// joints and contacts of a tile are therefore reordered from time to time: intact patches first, then wholly open ones,
+// then those evaluated point by point, then removed ones.
 #pragma once
 #include "solver/model/state.h"
 
 namespace voussoir {
 
-/// Steps that must have passed since patches were last grouped.
+/// Least number of time steps between groupings.
 constexpr std::int64_t grouping_interval = 128;
 
-/// Groups the patches of every tile in which that saves something worth having; depends on the state alone. Places in
-/// Model::joints and slots of contacts change, and with them the order in which wrenches are added up: call
+/// Groups the patches of every tile in which the saving is sufficient. The result depends only on the state. Positions
+/// in Model::joints and slots of contacts change, and with them the order in which wrenches are summed: call
 /// Stepper::prepare_contacts() afterwards.
 void group_patches(Model& model, State& state, int threads);
 
-/// Puts the joints of a model as it was built, or of one in any other order, into that of a state that has been read.
-/// Throws InputError where that is no order of these joints.
+/// Reorders the joints of a model to the order of a state from a file. Throws InputError if that is not a valid order
+/// of these joints.
 void take_joint_order(Model& model, const State& state);
-/// Gives the model's joints the jumps at which the state has them free of stress.
+/// Copies the stress-free jumps of the state to the joints of the model.
 void take_built(Model& model, const State& state);
 
 }  // namespace voussoir

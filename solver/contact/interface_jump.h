@@ -1,4 +1,4 @@
-// Where the corners of a patch with the fill are, seen from the stone.
+// Positions of the corners of a patch with the fill, relative to the stone.
 #pragma once
 #include <array>
 
@@ -8,10 +8,10 @@ namespace voussoir {
 
 struct InterfaceJump {
   Mat3 axes = Mat3::Identity();   // n, s, t as columns, world axes
-  Vec3 origin = Vec3::Zero();     // m, of the patch's axes, world
+  Vec3 origin = Vec3::Zero();     // m, origin of the axes of the patch, world
   Vec3 centroid = Vec3::Zero();   // m, of the stone, world
-  std::array<Vec3, 3> at, moved;  // m: the triangle's corners, world; what they have moved in the patch's axes
-  /// The jump at (s, t), given the patch's shape functions.
+  std::array<Vec3, 3> at, moved;  // m: corners of the triangle, world; their displacements in the axes of the patch
+  /// The jump at (s, t), from the shape functions of the patch.
   Vec3 point(const Mat3& shape, double s, double t) const {
     const Vec3 n = shape * Vec3(1.0, s, t);
     return n[0] * moved[0] + n[1] * moved[1] + n[2] * moved[2];
@@ -20,11 +20,11 @@ struct InterfaceJump {
 
 InterfaceJump interface_jump(const Model& model, const State& state, const InterfacePatch& patch);
 
-/// Elastic jump at point `i` of the patch in a slot, m; zero where it is open. Shear past the cone is cut back to it,
-/// as the next pass will do.
+/// Elastic jump at point `i` of the patch in a slot, m; zero if it is open. Shear beyond the cone is reduced to it, as
+/// in the next pass.
 Vec3 elastic_point(const Model& model, const State& state, std::size_t slot, const InterfaceJump& jump,
                    const Mat3& shape, std::size_t i);
-/// Elastic energy of the patch in a slot, J, of those jumps.
+/// Elastic energy of these jumps for the patch in a slot, J.
 double interface_energy(const Model& model, const State& state, std::size_t slot);
 
 }  // namespace voussoir

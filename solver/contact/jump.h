@@ -1,5 +1,5 @@
-// The displacement jump of a patch from the present placements of its two bodies: exact at any rotation, no
-// trigonometry.
+// The displacement jump of a patch from the present placements of its two bodies. It is exact for any rotation and
+// needs no trigonometric functions.
 //
 //   δ(r) = δc + θ' × Q r,  θ' = 2 vec(q_b q_a⁻¹),  Q = (q_a + q_b)/|q_a + q_b|
 //
@@ -11,15 +11,15 @@
 
 namespace voussoir {
 
-/// Jump of a patch in its own turning axes (n, s, t), m and rad (twice the sine of half the angle).
+/// Jump of a patch in its rotating axes (n, s, t), m and rad (twice the sine of half the angle).
 template <class T>
 struct Jump {
   T n, s, t;        // δc
   T rn, rs, rt;     // θ'
   T cosine;         // of half the relative rotation
   T share;          // 1/(4 (1 + cosine))
-  Axes<T> axes;     // n, s, t in the world
-  Triple<T> place;  // midway between the two material points at the patch's centroid, m
+  Axes<T> axes;     // n, s, t in world axes
+  Triple<T> place;  // midpoint between the two material points at the centroid of the patch, m
 };
 
 /// `way` from the material point of a at the centroid to that of b, `moves` the sum of what both have moved (m);
@@ -57,17 +57,17 @@ inline Quat<double> conjugate(const Quat<double>& q) {
 }
 
 /// The jump of a tie: a bar of length L, hinged at its anchors a and b, with s, t and rotations zero and n the negative
-/// of its stretch, n = L − |x_b − x_a|, along the axis from b to a. So it is pressed when it pulls.
+/// of its stretch, n = L − |x_b − x_a|, along the axis from b to a. A tie in tension therefore counts as compressed.
 Jump<double> tie_jump(const Patch& patch, const Triple<double>& move_a, const Triple<double>& move_b);
 
-/// Since the joint was made, if its stones had moved before (docs/theory/construction.md).
+/// The jump since the joint was made, if its stones had moved before (docs/theory/construction.md).
 inline Jump<double> since_built(const Patch& patch, Jump<double> j) {
   j.n -= patch.built[0], j.s -= patch.built[1], j.t -= patch.built[2];
   j.rn -= patch.built[3], j.rs -= patch.built[4], j.rt -= patch.built[5];
   return j;
 }
 
-/// The jump of any patch, from its bodies' poses.
+/// The jump of any patch, from the poses of its bodies.
 inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const double* pose_b) {
   const Quat<double> qa = pose_rotation(pose_a), qb = pose_rotation(pose_b);
   const Quat<double> fa = qa * quat(patch.e_a);
@@ -84,7 +84,7 @@ inline Jump<double> patch_jump(const Patch& patch, const double* pose_a, const d
       patch, local_jump(shift + (move_b - move_a), shift + (move_a + move_b), triple(patch.place), relative, sum));
 }
 
-/// The turning axes n, s, t as columns.
+/// The rotating axes n, s, t as columns.
 inline Mat3 axes_matrix(const Jump<double>& j) {
   Mat3 m;
   m << j.axes.x.x, j.axes.y.x, j.axes.z.x, j.axes.x.y, j.axes.y.y, j.axes.z.y, j.axes.x.z, j.axes.y.z, j.axes.z.z;
@@ -97,7 +97,7 @@ inline Triple<double> point_jump(const Patch& patch, const Jump<double>& j, doub
   return {j.n + patch.gap[0] + rs * t - rt * s, j.s - j.rn * t, j.t + j.rn * s};
 }
 
-/// The same less the plastic jump of point i.
+/// The same minus the plastic jump of point i.
 inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, const PatchPoint& at,
                                    const PatchMemory& memory, int i) {
   const Triple<double> u = point_jump(patch, j, at.s, at.t);
@@ -105,7 +105,7 @@ inline Triple<double> elastic_jump(const Patch& patch, const Jump<double>& j, co
           u.z - memory.point[point_index(patch, i, 2, 1)]};
 }
 
-/// What is left of the stiffness of point i.
+/// Remaining share of the stiffness of point i.
 inline double kept_at(const LawConstants& law, const Patch& patch, const PatchMemory& memory, int i) {
   return memory.point_crush.empty() ? 1.0
                                     : kept_stiffness(law, patch.kn, memory.point_crush[point_index(patch, i, 3, 0)]);

@@ -1,4 +1,5 @@
-// What every kernel of eight patches side by side needs: poses in, wrenches out, and how far patches have slid.
+// Common functions of the kernels for eight patches side by side: input of poses, output of wrenches, and slip of
+// patches.
 #pragma once
 #include "solver/base/lane_sides.h"
 #include "solver/contact/jump.h"
@@ -17,7 +18,7 @@ struct PosesOf {
 };
 using LanePoses = PosesOf<Lanes>;
 
-/// `places`: where the eight poses begin.
+/// `places` are the indices at which the eight poses begin.
 template <class Side = WholeSide>
 [[gnu::always_inline]] inline PosesOf<typename Side::Numbers> gather(const double* pose, const std::int32_t* places) {
   Lanes record[Side::lanes];
@@ -28,19 +29,19 @@ template <class Side = WholeSide>
   return {{r[0], r[1], r[2]}, {r[3], {r[4], r[5], r[6]}}};
 }
 
-/// Asks for eight poses, see fetch().
+/// Prefetches eight poses, see fetch().
 [[gnu::always_inline]] inline void fetch_poses(const double* pose, const std::int32_t* places) {
   for (int lane = 0; lane < lane_count; ++lane) fetch(pose + places[lane], pose_width * sizeof(double));
 }
 
-/// Asks for one of so many parts of a record, see fetch().
+/// Prefetches one of several parts of a record, see fetch().
 template <std::size_t parts, class Record>
 [[gnu::always_inline]] inline void fetch_part(const Record& record, std::size_t part) {
   constexpr std::size_t size = (sizeof(Record) / cache_line + parts - 1) / parts * cache_line;
   fetch(reinterpret_cast<const char*>(&record) + part * size, size);
 }
 
-/// Wrenches of a side's patches as rows of wrench_width numbers.
+/// Wrenches of the patches of a side as rows of wrench_width numbers.
 template <class Side = WholeSide>
 struct WrenchRows {
   using L = typename Side::Numbers;
@@ -55,8 +56,8 @@ struct WrenchRows {
   std::memcpy(rows, wrenches.row, sizeof(wrenches.row));
 }
 
-/// Puts `j` in the place of the last jump and returns how it has changed, of jumps rounded to single precision, so that
-/// the changes add up to the jump; only lanes of `noted` are written.
+/// Replaces the last jump by `j` and returns the change. Both are rounded to single precision, so that the changes add
+/// up to the jump. Only lanes of `noted` are written.
 template <class Side>
 [[gnu::always_inline]] inline void note_change(const Jump<typename Side::Numbers>& j, auto noted, Singles* last,
                                                typename Side::Numbers* change) {
@@ -81,7 +82,7 @@ struct SlidingLimits {
   }
 };
 
-/// Lanes that have slid or turned past their limits.
+/// Lanes whose slip or rotation exceeds its limit.
 template <class Side = WholeSide>
 [[gnu::always_inline]] inline auto past_limits(const SlidingLimits& limits, typename Side::Numbers area,
                                                const Jump<typename Side::Numbers>& j) {

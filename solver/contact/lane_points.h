@@ -1,4 +1,4 @@
-// The point-by-point path of eight patches side by side: joints, contacts, and patches with the fill.
+// Evaluation point by point of eight patches side by side: joints, contacts, and patches with the fill.
 #pragma once
 #include "solver/contact/lane_patches.h"
 #include "solver/contact/patch_kernel.h"
@@ -6,8 +6,7 @@
 
 namespace voussoir {
 
-/// Strengths of eight patches: of the bond, whose tension ends at the apex of its cone, and of what is left when it is
-/// lost.
+/// Strengths of eight patches: with bond, where tension ends at the apex of the cone, and without bond.
 struct LaneStrength {
   Lanes tension, cohesion, tangent, residual_cohesion, residual_tangent, dilation;
   LaneMask brittle;
@@ -33,7 +32,8 @@ struct LaneStrength {
 [[gnu::noinline]] inline LaneStrength mixed_strengths(const Model& model, const PatchBatch& batch) {
   LaneStrength s = strength_of(model.laws[std::size_t(batch.law_of[0])]);
   for (int lane = 1; lane < lane_count; ++lane) {
-    if (batch.law_of[lane] == batch.law_of[lane - 1]) continue;  // laws come in runs: take this one to the end
+    if (batch.law_of[lane] == batch.law_of[lane - 1]) continue;  // equal laws are consecutive
+                                                                 // end
     const LaneMask only = ~LaneMask::first(lane);
     const LaneStrength one = strength_of(model.laws[std::size_t(batch.law_of[lane])]);
     const auto take = [&](Lanes& to, Lanes from) { to = select(only, from, to); };
@@ -52,17 +52,17 @@ struct LaneStrength {
   return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)]) : mixed_strengths(model, batch);
 }
 
-/// What the point path found of its lanes: numbers L and masks M of all of them or of a side (lane_sides.h).
+/// Results of the evaluation point by point: numbers L and masks M of all lanes or of a side (lane_sides.h).
 template <class L, class M>
 struct FoundPoints {
   Resultant<L> resultant{};
   L friction{}, fracture{}, work{}, opening{}, slip2{}, elastic{}, stored{};
   M all_open, all_broken;
-  bool yields = false;  // some point of some lane: without it there is no friction, fracture or new slip
+  bool yields = false;  // whether any point yields; otherwise there is no friction, fracture or new slip
 };
 using LanePoints = FoundPoints<Lanes, LaneMask>;
 
-constexpr int rows_ahead = 6;  // what is kept of a row is asked for so much earlier, see fetch()
+constexpr int rows_ahead = 6;  // the data of a row are prefetched this number of rows earlier, see fetch()
 
 /// One point of eight patches, and its share of PointRows::area().
 template <class L>
@@ -70,7 +70,7 @@ struct RowPlace {
   L s, t, weight;
 };
 
-/// Points of a batch: from its rectangles, or from the table.
+/// Points of a batch, from its rectangles or from the table.
 struct PointRows {
   const JointBatch& batch;
   const LineRule& rule;
@@ -106,19 +106,19 @@ struct PointRows {
   }
 };
 
-/// What brittle Mohr–Coulomb (BrittleLaw, solver/model/laws.h) asks of one point of eight patches before anything is
-/// changed.
+/// Quantities of brittle Mohr–Coulomb (BrittleLaw, solver/model/laws.h) for one point of eight patches before its
+/// update.
 template <class L, class M>
 struct LaneTrial {
-  Triple<L> u, du;  // jump, and its change since the pass before
-  Triple<L> now;    // elastic jump of trial
+  Triple<L> u, du;  // jump, and its change since the previous pass
+  Triple<L> now;    // trial elastic jump
   L plastic_n, plastic_s, plastic_t;
-  L shear2, limit;  // m², m: square of its shear, and what of it friction holds
+  L shear2, limit;  // m², m: square of its shear, and friction limit of the shear
   M was_broken, was_open, breaks, open, slides;
-  M yields;  // in these the state of the point changes: it slides, breaks, opens or closes
+  M yields;  // lanes in which the point slides, breaks, opens or closes
 };
 
-/// How eight rigid patches move over their planes: what they displace at a point of them, gaps included.
+/// Displacement field of eight rigid patches over their planes, including gaps.
 template <class L>
 struct RigidField {
   L n, s, t, rn, rs, rt;
@@ -141,8 +141,8 @@ struct RigidField {
   return {c[0], c[1], c[2], c[3], c[4], c[5]};
 }
 
-/// Several branches are a correction of some per cent: in single precision, as they are kept. They lose 1 − e of
-/// themselves, because e itself, near one, would be rounded to another relaxation time.
+/// Several branches are a correction of some per cent and are computed in single precision, as they are stored. The
+/// decay uses 1 − e, because e is near one and its rounding would change the relaxation time.
 template <int count>
 struct SingleBranches {
   Singles fade[count + 1], gain[count + 1];  // of each
@@ -155,9 +155,9 @@ struct SingleBranches {
   }
 };
 
-/// What a pass over the points of eight patches is asked: their jump is `jump`, and has changed by `change` since the
-/// pass before, any fields that are affine over the patch. Lanes may be `following`, which were wholly open in the pass
-/// before: their plastic slip was the jump.
+/// Input of a pass over the points of eight patches. `jump` is their jump and `change` its change since the previous
+/// pass; both can be any affine fields over the patch. Lanes in `following` were wholly open in the previous pass:
+/// their plastic slip was equal to the jump.
 template <int count, class Field>
 struct PointsTask {
   const PatchBatch& batch;
@@ -177,15 +177,15 @@ struct PointsTask {
   std::size_t first() const { return std::size_t(batch.first_point); }
 };
 
-/// Rows of lanes, of which a side is taken.
+/// Rows of lanes, from which a side is selected.
 template <class Side, class Row>
 struct SideRows {
   Row* all;
   [[gnu::always_inline]] auto& operator[](int i) const { return Side::of(all[i]); }
 };
 
-/// One side of the lanes of such a task, point by point. Most points stay as they were, closed and elastic or open:
-/// only a row in which some lane does not asks for more. Within, Lanes, Singles and LaneMask are those of the side.
+/// Evaluates one side of the lanes of such a task point by point. Most points remain closed and elastic, or open; only
+/// rows in which a lane changes need more work. Within the class, Lanes, Singles and LaneMask are those of the side.
 template <class Side, int count, bool contacts, class Field>
 struct PointsPass {
   using Lanes = typename Side::Numbers;
@@ -201,8 +201,8 @@ struct PointsPass {
   LaneMask active, following;
   bool energies, dilates;
   Lanes kn, ks;
-  Lanes opens, bond, bond_slope, grip, grip_slope;  // of the law, as jumps: see set_limits()
-  Lanes dilation, ease;                             // the latter: slip for each metre of shear beyond its limit
+  Lanes opens, bond, bond_slope, grip, grip_slope;  // limits of the law as jumps, see set_limits()
+  Lanes dilation, ease;                             // `ease`: slip for each metre of shear beyond its limit
   SideRows<Side, voussoir::Lanes> plastic, rest;
   SideRows<Side, voussoir::Singles> kept;
   std::uint8_t* broken;
@@ -244,7 +244,7 @@ struct PointsPass {
   }
 
  private:
-  /// Sums over the points, of jumps and without what all points of a patch have in common.
+  /// Sums over the points of jumps, without the common factors of all points of a patch.
   struct Sums : Found {
     Lanes work_n{}, work_s{}, elastic_n{}, elastic_s{};
   };
@@ -261,7 +261,7 @@ struct PointsPass {
   }
 
   /// The law in elastic jumps: a bond breaks beyond the opening `opens`, and beyond the shear `bond` − `bond_slope` n;
-  /// what is left slides beyond `grip` − `grip_slope` n.
+  /// without bond a point slides beyond `grip` − `grip_slope` n.
   [[gnu::always_inline]] void set_limits(const LaneStrength& law) {
     const Lanes soft = 1.0 / ks, softer = kn * soft;
     opens = Side::of(law.tension) / kn;
@@ -272,7 +272,7 @@ struct PointsPass {
 
   [[gnu::always_inline]] static Lanes splat(double x) { return Side::splat(x); }
 
-  /// Asks for what is kept of a row to come, of this batch or of the next; once for both sides.
+  /// Prefetches the data of a later row, of this batch or of the next, once for both sides.
   [[gnu::always_inline]] void fetch_row(int i) const {
     if constexpr (Side::first_lane != 0) return;
     fetch(plastic.all + 2 * i, 2 * sizeof(voussoir::Lanes));
@@ -299,7 +299,7 @@ struct PointsPass {
     const Lanes most = bond - bond_slope * e.now.x;
     const LaneMask apart = at_most(zero, e.now.x), past_grip = less(e.limit * e.limit, e.shear2);
     const LaneMask holds = at_most(e.now.x, opens) & at_most(e.shear2, most * most);
-    const LaneMask loose = ~(without(holds, e.was_broken));  // was broken or breaks
+    const LaneMask loose = ~(without(holds, e.was_broken));  // broken before or now
     e.breaks = without(loose, e.was_broken);
     e.open = loose & apart;
     e.slides = without(loose & past_grip, apart);
@@ -308,7 +308,7 @@ struct PointsPass {
     return e;
   }
 
-  /// Every lane goes on as it was.
+  /// No lane changes its condition.
   [[gnu::always_inline]] void stay(int i, const Place& at, const Trial& e, Sums& sum) const {
     store_lanes(active & e.open, e.u.y, plastic[2 * i]);
     store_lanes(active & e.open, e.u.z, plastic[2 * i + 1]);
@@ -318,7 +318,7 @@ struct PointsPass {
     act(i, at, e, now, ~e.open, sum);
   }
 
-  /// Some slide, break, open or close; every lane computes all it might need.
+  /// Some lanes slide, break, open or close; all lanes compute all results.
   [[gnu::always_inline]] void yield(int i, const Place& at, const Trial& e, Sums& sum) const {
     const Lanes zero = splat(0.0), w = at.weight;
     const auto [n0, s0, t0] = e.now;
@@ -335,8 +335,9 @@ struct PointsPass {
     store_lanes(active, moved_s, plastic[2 * i]);
     store_lanes(active, moved_t, plastic[2 * i + 1]);
     sum.slip2 = larger(sum.slip2, select(e.open, zero, moved_s * moved_s + moved_t * moved_t));
-    // Work done on the springs by the mean of the tractions at both ends of the step, less what they now hold more: by
-    // the traction at the end alone the ledger would leak in proportion to the step.
+    // Work on the springs with the mean of the tractions at both ends of the time step, minus the increase of their
+    // energy. With the traction at the end only, the error of the energy balance would be in proportion to the time
+    // step.
     const Lanes lost_shear = 0.5 * ks *
                              ((now.y + before.y) * e.du.y + (now.z + before.z) * e.du.z -
                               (now.y * now.y + now.z * now.z) + (before.y * before.y + before.z * before.z));
@@ -348,13 +349,13 @@ struct PointsPass {
     act(i, at, e, now, elastic, sum);
   }
 
-  /// What points at an elastic jump of `now` do. The branches of lanes that are not `live` are emptied.
+  /// Results of points with the elastic jump `now`. The branches of lanes that are not `live` are set to zero.
   [[gnu::always_inline]] void act(int i, const Place& at, const Trial& e, const Triple<Lanes>& now, LaneMask live,
                                   Sums& sum) const {
     const Lanes w = at.weight;
     Triple<Lanes> v = now;
     if constexpr (count > 0) {
-      // What was open is pressed from where it closed.
+      // A point that was open is compressed from the position at which it closed.
       const LaneMask was_apart = e.was_broken & less(e.du.x, e.now.x);
       const Triple<Lanes> twice = advance(i, live, e.du, select(was_apart, now.x, e.du.x), v);
       sum.work_n += w * (twice.x * e.du.x), sum.work_s += w * (twice.y * e.du.y + twice.z * e.du.z);
@@ -367,8 +368,8 @@ struct PointsPass {
     sum.all_broken &= e.was_broken | e.breaks;
   }
 
-  /// A point's branches follow the jump, `step_n` along the normal; adds their q to `v` and returns the sum of q at
-  /// both ends of the step: by the mean of the two work is done on them.
+  /// The branches of a point follow the jump, `step_n` along the normal. Adds their q to `v` and returns the sum of q
+  /// at both ends of the time step, whose mean gives the work on them.
   [[gnu::always_inline]] Triple<Lanes> advance(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
                                                Triple<Lanes>& v) const {
     if constexpr (count == 1)
@@ -377,7 +378,8 @@ struct PointsPass {
       return advance_several(i, live, du, step_n, v);
   }
 
-  /// A single branch may be that of Rayleigh damping, which is stiff and forgets at once: in double precision.
+  /// A single branch can be that of Rayleigh damping, which is stiff and relaxes at once. It is computed in double
+  /// precision.
   [[gnu::always_inline]] Triple<Lanes> advance_one(int i, LaneMask live, const Triple<Lanes>& du, Lanes step_n,
                                                    Triple<Lanes>& v) const {
     const int row = 3 * i;
@@ -424,7 +426,7 @@ struct PointsPass {
   }
 };
 
-/// What a side found, put with what the others did.
+/// Merges the results of a side with those of the others.
 template <class Side>
 [[gnu::always_inline]] inline void take_side(const auto& found, LanePoints& all) {
   const auto& q = found.resultant;
@@ -439,7 +441,7 @@ template <class Side>
   all.yields |= found.yields;
 }
 
-/// All lanes of a task, side after side; `contacts`: some may be following.
+/// Evaluates all lanes of a task, side after side; `contacts`: some lanes may be `following`.
 template <bool contacts, int count, class Field>
 [[gnu::always_inline]] inline LanePoints pass_points(const PointsTask<count, Field>& task, const auto& rows) {
   LanePoints all;
@@ -451,7 +453,7 @@ template <bool contacts, int count, class Field>
   return all;
 }
 
-/// Energies, largest opening and slip of the lanes that went point by point.
+/// Energies, largest opening and slip of the lanes evaluated point by point.
 [[gnu::always_inline]] inline void note_points(const LanePoints& found, LaneMask active, std::size_t batch,
                                                PatchMemory& memory) {
   auto* energy = reinterpret_cast<Lanes*>(&memory.energy[energy_index({batch, 0}, 0)]);

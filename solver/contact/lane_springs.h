@@ -1,4 +1,5 @@
-// The intact path of eight joints side by side: six generalised springs each, whether they bear, and their branches.
+// The intact path of eight joints side by side: six generalised springs each, the check of their strength, and their
+// branches.
 #pragma once
 #include "solver/contact/lane_points.h"
 
@@ -22,7 +23,7 @@ template <class L>
   return {e.u[0] + e.u[4] * t - e.u[5] * s, e.u[1] - e.u[3] * t, e.u[2] + e.u[3] * s};
 }
 
-/// What intact joints bear, by what is left of their bonds.
+/// Strengths of intact joints, with and without bond.
 template <class L>
 struct BearingOf {
   L tension, cohesion, tangent;
@@ -49,8 +50,8 @@ template <class Side, class L, class M>
   return check;
 }
 
-/// Whether the lanes of a side bear the largest normal and the largest shear jump there are in their rectangles, as
-/// most do: then every point of theirs is elastic.
+/// Whether the lanes of a side can carry the largest normal jump and the largest shear jump in their rectangles. This
+/// holds for most lanes, and all their points are then elastic.
 template <class Side, class L>
 [[gnu::always_inline]] inline auto surely_bear(const JointBatch& batch, const ElasticOf<L>& e, L tension, L cohesion,
                                                L tangent) {
@@ -61,7 +62,7 @@ template <class Side, class L>
   return at_most(sigma, tension) & at_most(ks * ks * (s * s + t * t), limit * limit);
 }
 
-/// What the cap of the composite law has of a side's lanes before anything crushes: Pa, –.
+/// The cap of the composite law for the lanes of a side before crushing: Pa, –.
 template <class L>
 struct CapOf {
   L begin, shear;
@@ -77,15 +78,16 @@ template <class Side>
   return cap;
 }
 
-/// Lanes whose pressure kn n and shear (of which `shear2` is the square, m2) begin to crush nothing.
+/// Lanes in which the pressure kn n and the shear (`shear2` is its square, m2) do not cause crushing.
 template <class Side, class L>
 [[gnu::always_inline]] inline auto within_cap(const JointBatch& batch, const CapOf<L>& cap, L n, L shear2) {
   const L ks = Side::of(batch.ks), pressure = Side::of(batch.kn) * larger(L(-n), Side::splat(0.0));
   return at_most(pressure * pressure + cap.shear * (ks * ks * shear2), cap.begin * cap.begin);
 }
 
-/// Whether the lanes of a side of one law surely crush nothing, by the largest pressure and the largest shear jump of
-/// their rectangles, as in surely_bear(). By value and apart, so that for other laws nothing is kept in memory.
+/// Whether the lanes of a side with one law certainly do not crush, from the largest pressure and the largest shear
+/// jump of their rectangles, as in surely_bear(). It is a separate function with arguments by value, so that other laws
+/// need no memory for it.
 template <class Side, class L>
 [[gnu::noinline]] bool surely_whole(const JointBatch& batch, const LawConstants& law, L n, L s, L t, L rn, L rs, L rt) {
   const L a = Side::of(batch.half_s), b = Side::of(batch.half_t);
@@ -95,7 +97,7 @@ template <class Side, class L>
   return all(within_cap<Side>(batch, cap, L(n - turned), L(along * along + across * across)));
 }
 
-/// Lanes of a side that crush nothing at any corner: the cap is convex too.
+/// Lanes of a side without crushing at any corner. The cap is also convex.
 template <class Side, class L>
 [[gnu::noinline]] auto whole_lanes(const Model& model, const JointBatch& batch, L n, L s, L t, L rn, L rs, L rt) {
   const ElasticOf<L> e = {{n, s, t, rn, rs, rt}};
@@ -115,8 +117,8 @@ template <class Side, class L>
   return whole;
 }
 
-/// The elastic traction field is affine and the admissible set convex: the corners decide for the whole polygon, and
-/// those of a rectangle about it are on the safe side.
+/// The elastic traction field is affine and the admissible set is convex. The corners are therefore sufficient for the
+/// whole polygon, and those of a rectangle around it are on the safe side.
 template <class Side, class L, class M>
 [[gnu::always_inline]] inline CheckOf<M> check_corners(const Model& model, const JointBatch& batch,
                                                        const ElasticOf<L>& e, const LaneStrength& strength, M broken,
@@ -153,15 +155,15 @@ template <class Side, class L, class M>
     if (open[lane]) mode[Side::first_lane + lane] |= mode_slid;
 }
 
-/// The branches of one generalised jump follow its change `du`, those of lanes that are not closed relax; adds their q
-/// to `viscous` and returns the sum of q at both ends of the step. Lanes to keep are written.
+/// The branches of one generalised jump follow its change `du`; those of lanes that are not closed relax. Adds their q
+/// to `viscous` and returns the sum of q at both ends of the time step. Only the selected lanes are written.
 template <class Side, int count>
 [[gnu::always_inline]] inline auto advance_jump(const Branches& branches, const SingleBranches<count>& several,
                                                 typename Side::Numbers du, auto closed, auto keep, Singles* kept,
                                                 typename Side::Numbers& viscous) {
   using L = typename Side::Numbers;
   using F = typename Side::Floats;
-  if constexpr (count == 1) {  // it may be stiff and forget at once, see PointsPass::advance_one()
+  if constexpr (count == 1) {  // it can be stiff and relax at once, see PointsPass::advance_one()
     const L then = widen(Side::of(*kept));
     const L q = select(closed, L(branches.e[0] * then + branches.g[0] * du), Side::splat(0.0));
     viscous += q;
@@ -181,8 +183,8 @@ template <class Side, int count>
   }
 }
 
-/// Elastic plus viscous generalised jump; the branches of lanes that close start from nothing. Adds the work done on
-/// them, by the mean of their tractions at both ends of the step.
+/// Elastic plus viscous generalised jump; the branches of closing lanes start from zero. Adds the work on them, with
+/// the mean of their tractions at both ends of the time step.
 template <class Side, int count>
 [[gnu::always_inline]] inline auto advance_lanes(const Branches& branches, const SingleBranches<count>& several,
                                                  const JointBatch& batch, const ElasticOf<typename Side::Numbers>& e,
@@ -221,7 +223,7 @@ template <class Side = WholeSide>
   return q;
 }
 
-/// Energy that intact lanes hold, J: of the elastic jump, and of the springs of their branches.
+/// Energy of intact lanes, J: of the elastic jump, and of the springs of their branches.
 template <int count>
 void add_energy(const Branches& branches, const JointBatch& b, const LaneElastic& e, LaneMask closed,
                 const Singles* kept, Lanes& elastic, Lanes& stored) {
@@ -237,7 +239,8 @@ void add_energy(const Branches& branches, const JointBatch& b, const LaneElastic
   stored += select(closed, rest, splat(0.0));
 }
 
-/// Patches that are wholly open and broken go back to the intact path: their plastic slip is a rigid field again.
+/// Returns patches that are wholly open and broken to the intact path, because their plastic slip is again a rigid
+/// field.
 inline void to_intact(const Jump<Lanes>& j, const Branches& branches, LaneMask back, int count, std::uint8_t* mode,
                       Lanes* slip, Singles* kept) {
   slip[0] = select(back, j.s, slip[0]);

@@ -1,4 +1,4 @@
-// A contact patch from the meeting of two convex cells in their present placement.
+// Makes a contact patch from two convex cells in their present placement.
 #pragma once
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-/// A patch with its own points and corners, not yet placed in the state's lists.
+/// A patch with its points and corners, not yet in the lists of the state.
 struct NewContact {
   Patch patch;  // first_point and first_corner are zero
   std::vector<PatchPoint> points, corners;
@@ -16,24 +16,24 @@ struct NewContact {
   double slid[4] = {0, 0, 0, 0};  // see State::contact_slid
 };
 
-/// How two cells stand to each other.
+/// Relative position of two cells.
 struct Examined {
-  std::optional<NewContact> contact;  // none: apart, or they share too little to carry anything
-  double apart = 0.0;                 // m, where they are apart by more than was asked for: at least so far
+  std::optional<NewContact> contact;  // none: the cells are apart, or their common area is too small
+  double apart = 0.0;                 // m, lower bound of their distance if it exceeds `within`
 };
 
-/// Cells in their present placement; a contact is made when they are within `within` (m).
+/// Examines two cells in their present placement. A contact is made if their distance is at most `within` (m).
 Examined make_contact(const Model& model, const State& state, const JointsOfBodies& joints, const CellPair& cells,
                       const Convex& placed_a, const Convex& placed_b, double within);
 
 /// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
-/// (with its points and memory) carries now: the force always, the moment while the new patch is wholly closed. Where
-/// that would take more elastic energy than the old patch holds (`energy`, J), all tractions are lowered until it does
-/// not.
+/// (with its points and memory) carries now: always the force, and the moment as long as the new patch is wholly
+/// closed. If this needed more elastic energy than the old patch has (`energy`, J), all tractions are reduced
+/// accordingly.
 void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
                 const PatchMemory& memory, double energy, NewContact& contact);
 
-/// Mean plastic slip of a patch's points (m, world axes, body b relative to a), since it was made.
+/// Mean plastic slip of the points of a patch since it was made (m, world axes, body b relative to a).
 Vec3 mean_slip(const State& state, const Patch& patch, const Array<double>& points, const PatchMemory& memory);
 
 /// The cell in its present placement.

@@ -1,15 +1,15 @@
-// What a patch stores.
+// Stored energy of a patch.
 #pragma once
 #include "solver/contact/jump.h"
 #include "solver/model/state.h"
 
 namespace voussoir {
 
-/// Elastic energy of one patch with its branches' springs, J.
+/// Elastic energy of one patch, and of the springs of its branches, J.
 struct PatchEnergy {
   double elastic = 0.0, branches = 0.0;
 };
-/// `yielding`: between a patch pass and the next, shear past the cone is cut back to it, as the next pass will do.
+/// `yielding`: for use between two patch passes; shear beyond the cone is reduced to it, as in the next pass.
 PatchEnergy patch_energy(const Model& model, const State& state, const Branches& branches, std::size_t index,
                          bool yielding = false);
 

@@ -1,5 +1,6 @@
-// Contacts that appear and change during a run. A patch exists before its bodies touch: as soon as they come within the
-// skin, with its gap, so that the law itself sees them meet and no step needs a narrow phase.
+// Search for contacts that appear and change during a run. A patch is made before its bodies touch, as soon as their
+// distance is below the skin. It has a gap, so that the joint law handles the first touch and time steps need no narrow
+// phase.
 #pragma once
 #include <span>
 
@@ -8,32 +9,32 @@
 namespace voussoir {
 
 struct ContactUpdate {
-  std::int64_t examined = 0;  // pairs of cells given to the narrow phase
-  bool listed = false;        // pairs were listed anew
+  std::int64_t examined = 0;  // pairs of cells examined in the narrow phase
+  bool listed = false;        // whether pairs were listed again
   std::int64_t made = 0, clipped = 0, dropped = 0;
-  std::vector<std::int32_t> bodies;  // that have got a contact, some more than once
-  std::vector<std::int32_t> nodes;   // of the fill's model that have got a patch, some more than once
+  std::vector<std::int32_t> bodies;  // bodies with a new contact; repetitions are possible
+  std::vector<std::int32_t> nodes;   // nodes of the fill model with a new patch; repetitions are possible
   bool changed() const { return made + clipped + dropped > 0; }
-  /// Whether a patch has another place, or its place another patch: else Stepper::prepare_contacts() has nothing to do.
+  /// Whether the assignment of patches to slots has changed. Otherwise Stepper::prepare_contacts() is not necessary.
   bool moved = false;
 };
 
-/// The distance within which a contact is made before two cells touch, m.
+/// The distance below which a contact is made before two cells touch, m.
 inline double skin(const Model& model) {
   return model.contact.skin * model.typical_size;
 }
 
-// Shares of the skin (docs/theory/contacts.md says why they add up): how far a body may move before a search; past
-// what it counts as moved in one; how far a pair that has been examined may move relative to each other, at least; how
-// near pairs are listed; and how far a body may move until its pairs are listed anew.
+// Shares of the skin (derivation in docs/theory/contacts.md): motion of a body that requires a search; motion beyond
+// which a body counts as moved in a search; least allowed relative motion of an examined pair; distance at which pairs
+// are listed; motion of a body after which its pairs are listed again.
 constexpr double search_share = 0.25, moved_share = 0.1, least_pair_share = 0.3;
 constexpr double list_margin = 6.0, list_distance = 2.7;
 
-/// A turn by φ moves the quaternion by 2 sin(φ/4) ≥ φ/2.1 up to half a turn.
+/// A rotation by φ changes the quaternion by 2 sin(φ/4) ≥ φ/2.1, up to half a revolution.
 constexpr double quaternion_reach = 2.1;
 
-/// How far any point of the body has moved, relative to the base, since its place was noted in State::searched or
-/// State::listed: an upper bound, m. Of lost bodies 0: nobody looks for them.
+/// Upper bound of the motion of any point of the body, relative to the base, since its position was noted in
+/// State::searched or State::listed, m. It is 0 for lost bodies, which are not searched.
 inline double moved_since(const Model& model, const State& state, const Array<float>& places, std::size_t body,
                           const Vec3& base) {
   if (state.lost(body)) return 0.0;
@@ -45,7 +46,7 @@ inline double moved_since(const Model& model, const State& state, const Array<fl
   return std::sqrt(d2) + quaternion_reach * std::sqrt(r2) * model.bodies[body].radius;
 }
 
-/// Notes the body's place in State::searched or State::listed.
+/// Notes the position of the body in State::searched or State::listed.
 void note_place(const State& state, std::size_t body, Array<float>& places);
 
 /// The distance (m) a body may move, relative to the base, between searches.
@@ -53,20 +54,20 @@ inline double search_distance(const Model& model) {
   return model.contact.search ? search_share * skin(model) : 1e300;
 }
 
-/// Patches past their limits of slip and turn are clipped anew at every 32nd step at the earliest, so that a sliding
-/// wall does not stop the run at each step.
+/// Patches beyond their limits of slip and rotation are reclipped at most every 32nd time step, so that a sliding wall
+/// does not interrupt every time step.
 constexpr std::int64_t clip_interval = 32;
 inline bool may_clip_at(std::int64_t step) {
   return step % clip_interval == 0;
 }
 
-/// Looks for new contacts around the bodies that have moved since they were last looked at, and drops contacts of
-/// theirs that have parted; in the tiles `past`, in order, patches that have slid or turned past their limits are
-/// clipped anew (force and moment carried over). Decided by the state and `past` alone, whatever the number of threads.
-/// Afterwards Stepper::prepare_contacts() must be called where patches have moved.
+/// Searches for new contacts around the bodies that have moved since the last search, and removes their contacts that
+/// have separated. In the tiles `past`, in order, patches beyond their limits of slip or rotation are reclipped (force
+/// and moment are transferred). The result depends only on the state and `past`, for any number of threads. Call
+/// Stepper::prepare_contacts() afterwards if patches have moved to other slots.
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches,
                               std::span<const std::int32_t> past, int threads = 1);
-/// With `clip` wherever a patch is past its limits.
+/// The same for all tiles; with `clip`, all patches beyond their limits are reclipped.
 ContactUpdate update_contacts(const Model& model, State& state, const Branches& branches, bool clip = true,
                               int threads = 1);
 

@@ -1,10 +1,10 @@
-// From tractions to the wrench a patch puts on its bodies.
+// The wrench of a patch on its bodies, from its tractions.
 #pragma once
 #include "solver/contact/jump.h"
 
 namespace voussoir {
 
-/// Sums of traction over a patch in local axes: resultant, and the moments of second order that turn with the bodies.
+/// Sums of traction over a patch in local axes: resultant, and first moments of the tractions.
 template <class T>
 struct Resultant {
   T n, s, t;         // ∫ σ, τs, τt
@@ -20,7 +20,7 @@ struct WorldWrench {
   [[gnu::always_inline]] WorldWrench(const Resultant<T>& q, const Jump<T>& j)
       : WorldWrench(q, j, {j.rs * q.sn + j.rt * q.tn, j.rs * q.ss + j.rt * q.ts, j.rs * q.st + j.rt * q.tt}) {}
 
-  /// Of tractions whose moments ss and tt are none.
+  /// The same for tractions whose moments ss and tt are zero.
   [[gnu::always_inline]] static WorldWrench of_springs(const Resultant<T>& q, const Jump<T>& j) {
     return {q, j, {j.rs * q.sn + j.rt * q.tn, j.rt * q.ts, j.rs * q.st}};
   }

@@ -23,8 +23,7 @@ struct EffectParameter {
 struct Effect {
   std::string name;     // "abutment_restraint"
   std::string help;     // one clause without a full stop
-  std::string on_site;  // where a diagnosis names it: what to look at or to measure there, in one clause without a full
-                        // stop or two
+  std::string on_site;  // inspections or measurements on site if a diagnosis finds it, in one or two sentences
   std::vector<EffectParameter> parameters;
   /// The places where it can act in this assembly, such as "left", "pier 0", "all"; empty if there are none.
   std::vector<std::string> (*places)(const Assembly&) = nullptr;

@@ -1,5 +1,5 @@
-// Eigenvalues of dense symmetric matrices by Eigen, compiled in one place: a file that does so itself takes the
-// compiler up to half a minute more.
+// Eigenvalues of dense symmetric matrices with Eigen. They are compiled in one place because each file that
+// instantiates them needs up to half a minute more compile time.
 #pragma once
 #include <Eigen/Dense>
 
@@ -7,19 +7,19 @@
 
 namespace voussoir {
 
-/// Of A x = λ x, or K x = λ M x: values ascending, one vector a column.
+/// Solution of A x = λ x, or K x = λ M x: values ascending, one vector in each column.
 template <class Matrix>
 struct EigenSolution {
   Eigen::VectorXd values;
   Matrix vectors;
 };
 
-/// Symmetric or Hermitian matrices, of which the lower half is read; vectors of length one.
+/// For symmetric or Hermitian matrices, of which the lower half is read; vectors have length one.
 EigenSolution<Eigen::MatrixXd> eigen_solution(const Eigen::MatrixXd& a);
 EigenSolution<Eigen::MatrixXcd> eigen_solution(const Eigen::MatrixXcd& a);
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& a);
 
-/// Symmetric `k` and `m`, the latter positive definite; vectors with xᵀ M x = 1.
+/// For symmetric `k` and symmetric positive definite `m`; vectors have xᵀ M x = 1.
 EigenSolution<Eigen::MatrixXd> eigen_solution(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m);
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m);
 

@@ -1,5 +1,5 @@
-// Dense systems of equations by Eigen, compiled in one place as dense_eigen.h is: every decomposition that a file
-// instantiates itself takes the compiler seconds.
+// Dense systems of equations with Eigen, compiled in one place as in dense_eigen.h, because every instantiated
+// decomposition takes seconds of compile time.
 #pragma once
 #include <Eigen/Dense>
 
@@ -9,7 +9,7 @@ namespace voussoir {
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// D of A = P ᵀL D Lᵀ P, symmetric A; their product is its determinant.
+/// D of A = P ᵀL D Lᵀ P, symmetric A; the product of its entries is the determinant of A.
 Eigen::VectorXd pivots_of(const Eigen::MatrixXd& a);
 
 /// A⁻¹ by LU with partial pivoting.
@@ -21,10 +21,10 @@ Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& a);
 /// L of A = L Lᵀ.
 Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& a);
 
-/// x of least |A x − b|, by QR with pivoting of columns; one of them where the columns depend on each other.
+/// x with the least |A x − b|, by QR with column pivoting; one of the solutions if the columns are dependent.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// The shortest of the x of least |A x − b|, one a column of b, whatever the rank of A: complete orthogonal
+/// The shortest x with the least |A x − b|, one for each column of b, for any rank of A: complete orthogonal
 /// decomposition.
 Eigen::MatrixXd shortest_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

@@ -1,4 +1,4 @@
-// Sparse Cholesky factors, by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008).
+// Sparse Cholesky factorisation with CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008).
 #pragma once
 #include <Eigen/CholmodSupport>
 
@@ -6,18 +6,19 @@
 
 namespace voussoir {
 
-/// The supernodal factor of a symmetric matrix, ordered by nested dissection. The analysis of a pattern is kept for the
-/// next matrices that have the same.
+/// The supernodal factor of a symmetric matrix, ordered by nested dissection. The analysis of a sparsity pattern is
+/// kept for later matrices with the same pattern.
 class Factor {
  public:
   Factor();
-  /// `a` holds its lower triangle. False when it is not positive definite, memory runs out, or it would take more than
-  /// so many operations, of which a core did 13e9 to 27e9 a second (docs/theory/equilibrium.md).
+  /// `a` contains its lower triangle. Returns false if it is not positive definite, if memory is insufficient, or if
+  /// the number of operations would exceed the limit. A core performs 13e9 to 27e9 operations per second
+  /// (docs/theory/equilibrium.md).
   bool compute(const SparseMatrix& a, double most_operations = 1e300);
   bool lacked_memory();
-  /// a⁻¹ x, of as many columns as x has; several threads may ask at once.
+  /// a⁻¹ x for all columns of x. Several threads may call it at the same time.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const;
-  double operations() { return cholesky_.cholmod().fl; }  // known as soon as the pattern is analysed
+  double operations() { return cholesky_.cholmod().fl; }  // known after the analysis of the pattern
   double entries() { return cholesky_.cholmod().lnz; }
   double bytes() { return double(cholesky_.cholmod().memory_usage); }
 
@@ -26,7 +27,7 @@ class Factor {
     cholmod_factor* factor() const { return m_cholmodFactor; }
   };
   Supernodal cholesky_;
-  std::vector<int> outer_, inner_;  // the pattern that was analysed
+  std::vector<int> outer_, inner_;  // the analysed pattern
 };
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// Linear systems whose matrix is known by its products alone, by GMRES (Saad & Schultz 1986) as Eigen has it, after
-// its page on matrix-free solvers.
+// Linear systems whose matrix is given only by its products with vectors. The solver is the GMRES method (Saad &
+// Schultz 1986) of Eigen, following its documentation of matrix-free solvers.
 #pragma once
 #include <Eigen/Sparse>
 #include <functional>
@@ -18,7 +18,7 @@ struct Eigen::internal::traits<voussoir::ProductMatrix> : Eigen::internal::trait
 
 namespace voussoir {
 
-/// A square matrix that is only ever multiplied with.
+/// A square matrix that is used only for products.
 class ProductMatrix : public Eigen::EigenBase<ProductMatrix> {
  public:
   using Scalar = double;
@@ -40,7 +40,7 @@ class ProductMatrix : public Eigen::EigenBase<ProductMatrix> {
   Eigen::Index size_;
 };
 
-/// The approximate inverse that such a system is preconditioned with.
+/// The approximate inverse as preconditioner.
 class MapPreconditioner {
  public:
   template <class Matrix>
@@ -79,8 +79,8 @@ struct Eigen::internal::generic_product_impl<voussoir::ProductMatrix, Right, Eig
 
 namespace voussoir {
 
-/// x of A x = b to a relative residual of `tolerance`, with at most `most` products; what is nearest where that is not
-/// enough.
+/// Solves A x = b to a relative residual of `tolerance` with at most `most` products. Returns the best approximation if
+/// that is not sufficient.
 inline Eigen::VectorXd solve_by_products(const LinearMap& product, const LinearMap& approximate_inverse,
                                          const Eigen::VectorXd& b, double tolerance, int most) {
   const ProductMatrix matrix(b.size(), product);

@@ -1,23 +1,23 @@
-// What nothing holds: blocks and groups of blocks that could move without straining any joint. They would fill the
-// modes with motions of no frequency.
+// Loose blocks and groups of blocks, which could move without deforming any joint. They would give modes with zero
+// frequency.
 #pragma once
 #include "solver/linear/block_matrix.h"
 
 namespace voussoir {
 
 struct Loose {
-  std::vector<bool> adrift;          // per site: in a part that nothing ties to what is fixed
+  std::vector<bool> adrift;          // for each site: it is in a part without connection to a fixed block
   std::vector<std::int32_t> bodies;  // sites adrift, ascending
-  std::vector<std::int32_t> partly;  // sites tied, but free to move some way while all others stand still
+  std::vector<std::int32_t> partly;  // connected sites that can move freely in some direction while all others are held
 };
 
-/// Finds both from the material stiffness. Where nothing at all is fixed, or tied to what is, the heaviest connected
-/// part stands for the assembly and is not adrift.
+/// Finds both from the material stiffness. If nothing is fixed or connected to a fixed block, the heaviest connected
+/// part represents the assembly and is not adrift.
 Loose find_loose(const BlockMatrix& k, const BlockMatrix& m, const Unknowns& unknowns);
 
-/// Holds the free ways of the partly loose sites in the material stiffness so firmly that they leave the lowest modes.
-/// All other eigenpairs stay what they are: a motion v of one site with K v = 0 is an eigenvector, λ = 0, and so
-/// M-orthogonal to the others, which M v vᵀ M therefore does not touch. Returns how many ways are held.
+/// Adds stiffness for the free directions of the partly loose sites, so that they do not appear in the lowest modes.
+/// All other eigenpairs are unchanged: a motion v of one site with K v = 0 is an eigenvector with λ = 0 and
+/// M-orthogonal to the others, so M v vᵀ M does not change them. Returns the number of held directions.
 int hold_free_ways(BlockMatrix& k, const BlockMatrix& m, const Unknowns& unknowns, const Loose& loose);
 
 }  // namespace voussoir

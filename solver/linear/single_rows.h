@@ -1,6 +1,6 @@
-// Blocks of 6 × 6 in single precision, row by row, and their products with what belongs to sites, both ways: so that of
-// a symmetric matrix only what is left of the diagonal need be there, which also is what is right of it, transposed.
-// What belongs to a site has eight numbers, of which the last two are zero wherever a block is multiplied by it.
+// Blocks of 6 × 6 in single precision, row by row, and their products and transposed products with vectors over sites.
+// For a symmetric matrix only the part left of the diagonal is stored; its transpose is the part right of it. Vectors
+// have eight numbers for each site. The last two are zero when a block is multiplied by them.
 #pragma once
 #include <algorithm>
 #include <cstring>
@@ -13,7 +13,7 @@ constexpr std::size_t block_width = 36, site_width = 8;
 
 struct SingleRows {
   Array<std::int32_t> first, column;
-  Array<float> block;  // 36 each, row by row, and two more at the end
+  Array<float> block;  // 36 numbers each, row by row, and two more at the end
   std::size_t rows() const { return first.size() - 1; }
 };
 
@@ -24,7 +24,7 @@ inline void append(const Matrix6& block, Array<float>& singles) {
   for (Eigen::Index r = 0; r < 6; ++r)
     for (Eigen::Index c = 0; c < 6; ++c) singles[at + std::size_t(6 * r + c)] = float(block(r, c));
 }
-/// The last block's last row is read with two numbers more.
+/// The last row of the last block is read with two additional numbers.
 inline void end_blocks(Array<float>& singles) {
   singles.resize(singles.size() + site_width - 6, 0.0f);
 }
@@ -39,7 +39,7 @@ inline SingleRows in_singles(const BlockRows& m) {
   return {m.first, m.column, in_singles(m.block)};
 }
 
-/// What belongs to a site, or a row of a block and two numbers of the next.
+/// The numbers of a site, or a row of a block and two numbers of the next row.
 using Eight = float __attribute__((vector_size(32)));
 [[gnu::always_inline]] inline Eight load(const float* from) {
   Eight x;
@@ -49,18 +49,18 @@ using Eight = float __attribute__((vector_size(32)));
 [[gnu::always_inline]] inline void store(float* to, const Eight& x) {
   std::memcpy(to, &x, sizeof(x));
 }
-/// With its last two numbers zero.
+/// The same with the last two numbers set to zero.
 [[gnu::always_inline]] inline Eight six_of(const Eight& x) {
   return __builtin_shufflevector(x, Eight{}, 0, 1, 2, 3, 4, 5, 8, 8);
 }
 
-/// Block times what belongs to sites, summed up.
+/// Sum of products of blocks with the numbers of sites.
 struct RowProducts {
   Eight of[6] = {};
   [[gnu::always_inline]] void add(const float* block, const Eight& x) {
     for (int r = 0; r < 6; ++r) of[r] += load(block + 6 * r) * x;
   }
-  /// The sums of each row's eight numbers.
+  /// Sums of the eight numbers of each row.
   [[gnu::always_inline]] Eight sums() const {
     const Eight pairs[3] = {pair(of[0], of[1]), pair(of[2], of[3]), pair(of[4], of[5])};
     const Eight upper = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 8, 9, 4, 5, 12, 13) +
@@ -71,14 +71,14 @@ struct RowProducts {
   }
 
  private:
-  /// Sums of pairs of the one, sums of pairs of the other, by turns.
+  /// Sums of pairs of both arguments, alternating.
   [[gnu::always_inline]] static Eight pair(const Eight& a, const Eight& b) {
     return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13) +
            __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
   }
 };
 
-/// A row times x. Blocks some way on are asked for, which the processor would not do early enough by itself.
+/// A row times x. Later blocks are prefetched because the processor would not do so early enough.
 [[gnu::always_inline]] inline Eight times(const SingleRows& m, std::size_t row, const float* x) {
   constexpr std::size_t ahead = 1024, most = 7 * cache_line;  // numbers; bytes
   const auto begin = std::size_t(m.first[row]), end = std::size_t(m.first[row + 1]);
@@ -88,8 +88,8 @@ struct RowProducts {
     products.add(&m.block[block_width * at], load(x + site_width * std::size_t(m.column[at])));
   return products.sums();
 }
-/// The same where rows are gone through from the last to the first: a processor reads ahead of what goes steadily
-/// downwards, not of what goes up within each row.
+/// The same for rows in descending order. The blocks of a row are also read in descending order, because processors
+/// prefetch only a steady sequence.
 [[gnu::always_inline]] inline Eight times_backwards(const SingleRows& m, std::size_t row, const float* x) {
   RowProducts products;
   for (auto at = std::size_t(m.first[row + 1]); at-- > std::size_t(m.first[row]);)
@@ -97,13 +97,13 @@ struct RowProducts {
   return products.sums();
 }
 
-/// A transposed block times the six numbers at x. Two sums, so that each waits for half as many.
+/// A transposed block times the six numbers at x. Two sums, so that each has half the chain of dependent additions.
 [[gnu::always_inline]] inline Eight transposed_times(const float* block, const float* x) {
   Eight even = load(block) * x[0], odd = load(block + 6) * x[1];
   for (int r = 2; r < 6; r += 2) even += load(block + 6 * r) * x[r], odd += load(block + 6 * (r + 1)) * x[r + 1];
   return even + odd;
 }
-/// Adds a row's transposed blocks times the six numbers at x to what belongs to their columns.
+/// Adds the transposed blocks of a row times the six numbers at x to the numbers of their columns.
 [[gnu::always_inline]] inline void add_transposed(const SingleRows& m, std::size_t row, const float* x, float* to) {
   for (auto at = std::size_t(m.first[row]); at < std::size_t(m.first[row + 1]); ++at) {
     float* of = to + site_width * std::size_t(m.column[at]);

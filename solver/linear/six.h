@@ -1,5 +1,5 @@
-// Products of 6 × 6 blocks, column by column as registers have them: quicker than Eigen's where many are added up
-// (docs/developer/performance-notes.md).
+// Products of 6 × 6 blocks, column by column in registers. For sums of many products they are faster than those of
+// Eigen (docs/developer/performance-notes.md).
 #pragma once
 #include <cstring>
 
@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-/// Six numbers: a column of a block, or what belongs to a site.
+/// Six numbers: a column of a block, or the numbers of a site.
 struct Six {
   using Four = double __attribute__((vector_size(32)));
   using Two = double __attribute__((vector_size(16)));
@@ -39,7 +39,7 @@ struct Columns {
   [[gnu::always_inline]] void add_times(const double* x, Six& sum) const {
     for (int c = 0; c < 6; ++c) sum.add(of[c], x[c]);
   }
-  /// Adds the block times `b` to `sum`, which is another.
+  /// Adds the block times `b` to `sum`, which must be a different block.
   [[gnu::always_inline]] void add_times(const Matrix6& b, Matrix6& sum) const {
     for (int c = 0; c < 6; ++c) {
       Six column(sum.data() + 6 * c);
