@@ -1,4 +1,4 @@
-// Flat arrays of the state, and their names: what a checkpoint writes and what the state hash covers.
+// Flat arrays of the state and their names. A checkpoint writes them, and the state hash covers them.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -11,8 +11,8 @@ namespace voussoir {
 
 constexpr std::size_t cache_line = 64, large_page = std::size_t(2) << 20;
 
-/// Memory on a cache line's boundary; from a quarter of a large page on, whole large pages: a step over a large bridge
-/// goes through tens of thousands of pages of 4 kB.
+/// Memory aligned to cache lines. From a quarter of a large page on it uses whole large pages, because a time step of a
+/// large bridge reads tens of thousands of pages of 4 kB.
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* memory, std::size_t bytes);
 
@@ -30,8 +30,8 @@ struct CacheAligned {
 template <class T>
 using Array = std::vector<T, CacheAligned<T>>;
 
-/// Asks for memory that will be needed soon. No more than a dozen cache lines at a time, and the next some hundred
-/// cycles later: asked for all at once, many do not come (docs/developer/performance-notes.md).
+/// Prefetches memory that will be needed soon. Prefetch at most a dozen cache lines at a time, and the next ones some
+/// hundred cycles later: the processor drops many of a larger number (docs/developer/performance-notes.md).
 [[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
   for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<const char*>(from) + at);
 }

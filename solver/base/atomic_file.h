@@ -1,4 +1,4 @@
-// Files that are either whole or not there: written under a temporary name, synced and renamed.
+// Files that are either complete or absent: written under a temporary name, synced and renamed.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -7,20 +7,20 @@
 
 namespace voussoir {
 
-/// Calls `write` with a temporary name beside `path`, syncs what it wrote to the disk and renames it to `path`. When
-/// anything fails the temporary is removed, the file that was at `path` stays as it was, and the error is thrown on;
-/// failures of the system are RunError and say plainly that e.g. the disk is full.
+/// Calls `write` with a temporary name beside `path`, syncs what it wrote to the disk and renames it to `path`. If
+/// anything fails, the temporary file is removed, an existing file at `path` is unchanged, and the error is thrown
+/// again. Failures of the system are RunError with a plain message, for example that the disk is full.
 void write_atomically(const std::string& path, const std::function<void(const std::string& temporary)>& write);
-/// The same for bytes that are ready in memory.
+/// The same for bytes in memory.
 void write_atomically(const std::string& path, std::span<const std::byte> bytes);
 void write_atomically(const std::string& path, const std::string& text);
 
-/// Writes bytes to a new or emptied file without any of that. Throws RunError with the system's reason.
+/// Writes bytes to a new or emptied file directly. Throws RunError with the reason of the system.
 void write_bytes(const std::string& path, std::span<const std::byte> bytes);
-/// The whole file. Throws InputError when it cannot be read.
+/// The content of a file. Throws InputError if it cannot be read.
 std::string read_text(const std::string& path);
 
-/// What the end of the name of an unfinished file is.
+/// Suffix of the name of an unfinished file.
 inline constexpr const char* unfinished_suffix = ".partial";
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Sorting a long list whose items belong to many places in order, a few to each.
+// Sorts a long list whose items belong to many ordered places, with a few items for each place.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-/// Sorts as std::sort() does, where `place_of(item)`, below `places`, never falls from an item to one that is not less:
-/// by places first, then within each. Its time grows with the list, that of std::sort() faster.
+/// Gives the same result as std::sort() if `place_of(item)`, below `places`, is consistent with the order of the items.
+/// It sorts by place first, then within each place. Its time is in proportion to the length of the list.
 template <class T, class PlaceOf>
 void sort_by_place(std::vector<T>& list, std::size_t places, const PlaceOf& place_of) {
   std::vector<std::size_t> next(places + 1, 0);
@@ -16,7 +16,7 @@ void sort_by_place(std::vector<T>& list, std::size_t places, const PlaceOf& plac
   std::vector<T> sorted(list.size());
   for (T& item : list) sorted[next[std::size_t(place_of(item))]++] = std::move(item);
   list = std::move(sorted);
-  // Each place now begins where the one before it ends.
+  // Each place now begins at the end of the previous one.
   for (std::size_t i = 0, begin = 0; i < places; begin = next[i++])
     std::sort(list.begin() + std::ptrdiff_t(begin), list.begin() + std::ptrdiff_t(next[i]));
 }

@@ -1,4 +1,4 @@
-// What this program is: for pages that are filed, and for --version.
+// Identification of this program, for report pages and for --version.
 #pragma once
 #include <string>
 
@@ -6,12 +6,11 @@ namespace voussoir {
 
 /// "0.2.0".
 std::string program_version();
-/// Of the sources it was built from, ten digits, with "-dirty" where they were changed since; "unknown" outside of a
-/// repository.
+/// Commit of the sources, ten digits, with "-dirty" if they were changed; "unknown" outside a repository.
 std::string build_commit();
 /// "g++ 12.2.0".
 std::string build_compiler();
-/// The libraries and the versions it was built with: "Eigen 3.4.0, VTK 9.1.0, …".
+/// Libraries and versions of the build: "Eigen 3.4.0, VTK 9.1.0, …".
 std::string build_libraries();
 
 }  // namespace voussoir

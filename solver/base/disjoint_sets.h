@@ -1,4 +1,4 @@
-// What hangs together, joined pair by pair.
+// Connected components, built by joining pairs.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-/// Sets of the numbers 0 to count − 1, each at first alone; union with path halving (Tarjan & van Leeuwen 1984). A set
-/// is named by its greatest number.
+/// Sets of the numbers 0 to count − 1, initially one number each; union with path halving (Tarjan & van Leeuwen 1984).
+/// A set is identified by its largest number.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) {

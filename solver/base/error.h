@@ -1,4 +1,5 @@
-// Errors a person can act on. Programmer's mistakes are assertions; the world's mistakes are these two types.
+// Errors that tell the user what to do. Programming errors are assertions; errors of input or system have these two
+// types.
 #pragma once
 #include <fmt/format.h>
 
@@ -7,7 +8,7 @@
 
 namespace voussoir {
 
-/// The input is wrong (exit status 2). The text says place, value found, value expected and remedy.
+/// The input is wrong (exit status 2). The text gives place, value found, value expected and remedy.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
   template <class... Args>
@@ -15,7 +16,8 @@ struct InputError : std::runtime_error {
       : std::runtime_error(fmt::format(text, std::forward<Args>(args)...)) {}
 };
 
-/// The input was accepted but the work failed (exit status 1): disk full, energy growing, a file that rotted.
+/// The input was accepted but the work failed (exit status 1), for example because of a full disk, growing energy or a
+/// damaged file.
 struct RunError : std::runtime_error {
   using std::runtime_error::runtime_error;
   template <class... Args>

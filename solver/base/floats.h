@@ -1,5 +1,5 @@
-// Eight numbers in single precision side by side, with the arithmetic of Lanes: for kernels that are written for
-// either. Comparisons give the masks of Lanes.
+// Eight numbers in single precision side by side, with the arithmetic of Lanes: for kernels that support both
+// precisions. Comparisons give the masks of Lanes.
 #pragma once
 #include <type_traits>
 

@@ -1,10 +1,10 @@
-// Folders for what is written.
+// Output folders.
 #pragma once
 #include <string>
 
 namespace voussoir {
 
-/// Makes the folder that `path` lies in, with those above it. Throws RunError naming it when that cannot be done.
+/// Creates the folder that contains `path`, and its parents. Throws RunError with its name if that fails.
 void make_folder_of(const std::string& path);
 
 }  // namespace voussoir

@@ -1,6 +1,6 @@
-// How many of eight lanes a long kernel takes at a time. Where registers hold four, or two, it goes through the lanes
-// register by register: less of what is in hand is kept in memory, and what is rare in a lane holds up three others, or
-// one, instead of seven (docs/developer/performance-notes.md). What it computes for a lane is the same.
+// Number of lanes that a long kernel processes at a time. With registers of four or two numbers it processes the eight
+// lanes register by register. Fewer intermediate values are then stored in memory, and a rare case in one lane delays
+// three lanes or one lane instead of seven (docs/developer/performance-notes.md). The results of a lane are the same.
 #pragma once
 #include <type_traits>
 
@@ -8,8 +8,8 @@
 
 namespace voussoir {
 
-/// All lanes at once. A side has numbers, numbers in single precision and a mask of its own, and takes them from those
-/// of all lanes with of().
+/// All lanes at once. A side has its own types for numbers, numbers in single precision and masks, and selects them
+/// from those of all lanes with of().
 struct WholeSide {
   using Numbers = Lanes;
   using Floats = Singles;
@@ -23,7 +23,7 @@ struct WholeSide {
   [[gnu::always_inline]] static Lanes splat(double x) { return voussoir::splat(x); }
   [[gnu::always_inline]] static LaneBytes load_bytes(const std::uint8_t* bytes) { return voussoir::load_bytes(bytes); }
 
-  /// Records of eight numbers, one a lane, and the numbers lane by lane.
+  /// Converts records of eight numbers, one for each lane, to numbers by lane, and back.
   static constexpr int lanes = lane_count;
   [[gnu::always_inline]] static void to_lanes(const Lanes (&record)[lane_count], Lanes (&number)[lane_count]) {
     for (int i = 0; i < lane_count; ++i) number[i] = record[i];
@@ -47,7 +47,7 @@ using parts::any, parts::at_most, parts::flip, parts::larger, parts::less, parts
     parts::square_root;
 
 constexpr int register_count = lane_count / register_lanes;
-/// Calls f(number) for each of the registers that make all lanes.
+/// Calls f(number) for each of the registers that contain all lanes.
 template <class F>
 [[gnu::always_inline]] inline void each_register(const F& f) {
   f(std::integral_constant<int, 0>{}), f(std::integral_constant<int, 1>{});
@@ -96,7 +96,7 @@ struct RegisterSide {
   }
 
  private:
-  /// The register of that number among the `count` that these numbers are in.
+  /// The register with this number among the `count` registers of these numbers.
   template <int i, int count, class T>
   [[gnu::always_inline]] static auto& register_of(T& all) {
     if constexpr (count == 1)
@@ -162,7 +162,7 @@ struct RegisterSide {
 
 #endif
 
-/// Masks that are known beforehand, of any side: what they leave out is not even compiled.
+/// Masks of any side that are known at compile time: code for unset lanes is not compiled.
 struct EveryLane {};
 struct NoLane {};
 template <class L>
@@ -182,7 +182,7 @@ template <class L>
   to = x;
 }
 
-/// Calls f(side) for each of the sides that together are all lanes.
+/// Calls f(side) for each of the sides that together contain all lanes.
 template <class F>
 [[gnu::always_inline]] inline void each_side(const F& f) {
 #if defined(VOUSSOIR_LANES_IN_PARTS)

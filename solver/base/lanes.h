@@ -1,5 +1,5 @@
-// Eight doubles side by side: a SIMD lane is a patch (or a body). A register holds eight of them, four or two: what is
-// written for a lane is the same.
+// Eight doubles side by side: a SIMD lane is a patch (or a body). A register contains eight, four or two of them. The
+// source code for a lane is the same in all cases.
 #pragma once
 #include <bit>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace voussoir {
 
 constexpr int lane_count = 8;
 using LaneBytes = std::uint8_t __attribute__((vector_size(lane_count)));
-/// Four doubles, half the lanes: x, y, z of a node and one more.
+/// Four doubles, half the lanes: x, y, z of a node and one more number.
 using Quad = double __attribute__((vector_size(32)));
 [[gnu::always_inline]] inline Quad load_quad(const double* from) {
   Quad q;
@@ -54,7 +54,7 @@ namespace voussoir {
   return b;
 }
 
-/// Three lanes-vectors, with the few operations the kernels need; T is double or Lanes.
+/// A vector of three components with the operations that the kernels need; T is double or Lanes.
 template <class T>
 struct Triple {
   T x, y, z;
@@ -82,7 +82,7 @@ template <class T>
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Unit quaternion w + v, rotating reference into present axes.
+/// Unit quaternion w + v, which rotates reference axes to present axes.
 template <class T>
 struct Quat {
   T w;
@@ -109,12 +109,12 @@ template <class T>
   return turn(Quat<T>{q.w, {-q.v.x, -q.v.y, -q.v.z}}, x);
 }
 
-/// The same rotation as a matrix, by its columns: cheaper from the second vector on.
+/// The same rotation as the columns of a matrix, which is faster for two or more vectors.
 template <class T>
 struct Axes {
   Triple<T> x, y, z;
 };
-/// Of a quaternion of any length, `twice` = 2/|q|².
+/// The same for a quaternion of any length; `twice` = 2/|q|².
 template <class T>
 [[gnu::always_inline]] inline Axes<T> axes_of(const Quat<T>& q, T twice) {
   const Triple<T>& v = q.v;

@@ -1,6 +1,6 @@
-// Lanes of a processor whose registers hold four (AVX2) or two of them. Included by lanes.h. The compiler would split
-// vectors of eight by itself, but keep them in memory between one operation and the next: here they are two halves, and
-// those two quarters where need be (docs/developer/performance-notes.md).
+// Lanes for processors with registers of four (AVX2) or two doubles. Included by lanes.h. The compiler can split
+// vectors of eight, but it stores them in memory between operations. Here a vector consists of two halves, and a half
+// of two quarters if necessary (docs/developer/performance-notes.md).
 #pragma once
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -21,7 +21,7 @@ using Register = double __attribute__((vector_size(8 * register_lanes)));
 using RegisterSingles = float __attribute__((vector_size(8 * register_lanes)));  // twice as many
 using RegisterMask = std::int64_t __attribute__((vector_size(8 * register_lanes)));
 
-/// Two halves that are numbers: vectors of T, or halves themselves.
+/// Two halves of numbers: vectors of T, or again two halves.
 template <class Half, class T>
 struct alignas(2 * sizeof(Half)) Both {
   Half low, high;
@@ -52,7 +52,7 @@ struct alignas(2 * sizeof(Half)) Both {
 #endif
 }
 
-/// Two halves that are true or false in each lane: all bits of it, or none.
+/// Two halves of a mask: in each lane all bits are set, or none.
 template <class Half>
 struct Masks {
   Half low{}, high{};
@@ -70,7 +70,7 @@ struct Masks {
 template <class Half>
 Masks(Half, Half) -> Masks<Half>;
 
-// What a register does.
+// Operations of a register.
 
 [[gnu::always_inline]] inline RegisterMask less(Register a, Register b) {
   return a < b;
@@ -125,7 +125,8 @@ Masks(Half, Half) -> Masks<Half>;
   r[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 #else
-// By bits: "m ? a : b" compares each lane of the mask with zero first, which SSE2 cannot do at once.
+// With bit operations, because "m ? a : b" first compares each lane of the mask with zero, for which SSE2 has no single
+// instruction.
 [[gnu::always_inline]] inline Register select(RegisterMask m, Register a, Register b) {
   return Register((m & RegisterMask(a)) | (~m & RegisterMask(b)));
 }
@@ -174,7 +175,7 @@ Masks(Half, Half) -> Masks<Half>;
 }
 #endif
 
-// And so what both halves do.
+// The same operations for both halves.
 
 template <class H, class T>
 [[gnu::always_inline]] inline auto less(Both<H, T> a, Both<H, T> b) {
@@ -203,7 +204,7 @@ template <class H, class T>
 [[gnu::always_inline]] inline Both<H, T> larger(Both<H, T> a, Both<H, T> b) {
   return {larger(a.low, b.low), larger(a.high, b.high)};
 }
-/// x, and −x where `by` is negative.
+/// −x in lanes where `by` is negative, else x.
 template <class H, class T>
 [[gnu::always_inline]] inline Both<H, T> flip(Both<H, T> x, Both<H, T> by) {
   return {flip(x.low, by.low), flip(x.high, by.high)};
@@ -216,7 +217,7 @@ template <class H>
 [[gnu::always_inline]] inline bool any(Masks<H> m) {
   return any(m.low | m.high);
 }
-/// One bit a lane.
+/// One bit for each lane.
 template <class H>
 [[gnu::always_inline]] inline unsigned bits_of(Masks<H> m) {
   return bits_of(m.low) | bits_of(m.high) << (sizeof(H) / 8);
@@ -227,7 +228,7 @@ template <class H>
   return Masks<H>::first(count);
 }
 
-/// Rows become columns, by quarters of the square.
+/// Transposes a square by its quarters.
 template <class H, class T, int n>
 [[gnu::always_inline]] inline void transpose(Both<H, T> (&r)[n]) {
   constexpr int half = n / 2;
@@ -244,7 +245,7 @@ template <class H, class T, int n>
 
 #if defined(__AVX2__)
 using Lanes = parts::Both<parts::Register, double>;
-using Singles = parts::RegisterSingles;  // half the bytes, where seven digits do
+using Singles = parts::RegisterSingles;  // half the bytes, if seven digits are sufficient
 using LaneMask = parts::Masks<parts::RegisterMask>;
 #else
 using Lanes = parts::Both<parts::Both<parts::Register, double>, double>;
@@ -280,7 +281,7 @@ using Pairs = parts::Both<Singles, float>;  // two of them
 
 namespace parts {
 
-// Between doubles and singles, between bytes and lanes.
+// Conversions between doubles and singles, and between bytes and lanes.
 
 #if defined(__AVX2__)
 [[gnu::always_inline]] inline Lanes widen(RegisterSingles x) {
@@ -328,7 +329,7 @@ namespace parts {
   return {narrow(x.low), narrow(x.high)};
 }
 #endif
-/// Of masks of doubles, those of singles.
+/// Converts masks of doubles to masks of singles.
 [[gnu::always_inline]] inline RegisterSingles of_singles(Masks<RegisterMask> m) {
   using Halves = std::int32_t __attribute__((vector_size(sizeof(RegisterMask))));
 #if defined(__AVX2__)
@@ -346,11 +347,11 @@ template <class H>
 
 using parts::narrow, parts::widen;
 
-/// Zero outside the mask.
+/// Zero in lanes outside the mask.
 [[gnu::always_inline]] inline Singles within(LaneMask m, Singles x) {
   return parts::within(parts::of_singles(m), x);
 }
-/// Lanes of the mask alone are written.
+/// Writes only the lanes of the mask.
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
   to = select(m, x, to);
 }
@@ -371,7 +372,7 @@ using parts::narrow, parts::widen;
   std::memcpy(&packed, &set, lane_count);
   return parts::spread(packed);
 }
-/// A byte a lane: 1 where `first`, 2 where `second`, or their sum.
+/// One byte for each lane: 1 for `first`, 2 for `second`, or their sum.
 [[gnu::always_inline]] inline void store_flags(LaneMask first, LaneMask second, std::uint8_t* bytes) {
 #if defined(__BMI2__)
   const std::uint64_t packed =

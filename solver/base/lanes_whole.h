@@ -1,4 +1,4 @@
-// Lanes of a processor whose registers hold all eight (AVX-512). Included by lanes.h.
+// Lanes for processors with registers of eight doubles (AVX-512). Included by lanes.h.
 #pragma once
 #include <immintrin.h>
 
@@ -6,7 +6,7 @@ namespace voussoir {
 
 constexpr int register_lanes = 8;
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
-using Singles = float __attribute__((vector_size(4 * lane_count)));  // half the bytes, where seven digits do
+using Singles = float __attribute__((vector_size(4 * lane_count)));  // half the bytes, if seven digits are sufficient
 using Pairs = float __attribute__((vector_size(8 * lane_count)));    // two of them
 using LaneInts = std::int64_t __attribute__((vector_size(8 * lane_count)));
 
@@ -36,7 +36,7 @@ using LaneInts = std::int64_t __attribute__((vector_size(8 * lane_count)));
   return __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
-/// True or false in each lane: one bit a lane, in a mask register.
+/// A mask: one bit for each lane, in a mask register.
 struct LaneMask {
   __mmask8 bits = 0;
   static LaneMask first(int count) { return {__mmask8((1u << count) - 1u)}; }
@@ -67,11 +67,11 @@ struct LaneMask {
 [[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) {
   return _mm512_max_pd(a, b);
 }
-/// Zero outside the mask.
+/// Zero in lanes outside the mask.
 [[gnu::always_inline]] inline Singles within(LaneMask m, Singles x) {
   return _mm256_maskz_mov_ps(m.bits, x);
 }
-/// Lanes of the mask alone are written.
+/// Writes only the lanes of the mask.
 [[gnu::always_inline]] inline void store_lanes(LaneMask m, Lanes x, Lanes& to) {
   _mm512_mask_store_pd(&to, m.bits, x);
 }
@@ -97,19 +97,19 @@ struct LaneMask {
 [[gnu::always_inline]] inline Lanes magnitude(Lanes x) {
   return Lanes(LaneInts(x) & std::int64_t(0x7fffffffffffffff));
 }
-/// x, and −x where `by` is negative.
+/// −x in lanes where `by` is negative, else x.
 [[gnu::always_inline]] inline Lanes flip(Lanes x, Lanes by) {
   return Lanes(LaneInts(x) ^ (LaneInts(by) & std::int64_t(0x8000000000000000)));
 }
 
-/// A byte a lane: 1 where `first`, 2 where `second`, or their sum.
+/// One byte for each lane: 1 for `first`, 2 for `second`, or their sum.
 [[gnu::always_inline]] inline void store_flags(LaneMask first, LaneMask second, std::uint8_t* bytes) {
   const std::uint64_t packed = _pdep_u64(first.bits, 0x0101010101010101) | _pdep_u64(second.bits, 0x0202020202020202);
   std::memcpy(bytes, &packed, lane_count);
 }
 
-/// Rows become columns: four records of four pairs of numbers. Picking every other pair, the even or the odd ones, is
-/// one instruction that overwrites neither of what it reads.
+/// Transposes four records of four pairs of numbers. The selection of the even or odd pairs is one instruction that
+/// overwrites neither of its inputs.
 [[gnu::always_inline]] inline void transpose_pairs(Lanes (&r)[4]) {
   const auto even = [](Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13); };
   const auto odd = [](Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15); };
@@ -117,7 +117,7 @@ struct LaneMask {
   r[0] = even(even01, even23), r[1] = even(odd01, odd23), r[2] = odd(even01, even23), r[3] = odd(odd01, odd23);
 }
 
-/// Rows become columns: eight records of eight numbers to the same number of all eight side by side, and back.
+/// Transposes eight records of eight numbers to eight vectors by number, and back.
 [[gnu::always_inline]] inline void transpose(Lanes (&r)[lane_count]) {
   Lanes low[4], high[4];  // of two records: numbers 0, 2, 4, 6, and 1, 3, 5, 7
   for (int i = 0; i < 4; ++i) {

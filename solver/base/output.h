@@ -1,10 +1,10 @@
-// The program's own standard output and error.
+// Standard output and standard error of the program.
 #pragma once
 
 namespace voussoir {
 
-/// From here on a reader that goes away (`| head`) is no failure: what would have gone to it is dropped, and the
-/// program goes on. Other failures stay failures, and output_error() is their number (errno), 0 before any.
+/// After this call a closed pipe (`| head`) is not an error: further output to it is discarded, and the program
+/// continues. Other failures are still errors. output_error() returns their number (errno), or 0 if there was none.
 void survive_closed_pipes();
 int output_error();
 

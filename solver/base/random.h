@@ -1,4 +1,4 @@
-// The program's own random numbers: a seed means the same numbers anywhere.
+// Random number generator of the program: a seed gives the same numbers on every machine.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -20,9 +20,9 @@ class RandomStream {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
     return z ^ (z >> 31);
   }
-  /// In (0, 1]: its logarithm exists.
+  /// In (0, 1], so that the logarithm exists.
   double uniform() { return (double(bits() >> 11) + 1.0) * 0x1.0p-53; }
-  /// In 0 … n − 1, n > 0; each as often within n / 2^64.
+  /// In 0 … n − 1, n > 0; uniform within n / 2^64.
   std::size_t below(std::size_t n) { return std::size_t(bits() % n); }
   /// Mean 0, standard deviation 1.
   double normal() {
@@ -42,7 +42,7 @@ class RandomStream {
   bool has_spare_ = false;
 };
 
-/// A stream of its own for each seed, purpose and number: what one draws, or that there is one more, changes no other.
+/// A separate stream for each seed, purpose and number. The numbers of a stream do not depend on other streams.
 RandomStream stream_of(std::uint64_t seed, const std::string& purpose, int number = 0);
 
 }  // namespace voussoir

@@ -1,19 +1,20 @@
-// Files that come with the program: its cases, and libraries that it loads when it needs them.
+// Files of the program: its cases, and libraries that it loads on demand.
 #pragma once
 #include <string>
 
 namespace voussoir {
 
-/// Where a file or folder of the source tree is ("cases/validation"): in the present folder, in the program's, in one
-/// of the three above it (a build folder lies in the source tree), or in share/voussoir beside the program's folder. In
-/// the Python module, first in the module's folder or one of the four above it.
-/// Throws RunError that names the folders that were searched.
+/// Path of a file or folder of the source tree ("cases/validation"). It is searched in the current folder, in the
+/// folder of the program, in the three folders above it (a build folder is in the source tree), and in share/voussoir
+/// next to the folder of the program. The Python module first searches its own folder, the four folders above it, and
+/// the prefix in which it is installed. Throws RunError with the searched folders.
 std::string shipped(const std::string& path);
 
-/// Where a library is that the program loads ("libvoussoir_mesher.so"), as an absolute path: in the program's folder,
-/// in the one above it (test programs), or in lib/voussoir beside the program's folder (where the system has
-/// them, in lib/x86_64-linux-gnu/voussoir). In the Python module, first in the module's folder or one of the two above
-/// it. Never in the present folder: what is loaded is run. Throws RunError that names the folders that were searched.
+/// Absolute path of a library that the program loads ("libvoussoir_mesher.so"). It is searched in the folder of the
+/// program, in the folder above it (for test programs), and in lib/voussoir next to the folder of the program (or
+/// lib/x86_64-linux-gnu/voussoir on systems with such folders). The Python module first searches its own folder, the
+/// two above it, and the prefix in which it is installed. The current folder is not searched because loaded code is
+/// executed. Throws RunError with the searched folders.
 std::string shipped_library(const std::string& name);
 
 }  // namespace voussoir

@@ -1,5 +1,5 @@
-// Numbers too small for all of their digits (below 1.2·10⁻³⁸ in single precision), which processors are slow to compute
-// with (docs/developer/performance-notes.md).
+// Subnormal numbers (below 1.2·10⁻³⁸ in single precision), with which processors are slow
+// (docs/developer/performance-notes.md).
 #pragma once
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-/// While it is there, they count as zero in its thread. Elsewhere than on x86 it does nothing.
+/// As long as the object exists, they count as zero in its thread. On processors other than x86 it does nothing.
 class NoSubnormals {
  public:
   NoSubnormals() {

@@ -1,10 +1,10 @@
-// Where the wall time goes.
+// Measurement of wall-clock time.
 #pragma once
 #include <chrono>
 
 namespace voussoir {
 
-/// Adds the wall time from its making to its end to a sum.
+/// Adds the wall-clock time between its construction and destruction to a sum.
 class Timed {
   using Clock = std::chrono::steady_clock;
 

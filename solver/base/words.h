@@ -1,11 +1,11 @@
-// Lines of files, word by word.
+// Splits lines into words.
 #pragma once
 #include <string_view>
 #include <vector>
 
 namespace voussoir {
 
-/// Text between `separators`.
+/// The words of a line between `separators`.
 inline std::vector<std::string_view> words_of(std::string_view line, std::string_view separators = " \t") {
   std::vector<std::string_view> words;
   while (true) {

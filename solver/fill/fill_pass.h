@@ -1,4 +1,4 @@
-// A step of the fill, in two rounds over its tiles (docs/theory/fill.md).
+// A time step of the fill, in two rounds over its tiles (docs/theory/fill.md).
 //
 // Round 1: elastic volumetric strain of the tetrahedra, then its mean about each node.
 // Round 2: stresses and nodal forces, then the nodes move.
@@ -18,9 +18,9 @@ namespace voussoir {
 
 struct FillReport {
   std::int32_t inverted = -1;  // lowest tetrahedron (of FillMesh::tets) that has lost its volume
-  std::int32_t runaway = -1;   // lowest node (of FillMesh::nodes) whose velocity is not finite or past any sense
+  std::int32_t runaway = -1;   // lowest node (of FillMesh::nodes) whose velocity is not finite or exceeds the limit
   std::int64_t yielding = 0;   // tetrahedra that flow
-  bool search = false;         // some node has moved far enough for a new search of contacts
+  bool search = false;         // a node has moved far enough for a new contact search
   void merge(const FillReport& other);
 };
 
@@ -28,7 +28,7 @@ struct FillEnergy {
   double elastic = 0.0, branches = 0.0;  // J
 };
 
-/// Out-of-balance force on a node (N) and the velocity that follows (m/s); the fourth number means nothing.
+/// Out-of-balance force on a node (N) and the velocity that follows (m/s); the fourth number is not used.
 struct NodeUpdate {
   Quad force, velocity;
 };
@@ -42,19 +42,21 @@ struct FillPass {
   // Forces from outside, N: node_width a slot, and the slots of each node; none.
   const double* outside = nullptr;
   const std::vector<std::int32_t>*first_of_node = nullptr, *of_node = nullptr;
-  FillEnergy* energies = nullptr;                           // of each tile, or not wanted
+  FillEnergy* energies = nullptr;                           // of each tile, or null
   Vec3 gravity = Vec3::Zero();                              // m/s2
   double dt = 0.0;                                          // s
   double mass_rate = 0.0;                                   // 1/s, Rayleigh
   double local = 0.0;                                       // Cundall
-  bool loaded = false;                                      // beside gravity: these
-  const double *loads_from = nullptr, *loads_to = nullptr;  // N, node_width a node, beside gravity; none
-  Vec3 load_acceleration = Vec3::Zero();                    // m/s2, of all nodes, beside gravity; at this step
-  double load_share = 1.0;                                  // of the way from the one to the other, at this step
-  double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched calls for a search
+  bool loaded = false;                                      // whether the following loads act in addition to gravity
+  const double *loads_from = nullptr, *loads_to = nullptr;  // N, node_width for each node, in addition to gravity; or
+                                                            // null
+  Vec3 load_acceleration = Vec3::Zero();                    // m/s2, of all nodes, in addition to gravity, at this time
+                                                            // step
+  double load_share = 1.0;                                  // share between the two loads, at this time step
+  double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched requires a search
   Vec3 base_displacement = Vec3::Zero();  // m, at the end of the step
-  bool averaged = true;                   // false: plain tetrahedra, which lock; for comparison
-  bool single = false;                    // strain and stress in single precision: steps of an earthquake
+  bool averaged = true;                   // false: standard tetrahedra, which lock; for comparison
+  bool single = false;                    // strain and stress in single precision, for time steps of an earthquake
 
   void volumes(std::size_t tile) const;
   void means(std::size_t tile) const;
@@ -62,9 +64,9 @@ struct FillPass {
   FillReport nodes(std::size_t tile) const;
 
   NodeUpdate update(std::size_t node) const;
-  /// What acts beside gravity at this step, N.
+  /// Loads in addition to gravity at this time step, N.
   Quad load(std::size_t node) const;
-  /// Work of that over half a step at this velocity (m/s), J.
+  /// Work of these loads over half a time step at this velocity (m/s), J.
   double load_work(std::size_t node, const Quad& velocity) const;
 
  private:

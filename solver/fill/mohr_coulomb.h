@@ -1,5 +1,5 @@
-// Mohr–Coulomb with tension cut-off and dilation, returned to in principal stresses (de Borst 1987; Clausen, Damkilde &
-// Andersen 2006; de Souza Neto, Perić & Owen 2008, ch. 8). Tension is positive, σ1 ≥ σ2 ≥ σ3.
+// Mohr–Coulomb with tension cut-off and dilation, with the return in principal stresses (de Borst 1987; Clausen,
+// Damkilde & Andersen 2006; de Souza Neto, Perić & Owen 2008, ch. 8). Tension is positive, σ1 ≥ σ2 ≥ σ3.
 //
 //   f = (1 + sin φ) σ1 − (1 − sin φ) σ3 − 2 c cos φ ≤ 0,  flow along the same with ψ for φ
 //   σ1 ≤ ft, associated; ft is no more than the apex c cot φ
@@ -11,12 +11,12 @@
 
 namespace voussoir {
 
-/// Where on the yield surface a stress was returned to: which planes hold it there.
+/// Planes of the yield surface to which a stress was returned.
 enum class ReturnRegion { elastic, plane, edge_12, edge_23, cut, cut_12, apex, plane_cut, vertex_23, vertex_12 };
 constexpr int return_regions = 10;
 
-/// Whether a stress of deviator with s : s = 2 J2 and mean p surely is elastic: inside the circular cone that touches
-/// the hexagonal one from within, and below the cut-off. No root is taken.
+/// Whether a stress with deviator s : s = 2 J2 and mean p is certainly elastic: inside the inscribed circular cone of
+/// the hexagonal one, and below the cut-off. No root is computed.
 template <class T>
 [[gnu::always_inline]] inline auto surely_elastic(const FillLaw& law, T two_j2, T p) {
   const T zero = all_lanes<T>(0.0);
@@ -25,8 +25,8 @@ template <class T>
          at_most((2.0 / 3.0) * two_j2, below * below);
 }
 
-/// Whether a stress with these greatest and least principal values may be past the cone or the cut-off, where they are
-/// known to the root of their rounding, of their difference.
+/// Whether a stress with these greatest and least principal values can be beyond the cone or the cut-off. The values
+/// are known to the square root of the rounding error, relative to their difference.
 template <class T>
 [[gnu::always_inline]] inline auto near_surface(const FillLaw& law, T high, T low) {
   constexpr double root = std::is_same_v<T, Floats> ? 1e-3 : 2e-7;
@@ -34,13 +34,13 @@ template <class T>
   return less(law.strength - margin, law.major * high - law.minor * low) | less(law.tension - margin, high);
 }
 
-/// The admissible stress that a trial stress (sorted, Pa) returns to; `region`, where wanted, says which planes. What
-/// few need is computed only if some lane is left for it.
+/// Returns a trial stress (sorted, Pa) to the admissible stress; `region`, if not null, receives the planes. Rare cases
+/// are computed only if a lane needs them.
 template <class T>
 inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stress)[3], T* region = nullptr) {
   const double a = law.major, b = law.minor, ag = law.flow_major, bg = law.flow_minor;
   const double P = law.stiff(), L = law.lame(), ft = law.tension, k = law.strength;
-  // D r of the plane's flow along the greatest, a middle and the least stress.
+  // D r of the flow of the plane along the greatest, the middle and the least stress.
   const double up = P * ag - L * bg, mid = L * (ag - bg), down = L * ag - P * bg;
   const double h = a * up - b * down, g12 = a * mid - b * down, g23 = a * up - b * mid;
   const T zero = all_lanes<T>(0.0), cut = all_lanes<T>(ft);
@@ -52,7 +52,7 @@ inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stres
   const auto inside = [&](T u, T w) { return at_most(a * u - b * w, k + slack) & at_most(u, ft + slack); };
   T x[3] = {t1, t2, t3}, found = all_lanes<T>(double(ReturnRegion::elastic));
   auto left = without(at_most(zero, zero), at_most(f13, zero) & at_most(t1, cut));
-  /// Of the lanes that are left those where it holds are done; whether any is left then.
+  /// Marks the remaining lanes for which the condition holds as done; returns whether any lane remains.
   const auto take = [&](auto holds, T u, T v, T w, ReturnRegion which) {
     const auto here = left & holds;
     x[0] = select(here, u, x[0]), x[1] = select(here, v, x[1]), x[2] = select(here, w, x[2]);
@@ -65,7 +65,7 @@ inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stres
     const T u = t1 - up * one, v = t2 - mid * one, w = t3 - down * one;
     return take(at_most(zero, one) & sorted(u, v, w) & inside(u, w), u, v, w, ReturnRegion::plane);
   };
-  const auto middle_and_least = [&] {  // equal at the cone's edge
+  const auto middle_and_least = [&] {  // equal at the edge of the cone
     const double by = 1.0 / (h * h - g23 * g23);
     const T f12 = a * t1 - b * t2 - k;
     const T one = by * (h * f13 - g23 * f12), two = by * (h * f12 - g23 * f13);
@@ -96,7 +96,7 @@ inline void return_to_surface(const FillLaw& law, const T (&trial)[3], T (&stres
     const T one = by * (P * f13 - n_cut * (t1 - ft)), two = by * (h * (t1 - ft) - up * f13);
     const T u = t1 - up * one - P * two, v = t2 - mid * one - L * two, w = t3 - down * one - L * two;
     take(at_most(zero, one) & at_most(zero, two) & sorted(u, v, w), u, v, w, ReturnRegion::plane_cut);
-    // What nothing before it holds: the corner where they meet, on either side.
+    // The remaining case: the corner between the surfaces, on either side.
     const T corner = all_lanes<T>((a * ft - k) / b);
     take(less(u + slack, v), cut, cut, corner, ReturnRegion::vertex_12);
     take(left, cut, corner, corner, ReturnRegion::vertex_23);

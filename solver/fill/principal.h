@@ -1,5 +1,5 @@
-// Principal axes of symmetric 3 × 3 tensors in closed form, for elements that flow by the thousand. principal() in
-// symmetric.h finds the same by rotations, without a case that is special: what this is tested against.
+// Principal axes of symmetric 3 × 3 tensors in closed form, for thousands of yielding elements. principal() in
+// symmetric.h computes the same by rotations and without special cases. It is the reference in tests.
 #pragma once
 #include "solver/fill/symmetric.h"
 
@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace detail {
 
-/// What a deviator that is all rounding is taken to be at least; its cube and the inverse of that are numbers.
+/// Least value for a deviator that consists of rounding errors. Its cube and the inverse of the cube are finite.
 template <class T>
 constexpr double least_size = std::is_same_v<T, Floats> ? 1e-12 : 1e-100;
 
@@ -17,9 +17,8 @@ template <class T>
           a.xz * v.x + a.yz * v.y + a.zz * v.z};
 }
 
-/// 2 cos(⅓ arccos r) for r from 0 to 1, the greatest root of x³ − 3 x = 2 r. It
-/// is a simple one, so that x(r) is smooth: its Chebyshev series of degree 8
-/// errs by 3.2e-9, and a step of Newton leaves rounding.
+/// 2 cos(⅓ arccos r) for r from 0 to 1, the greatest root of x³ − 3 x = 2 r. It is a simple root, so that x(r) is
+/// smooth. Its Chebyshev series of degree 8 has an error of 3.2e-9, and one Newton iteration reduces it to rounding.
 template <class T>
 [[gnu::always_inline]] inline T greatest_root(T r) {
   constexpr double series[9] = {1.87938524119,     0.131643590843,     -0.0128628088564,
@@ -36,9 +35,8 @@ template <class T>
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
 
-/// The eigenvector to an eigenvalue apart from the two others, which lie on one
-/// side of it: all columns of the adjugate of `a` less that value point along
-/// it; the longest has the greatest diagonal.
+/// The eigenvector of an eigenvalue that is separate from the two others on one side. All columns of the adjugate of
+/// `a` minus this value are parallel to it; the longest column has the greatest diagonal entry.
 template <class T>
 [[gnu::always_inline]] inline Triple<T> axis_of(const Symmetric<T>& a, T value) {
   const T xx = a.xx - value, yy = a.yy - value, zz = a.zz - value;
@@ -52,8 +50,8 @@ template <class T>
 
 }  // namespace detail
 
-/// The principal value of the deviator that is apart from both others by at least its own size: `value` of the tensor
-/// scaled by `scale` to have the roots of x³ − 3 x = 2 r, and turned over where r is below zero (Smith 1961).
+/// The principal value of the deviator that differs from both others by at least its own size: `value` of the tensor
+/// scaled by `scale` to the roots of x³ − 3 x = 2 r, with opposite sign if r is below zero (Smith 1961).
 template <class T>
 struct ApartValue {
   T value, scale, size;  // size = 1/|scale|
@@ -76,8 +74,8 @@ template <class T>
   return a;
 }
 
-/// Greatest and least principal value of the deviator, without axes: to rounding, but where two are nearly equal to the
-/// root of that.
+/// Greatest and least principal value of the deviator, without axes. They are accurate to rounding, or to its square
+/// root if two values are nearly equal.
 template <class T>
 struct Extremes {
   T high, low;
@@ -89,12 +87,10 @@ template <class T>
   return {a.size * select(a.over, across, a.value), -(a.size * select(a.over, a.value, across))};
 }
 
-/// Of the deviator one principal value is apart from both others by at least
-/// its own size; it comes from the cubic in closed form (Smith 1961), its axis
-/// from the adjugate (Scherzinger & Dohrmann 2008). What is left is a tensor in
-/// the plane across, given axes as Duff et al. (2017) and turned into its own
-/// by one Jacobi rotation (Golub & Van Loan 2013, 8.5.2). All to rounding of
-/// the deviator's norm; so is their order.
+/// One principal value of the deviator differs from both others by at least its own size. It is computed from the cubic
+/// in closed form (Smith 1961), and its axis from the adjugate (Scherzinger & Dohrmann 2008). The remainder is a tensor
+/// in the normal plane. It gets axes as in Duff et al. (2017), which one Jacobi rotation turns into principal axes
+/// (Golub & Van Loan 2013, 8.5.2). All results, and their order, are accurate to rounding of the norm of the deviator.
 template <class T>
 inline Principal<T> principal_axes(const Symmetric<T>& s, const ApartValue<T>& single) {
   const T zero = all_lanes<T>(0.0), one = all_lanes<T>(1.0);
@@ -102,7 +98,7 @@ inline Principal<T> principal_axes(const Symmetric<T>& s, const ApartValue<T>& s
   const Symmetric<T> d = {s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.xz, s.yz};
   const auto over = single.over;
   const Triple<T> n = detail::axis_of(single.scale * d, single.value);
-  // Two axes across it.
+  // Two axes normal to it.
   const T sign = select(less(n.z, zero), -one, one), turn = -1.0 / (sign + n.z), both = n.x * n.y * turn;
   const Triple<T> u = {one + sign * n.x * n.x * turn, sign * both, -sign * n.x};
   const Triple<T> w = {both, sign + n.y * n.y * turn, -n.y};

@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-// What the kernels ask of lanes, for a single number.
+// Operations of lanes for a single number.
 inline bool less(double a, double b) {
   return a < b;
 }
@@ -68,7 +68,7 @@ template <class T>
   const T mean = trace(a) * (1.0 / 3.0);
   return {a.xx - mean, a.yy - mean, a.zz - mean, a.xy, a.xz, a.yz};
 }
-/// a b of two that share their principal axes, so that it is symmetric too.
+/// a b for two tensors with common principal axes, so that the product is also symmetric.
 template <class T>
 [[gnu::always_inline]] inline Symmetric<T> coaxial_product(const Symmetric<T>& a, const Symmetric<T>& b) {
   return {a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, a.xy * b.xy + a.yy * b.yy + a.yz * b.yz,
@@ -140,7 +140,7 @@ template <class T>
 
 }  // namespace detail
 
-/// By cyclic Jacobi rotations; five sweeps bring what is left of the off-diagonal below rounding.
+/// Cyclic Jacobi rotations; five sweeps reduce the off-diagonal entries below rounding.
 template <class T>
 inline Principal<T> principal(const Symmetric<T>& s) {
   const T zero = all_lanes<T>(0.0), one = all_lanes<T>(1.0);
@@ -159,7 +159,7 @@ inline Principal<T> principal(const Symmetric<T>& s) {
   return x;
 }
 
-/// The tensor of these principal values and axes.
+/// The tensor with these principal values and axes.
 template <class T>
 [[gnu::always_inline]] inline Symmetric<T> from_principal(const T (&value)[3], const Tensor<T>& axes) {
   const T zero = all_lanes<T>(0.0);

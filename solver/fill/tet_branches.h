@@ -1,20 +1,20 @@
 // Maxwell branches of eight tetrahedra at a time (docs/theory/damping.md, fill.md). Rows of a batch: branch by branch
-// the six components, two of them side by side in a register. They lose 1 − e of themselves, because e itself, near
-// one, would be rounded to another relaxation time in single precision.
+// the six components, two of them side by side in a register. The decay uses 1 − e, because e is near one and its
+// rounding in single precision would change the relaxation time.
 #pragma once
 #include "solver/fill/tet_strain.h"
 
 namespace voussoir::tet {
 
-/// Elastic strain with its mean volumetric part, and the tetrahedron's own volumetric part.
+/// Elastic strain with the mean volumetric part, and the volumetric part of the tetrahedron itself.
 template <class L>
 struct ElasticStrain {
   Symmetric<L> e;
   L mean, own;
 };
 
-/// 3 over the trace of FᵀF. With it axes that the material carries along keep their mean length, however far it has
-/// flowed: Fᵀ e F alone would grow with the square of a stretch, and what it does to the nodes with the fourth power.
+/// 3 over the trace of FᵀF. With this factor the convected axes keep their mean length for any plastic flow. Fᵀ e F
+/// alone would grow with the square of a stretch, and its nodal forces with the fourth power.
 template <class L>
 [[gnu::always_inline]] inline L stretch_back(const Tensor<L>& f) {
   L sum = all_lanes<L>(0.0);
@@ -55,10 +55,10 @@ template <class L>
   std::memcpy(rows, &x, sizeof(x));
 }
 
-/// Their stress on material axes, and the work done on them (J/m3): q ← e q + g Δε of the elastic strain material(),
-/// θ the mean one; `back`: stretch_back(). Nodes work on it with all strain, what has flowed included (`trial`: before
-/// the flow), and with the tetrahedron's own volumetric part. `last`: strain at the last pass, rounded to single
-/// precision, so that changes add up.
+/// Stress of the branches in material axes, and work on them (J/m3): q ← e q + g Δε with the elastic strain material(),
+/// where θ is the mean one; `back`: stretch_back(). The work of the nodes includes the whole strain with plastic flow
+/// (`trial`: before the flow) and the volumetric part of the tetrahedron itself. `last`: strain at the last pass,
+/// rounded to single precision, so that changes add up.
 template <int count, class L>
 [[gnu::always_inline]] inline Symmetric<L> viscous(const Branches& branches, const FillLaw& law, const Tensor<L>& f,
                                                    L back, const ElasticStrain<L>& strain,
@@ -66,7 +66,7 @@ template <int count, class L>
                                                    Singles* kept, Lanes& work) {
   const Symmetric<L> now = material(f, back, strain);
   const Packed rounded = pack(now);
-  Packed change, q{}, both{};  // sums over the branches, and over both ends of the step
+  Packed change, q{}, both{};  // sums over the branches, and over both ends of the time step
   for (int c = 0; c < 3; ++c) {
     change.of[c] = rounded.of[c] - load_pair(last + 2 * c);
     save_pair(rounded.of[c], last + 2 * c);
@@ -89,7 +89,7 @@ template <int count, class L>
     for (int c = 0; c < 3; ++c) change.of[c] += flowed.of[c];
     swollen += singles_of(trial.own - strain.own);
   }
-  // By the mean of the stresses at both ends of the step.
+  // With the mean of the stresses at both ends of the time step.
   const Lanes sum = widen(both.trace()), grown = widen(change.trace());
   work =
       law.shear * widen(inner(both, change)) + 0.5 * sum * (law.lame() * grown + law.bulk * (widen(swollen) - grown));
@@ -101,7 +101,7 @@ template <int count, class L>
   return stress;
 }
 
-/// Energy in the branches' springs, J/m3.
+/// Energy in the springs of the branches, J/m3.
 template <int count>
 Lanes branch_energy(const Branches& branches, const FillLaw& law, const Singles* kept) {
   Lanes sum = splat(0.0);

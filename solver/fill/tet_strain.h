@@ -1,13 +1,13 @@
-// Eight tetrahedra at a time: from the displacements of their corners to strain and stress, for the step and for what
-// is read off a state. L is Lanes or Floats: differences between corners are taken in double precision, and all that is
-// computed of them is small against 1 or relative to it, so that single precision does for a step.
+// Strain and stress of eight tetrahedra at a time from the displacements of their corners, for the time step and for
+// output. L is Lanes or Floats. Differences between corners are computed in double precision. All further results are
+// small against 1 or relative to it, so that single precision is sufficient for a time step.
 #pragma once
 #include "solver/fill/fill_pass.h"
 #include "solver/fill/mohr_coulomb.h"
 
 namespace voussoir::tet {
 
-/// Of four corners three numbers each, as they differ from those of the first, and the mean of their fourth.
+/// Three numbers of each of four corners, as differences from the first corner, and the mean of the fourth numbers.
 template <class L>
 struct Nodes {
   Triple<L> edge[3];
@@ -87,16 +87,16 @@ template <class L>
   return m[0][0] + m[1][1] + m[2][2] + second + m[0][0] * a - m[0][1] * b + m[0][2] * c;
 }
 
-/// A tetrahedron that has all but lost its volume is kept from infinity; the report says where.
-constexpr double least_volume = 0.02;  // of the reference
+/// Keeps results finite for a tetrahedron that has nearly lost its volume; the report gives its position.
+constexpr double least_volume = 0.02;  // share of the reference volume
 template <class L>
 [[gnu::always_inline]] inline L clipped(L change) {
   return larger(change, all_lanes<L>(least_volume - 1.0));
 }
 
-/// θ for ln J, and dθ/d ln J: ½ (J − 1/J) in compression, which resists the loss of all volume; y + ½ y² + ⅓ y³ with
-/// y = 1 − 1/J in extension, the series of ln J, whose slope 1 − y³ falls with J, so that what has been torn wide open
-/// is not stiffer than it was. Both agree with ln J to second order.
+/// θ for ln J, and dθ/d ln J: ½ (J − 1/J) in compression, which resists the loss of all volume; y + ½ y² + ⅓ y³ with y
+/// = 1 − 1/J in extension, the series of ln J. Its slope 1 − y³ decreases with J, so that a widely opened element does
+/// not become stiffer. Both agree with ln J to second order.
 template <class L>
 struct Volumetric {
   L strain, slope, by;  // by: 1/J
@@ -109,7 +109,7 @@ template <class L>
           select(grown, 1.0 - y * y * y, 0.5 * (volume + by)), by};
 }
 
-/// dev ½ ln b from b − 1, to fourth order in the elastic strain. The mean of b is divided out first.
+/// dev ½ ln b from b − 1, to fourth order in the elastic strain. b is first divided by its mean.
 template <class L>
 [[gnu::always_inline]] inline Symmetric<L> elastic_deviator(const Symmetric<L>& less_one) {
   const L sum = trace(less_one), scale = 3.0 / (3.0 + sum), mean = (1.0 / 3.0) * sum;
@@ -137,7 +137,7 @@ template <class L>
            {minor(0, 1, 1, 2), minor(0, 1, 2, 0), minor(0, 1, 0, 1)}}};
 }
 
-/// Whether any of the eight has ever flowed: if not, their plastic memory is zero and need not be read.
+/// Whether any of the eight has ever yielded. If not, their plastic memory is zero and need not be read.
 [[gnu::always_inline]] inline bool has_flowed(const std::uint8_t* yield) {
   std::uint64_t flags;
   std::memcpy(&flags, yield, sizeof(flags));
@@ -153,7 +153,7 @@ template <class L>
           m[0][1] + m[1][0] + rows(0, 1), m[0][2] + m[2][0] + rows(0, 2), m[1][2] + m[2][1] + rows(1, 2)};
 }
 
-/// `plastic`: rows of plastic memory, or null where nothing has flowed.
+/// `plastic`: rows of plastic memory, or null without plastic flow.
 template <class L>
 [[gnu::always_inline]] inline Strain<L> strain_of(const Shape<L>& shape, const Nodes<L>& n, const Lanes* plastic) {
   Strain<L> s;
@@ -173,15 +173,16 @@ template <class L>
   return s;
 }
 
-/// Whether the lanes may have to flow, with the elastic deviator `e` and the mean stress `p` (Pa).
+/// Whether the lanes may yield, with the elastic deviator `e` and the mean stress `p` (Pa).
 template <class L>
 [[gnu::always_inline]] inline LaneMask may_flow(const FillLaw& law, const Symmetric<L>& e, L p) {
   const double shear2 = 4.0 * law.shear * law.shear;
   return ~surely_elastic(law, shear2 * inner(e, e), p);
 }
 
-/// Plastic flow of the lanes that need it, which it returns: changes the plastic memory, the yield bits, the elastic
-/// deviator and the mean stress. `dissipated`, the stress after it on what flowed (J/m3), is set if any flows.
+/// Computes the plastic flow of yielding lanes and returns these lanes. It changes the plastic memory, the yield bits,
+/// the elastic deviator and the mean stress. `dissipated`, the final stress times the plastic strain (J/m3), is set if
+/// any lane yields.
 template <class L>
 LaneMask flow(const FillLaw& law, const Strain<L>& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
               Symmetric<L>& e, L& p, L& dissipated);
