@@ -21,9 +21,9 @@ void add_folders(const fs::path& file, int count, std::vector<std::string>& fold
   for (int up = 0; up < count; ++up, folder = folder.parent_path()) folders.push_back(folder.string());
 }
 
-/// The program's folder and those above it, `count` in all, and a folder beside the program's; none where the system
-/// does not say which program runs. Before them those of the shared library that this is part of, where it is in one:
-/// the Python module, which lies one folder deeper and whose program is Python.
+/// The folder of the program and the folders above it, `count` in all, and a folder next to that of the program; none
+/// if the system does not say which program runs. If this code is part of a shared library (the Python module, whose
+/// program is Python), the folders of that library come first; it lies one folder deeper.
 std::vector<std::string> folders_of_program(int count, const char* installed) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);

@@ -24,8 +24,8 @@ Way way_of_contact(std::uint8_t mode) {
   return mode & mode_gone ? Way::gone : mode & mode_open ? Way::open : Way::points;
 }
 
-/// What the batches of patches in this order cost, in that of one whose joints are all intact: for each what is common
-/// to all ways, and the points if there are any.
+/// Cost of the batches in this order, relative to a batch of intact joints: for each batch the common part, and the
+/// points if there are any.
 double cost_of(const std::vector<Way>& ways) {
   double sum = 0.0;
   for (auto begin = ways.begin(); begin != ways.end();) {

@@ -9,7 +9,7 @@ namespace voussoir {
 
 namespace {
 
-/// What a patch that is clipped anew keeps: bonds, and in its branches the means.
+/// Data that a reclipped patch keeps: bonds, and the means of its branches.
 struct Kept {
   std::uint8_t broken = 0;
   std::vector<double> means;
@@ -46,8 +46,8 @@ void begin_again(const Interface& interface, std::size_t slot, const Kept& kept,
   most = std::max(most, Vec3(slid).norm());
 }
 
-/// A patch that was clipped anew begins with the same shear at all points: where friction does not bear it, the rest of
-/// it has slipped already. Else it would slip in the next pass and be counted as friction, which nobody had worked for.
+/// A reclipped patch begins with the same shear at all points. Where this exceeds friction, the excess is counted as
+/// earlier slip. Otherwise it would slip in the next pass and add friction energy without external work.
 void begin_within_friction(const Model& model, State& state, std::size_t slot) {
   const InterfacePatch& patch = state.interface.patches[slot];
   const Mat3 shape = shape_functions(patch);
@@ -82,7 +82,7 @@ void carry_memory(const Interface& from, const PatchMemory& old, const Interface
   }
 }
 
-/// The jump of a slot as it is now, rounded as the passes round it: what the branches have seen.
+/// The present jump of a slot, rounded as in the passes, for the branches.
 void note_jump(const Model& model, const State& state, std::size_t slot, PatchMemory& memory) {
   const InterfacePatch& patch = state.interface.patches[slot];
   const Mat3 shape = shape_functions(patch);
@@ -102,7 +102,7 @@ void bond(const Interface& interface, std::size_t slot, PatchMemory& memory) {
     memory.broken[interface.point_index(slot, i, 1, 0)] = 0;
 }
 
-/// Puts all patches into batches anew.
+/// Arranges all patches in new batches.
 void rebuild(const Model& model, State& state, int branches, InterfaceChange& change) {
   const Interface before = std::move(state.interface);
   const PatchMemory old = std::move(state.interface_memory);

@@ -1,6 +1,6 @@
 // Eight joints at a time. Lanes on the intact path are six generalised springs each (lane_springs.h); the others go
-// point by point (lane_points.h). What is rare (a lane that fails its check, opens, comes back) stands apart from
-// what every step does, and reads memory of its own.
+// point by point (lane_points.h). Rare cases (a lane fails its check, opens, or returns) are separate from the code of
+// every time step and read the memory themselves.
 #include <algorithm>
 
 #include "solver/contact/lane_points.h"

@@ -106,7 +106,7 @@ bool touching_as_built(const Model& model, const Patch& p) {
   return separation(model.cells[p.a][p.cell_a], model.cells[p.b][p.cell_b], near) <= near;
 }
 
-/// The frame of a sharp contact: s along what the pairs of points lie on, if there are two.
+/// The frame of a sharp contact: s along the line of the pairs of points, if there are two.
 Mat3 sharp_frame(const Meeting& m) {
   Vec3 s = m.normal.unitOrthogonal();
   if (m.on_a.size() == 2) {
@@ -124,8 +124,8 @@ Vec3 middle_of(const Meeting& m) {
   return place;
 }
 
-/// A sharp meeting stands on a small area of its own: along shared edges on a strip, whose points all lie on the line
-/// so that it is a hinge (Simpson's rule: exact for what is linear along it, with points at its ends).
+/// A sharp contact gets a small area. Along shared edges the area is a strip whose points all lie on the line, so that
+/// it is a hinge (Simpson's rule: exact for linear functions, with points at the ends).
 void make_sharp_patch(const Model& model, const State& state, const Meeting& m, NewContact& contact) {
   Patch& p = contact.patch;
   const double size = std::min(body_size(model, p.a), body_size(model, p.b)), breadth = edge_breadth * size;
@@ -303,8 +303,8 @@ double elastic_energy(const NewContact& c) {
   return sum;
 }
 
-/// The same force on less area holds more energy: a patch that has shrunk since it was made would speed its blocks up.
-/// Where some of it stands open it is raised as a whole: made smaller, what is open would close.
+/// The same force on a smaller area has more elastic energy, so a patch with decreasing area would accelerate its
+/// blocks. If a part of it is open, the whole patch is raised, because a smaller patch would close the open part.
 void limit_energy(double most, NewContact& c) {
   const double now = elastic_energy(c);
   if (now <= most) return;

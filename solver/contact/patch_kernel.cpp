@@ -26,7 +26,7 @@ void store_memory(const Patch& patch, int i, const PointMemory& point, PatchMemo
   memory.broken[point_index(patch, i, 1, 0)] = point.broken;
 }
 
-/// What the composite law remembers beside.
+/// Additional memory of the composite law.
 void load_crushing(const Patch& patch, int i, const PatchMemory& memory, PointMemory& point) {
   point.crushed = memory.point_crush[point_index(patch, i, 3, 0)];
   point.closure = memory.point_crush[point_index(patch, i, 3, 1)];
@@ -53,9 +53,9 @@ PointBefore point_before(const PatchPoint& at, const Triple<double>& u, const do
   return b;
 }
 
-/// Work done on the point's springs over the step, by the mean of the tractions at both ends, less what they now hold
-/// more: what a yielding point has lost. (By the traction at the end alone the ledger would leak in proportion to the
-/// step.)
+/// Dissipated energy of a yielding point: the work on its springs over the time step, with the mean of the tractions at
+/// both ends, minus the increase of their energy. (With only the traction at the end, the error of the energy balance
+/// would be in proportion to the time step.)
 void book_losses(const Patch& patch, const PointBefore& b, double plastic_opening, bool was_broken, PointResult& r) {
   const auto lost = [&](double k, double now, int c) {
     return 0.5 * k * ((now + b.elastic[c]) * b.du[c] - now * now + b.elastic[c] * b.elastic[c]);

@@ -43,8 +43,8 @@ Difference in_shapes(const DiagnosisProblem& problem, const Trial& a, const Tria
   return most;
 }
 
-/// Modes that were not measured: those of `a` up to twice the highest measured frequency, each with the mode of `b`
-/// that is most like it.
+/// Modes that were not measured: those of `a` up to twice the highest measured frequency, each compared with the most
+/// similar mode of `b`.
 Difference in_frequencies(const DiagnosisProblem& problem, const Trial& a, const Trial& b) {
   Difference most;
   const std::size_t blocks = problem.base.blocks.size();

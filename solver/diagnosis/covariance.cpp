@@ -129,7 +129,7 @@ class OwnErrors {
   Eigen::MatrixXd covariance_;
 };
 
-/// Rows of what each nuisance does, from what it does to the modes.
+/// Effect of each nuisance on the rows, from its effect on the modes.
 Eigen::MatrixXd rows_of_nuisances(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
                                   const Response& plain, const Hypothesis& hypothesis, const Eigen::VectorXd& x,
                                   const Observed& as_is, const std::vector<Sensitivity>& nuisances) {

@@ -55,7 +55,7 @@ struct Way {
   }
 };
 
-/// Models with an effect of any amount beside a hypothesis at x.
+/// Models with any amount of an effect in addition to a hypothesis at x.
 class Amounts {
  public:
   Amounts(const Extended& all, const Hypothesis& hypothesis, const Eigen::VectorXd& x, const Origin& origin,
@@ -216,7 +216,7 @@ Detection detection(const DiagnosisProblem& problem, const Fit& fit, const Origi
   for (const bool sensors : {true, false})
     for (Addition& a : best_additions(all, sensors, distance.covariance(), traces, settings.further))
       d.further.push_back(std::move(a));
-  // Distances do not quite grow in proportion: the effects that each helps most are looked for anew.
+  // Distances are not exactly proportional, so the effects that each addition helps most are determined again.
   std::vector<std::pair<Addition::Helped*, const std::vector<int>*>> helped;
   for (Addition& a : d.further)
     for (Addition::Helped& h : a.most) helped.emplace_back(&h, &a.rows);

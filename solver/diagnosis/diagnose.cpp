@@ -27,7 +27,7 @@ bool is_noise(const DiagnosisProblem& problem, const DiagnosisSettings& settings
   return tail(problem, fit).probability > settings.consistent;
 }
 
-/// By how much a further effect beside those of a hypothesis must be better than none.
+/// Margin by which a further effect must be better than "none", in addition to the effects of a hypothesis.
 double margin_beside(const Hypothesis& hypothesis, const DiagnosisSettings& settings) {
   return settings.margin + (hypothesis.effects.empty() ? 0.0 : settings.further);
 }
@@ -70,7 +70,7 @@ void say_of(const DiagnosisProblem& problem, const Trial& added, const Fit& curr
   for (const std::string& alarm : alarms_of(current)) say("  compensation: " + alarm);
 }
 
-/// Faults of channels that are certain, before anything else is judged.
+/// Corrects certain faults of channels before the search for effects.
 void set_channels_right(DiagnosisProblem& problem, const DiagnosisSettings& settings, SearchPoint& standing,
                         const std::vector<Candidate>& all, std::vector<Round>& rounds, const Say& say) {
   std::vector<Candidate> faults = all;
@@ -87,7 +87,7 @@ void set_channels_right(DiagnosisProblem& problem, const DiagnosisSettings& sett
   }
 }
 
-/// Adds candidates one by one while each one pays.
+/// Adds candidates one by one as long as each one is accepted.
 void add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, SearchPoint& standing, int most,
                   const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
   for (int added = 0; added < most; ++added) {
@@ -108,7 +108,7 @@ void add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, 
   }
 }
 
-/// What would tell the best trial of each accepted round from those that are as good.
+/// Adds advice to distinguish the best trial of each accepted round from equally good trials.
 void add_advice(const DiagnosisProblem& problem, Diagnosis& d) {
   for (Round& round : d.rounds) {
     if (!round.accepted) continue;
@@ -179,11 +179,12 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
   if (is_noise(problem, settings, d.best) || (added && tail(problem, d.best).probability > settings.credible))
     d.verdict = added ? Diagnosis::Verdict::found : Diagnosis::Verdict::consistent;
   if (d.verdict == Diagnosis::Verdict::unexplained) {
-    d.best = sound.fit;  // what only helps is not named
+    d.best = sound.fit;  // effects that only reduce the misfit are not named
     for (std::size_t i = faults; i < d.rounds.size(); ++i) d.rounds[i].accepted = false;
     say("no effect of the library reduces the residuals to noise: the search for missing stiffness or mass begins");
     problem = with_sound_channels;
-    // They say where something is missing, not what: no prediction is asked of them, and several are as likely as one.
+    // These factors show the location of a missing effect, not its kind. They need not improve predictions, and several
+    // are as probable as one.
     DiagnosisSettings lenient = settings;
     lenient.predict = false;
     lenient.further = 0.0;

@@ -96,7 +96,7 @@ struct LinearFit {
   Eigen::MatrixXd jacobian;
 };
 
-/// Evidence, and what the data leave of x, under one pair of scales of the errors.
+/// Evidence and posterior standard deviations of x for one pair of error scales.
 struct UnderScale {
   ErrorScale scale;
   double log_evidence = 0.0;
@@ -144,10 +144,10 @@ void weigh_scales(const DiagnosisProblem& problem, const std::vector<int>& fitte
   fit.std = variance.cwiseSqrt();
 }
 
-/// The amount of an effect stands beside stiffnesses and masses of its own part, which are as little known as those of
-/// any other: a relative standard deviation that no measurement takes away.
+/// The amount of an effect is relative to the stiffnesses and masses of its part, which are as uncertain as those of
+/// other parts. This relative standard deviation remains with any measurement.
 void add_own_law(Fit& fit) {
-  constexpr double own = 0.08;  // that of the stiffness of a part (nuisance.cpp)
+  constexpr double own = 0.08;  // as for the stiffness of a part (nuisance.cpp)
   auto at = Eigen::Index(fit.hypothesis.materials.size());
   for (const Candidate& c : fit.hypothesis.effects)
     for (const FitParameter& p : c.parameters) {
@@ -180,7 +180,7 @@ std::vector<double> leave_out(const Eigen::MatrixXd& covariance, const LinearFit
   return sums;
 }
 
-/// Root mean square of what the other modes leave of each one's rows.
+/// Root mean square error of the prediction of the rows of each mode from the other modes.
 double predicted_gap(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
                      const std::vector<int>& fitted, const LinearFit& l) {
   std::vector<std::vector<int>> groups(problem.features.modes.size());

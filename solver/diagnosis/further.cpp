@@ -231,7 +231,7 @@ Extended extended(const DiagnosisProblem& problem, const Origin& origin, const H
   std::stable_sort(features.modes.begin(), features.modes.end(),
                    [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
   for (const MeasuredFeature& mode : features.modes) e.further.push_back(further.contains(mode.name));
-  // The coarser mesh was not asked about further channels: what it leaves open there is in their own errors alone.
+  // The mesh error is not computed for further channels. It is included only in their own errors.
   pad_rows(e.problem.mesh.difference.sensors, e.plain.sensors.rows());
   pad_rows(e.problem.mesh.difference.motions, e.plain.motions.rows());
   set_covariance(e.problem, origin, e.plain, hypothesis, x, threads);

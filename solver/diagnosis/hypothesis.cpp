@@ -18,12 +18,12 @@ FitParameter factor_of(const std::string& name, double spread) {
 }
 
 FitParameter fit_parameter(const EffectParameter& p) {
-  // Just above nothing, so that what the effect adds is there and its derivative with it.
+  // Slightly above zero, so that the added parts and their derivatives exist.
   const double low = p.logarithmic ? p.low : p.low + 1e-4 * (p.usual - p.low);
   return {p.name, p.unit, p.usual, p.spread, p.logarithmic, low, p.high};
 }
 
-/// From the usual value; where that is the neutral one, from a standard deviation to either side.
+/// Start at the usual value; if that is the neutral one, start one standard deviation to either side.
 std::vector<std::vector<double>> starts_of(const Effect& effect) {
   const EffectParameter& first = effect.parameters[0];
   std::vector<double> usual(effect.parameters.size(), 0.0);
@@ -33,7 +33,7 @@ std::vector<std::vector<double>> starts_of(const Effect& effect) {
   return {up, down};
 }
 
-/// A clock that is late, or early, by what a tenth of a second and less mostly is.
+/// A clock that is late or early, typically by a tenth of a second or less.
 Candidate late_clock(const Candidate& fault) {
   Candidate clock = fault;
   clock.kind = Candidate::Kind::clock;
@@ -109,8 +109,8 @@ void add_sensor_faults(const std::vector<Sensor>& sensors, bool clocks, std::vec
   }
 }
 
-/// Effects by their own weights; of an effect's places, the one that is all of them counts as much as the others
-/// together: what the ground, the mason or time has done to one part it has mostly done to all of its kind.
+/// Effects have their weights. Among the places of an effect, the collective place counts as much as all others
+/// together, because the same cause usually affects all parts of a kind.
 void share_priors(std::vector<Candidate>& all) {
   std::map<std::string, std::pair<double, double>> counts;  // name: collective places, others
   const auto collective = [](const Candidate& c) {
@@ -144,7 +144,7 @@ void hold_end(Assembly& assembly, bool left, bool lengthways, double stiffness) 
   sort_joints(assembly);
 }
 
-/// The joints of a part, with what is around it too.
+/// The joints of a part, including those with its neighbours.
 void scale_around(Assembly& assembly, const BlockSet& part, double factor) {
   for (Joint& joint : assembly.joints) {
     const auto inside = [&](std::int64_t block) {

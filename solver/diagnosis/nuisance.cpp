@@ -178,8 +178,9 @@ double outline_of(const Polygon& polygon) {
   return sum;
 }
 
-/// What cuts the second into other blocks than the first, which differs by `amount` (m); empty: nothing. Where faces
-/// only move past each other, what two blocks share changes by a strip. Few joints may come or go, `share` of all area.
+/// Description of a different division into blocks in the second assembly, which differs by `amount` (m); empty if
+/// there is none. If faces only move past each other, the common area of two blocks changes by a strip. At most a
+/// `share` of the whole joint area may appear or disappear.
 std::string other_cut(const Assembly& a, const Assembly& b, double amount, double share) {
   if (a.blocks.size() != b.blocks.size())
     return fmt::format("{} blocks instead of {}", b.blocks.size(), a.blocks.size());

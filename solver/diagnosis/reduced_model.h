@@ -45,17 +45,17 @@ class Origin {
   std::shared_ptr<Copies> copies_ = std::make_shared<Copies>();  // outlives the origin while a copy is held
 };
 
-/// Modes in a basis: λ ascending; q a column a mode, qᵀ (Vᵀ M V) q = 1.
+/// Modes in a basis: λ ascending; one column of q for each mode, qᵀ (Vᵀ M V) q = 1.
 struct ReducedModes {
   Eigen::VectorXd eigenvalues;  // rad2/s2
   Eigen::MatrixXd q;
 };
 
-/// A basis for models of a kind. Every vector costs one projection of each class.
+/// A basis for models of one kind. Every vector needs one projection of each class.
 class ReducedModel {
  public:
-  /// Begins with the origin's modes and with unit motions of what moves in `changed` alone. Without classes all that
-  /// changes is among the others: right for a model that is looked at once.
+  /// Begins with the modes of the origin and with unit motions of the blocks that move only in `changed`. Without
+  /// classes, all changes are in Change::others, which is suitable for a model that is used once.
   ReducedModel(const Origin& origin, const Assembly& changed, Classes classes);
 
   auto basis() const { return v_.leftCols(count_); }
@@ -67,18 +67,18 @@ class ReducedModel {
     Eigen::MatrixXd k, m;
   };
   Matrices matrices(const Change& change) const;
-  /// As many modes as the basis has vectors that matter.
+  /// As many modes as the basis has independent vectors.
   ReducedModes modes(const Matrices& matrices) const;
 
-  /// Adds the origin's static response w to the residual forces f = λ M y − K y of the lowest `wanted` modes of a
-  /// changed model. Returns the largest w · f / λ: an estimate of the relative error of the eigenvalues before.
+  /// Adds the static response w of the origin to the residual forces f = λ M y − K y of the lowest `wanted` modes of a
+  /// changed model. Returns the largest w · f / λ: an estimate of the relative error of the previous eigenvalues.
   double refine(const Change& change, int wanted);
-  /// Until that is below `tolerance`, at most `most` times; modes that are far below it are left alone. Returns the
-  /// last estimate.
+  /// Repeats refine() until the estimate is below `tolerance`, at most `most` times. Modes far below the tolerance are
+  /// skipped. Returns the last estimate.
   double converge(const Change& change, int wanted, double tolerance, int most);
   void append(const Vectors& more) { append(more, nullptr, nullptr); }
 
-  /// φⱼᵀ M₀ y of the origin's modes (rows) and the lowest `count` of these.
+  /// φⱼᵀ M₀ y of the modes of the origin (rows) and the lowest `count` of the given modes.
   Eigen::MatrixXd along_origin(const ReducedModes& modes, Eigen::Index count) const;
   /// The lowest `count` modes over the unknowns.
   Eigen::MatrixXd vectors(const ReducedModes& modes, Eigen::Index count) const;
@@ -90,9 +90,9 @@ class ReducedModel {
   struct Projected {
     Eigen::MatrixXd whole;                 // of the origin
     std::vector<Eigen::MatrixXd> classes;  // of the origin's part of each
-    std::vector<bool> wide;                // classes with so many rows that to pick them would not pay
+    std::vector<bool> wide;                // classes with so many rows that selecting them is not worthwhile
   };
-  /// Modes that are worked on, with what is estimated of them: w · f / λ.
+  /// Refined modes with their estimated errors w · f / λ.
   struct Worked {
     std::vector<Eigen::Index> modes;
     Eigen::VectorXd errors;
@@ -100,7 +100,7 @@ class ReducedModel {
   };
   Eigen::MatrixXd sum(const Projected& p, const std::vector<double>& factors) const;
   Worked refine(const Change& change, const ReducedModes& found, std::vector<Eigen::Index> which);
-  /// `stiffness`, `momenta`: K₀ and M₀ of them where they are known.
+  /// `stiffness`, `momenta`: products with K₀ and M₀, if they are known.
   void append(const Vectors& more, const Vectors* stiffness, const Vectors* momenta);
 
   const Origin* origin_;

@@ -11,10 +11,10 @@ namespace voussoir {
 
 namespace {
 
-/// Least fault of a gain that is one: less is what mountings and the model's shapes leave.
+/// Least deviation of a gain that counts as a fault. Mountings and errors of the model shapes cause smaller deviations.
 constexpr double least_gain_fault = 0.1;
 
-/// Why a fitted fault of a channel is none; empty: it is one.
+/// Reason why a fitted channel fault is not a fault; empty if it is one.
 std::string no_fault(const Fit& fit) {
   const Candidate& added = fit.hypothesis.effects.back();
   if (added.kind != Candidate::Kind::gain || added.parameters.empty()) return {};
@@ -23,7 +23,7 @@ std::string no_fault(const Fit& fit) {
   return fmt::format("a gain of {:.2f} cannot be distinguished from 1", gain);
 }
 
-/// Takes out wrong gains that would come out too near 1 to be faults: readings are linear in them.
+/// Removes gains that would be too near 1 to be faults. Readings are linear in the gain.
 void drop_small_gains(const std::vector<Candidate>& candidates, std::vector<Signature>& all) {
   for (Signature& s : all) {
     const Candidate& c = candidates[s.candidate];
@@ -33,7 +33,7 @@ void drop_small_gains(const std::vector<Candidate>& candidates, std::vector<Sign
   }
 }
 
-/// Of each candidate its best start, best first; at most `count`.
+/// The best start of each candidate, best first; at most `count`.
 std::vector<Signature> shortlist(std::vector<Signature> all, std::size_t count) {
   std::erase_if(all, [](const Signature& s) { return !s.possible; });
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
@@ -45,7 +45,7 @@ std::vector<Signature> shortlist(std::vector<Signature> all, std::size_t count) 
   return best;
 }
 
-/// Materials back at their usual values: they may have paid for what the candidate now brings.
+/// Sets the materials to their usual values, because they may have compensated for the effect of the candidate.
 Eigen::VectorXd beginning(const Fit& current, const Candidate& candidate, const std::vector<double>& start) {
   Eigen::VectorXd x = current.best.x;
   x.head(Eigen::Index(current.hypothesis.materials.size())).setZero();
@@ -54,7 +54,7 @@ Eigen::VectorXd beginning(const Fit& current, const Candidate& candidate, const 
   return more;
 }
 
-/// Probabilities of the trials and of none, whose prior is as much as that of all candidates together.
+/// Probabilities of the trials and of "none", whose prior is equal to the sum over all candidates.
 void weigh(Round& round, const Fit& current) {
   double most = current.log_evidence;
   for (const Trial& t : round.trials) most = std::max(most, t.fit.log_evidence + std::log(t.candidate.prior));
@@ -102,7 +102,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
                 const std::vector<Candidate>& all_candidates, const std::function<void(const std::string&)>& say) {
   const Fit& current = standing.fit;
   Round round;
-  std::vector<Candidate> candidates;  // those that are not there already
+  std::vector<Candidate> candidates;  // without those already present
   for (const Candidate& c : all_candidates)
     if (std::none_of(current.hypothesis.effects.begin(), current.hypothesis.effects.end(),
                      [&](const Candidate& there) { return excludes(there, c); }))
@@ -127,7 +127,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
                       *standing.origin, standing.shared);
       failures[i] = no_fault(trial.fit);
       if (failures[i].empty()) trials[i] = std::move(trial);
-    } catch (const std::runtime_error& error) {  // it leaves no bridge that stands: no explanation either
+    } catch (const std::runtime_error& error) {  // the model with it is not a valid bridge, so it is not an explanation
       failures[i] = error.what();
     }
   });

@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-/// The residuals, prior rows included, and what the hypothesis' own parameters do to them.
+/// The residuals, including prior rows, and their derivatives with respect to the parameters of the hypothesis.
 struct Linearised {
   const DiagnosisProblem* problem = nullptr;
   std::vector<ResidualRow> rows;

@@ -1,4 +1,4 @@
-// Repointed, injected or glued joints: those inside a part of the masonry gain tensile strength, cohesion and
+// Repointed, injected or glued joints: the joints inside a part of the masonry get more tensile strength, cohesion and
 // stiffness.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
@@ -7,7 +7,7 @@ namespace voussoir {
 
 namespace {
 
-/// The infill of a pier or abutment is left as it is: see grouted_infill.
+/// The infill of a pier or abutment is unchanged: see grouted_infill.
 void apply_bonded_joints(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const BlockSet part = masonry_part(assembly, where), infill = component(assembly, Component::infill);
   const auto in = [&](std::int64_t block) { return part[std::size_t(block)] && !infill[std::size_t(block)]; };

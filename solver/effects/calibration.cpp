@@ -1,5 +1,5 @@
-// Properties that every model is unsure of: stiffness and density of masonry, of the infill, of the backfill. Diagnosis
-// fits them before it looks for anything that is missing, and writes them down as this effect.
+// Uncertain properties of every model: stiffness and density of masonry, infill and backfill. A diagnosis fits them
+// before it searches for missing effects, and writes them to the case as this effect.
 #include <algorithm>
 
 #include "solver/effects/effect.h"
@@ -9,7 +9,7 @@ namespace voussoir {
 
 namespace {
 
-/// Joints belong to the weakest of what they join.
+/// A joint belongs to the weaker of its two materials.
 enum class Kind { none, masonry, infill, fill };
 const char* const kind_names[] = {"none", "masonry", "infill", "backfill"};
 

@@ -1,4 +1,4 @@
-// More or less damping than the case has.
+// A damping ratio that differs from that of the case.
 #include "solver/base/error.h"
 #include "solver/effects/effect.h"
 

@@ -1,4 +1,4 @@
-// Contact between the backfill and the masonry around it: lost, or better than thought.
+// The contact between the backfill and the masonry around it is lost, or stiffer than assumed.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 

@@ -1,4 +1,4 @@
-// The backfill itself is softer or stiffer than thought.
+// The backfill itself is softer or stiffer than assumed.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 

@@ -1,4 +1,5 @@
-// Grout in the loose infill of piers and abutments: it gains tensile strength, cohesion, stiffness and weight.
+// Grout in the loose infill of piers and abutments: the infill gets more tensile strength, cohesion, stiffness and
+// weight.
 #include <algorithm>
 
 #include "solver/effects/effect.h"
@@ -28,7 +29,7 @@ std::vector<std::string> places_of_grouted_infill(const Assembly& assembly) {
   return names;
 }
 
-/// The infill's own joints and those with what surrounds it.
+/// The joints inside the infill and those with the masonry around it.
 void apply_grouted_infill(Assembly& assembly, const std::string& where, const std::vector<double>& values) {
   const BlockSet infill = infill_of(assembly, where);
   const auto grouted = [&](const Joint& joint) { return infill[std::size_t(joint.a)] || infill[std::size_t(joint.b)]; };

@@ -1,4 +1,4 @@
-// Parapets that only weigh: their joints carry a share of what they should.
+// Parapets that add weight but little stiffness: their joints have a share of their stiffness.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 

@@ -1,5 +1,5 @@
-// New ties across the bridge, from one spandrel wall to the other: bars between anchor plates that only pull, and
-// yield.
+// New ties across the bridge, from one spandrel wall to the other: bars between anchor plates that act only in tension
+// and yield.
 #include <fmt/format.h>
 
 #include <algorithm>

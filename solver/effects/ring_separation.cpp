@@ -1,4 +1,4 @@
-// The rings of a vault have come apart: the joints between them are softer.
+// The rings of a vault have separated: the joints between them are softer.
 #include <fmt/format.h>
 
 #include "geometry/rings.h"

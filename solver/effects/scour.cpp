@@ -1,4 +1,4 @@
-// Part of a base has lost its bearing: the joints between the base and what stands on it end at a line.
+// The ground under part of a base is eroded: the joints on top of the base are cut at a line.
 #include <algorithm>
 
 #include "solver/effects/effect.h"

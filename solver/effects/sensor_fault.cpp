@@ -1,5 +1,4 @@
-// A channel that does not read what it should: a reversed, wrong or dead gain, a wrong axis, a late clock, or two
-// channels of one place that were swapped.
+// A faulty channel: a reversed, wrong or zero gain, a wrong axis, a late clock, or two exchanged channels at one place.
 #include <fmt/format.h>
 
 #include <algorithm>

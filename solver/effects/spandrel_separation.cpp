@@ -1,4 +1,4 @@
-// A spandrel wall has come away from the vaults it stands on: the joints between them are softer.
+// A spandrel wall has separated from the vaults under it: the joints between them are softer.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 

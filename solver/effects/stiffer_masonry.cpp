@@ -1,4 +1,4 @@
-// Better masonry than thought: the joints inside a part are stiffer.
+// The masonry is stiffer than assumed: the joints inside a part are stiffer.
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 

@@ -1,5 +1,5 @@
-// A support whose ground moves otherwise than the record says: softer or stiffer soil under it, or waves that reach it
-// later. Of its base alone: displacement factor × u(t − delay), u being the ground's (drive_path()).
+// A support whose motion differs from the record, because of softer or stiffer soil under it or waves that reach it
+// later. Only its base has the displacement factor × u(t − delay), where u is that of the ground (drive_path()).
 #include <algorithm>
 
 #include "solver/base/error.h"
@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-/// The stage's drive of the group; a new one where it has none.
+/// The drive of the group in the stage; a new one if there is none.
 Drive& drive_of(StageSettings& stage, const std::string& group) {
   const auto at =
       std::find_if(stage.drives.begin(), stage.drives.end(), [&](const Drive& d) { return d.group == group; });

@@ -21,7 +21,7 @@ std::vector<std::string> places_of_tie_rods(const Assembly& assembly) {
   return names;
 }
 
-/// A patch of 0.1 m by 0.1 m midway between the two stones; it hardly resists anything but their parting along y.
+/// A patch of 0.1 m by 0.1 m midway between the two stones. It resists almost only their separation along y.
 void tie(Assembly& assembly, std::int64_t one, std::int64_t other, double axial) {
   const Vec3 a = assembly.blocks[std::size_t(one)].centroid, b = assembly.blocks[std::size_t(other)].centroid;
   const Vec3 middle = 0.5 * (a + b);

@@ -239,7 +239,7 @@ Eigen::Index next_start(const Data& d, const Eigen::MatrixXcd& left) {
 /// Schwarz (1978): n log of the residuals' mean square, and log n for each number fitted.
 double information(const Data& d, const Unknowns& x, double left) {
   const double values = 2.0 * double(d.values.size()) / lines_as_one;
-  // A pole that is a mode has a residue of rank one, whatever the least squares leave it.
+  // The residue of a mode has rank one. The least-squares solution is reduced to this rank.
   const double poles = double(x.size() / 2), of_residue = double(d.outputs + d.inputs - 1);
   const double fitted = double(x.size()) + 2.0 * (double(background * d.values.cols()) + poles * of_residue);
   const double least = 1e-20 * d.values.squaredNorm();
@@ -296,7 +296,8 @@ void choose(RankOne& r, const Eigen::VectorXcd& weighted) {
                                 [&](int a, int b) { return std::abs(r.shape[a]) < std::abs(r.shape[b]); });
 }
 
-/// The largest component 1 in size and of positive real part, what is known turned to the least imaginary parts.
+/// Scales a shape to a largest component of size 1 with positive real part, and rotates its known components to the
+/// least imaginary parts.
 void normalise_residue(RankOne& r) {
   const double size = std::abs(r.shape[r.largest]);
   if (!(size > 0.0)) return;

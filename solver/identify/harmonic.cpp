@@ -39,7 +39,7 @@ Eigen::VectorXcd envelopes(const Eigen::VectorXcd& signal, double omega, Eigen::
   return a;
 }
 
-/// The envelope over what the damping leaves of that a window and a half before: no switch is within both.
+/// Ratio of the envelope to the decayed envelope of one and a half windows before. A switch cannot be in both windows.
 struct Step {
   double before = 0.0, after = 0.0, unforeseen = 0.0;  // squares
 };

@@ -31,7 +31,7 @@ class Neighbourhoods {
         distance_(i, j) = distance_(j, i) = distance(poles[std::size_t(i)], poles[std::size_t(j)]);
   }
 
-  /// The fullest of what is left, and takes it away; no members when nothing is left.
+  /// Removes and returns the largest remaining cluster; without members if nothing remains.
   std::vector<int> take() {
     std::vector<int> best;
     double least = 0.0;

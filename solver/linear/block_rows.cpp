@@ -60,7 +60,7 @@ void RowSum::clear() {
 }
 
 BlockRows rows_of(const BlockMatrix& k) {
-  // Beside what is held there is nothing: were it taken for something, the ground would couple all that stands on it.
+  // Held sites have no couplings. Otherwise the ground would couple all blocks on it.
   const auto each = [&](const auto& use) {
     k.for_each([&](std::int32_t i, std::int32_t j, const Matrix6& block) {
       if (i == j || !block.isZero(0.0)) use(i, j, block);

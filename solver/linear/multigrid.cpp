@@ -17,8 +17,8 @@ auto part(Vector& x, std::size_t i) {
   return x.segment<6>(Eigen::Index(6 * i));
 }
 
-/// With every diagonal entry raised by a ten-millionth: what a cycle in single precision takes for softer than that may
-/// not be positive any more.
+/// Every diagonal entry is raised by a ten-millionth, because with single precision a softer mode could make the cycle
+/// indefinite.
 BlockRows raised(BlockRows a) {
   for (std::size_t i = 0; i < a.rows(); ++i)
     each_of(a, i, [&](std::size_t at) {
@@ -27,9 +27,9 @@ BlockRows raised(BlockRows a) {
   return a;
 }
 
-/// Which coarse site each site belongs to, −1: none, as nothing is coupled to it. Sites are coupled where the block
-/// between them is not small against their own; roots take all that they are coupled to, and what is left over goes to
-/// its strongest neighbour's.
+/// The coarse site of each site, or −1 for a site without couplings. Sites are coupled if the block between them is not
+/// small relative to their own blocks. Roots take all sites to which they are coupled, and the remaining sites join
+/// their strongest neighbour.
 std::vector<std::int32_t> aggregates(const BlockRows& a, std::int32_t& count) {
   constexpr double coupled = 0.02;
   const std::size_t n = a.rows();
@@ -246,7 +246,7 @@ void Multigrid::cycle(std::size_t at) {
     relax(i, load(b + site_width * i) - load(rest + site_width * i) - times_backwards(level.left, i, x));
 }
 
-/// A second cycle for what the first left.
+/// A second cycle for the remaining residual.
 void Multigrid::two_cycles(std::size_t at) {
   Level& level = levels_[at];
   cycle(at);

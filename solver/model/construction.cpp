@@ -79,7 +79,7 @@ double middle(const FillMesh& fill, std::size_t tet) {
   return z;
 }
 
-/// What a step adds, by the height of its middle.
+/// An item that a step adds, with the height of its centre.
 struct Item {
   double z = 0.0, low = 0.0, high = 0.0;  // m
   std::int64_t block = -1, tet = -1;      // one of them
@@ -158,7 +158,7 @@ class Planner {
   }
 
   void collect(const std::string& name, double below, std::vector<Item>& items) {
-    constexpr std::int32_t taken = -2;  // named twice in this step counts once
+    constexpr std::int32_t taken = -2;  // an item named twice in this step counts once
     const Named named = look_up(assembly_, name);
     for (const std::int64_t block : named.blocks) {
       if (plan_.block[std::size_t(block)] != never) continue;
@@ -200,7 +200,7 @@ class Planner {
   int count_ = 0;
 };
 
-/// In every step all that is there must hang together with something held.
+/// In every step all present parts must be connected to a held part.
 void check_held(const Assembly& assembly, const ConstructionPlan& plan) {
   const std::size_t blocks = assembly.blocks.size();
   const std::vector<std::int32_t> tet_of = triangle_tets(assembly.fill);

@@ -75,14 +75,14 @@ void add_bodies(const Assembly& assembly, Model& model) {
     model.matter.push_back({material.youngs_modulus, material.shear_modulus, std::tan(material.friction_angle)});
     if (block.fixed) continue;
     sizes.push_back(size_of(assembly, block));
-    // Without gravity other loads are measured by what the blocks would weigh.
+    // Without gravity, other loads are related to the weight that the blocks would have.
     weight += block.mass * (model.gravity.isZero(0.0) ? 9.81 : model.gravity.norm());
     ++movable;
   }
   const std::size_t tets = assembly.fill.tets.size();
   if (movable == 0 && tets == 0)
     throw InputError("the assembly has no block that can move: all its {} blocks are fixed", assembly.blocks.size());
-  if (movable == 0) {  // nothing but fill: what a tetrahedron weighs is the measure
+  if (movable == 0) {  // only fill: the weight of a tetrahedron is the reference
     double mass = 0.0;
     for (const double m : model.fill.mass) mass += m;
     const double each = mass / double(tets);

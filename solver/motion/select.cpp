@@ -241,7 +241,7 @@ Selection select_records(const SelectionProblem& p) {
   }
   double least_miss = INFINITY;
   for (const Candidate& candidate : best.sets()) {
-    // What a set reaches within fewer bounds is a limit for what it reaches within all.
+    // The score of a set with fewer bounds is a lower limit for its score with all bounds.
     if (selection.found && candidate.score >= selection.score) break;
     const Quadratic q = products.of(candidate.records);
     double miss = 0.0;

@@ -62,15 +62,15 @@ void Simulation::step_by_newton(const StageSettings& stage, double share) {
   if (equilibrium_.converged) take_multiplier(machine);
 }
 
-/// By relaxation, in which it comes on little by little: a support that sank at once would tear joints that a slow one
-/// leaves whole.
+/// Uses relaxation with gradual loading, because a sudden settlement of a support would open joints that a slow one
+/// does not.
 void Simulation::step_by_relaxation(const StageSettings& stage, double share) {
   constexpr int rounds = 25;
   const double from = step_row_.share;
   double driven = from;
   Machine machine = machine_at(stage, from);
   const std::vector<char> loaded = bodies_loaded(model_, step_pattern_);
-  std::optional<MotionWatch> watch;  // from where all has come on: until then what moves is pushed
+  std::optional<MotionWatch> watch;  // from the end of the loading: until then the motion is imposed
   RelaxationLimits limits;
   limits.steps = 200000;
   limits.from_unloaded = false;
@@ -179,7 +179,8 @@ Stop Simulation::approach(const StageSettings& stage, Stop from, const Stop& to)
   return from;
 }
 
-/// Loads and drives of the stage, and its first equilibrium where it begins; false, with the failure, without one.
+/// Sets the loads and drives of the stage and finds its first equilibrium. Returns false and sets the failure text if
+/// there is none.
 bool Simulation::begin_steps(const StageSettings& stage) {
   stepper_.damping = DampingAtWork{};
   set_branches(model_, state_, 0);
@@ -201,7 +202,7 @@ bool Simulation::begin_steps(const StageSettings& stage) {
   return false;
 }
 
-/// A path that ends before its last stop is an answer in the last stage, and a failure in others.
+/// A path that ends before its last stop is a valid result in the last stage and a failure in earlier stages.
 RunEnd Simulation::lose(const StageSettings& stage, const Stop& from, const Stop& to) {
   const std::string text = fmt::format(
       "stage '{}': equilibrium is lost between the shares {:.5g} and {:.5g}, after {:.5g} kN at {:.5g} mm. The run "

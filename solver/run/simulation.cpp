@@ -180,7 +180,7 @@ void Simulation::choose_step() {
                   critical.step, describe_fastest(*assembly_, model_, critical), factor, position_.dt));
 }
 
-/// Moves blocks before a stage begins; what they leave or meet is looked for at once.
+/// Moves blocks before a stage begins and searches immediately for lost and new contacts.
 void Simulation::place(const StageSettings& stage) {
   for (const Placement& p : stage.placements) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(p.angle, p.axis.normalized()));
@@ -262,7 +262,7 @@ void Simulation::change_contacts() {
   if (bound <= position_.stiffest * rounding && of_nodes <= position_.stiffest_node * rounding) return;
   position_.stiffest = std::max(position_.stiffest, bound);
   position_.stiffest_node = std::max(position_.stiffest_node, of_nodes);
-  if (settings_.step.time_step > 0.0) return;  // the user's own step is the user's
+  if (settings_.step.time_step > 0.0) return;  // a time step of the case is not changed
   const CriticalStep critical = critical_step(model_, state_);
   const double step = settings_.step.safety * critical.step * damping_step_factor(settings_.damping, critical.highest);
   if (step >= position_.dt) return;
@@ -275,7 +275,7 @@ void Simulation::change_contacts() {
                     short_name(*assembly_, model_, critical)));
 }
 
-/// What holds or drives a group, along the axes on which it is held, N.
+/// Force that holds or drives a group, along the axes on which it is held, N.
 Vec3 Simulation::reaction(const BodyPass& pass, const std::string& group) const {
   Vec3 sum = Vec3::Zero();
   for (std::int64_t block : assembly_->groups.at(group)) {
@@ -470,12 +470,12 @@ RunEnd Simulation::timed(const StageSettings& stage, double until) {
 
 RunEnd Simulation::run(double until) {
   report_progress(true, "");
-  const bool site = position_.stage == 0 && !model_.plan.empty();   // nothing stands yet
-  if (state_.counters[1] == 0 && model_.contact.search && !site) {  // who is near whom before anything moves
+  const bool site = position_.stage == 0 && !model_.plan.empty();   // nothing is built yet
+  if (state_.counters[1] == 0 && model_.contact.search && !site) {  // contact search before the first motion
     update_contacts(model_, state_, stepper_.damping.branches, true, stepper_.threads);
     stepper_.prepare_contacts();
   }
-  // A checkpoint before anything else: whatever happens in the first stage, there is something to resume from.
+  // A checkpoint before the first stage, so that a restart is always possible.
   if (position_.stage == 0 && position_.stage_begun == 0.0) write_checkpoint(false);
   while (position_.stage < std::int64_t(settings_.stages.size())) {
     const StageSettings& stage = settings_.stages[position_.stage];

@@ -62,7 +62,7 @@ void Simulation::find_equilibrium(const StageSettings& stage, bool from_unloaded
     if (by_itself && stones_alone)
       log("the solver continues with dynamic relaxation (there is a mechanism, or joints slide)");
     RelaxationLimits limits;
-    limits.displacement = extent(model_);  // what has gone so far falls, and would for ever
+    limits.displacement = extent(model_);  // parts that have moved this far fall without end
     limits.from_unloaded = from_unloaded;
     equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
       report_progress(false, fmt::format("relaxation step {}: out-of-balance force {:.1e}", step, r));
@@ -71,7 +71,8 @@ void Simulation::find_equilibrium(const StageSettings& stage, bool from_unloaded
   }
 }
 
-/// Step by step, each found in equilibrium before the next; the stage's loads come at the end.
+/// Builds step by step and finds the equilibrium of each step before the next. The loads of the stage are applied at
+/// the end.
 void Simulation::construct(const StageSettings& stage) {
   const LoadsAtWork loads = std::exchange(stepper_.loads, LoadsAtWork{});
   const ConstructionPlan& plan = model_.plan;
@@ -106,7 +107,8 @@ void Simulation::construct(const StageSettings& stage) {
   stepper_.prepare();
 }
 
-/// Whether there is an equilibrium, and where the joints held the stones; else the failure names those that move.
+/// Whether there is an equilibrium in which the joints hold the stones in place; else the failure text names the moving
+/// stones.
 bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
   constexpr std::size_t named = 3;
   if (!equilibrium_.converged) {
@@ -137,7 +139,7 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
   return false;
 }
 
-/// True unless stopped: an assembly that bears the whole load is an answer too.
+/// True unless stopped: an assembly that carries the whole load is also a valid result.
 bool Simulation::collapse(const StageSettings& stage) {
   stepper_.damping = DampingAtWork{};
   set_branches(model_, state_, 0);
@@ -172,8 +174,8 @@ bool Simulation::collapse(const StageSettings& stage) {
   return true;
 }
 
-/// The row of a stage that takes no time: what balances in the end. Its balance of energy is none: what a relaxation
-/// loses by damping of its own choice is in no ledger.
+/// The history row of a stage without simulated time: the final equilibrium. It has no energy balance, because the
+/// energy dissipated by the damping of a relaxation is not recorded.
 void Simulation::sample_at_rest() {
   const Timed timed(costs_.history);
   if (!observers_.history) return;

@@ -59,8 +59,7 @@ class Courses {
   }
 
  private:
-  /// Ties, joints that a contact has taken the place of, and contacts of faces that are near each other and bear
-  /// nothing.
+  /// Ties, joints that were replaced by a contact, and contacts of nearby faces without force.
   bool is_none(std::size_t patch) const {
     const PatchSnapshot& p = snapshot_.patches[patch];
     const bool met = patch >= assembly_.joints.size();
@@ -109,8 +108,8 @@ class Courses {
   std::map<std::int64_t, std::pair<Vec3, double>> middles_;  // of each course: sum of centroids, stones
 };
 
-/// The patches that give a bed its place and axes: the joints it was built with, if there are any left. Contacts beside
-/// them bear their part, but their faces may stand at an angle.
+/// The patches that define the position and axes of a bed joint: its original joints, if any remain. Contacts carry a
+/// part of the force, but their faces can be inclined.
 std::vector<std::size_t> shape_of(const std::vector<std::size_t>& patches, std::size_t joints) {
   std::vector<std::size_t> built;
   for (const std::size_t i : patches)

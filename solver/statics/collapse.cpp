@@ -114,7 +114,7 @@ CollapseLoss find_loss(const Model& model, const std::vector<char>& loaded, cons
   return loss;
 }
 
-/// Whether the rest stands when what moves is held where it was and its loads are taken away.
+/// Whether the rest stands when the moving part is held at its original position and its loads are removed.
 bool rest_stands(Stepper stepper, State state, const CollapseLoss& loss, double tolerance,
                  const RelaxationLimits& limits, double distance, const std::atomic<bool>* stop) {
   Model held = *stepper.model;

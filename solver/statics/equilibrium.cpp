@@ -91,8 +91,9 @@ BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns, PatchTangent 
   return k;
 }
 
-/// The inverse of a tangent: by multigrid in a large assembly of blocks alone, while that finds what is asked for, else
-/// by a factor, in a large one only if that takes no longer than some thousand steps of relaxation.
+/// The inverse of a tangent. A large assembly of blocks without fill uses multigrid as long as it converges; other
+/// assemblies use a direct factorisation. A large assembly uses the factorisation only if it takes no longer than some
+/// thousand relaxation steps.
 class TangentInverse {
  public:
   TangentInverse(const Model& model, const Unknowns& unknowns) : model_(model), unknowns_(unknowns) {}
@@ -150,13 +151,13 @@ class TangentInverse {
   bool by_cycles_ = false;
 };
 
-/// How much of the residual a step may leave: less than the step before left, which is what the change of the tangent
-/// leaves at least, and no less than will do at the end (after Eisenstat & Walker 1996).
+/// Relative tolerance of a linear solution: smaller than the remaining residual of the previous iteration, which shows
+/// the effect of the changing tangent, but not smaller than necessary at the end (after Eisenstat & Walker 1996).
 double step_tolerance(double left_before, double wanted) {
   return std::clamp(0.3 * std::max(left_before, wanted), 1e-3, 0.1);
 }
 
-/// A placement, and the out-of-balance forces of those about it, every one from the patches' state at the start.
+/// A placement, and the out-of-balance forces of placements near it, all evaluated from the patch state at the start.
 struct Surroundings {
   Stepper& stepper;
   const Unknowns& unknowns;
@@ -321,8 +322,8 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
 
 namespace {
 
-/// The tangent at the present placement, factored; with what the forces that the joints carry add, if that leaves it
-/// positive.
+/// The factored tangent in the present placement, with the geometric stiffness of the joint forces if the sum is
+/// positive definite.
 bool factor_tangent(Stepper& stepper, const Unknowns& unknowns, TangentInverse& inverse) {
   const Model& model = *stepper.model;
   const BlockMatrix plain =

@@ -47,7 +47,7 @@ void check_input(const MexeInput& in) {
   if (in.span_rise) check_factor(*in.span_rise, "the span/rise factor F_sr");
 }
 
-/// 1 for ratios up to 4; beyond, the method has a figure, and no formula.
+/// 1 for ratios up to 4; for larger ratios the method gives a figure and no formula.
 double span_rise_factor(const MexeInput& in, double ratio) {
   if (in.span_rise) return *in.span_rise;
   if (ratio <= 4.0) return 1.0;

@@ -1,11 +1,12 @@
-// Dynamic relaxation: explicit steps in a time that means nothing, so that inertia and damping may be chosen for speed.
+// Dynamic relaxation: explicit steps in a fictitious time, so that inertia and damping can be chosen for fast
+// convergence.
 //
-// Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 whatever the assembly, because a pair's stiffness
-// is at most twice its two blocks; the critical step is then at least √2 and no stiff sliver holds up the rest.
-// Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after
+// Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 for any assembly, because the stiffness of a pair
+// is at most twice its two blocks; the critical step is then at least √2 and a stiff sliver does not slow down the
+// rest. Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after
 // Underwood 1983). That lies above the lowest frequency, so that the slowest motion is damped at 0.6 of critical or
-// more: it hardly overshoots, and so little slips or opens that rest would not. A gentle relaxation is damped at 3 ω,
-// and in its first steps as much as they bear.
+// more: it hardly overshoots, so that few joints slip or open that would not do so at rest. A gentle relaxation is
+// damped at 3 ω, and in its first steps with the largest stable damping.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -117,7 +118,7 @@ Seen look_back(const Model& model, const State& state, const Unknowns& unknowns,
   return seen;
 }
 
-/// A round of steps, before each of which the machine pushes anew.
+/// A round of steps. The loads of the machine are updated before each step.
 Advance pushed(Stepper& stepper, Machine& machine, const std::atomic<bool>* stop) {
   Advance last;
   for (std::int64_t i = 0; i < round_steps; ++i) {

@@ -250,7 +250,7 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   return r;
 }
 
-/// What falls for good may go as fast as it likes.
+/// Permanently falling bodies may have any speed.
 bool BodyPass::runs_away(std::size_t body, double speed2) const {
   return !(speed2 < most_speed2) && !(state->lost(body) && std::isfinite(speed2));
 }
@@ -306,8 +306,8 @@ void BodyPass::move_body(std::size_t i, BodyReport& report) const {
   double* pose = &state->pose[pose_width * i];
   double* motion = &state->motion[motion_width * i];
   const BodyUpdate next = update(i);
-  // The ground supplies what the patches take of a body where it is held, over the mean of both half steps; likewise
-  // the loads.
+  // The ground does the work of the patches on held bodies, with the mean of both half steps. The same holds for the
+  // loads.
   for (int c = 0; c < 3; ++c)
     if (body.held(c)) motion[6] -= 0.5 * dt * next.force[c] * (motion[c] + next.velocity[c]);
   if (loads && !body.still())

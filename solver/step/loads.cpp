@@ -119,14 +119,14 @@ void add_points(const Assembly& assembly, const Model& model, const ForceLoad& l
   }
 }
 
-constexpr double part_of_gaps = 0.02;  // of a rectangle: joints that a drawn deck leaves open
+constexpr double part_of_gaps = 0.02;  // of a rectangle: open joints in a drawn deck
 
-/// What of a rectangle lies between the ends of the road.
+/// The part of a rectangle between the ends of the road.
 RoadArea on_the_way(const RoadArea& area, const RoadArea& road) {
   return {std::max(area.x0, road.x0), std::min(area.x1, road.x1), area.y0, area.y1};
 }
 
-/// Forces per pressure are those of the whole rectangle, also where joints are open.
+/// Forces for a unit pressure are those of the whole rectangle, even if joints are open.
 double evened(const RoadShare& share, const RoadArea& wanted, const RoadLoad& load, const RoadArea& road) {
   const double whole = wanted.area();
   if (std::abs(share.area - whole) > part_of_gaps * whole)

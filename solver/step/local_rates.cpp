@@ -30,8 +30,9 @@ std::vector<Matrix6> sums_of_blocks(const Model& model, const State& state, F we
   return sums;
 }
 
-/// Rates of the fill's nodes, and what the interface adds to the bodies' blocks beside `joints`; nothing without a
-/// fill. A patch with the fill strains by what the stone moves less what the nodes do, c = 1: both count twice.
+/// Rates of the nodes of the fill, and the contribution of the interface to the blocks of the bodies in addition to
+/// `joints`; empty without a fill. The strain of a patch with the fill is the motion of the stone minus that of the
+/// nodes; with c = 1 both count twice.
 std::vector<Matrix6> fill_rates(const Model& model, const State& state, const std::vector<Matrix6>& joints,
                                 std::vector<LocalRate>& rates) {
   if (model.fill.empty()) return {};
