@@ -33,7 +33,6 @@ struct LaneStrength {
   LaneStrength s = strength_of(model.laws[std::size_t(batch.law_of[0])]);
   for (int lane = 1; lane < lane_count; ++lane) {
     if (batch.law_of[lane] == batch.law_of[lane - 1]) continue;  // equal laws are consecutive
-                                                                 // end
     const LaneMask only = ~LaneMask::first(lane);
     const LaneStrength one = strength_of(model.laws[std::size_t(batch.law_of[lane])]);
     const auto take = [&](Lanes& to, Lanes from) { to = select(only, from, to); };
