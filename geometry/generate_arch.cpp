@@ -199,21 +199,21 @@ Generator arch_generator() {
   Generator generator;
   generator.name = "arch";
   generator.help =
-      "Arch of equal flat-faced voussoirs between fixed springings or on buttresses; pointed when eccentricity > 0 "
-      "(two centres, each "
-      "eccentricity x mean_radius beyond the middle line)";
+      "Arch of equal voussoirs with flat faces, between fixed springings or on buttresses; pointed if eccentricity > 0 "
+      "(two centres, each eccentricity x mean_radius beyond the middle line)";
   generator.parameters = {
       {"mean_radius", 10.0, 0.01, 500.0, "m", "radius of the middle of the ring"},
-      {"thickness", 0.0, 0.0, 100.0, "m", "of the ring; 0: thickness_ratio x mean_radius"},
+      {"thickness", 0.0, 0.0, 100.0, "m", "thickness of the ring; 0: thickness_ratio x mean_radius"},
       {"thickness_ratio", 0.15, 0.001, 1.5, "-", "thickness over mean radius, used when thickness is 0"},
-      {"embrace_angle", 180.0, 5.0, 200.0, "deg", "between the springings, seen from the centre(s)"},
-      {"eccentricity", 0.0, 0.0, 0.8, "-", "0: circular; more: pointed"},
-      {"voussoirs", 27.0, 2.0, 400.0, "-", "between the springings, of equal angle", true},
-      {"width", 1.0, 0.01, 100.0, "m", "across"},
-      {"rows", 1.0, 1.0, 100.0, "-", "stones across, in stretcher bond", true},
-      {"buttress_height", 0.0, 0.0, 200.0, "m", "below the springing joints; 0: no buttresses, fixed springings"},
-      {"buttress_width", 2.0, 0.01, 200.0, "m", "of the buttresses, from the intrados outwards"},
-      {"buttress_courses", 1.0, 1.0, 1000.0, "-", "stones of a buttress, one above the other", true},
+      {"embrace_angle", 180.0, 5.0, 200.0, "deg", "angle between the springings, seen from the centre(s)"},
+      {"eccentricity", 0.0, 0.0, 0.8, "-", "0: circular arch; above 0: pointed arch"},
+      {"voussoirs", 27.0, 2.0, 400.0, "-", "number of voussoirs between the springings, of equal angle", true},
+      {"width", 1.0, 0.01, 100.0, "m", "width of the arch (y)"},
+      {"rows", 1.0, 1.0, 100.0, "-", "number of stones across the width, in stretcher bond", true},
+      {"buttress_height", 0.0, 0.0, 200.0, "m",
+       "height of the buttresses below the springing joints; 0: no buttresses, fixed springings"},
+      {"buttress_width", 2.0, 0.01, 200.0, "m", "width of the buttresses, from the intrados outwards"},
+      {"buttress_courses", 1.0, 1.0, 1000.0, "-", "number of stones of a buttress, one above the other", true},
       {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
       {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 10e9, 4e9, 0.0, 0.0, radians(35.0)}};

@@ -124,7 +124,7 @@ Generator bridge_generator() {
   const double friction = radians(30.0), loose = radians(35.0);
   Generator generator;
   generator.name = "bridge";
-  generator.help = "Any number of spans of any shape, on abutments and piers";
+  generator.help = "Bridge with any number of spans of any shape, on abutments and piers";
   generator.parameters = any_bridge_keys();
   generator.choices = any_bridge_choices();
   generator.tables = any_bridge_tables();

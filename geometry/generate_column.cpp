@@ -35,13 +35,13 @@ Assembly build_column(const std::vector<Material>& defaults, const GeneratorInpu
 Generator column_generator() {
   Generator generator;
   generator.name = "column";
-  generator.help = "Stack of equal blocks on a fixed one; all joints, the base's too, are alike";
+  generator.help = "Stack of equal blocks on a fixed block; all joints are equal, also the one on the base";
   generator.parameters = {{"blocks", 10.0, 1.0, 100000.0, "-", "number of moving blocks", true},
-                          {"width", 1.0, 0.001, 100.0, "m", "along x, about x = 0"},
-                          {"depth", 1.0, 0.001, 100.0, "m", "along y, about y = 0"},
+                          {"width", 1.0, 0.001, 100.0, "m", "width along x, symmetric about x = 0"},
+                          {"depth", 1.0, 0.001, 100.0, "m", "depth along y, symmetric about y = 0"},
                           {"block_height", 0.4, 0.001, 100.0, "m", "height of each block"},
-                          {"base_width", 0.0, 0.0, 1000.0, "m", "of the fixed block; 0: as the others"},
-                          {"base_depth", 0.0, 0.0, 1000.0, "m", "of the fixed block; 0: as the others"},
+                          {"base_width", 0.0, 0.0, 1000.0, "m", "width of the fixed block; 0: as the other blocks"},
+                          {"base_depth", 0.0, 0.0, 1000.0, "m", "depth of the fixed block; 0: as the other blocks"},
                           {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
                           {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};

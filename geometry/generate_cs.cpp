@@ -189,18 +189,22 @@ std::vector<Choice> bridge_choices(bool leaf, bool table) {
       leaf ? std::vector<std::string>{"leaf", "solid"} : std::vector<std::string>{"solid", "leaf"};
   const std::vector<std::string> stiffness =
       table ? std::vector<std::string>{"table", "moduli"} : std::vector<std::string>{"moduli", "table"};
-  return {{"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
-          {"backfill", {"rigid", "deformable", "none"}, "blocks, one continuum of tetrahedra, or left out"},
-          {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints, or running bond *"},
-          {"makeup", makeup, "piers and abutments: outer leaf around infill (and wing walls), or solid"},
-          {"stiffness", stiffness, "joints from the table kn_, ks_ per component, or from E/dc and G/dc"}};
+  return {
+      {"abutments", {"free", "restrained"}, "restrained: a fixed block over the whole end face at each end"},
+      {"backfill",
+       {"rigid", "deformable", "none"},
+       "rigid: blocks; deformable: one continuum of tetrahedra; none: no backfill"},
+      {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints (stack), or running bond *"},
+      {"makeup", makeup, "piers and abutments: an outer leaf around infill (abutments also have wing walls), or solid"},
+      {"stiffness", stiffness, "joint stiffness from the table kn_, ks_ of each component, or from E/dc and G/dc"}};
 }
 
 }  // namespace
 
 Generator cs1_generator() {
   const double friction = radians(30.0), loose = radians(40.0);
-  return cs_generator("cs1", "Four semicircular spans of 10 m, leaf-and-infill piers (S. Chiara)",
+  return cs_generator("cs1",
+                      "Bridge with four semicircular spans of 10 m on piers of an outer leaf and infill (S. Chiara)",
                       bridge_parameters(true), bridge_choices(true, true),
                       {{"masonry", 1722.0, 4.0e9, 1.6e9, 0.10e6, 0.18e6, friction},
                        {"infill", 1524.0, 1.0e9, 0.4e9, 0.0, 0.02e6, loose},
@@ -209,8 +213,8 @@ Generator cs1_generator() {
 
 Generator cs2_generator() {
   const double friction = radians(30.0), loose = radians(40.0);
-  return cs_generator("cs2", "Three semicircular spans of 15 m on tall solid piers (Gresal)", bridge_parameters(false),
-                      bridge_choices(false, false),
+  return cs_generator("cs2", "Bridge with three semicircular spans of 15 m on tall solid piers (Gresal)",
+                      bridge_parameters(false), bridge_choices(false, false),
                       {{"masonry", 1600.0, 1.41e9, 0.45e9, 0.10e6, 0.15e6, friction},
                        {"vault", 1600.0, 1.692e9, 0.54e9, 0.10e6, 0.15e6, friction},
                        {"backfill", 1600.0, 0.1e9, 0.042e9, 0.0, 0.02e6, loose}});

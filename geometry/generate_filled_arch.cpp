@@ -191,18 +191,21 @@ Generator filled_arch_generator() {
       "walls at both faces and ends, and a fixed loading beam on the fill (group load)";
   // Defaults: Prestwood bridge, as a segment (Page 1987, TRRL Research Report 110).
   generator.parameters = {
-      {"clear_span", 6.55, 0.1, 100.0, "m", "between the feet of the intrados"},
-      {"rise", 1.428, 0.02, 45.0, "m", "of the intrados; at most 0.45 x clear_span"},
-      {"ring_thickness", 0.22, 0.01, 5.0, "m", "of the ring"},
-      {"voussoirs", 30.0, 2.0, 400.0, "-", "between the springings, of equal angle", true},
-      {"fill_over_crown", 0.165, 0.02, 20.0, "m", "from the crown of the extrados to the deck"},
-      {"approach", 3.5, 0.1, 100.0, "m", "of the fill at either end, beyond the foot of the intrados"},
-      {"width", 0.2, 0.01, 100.0, "m", "of the strip, across"},
-      {"load_at", 0.25, 0.0, 1.0, "-", "middle of the beam, over the clear span from the left"},
-      {"load_length", 0.3, 0.01, 20.0, "m", "of the beam, along"},
-      {"fill_edge", 0.2, 0.02, 5.0, "m", "longest edge of the fill's tetrahedra"},
-      {"interface_depth", 0.1, 0.001, 10.0, "m", "of fill that an interface is as stiff as: kn = E / it, ks = G / it"},
-      {"interface_friction", 37.0, 0.0, 80.0, "deg", "ring to fill: friction, without cohesion or tension"},
+      {"clear_span", 6.55, 0.1, 100.0, "m", "clear span between the feet of the intrados"},
+      {"rise", 1.428, 0.02, 45.0, "m", "rise of the intrados; at most 0.45 x clear_span"},
+      {"ring_thickness", 0.22, 0.01, 5.0, "m", "thickness of the ring"},
+      {"voussoirs", 30.0, 2.0, 400.0, "-", "number of voussoirs between the springings, of equal angle", true},
+      {"fill_over_crown", 0.165, 0.02, 20.0, "m", "depth of fill from the crown of the extrados to the deck"},
+      {"approach", 3.5, 0.1, 100.0, "m", "length of the fill at either end, beyond the foot of the intrados"},
+      {"width", 0.2, 0.01, 100.0, "m", "width of the strip (y)"},
+      {"load_at", 0.25, 0.0, 1.0, "-",
+       "position of the middle of the beam: distance from the left springing over the clear span"},
+      {"load_length", 0.3, 0.01, 20.0, "m", "length of the beam along the bridge"},
+      {"fill_edge", 0.2, 0.02, 5.0, "m", "longest edge of the tetrahedra of the fill"},
+      {"interface_depth", 0.1, 0.001, 10.0, "m",
+       "depth d of fill that has the stiffness of an interface: kn = E / d, ks = G / d"},
+      {"interface_friction", 37.0, 0.0, 80.0, "deg",
+       "ring to fill: friction angle; no cohesion and no tensile strength"},
       {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of the ring's joints; 0: E/dc"},
       {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of the ring's joints; 0: G/dc"}};
   const double friction = radians(37.0);

@@ -102,17 +102,19 @@ Assembly build_wall(const std::vector<Material>& defaults, const GeneratorInput&
 Generator wall_generator() {
   Generator generator;
   generator.name = "wall";
-  generator.help = "Wall of equal blocks in running bond, half blocks at the ends of odd courses, on one fixed block";
+  generator.help =
+      "Wall of equal blocks in running bond on one fixed block; odd courses have half blocks at their ends";
   generator.parameters = {
-      {"length_blocks", 10.0, 1.0, 10000.0, "-", "blocks in a course; may end in .5"},
+      {"length_blocks", 10.0, 1.0, 10000.0, "-", "number of blocks in a course; may end in .5"},
       {"courses", 10.0, 1.0, 10000.0, "-", "number of courses", true},
-      {"block_length", 0.60, 0.001, 20.0, "m", "along the wall (x)"},
+      {"block_length", 0.60, 0.001, 20.0, "m", "block length along the wall (x)"},
       {"block_height", 0.50, 0.001, 20.0, "m", "course height (z)"},
-      {"thickness", 0.45, 0.001, 20.0, "m", "of the wall (y), one block"},
-      {"beam_height", 0.0, 0.0, 20.0, "m", "of a fixed loading beam over the top course; 0: none"},
+      {"thickness", 0.45, 0.001, 20.0, "m", "thickness of the wall (y), one block"},
+      {"beam_height", 0.0, 0.0, 20.0, "m", "height of a fixed loading beam on the top course; 0: no beam"},
       {"crack_strength", 0.0, 0.0, 1e9, "Pa",
-       "tensile strength of blocks in their middle, where they may crack; 0: they do not"},
-      {"crack_energy", 0.0, 0.0, 1e9, "J/m2", "of such a crack, softening exponentially; 0: brittle"},
+       "tensile strength of the blocks in their middle, where they may crack; 0: no cracks"},
+      {"crack_energy", 0.0, 0.0, 1e9, "J/m2",
+       "fracture energy of such a crack, which softens exponentially; 0: brittle"},
       {"kn", 0.0, 0.0, 1e18, "Pa/m", "normal stiffness of all joints; 0: E/dc"},
       {"ks", 0.0, 0.0, 1e18, "Pa/m", "shear stiffness of all joints; 0: G/dc"}};
   generator.materials = {{"masonry", 2000.0, 4.0e9, 1.6e9, 0.0, 0.0, radians(30.0)}};

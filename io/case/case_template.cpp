@@ -88,7 +88,7 @@ std::string span_tables(const CaseTemplate& wanted, const KeyTable& span) {
                                : fmt::format("\n{}\n", span.heading()) +
                                      key_lines({parameter_of(span.parameters, "clear_span")},
                                                {*std::ranges::find(span.choices, "shape", &Choice::name)}, {}, given);
-    if (end - i > 1) table += key_line("repeat", fmt::format("{}", end - i), "spans alike");
+    if (end - i > 1) table += key_line("repeat", fmt::format("{}", end - i), "number of equal spans");
     text += table;
     i = end;
   }
