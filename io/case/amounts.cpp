@@ -1,4 +1,4 @@
-// How much a case asks for, before anything is built.
+// Checks the numbers of time steps and files of a case before anything is built.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ constexpr double most_files = 100'000;  // of one kind in a run directory
 
 void check_files(const TableReader& output, const char* key, double every, double time, const char* what) {
   if (every > 0.0 && time / every > most_files)
-    output.fail(key, fmt::format("is {} s: in {:g} s of simulated time that is {:.3g} {}, expected at most {:g}", every,
-                                 time, time / every, what, most_files));
+    output.fail(key, fmt::format("is {} s. In {:g} s of simulated time this gives {:.3g} {}; at most {:g} are allowed.",
+                                 every, time, time / every, what, most_files));
 }
 
 }  // namespace

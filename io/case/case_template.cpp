@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t comment_column = 38;
 
-/// Values that are not the defaults, as they stand in the case.
+/// Values that are not the defaults, as TOML texts.
 using Given = std::map<std::string, std::string>;
 
 std::string key_line(const std::string& key, const std::string& value, const std::string& comment) {
@@ -58,25 +58,26 @@ const Parameter& parameter_of(const std::vector<Parameter>& parameters, const st
 
 void check_length(const char* option, double value, const Parameter& p) {
   if (!(value >= p.low && value <= p.high))
-    throw InputError("--{} has {:g} {}: {} of the generator \"bridge\" may be {:g} to {:g} {}", option, value, p.unit,
-                     p.name, p.low, p.high, p.unit);
+    throw InputError("--{} has {:g} {}. {} of the generator \"bridge\" must be from {:g} to {:g} {}.", option, value,
+                     p.unit, p.name, p.low, p.high, p.unit);
 }
 
 void check(const CaseTemplate& wanted, const Generator& bridge, const KeyTable& span) {
   if (wanted.clear_spans.size() < span.least || wanted.clear_spans.size() > span.most)
-    throw InputError("--spans names {} spans: {} to {} are possible, such as 8,10,8", wanted.clear_spans.size(),
+    throw InputError("--spans has {} spans. Give {} to {} spans, such as 8,10,8.", wanted.clear_spans.size(),
                      span.least, span.most);
   for (const double clear : wanted.clear_spans)
     check_length("spans", clear, parameter_of(span.parameters, "clear_span"));
   if (wanted.width != 0.0) check_length("width", wanted.width, parameter_of(bridge.parameters, "width"));
   const std::vector<std::string>& shapes = std::ranges::find(span.choices, "shape", &Choice::name)->words;
   if (std::ranges::find(shapes, wanted.shape) == shapes.end())
-    throw InputError("--shape {} is no shape of a vault{}", shown(wanted.shape), suggestion(wanted.shape, shapes));
+    throw InputError("--shape {} is not a shape of a vault{}", shown(wanted.shape), suggestion(wanted.shape, shapes));
   if (wanted.shape == "surveyed")
-    throw InputError("--shape surveyed: such a vault needs its intrados; begin with another shape, then set it");
+    throw InputError(
+        "--shape surveyed: a surveyed vault needs its intrados. Begin with another shape, then set it in the case.");
 }
 
-/// The spans, equal neighbours in one table; only the first has all keys.
+/// The spans; equal neighbours share a table; only the first table has all keys.
 std::string span_tables(const CaseTemplate& wanted, const KeyTable& span) {
   std::string text;
   for (std::size_t i = 0; i < wanted.clear_spans.size();) {
@@ -125,19 +126,19 @@ std::string case_template(const CaseTemplate& wanted) {
   Given given;
   if (wanted.width != 0.0) given["width"] = number_text(wanted.width);
   std::string text = fmt::format(
-      "# A bridge of {} span{} for the generator \"bridge\". Every key stands here with its default, in SI units;\n"
-      "# one that is left out has its default, too. In the folder of this file:\n"
+      "# A bridge of {} span{} for the generator \"bridge\". Every key is listed with its default, in SI units;\n"
+      "# a key that is left out has its default, too. In the folder of this file:\n"
       "#   voussoir generate NAME.toml --picture     draws it with its dimensions\n"
-      "#   voussoir run NAME.toml -o NAME            brings it to rest under its weight\n\n"
+      "#   voussoir run NAME.toml -o NAME            finds its equilibrium under its weight\n\n"
       "[bridge]\ngenerator = \"bridge\"\n",
       spans, spans == 1 ? "" : "s");
   text += key_lines(dimensions, bridge.choices, {}, given);
-  text += "\n# How it is cut into blocks, and what its joints are made of.\n" + key_lines(others, {}, {}, {});
+  text += "\n# Sizes of the blocks, and stiffness of the joints.\n" + key_lines(others, {}, {}, {});
   text += fmt::format("\n# {}.\n", span.help) + span_tables(wanted, span);
   if (spans > 1) text += fmt::format("\n# {}.\n", table("pier").help) + table_text(table("pier"), {});
   for (const KeyTable& t : bridge.tables)
     if (!t.is_list()) text += fmt::format("\n# {}.", t.help) + table_text(t, {});
-  text += "\n# What mass, stiffness and strength come from.\n" + material_tables(bridge);
+  text += "\n# Materials, from which mass, stiffness and strength follow.\n" + material_tables(bridge);
   text +=
       "\n[[stage]]\nkind = \"gravity\"\nconstruction = \"staged\"\n\n"
       "# [[stage]]                            # an earthquake: three records, in the folder of this file\n"

@@ -1,4 +1,4 @@
-// A case to begin with: all keys of the generator `bridge` with their defaults and what they mean.
+// A case to begin with: all keys of the generator `bridge` with their defaults and meanings.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@ struct CaseTemplate {
   double width = 0.0;                                  // m; 0: the generator's default
 };
 
-/// The text of a case that can be run as it stands. Keys, defaults, ranges and words come from the generator's own
-/// tables. Throws InputError for no spans or too many, for lengths beyond their range, and for a shape that needs more
-/// than a span.
+/// The text of a case that can be run without changes. Keys, defaults, ranges and words come from the tables of the
+/// generator. Throws InputError for no spans or too many, for lengths beyond their range, and for the shape "surveyed",
+/// which needs an intrados.
 std::string case_template(const CaseTemplate& wanted);
 
 }  // namespace voussoir

@@ -38,13 +38,14 @@ std::vector<Check> read_checks(TableReader& root) {
     c.source = table.required_text("source");
     c.expected = table.required_number("expected");
     if (table.has("within") == table.has("tolerance"))
-      table.missing("tolerance", "a share of the expected value, or 'within' in the value's own unit (not both)");
+      table.missing("tolerance", "a share of the expected value; or 'within', in the unit of the value; not both");
     c.absolute = table.has("within");
     c.tolerance = table.required_number(c.absolute ? "within" : "tolerance", {0.0, 1e300, ""});
-    if (!c.absolute && c.expected == 0.0) table.fail("tolerance", "is a share of zero: give 'within' instead");
+    if (!c.absolute && c.expected == 0.0)
+      table.fail("tolerance", "is a share of the expected value, which is 0. Give 'within' instead.");
     c.slow = table.flag("slow", false);
     if (table.has("miss") && (c.miss = table.required_text("miss")).empty())
-      table.fail("miss", "gives no reason: say why the case is known to miss the expected value");
+      table.fail("miss", "is empty. State why the case is known to miss the expected value.");
     table.table("set", "set");
     table.finish();
     checks.push_back(c);
@@ -56,7 +57,7 @@ std::vector<Check> read_checks(const std::string& path) {
   const toml::table file = parse_toml(read_text(path), path);
   TableReader root(file, path, "the case");
   std::vector<Check> checks = read_checks(root);
-  root.keys();  // are the case's
+  root.keys();  // the other keys are those of the case
   root.finish();
   for (std::size_t i = 0; i < checks.size(); ++i) {
     toml::table merged = file;

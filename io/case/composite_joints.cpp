@@ -15,10 +15,8 @@ void check_energy(const Assembly& assembly, std::size_t i) {
   if (law.compressive_energy > least) return;
   throw InputError(
       "joint {} between blocks {} and {}: its compressive_energy, {:g} J/m2, is too small for its stiffness (kn = "
-      "{:g}, "
-      "ks = {:g} Pa/m) and compressive_strength, {:g} Pa: it would snap back as it crushes. Give more than {:.4g} "
-      "J/m2, "
-      "a larger kn and ks, or a smaller compressive_strength",
+      "{:g}, ks = {:g} Pa/m) and its compressive_strength, {:g} Pa. The joint would snap back when it crushes. Give "
+      "more than {:.4g} J/m2, a larger kn and ks, or a smaller compressive_strength.",
       i, joint.a, joint.b, law.compressive_energy, joint.kn, joint.ks, law.compressive_strength, least);
 }
 
@@ -29,8 +27,8 @@ void check_composite_joints(const Assembly& assembly) {
   for (const FillJoint& joint : assembly.fill_joints)
     if (assembly.laws[std::size_t(joint.law)].kind == JointLaw::Kind::composite)
       throw InputError(
-          "block {} touches the deformable fill with kind = \"composite\", which only joints between stones can have: "
-          "give that pair of materials kind = \"brittle\"",
+          "block {} has a joint of kind \"composite\" with the deformable fill. Only joints between stones can have "
+          "this kind. Set kind = \"brittle\" for that pair of materials.",
           joint.block);
 }
 

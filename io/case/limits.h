@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-/// A [[limit_state]]; further keys are left for the caller. Throws InputError with its place.
+/// Reads a [[limit_state]]; further keys are left for the caller. Throws InputError "FILE:LINE: …".
 DemandLimit read_limit(TableReader& table);
 
 }  // namespace voussoir

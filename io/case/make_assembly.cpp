@@ -14,10 +14,10 @@ namespace voussoir {
 
 namespace {
 
-constexpr double reach = 0.05;  // m: how far off a block's surface a sensor may be mounted
+constexpr double reach = 0.05;  // m: largest distance of a sensor from the surface of its block
 
-/// Gives all joints between two materials of an assembly that was read the stiffness and strength the case asks for. A
-/// fixed stone takes the material of the fill that touches it.
+/// Sets the stiffness and strength that the case gives for all joints between two materials of an assembly file. A
+/// fixed stone has the material of the fill that touches it.
 void override_joints(Assembly& assembly, const std::string& pair, const GeneratorInput::JointOverride& joint) {
   std::int64_t changed = 0;
   const auto set = [&](auto& j) {
@@ -30,7 +30,8 @@ void override_joints(Assembly& assembly, const std::string& pair, const Generato
     const RingJoints between(assembly);
     for (Joint& j : assembly.joints)
       if (between(j)) set(j);
-    if (changed == 0) throw InputError("[joints.{}]: no vault of the assembly has several rings: leave it out", pair);
+    if (changed == 0)
+      throw InputError("[joints.{}]: no vault of the assembly has more than one ring. Leave the table out.", pair);
     return;
   }
   const auto change = [&](auto& j, std::int32_t a, std::int32_t b) {
@@ -48,10 +49,11 @@ void override_joints(Assembly& assembly, const std::string& pair, const Generato
   if (changed > 0) return;
   std::vector<std::string> names;
   for (const Material& m : assembly.materials) names.push_back(m.name);
-  throw InputError("[joints.{}] fits no joint of the assembly, whose materials are: {}", pair, fmt::join(names, ", "));
+  throw InputError("[joints.{}]: the assembly has no joint between these materials. Its materials are: {}", pair,
+                   fmt::join(names, ", "));
 }
 
-/// Blocks that lie in one another would be thrown apart in the first step.
+/// Overlapping blocks would be thrown apart in the first time step.
 void check_overlaps(const Assembly& assembly, const Case& c) {
   const double gap = c.settings.contact.gap_tolerance;
   const auto overlaps = find_overlaps(assembly, gap);
@@ -60,12 +62,12 @@ void check_overlaps(const Assembly& assembly, const Case& c) {
     return fmt::format("{} ({})", i, component_names()[std::size_t(assembly.blocks[std::size_t(i)].component)]);
   };
   throw InputError(
-      "{}: {} pairs of blocks overlap; the first, {} and {}, by {:.3g} m: move them apart, or raise [contact] "
-      "gap_tolerance ({} m)",
+      "{}: {} pairs of blocks overlap. The first pair, {} and {}, overlaps by {:.3g} m. Move the blocks apart, or "
+      "raise [contact] gap_tolerance ({} m).",
       c.assembly_file, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
 }
 
-/// The case's own messages get its name in front.
+/// Puts the path of the case before its own messages.
 template <class Work>
 void in_case(const Case& c, Work&& work) {
   try {
@@ -82,8 +84,8 @@ void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors) 
     const auto [block, distance] = nearest_block(assembly, sensor.position);
     if (block < 0 || distance > reach)
       throw InputError(
-          "sensor \"{}\" at ({}, {}, {}) m lies {:.3g} m from the nearest block ({}): move it onto a block", sensor.id,
-          sensor.position.x(), sensor.position.y(), sensor.position.z(), distance, block);
+          "sensor \"{}\" at ({}, {}, {}) m is {:.3g} m away from the nearest block, block {}. Move it onto a block.",
+          sensor.id, sensor.position.x(), sensor.position.y(), sensor.position.z(), distance, block);
     assembly.sensors.push_back({sensor.id, sensor.position, sensor.direction, block});
   }
 }

@@ -11,7 +11,7 @@ std::vector<MaterialOfObjects> read_material_table(const std::string& path, cons
   TableReader root(text, path, "the file");
   auto tables = root.table("materials", "[materials]");
   root.finish();
-  if (!tables) root.missing("materials", "tables such as [materials.iron], each with its objects and numbers");
+  if (!tables) root.missing("materials", "tables such as [materials.iron], each with its objects and values");
   std::vector<MaterialOfObjects> materials;
   std::string for_all;
   for (const std::string& name : tables->keys()) {
@@ -19,15 +19,17 @@ std::vector<MaterialOfObjects> read_material_table(const std::string& path, cons
     MaterialOfObjects& own = materials.emplace_back();
     if (table.has("objects")) own.objects = table.texts("objects");
     if (table.has("objects") && own.objects.empty())
-      table.fail("objects", "is empty: name the objects, or leave it out");
+      table.fail("objects", "is empty. Name the objects, or leave the key out.");
     if (own.objects.empty() && !for_all.empty())
-      table.fail(fmt::format("names no objects, as [materials.{}]: only one can be for all others", for_all));
+      table.fail(fmt::format(
+          "has no objects, and neither has [materials.{}]. Only one material can apply to all other objects.",
+          for_all));
     if (own.objects.empty()) for_all = name;
     own.material = usual;
     own.material.name = name;
     read_material(table, own.material);
   }
-  if (materials.empty()) tables->fail("is empty: give at least one [materials.NAME]");
+  if (materials.empty()) tables->fail("is empty. Give at least one table [materials.NAME].");
   return materials;
 }
 

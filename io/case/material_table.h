@@ -1,4 +1,4 @@
-// A table of materials for stones drawn elsewhere: which material the objects of a drawing are of.
+// A table of materials for stones drawn with another program: the materials of the objects of a drawing.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,17 +9,17 @@ namespace voussoir {
 
 class TableReader;
 
-/// A material and the objects it is for; without any, for all that no other names.
+/// A material and its objects; without objects it is for all objects that no other material names.
 struct MaterialOfObjects {
   Material material;
-  std::vector<std::string> objects;  // names, where * stands for any text
+  std::vector<std::string> objects;  // names; * stands for any text
 };
 
-/// Reads [materials.NAME] tables with the keys of a case and `objects`; what one leaves out is taken from `usual`.
+/// Reads [materials.NAME] tables with the keys of a case and `objects`; keys that are not given come from `usual`.
 /// Throws InputError "FILE:LINE: …".
 std::vector<MaterialOfObjects> read_material_table(const std::string& path, const Material& usual);
 
-/// The numbers of one table; its other keys have been read before.
+/// Reads the numbers of one table. The other keys must have been read before.
 void read_material(TableReader& table, Material& material);
 
 }  // namespace voussoir

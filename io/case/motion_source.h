@@ -1,4 +1,4 @@
-// Where a ground motion comes from: the keys that a motion stage has for it.
+// The source of a ground motion: the keys of a motion stage.
 #pragma once
 #include <array>
 #include <string>
@@ -8,16 +8,15 @@
 
 namespace voussoir {
 
-constexpr double largest_peak = 1e4;  // m/s2; beyond, the unit or the scale is wrong
+constexpr double largest_peak = 1e4;  // m/s2; above it the unit or the scale is wrong
 
-/// Reads 'record', 'pulse' or 'synthetic' with what belongs to them, and 'scale'. Names of files are relative to the
-/// folder of `path`; a synthetic motion without a duration of its own has the stage's (s). Throws InputError
-/// "FILE:LINE: …".
+/// Reads 'record', 'pulse' or 'synthetic' with their keys, and 'scale'. Names of files are relative to the folder of
+/// `path`. A synthetic motion without a duration has that of the stage (s). Throws InputError "FILE:LINE: …".
 MotionSource read_motion_source(TableReader& table, const std::string& path, double stage_duration);
 /// The same keys as lines of TOML, with these names of files for x, y, z.
 std::string motion_source_text(const MotionSource& source, const std::array<std::string, 3>& files);
 
-/// The scaled motion, m/s2. Throws InputError for files that are no records and motions that are not possible.
+/// The scaled motion, m/s2. Throws InputError for files that are not records and for motions that are not possible.
 GroundMotion ground_motion(const MotionSource& source);
 
 }  // namespace voussoir

@@ -15,7 +15,8 @@ namespace voussoir {
 
 namespace {
 
-/// What the stars of a pattern stand for, each as short as possible from the left; nothing when the name does not fit.
+/// The texts for which the stars of a pattern stand, each as short as possible from the left; nothing if the name does
+/// not fit.
 std::optional<std::vector<std::string>> stars_of(std::string_view name, std::string_view pattern) {
   const std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) {
@@ -23,8 +24,8 @@ std::optional<std::vector<std::string>> stars_of(std::string_view name, std::str
     return std::vector<std::string>{};
   }
   if (!name.starts_with(pattern.substr(0, star))) return std::nullopt;
-  // The text up to the next star decides: its first place is as good as any later one (greedy matching of patterns
-  // without alternatives), so that no search goes back.
+  // It is enough to look for the first occurrence of the text up to the next star (greedy matching of patterns without
+  // alternatives), so no backtracking is needed.
   const std::string_view rest = pattern.substr(star + 1);
   if (rest.find('*') == std::string_view::npos) {
     if (name.size() < star + rest.size() || !name.ends_with(rest)) return std::nullopt;
@@ -52,7 +53,8 @@ std::string filled_in(const std::string& text, const std::vector<std::string>& s
 
 void check_group_name(const TableReader& row, const std::string& name) {
   if (name.empty() || name.find('/') != std::string::npos)
-    row.fail("group", fmt::format("is \"{}\"; the name of a group must not be empty nor hold a '/'", shown(name)));
+    row.fail("group",
+             fmt::format("is \"{}\". The name of a group must not be empty and must not contain '/'.", shown(name)));
 }
 
 NameRow read_row(TableReader row, const std::string& pattern, bool layer) {
@@ -69,8 +71,8 @@ NameRow read_row(TableReader row, const std::string& pattern, bool layer) {
   if (row.has("not_convex")) out.not_convex = NotConvex(row.required_word("not_convex", not_convex_words()));
   const auto stars = [](const std::string& text) { return std::count(text.begin(), text.end(), '*'); };
   if (out.block && (out.block->empty() || stars(*out.block) > stars(pattern)))
-    row.fail("block", fmt::format("is \"{}\"; name the stone, with at most as many * as there are in \"{}\"",
-                                  shown(*out.block), shown(pattern)));
+    row.fail("block", fmt::format("is \"{}\". Name the stone, with at most as many * as \"{}\" has.", shown(*out.block),
+                                  shown(pattern)));
   row.finish();
   return out;
 }
@@ -147,7 +149,7 @@ NameMap read_name_map(const std::string& path, const Material& usual) {
 }
 
 std::string text_of(const NameMap& map) {
-  std::string out = "# Of voussoir import --map: what the objects of the drawing are.\n";
+  std::string out = "# For voussoir import --map: the meaning of the objects of a drawing.\n";
   if (!map.object_groups) out += "object_groups = false\n";
   for (const bool layer : {true, false}) {
     const auto is_it = [&](const NameRow& row) { return row.layer == layer; };

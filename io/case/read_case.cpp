@@ -23,12 +23,12 @@ std::string relative_to(const std::string& beside, const std::string& name) {
 
 namespace {
 
-/// The keys of one table; what it leaves out keeps its default.
+/// Reads the keys of one table; keys that are not given keep their defaults.
 void read_keys(TableReader& table, const Keys& keys, const std::string& prefix, GeneratorInput& input) {
   for (const Parameter& p : keys.parameters) {
     const double value = table.number(p.name, p.value, {p.low, p.high, p.unit});
     if (p.integer && value != std::floor(value))
-      table.fail(p.name, fmt::format("is {}: must be a whole number", value));
+      table.fail(p.name, fmt::format("is {}. It must be a whole number.", value));
     input.values[prefix + p.name] = value;
   }
   for (const Choice& choice : keys.choices)
@@ -40,11 +40,13 @@ void read_keys(TableReader& table, const Keys& keys, const std::string& prefix, 
     input.profiles[prefix + profile.name] = list;
     for (const std::string& other : profile.instead_of)
       if (table.has(other))
-        table.fail(profile.name, fmt::format("stands beside '{}', which it replaces: leave out one of them", other));
+        table.fail(
+            profile.name,
+            fmt::format("and '{}' are both given, but the first replaces the second: leave out one of them", other));
   }
 }
 
-/// [[bridge.NAME]]: each entry as often as its `repeat` says.
+/// [[bridge.NAME]]: each entry counts `repeat` times.
 void read_entries(TableReader& bridge, const KeyTable& table, GeneratorInput& input) {
   if (!bridge.has(table.name)) return;
   std::size_t entries = 0;
@@ -55,11 +57,12 @@ void read_entries(TableReader& bridge, const KeyTable& table, GeneratorInput& in
     entry.finish();
   }
   if (entries < table.least || entries > table.most)
-    bridge.fail(table.name, fmt::format("is there {} times: expected {} to {}", entries, table.least, table.most));
+    bridge.fail(table.name,
+                fmt::format("is given {} times. It must be given {} to {} times.", entries, table.least, table.most));
   input.entries[table.name] = entries;
 }
 
-/// Lists, and tables that may lie in one another: [bridge.abutment.left].
+/// Lists, and tables that may be nested: [bridge.abutment.left].
 void read_key_tables(TableReader& bridge, const Generator& generator, GeneratorInput& input) {
   std::map<std::string, TableReader> parents;
   for (const KeyTable& table : generator.tables) {
@@ -116,14 +119,15 @@ void read_material(TableReader& table, Material& m) {
   if (table.has("dilation_angle"))
     m.dilation_angle = to_radians(table.number("dilation_angle", 0.0, {0.0, 89.0, "degrees"}));
   if (m.dilation_angle > m.friction_angle)
-    table.fail("dilation_angle", fmt::format("is {} degrees: it must not be more than the friction angle, {} degrees",
-                                             degrees_text(m.dilation_angle), degrees_text(m.friction_angle)));
+    table.fail("dilation_angle",
+               fmt::format("is {} degrees. It must not be larger than the friction angle, {} degrees.",
+                           degrees_text(m.dilation_angle), degrees_text(m.friction_angle)));
   table.finish();
 }
 
 namespace {
 
-/// Splits "masonry-infill" at the hyphen that leaves two known materials (names may hold hyphens themselves).
+/// Splits "masonry-infill" at the hyphen that gives two known materials (names may contain hyphens).
 std::array<std::string, 2> split_pair(const TableReader& joints, const std::string& key,
                                       const std::vector<std::string>& known) {
   std::array<std::string, 2> any;
@@ -135,10 +139,12 @@ std::array<std::string, 2> split_pair(const TableReader& joints, const std::stri
     if (!pair[0].empty() && !pair[1].empty()) any = pair;
     if (is_known(pair[0]) && is_known(pair[1])) return pair;
   }
-  if (any[0].empty()) joints.fail(key, "must name two materials with a hyphen between, such as \"masonry-infill\"");
+  if (any[0].empty())
+    joints.fail(key, "must be two names of materials with a hyphen between them, such as \"masonry-infill\"");
   if (!known.empty())
-    joints.fail(
-        key, fmt::format("must name two materials of this bridge with a hyphen between: {}", fmt::join(known, ", ")));
+    joints.fail(key,
+                fmt::format("must be two materials of this bridge with a hyphen between them. The materials are: {}",
+                            fmt::join(known, ", ")));
   return any;
 }
 
@@ -146,12 +152,12 @@ const std::vector<std::string> composite_keys = {"compressive_strength", "compre
                                                  "compressive_peak",     "cap_shear",
                                                  "dilation_length",      "dilation_pressure"};
 
-/// What only composite joints have.
+/// The keys that only composite joints have.
 void read_composite(TableReader& table, JointLaw& law) {
   if (law.kind != JointLaw::Kind::composite) {
     for (const std::string& key : composite_keys)
       if (table.has(key))
-        table.fail(key, "is for joints with kind = \"composite\": set that kind, or leave the key out");
+        table.fail(key, "is only for joints with kind = \"composite\": set that kind, or leave the key out");
     return;
   }
   law.dilation_length = table.number("dilation_length", 0.0, {0.0, 1.0, "m"});
@@ -159,13 +165,14 @@ void read_composite(TableReader& table, JointLaw& law) {
   if (law.dilation_angle > law.friction_angle || law.dilation_angle > law.residual_friction_angle)
     table.fail(
         "dilation_angle",
-        fmt::format("is {} degrees: with kind = \"composite\" it must not be more than the friction angle or the "
-                    "residual friction angle, {} and {} degrees",
-                    degrees_text(law.dilation_angle), degrees_text(law.friction_angle),
-                    degrees_text(law.residual_friction_angle)));
+        fmt::format(
+            "is {} degrees. With kind = \"composite\" it must not be larger than the friction angle, {} degrees, "
+            "or the residual friction angle, {} degrees.",
+            degrees_text(law.dilation_angle), degrees_text(law.friction_angle),
+            degrees_text(law.residual_friction_angle)));
   if (!table.has("compressive_strength")) {
     for (const char* key : {"compressive_energy", "compressive_peak", "cap_shear"})
-      if (table.has(key)) table.fail(key, "needs 'compressive_strength' in Pa: without it these joints never crush");
+      if (table.has(key)) table.fail(key, "needs 'compressive_strength' in Pa; without it these joints never crush");
     return;
   }
   law.compressive_strength = table.number("compressive_strength", 0.0, {0.0, 1e13, "Pa", true});
@@ -175,12 +182,13 @@ void read_composite(TableReader& table, JointLaw& law) {
   const double begin = CrushingCurve::begin * law.compressive_strength;
   if (law.tension > begin)
     table.fail("compressive_strength",
-               fmt::format("is {:g} Pa, so that the cap begins at a third of it, {:g} Pa, below the tensile strength, "
-                           "{:g} Pa: raise it to {:g} Pa at least, or lower 'tensile_strength'",
+               fmt::format("is {:g} Pa. The cap begins at a third of it, {:g} Pa, which is below the tensile strength, "
+                           "{:g} Pa. Raise it to at least {:g} Pa, or lower 'tensile_strength'.",
                            law.compressive_strength, begin, law.tension, law.tension / CrushingCurve::begin));
 }
 
-/// Strength of a joint table. What it leaves out is the weakest of the materials', brittle, with no cohesion left.
+/// Strength of a joint table. Keys that are not given have the lowest value of the materials; the default law is
+/// brittle without residual cohesion.
 JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
   JointLaw law;
   const bool known = !materials.empty();
@@ -190,7 +198,7 @@ JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
     return least;
   };
   const auto strength = [&](const char* key, double Material::*member) {
-    if (!known && !table.has(key)) table.missing(key, "the assembly file does not say");
+    if (!known && !table.has(key)) table.missing(key, "Pa; the assembly file does not state it");
     return table.number(key, weakest(member), {0.0, 1e10, "Pa"});
   };
   const auto angle = [&](const char* key, double fallback) {
@@ -199,7 +207,7 @@ JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
   law.tension = strength("tensile_strength", &Material::tensile_strength);
   law.cohesion = strength("cohesion", &Material::cohesion);
   if (!known && !table.has("friction_angle"))
-    table.missing("friction_angle", "degrees; the assembly file does not say");
+    table.missing("friction_angle", "degrees; the assembly file does not state it");
   law.friction_angle = angle("friction_angle", weakest(&Material::friction_angle));
   law.residual_cohesion = table.number("residual_cohesion", 0.0, {0.0, 1e10, "Pa"});
   law.residual_friction_angle = angle("residual_friction_angle", law.friction_angle);
@@ -223,14 +231,13 @@ JointLaw read_law(TableReader& table, const std::vector<Material>& materials) {
       !(law.fracture_energy[0] > 0.0 && law.fracture_energy[1] > 0.0))
     table.fail(
         "needs 'fracture_energy' = [GI, GII] in J/m2, both above 0, because kind is \"composite\" and its joints have "
-        "a "
-        "bond (tensile_strength, cohesion)");
+        "a bond (tensile_strength, cohesion)");
   read_composite(table, law);
   return law;
 }
 
-/// Of which the stones beside the joints of a key are, those of an assembly file excepted: two, or the spans' for the
-/// joints between rings.
+/// The materials of the stones on both sides of the joints of a key: two, or those of the spans for the joints between
+/// rings; empty for an assembly file.
 std::vector<Material> materials_of(const Case& c, const std::string& key, const std::array<std::string, 2>& pair) {
   std::vector<std::string> names(pair.begin(), pair.end());
   if (key == ring_pair) {
@@ -263,24 +270,24 @@ void read_joint(TableReader& table, const std::vector<Material>& materials, Gene
 
 void read_bridge(TableReader& root, Case& c) {
   auto bridge = root.table("bridge", "[bridge]");
-  if (!bridge) root.missing("bridge", "a table that names a generator or an assembly file");
+  if (!bridge) root.missing("bridge", "a table with the name of a generator or of an assembly file");
   const bool generated = bridge->has("generator"), read = bridge->has("assembly");
-  if (generated && read) bridge->fail("names both a 'generator' and an 'assembly': choose one");
-  if (!generated && !read) bridge->missing("generator", "its name, or 'assembly' = \"file.h5\"");
+  if (generated && read) bridge->fail("has both 'generator' and 'assembly': keep one of them");
+  if (!generated && !read) bridge->missing("generator", "the name of a generator, or 'assembly' = \"file.h5\"");
   if (generated) {
     read_generator(*bridge, c);
   } else {
     c.assembly_file = relative_to(c.path, bridge->text("assembly", ""));
     std::error_code ignored;  // a name that cannot be looked up names no file
     if (!std::filesystem::exists(c.assembly_file, ignored))
-      bridge->fail("assembly", fmt::format("is {}: there is no such file", shown(c.assembly_file, 300)));
+      bridge->fail("assembly", fmt::format("is {}. There is no such file.", shown(c.assembly_file, 300)));
   }
   bridge->finish();
 }
 
 namespace {
 
-/// Those of the generator first: what another leaves out has the value that one of them has in this case.
+/// Reads the materials of the generator first, because the other materials take their missing values from them.
 void read_material_tables(TableReader& materials, Case& c) {
   auto& known = c.generator_input.materials;
   std::vector<std::string> names;
@@ -311,7 +318,8 @@ void read_materials(TableReader& root, Case& c) {
   auto materials = root.table("materials", "[materials]");
   if (materials && c.generator.empty())
     materials->fail(
-        "cannot change an assembly file, which holds its own materials: use [joints.A-B], or generate it anew");
+        "cannot change an assembly file, which has its own materials. Use [joints.A-B], or generate the assembly "
+        "again.");
   if (materials) read_material_tables(*materials, c);
   if (c.generator.empty()) return;
   try {
@@ -330,7 +338,7 @@ void read_joints(TableReader& root, Case& c) {
     TableReader table = joints->member(key, fmt::format("[joints.{}]", shown(key)));
     const auto pair = key == ring_pair ? std::array<std::string, 2>{} : split_pair(*joints, key, known);
     if (pair[0] != pair[1] && c.generator_input.joints.contains(pair[1] + "-" + pair[0]))
-      joints->fail(key, fmt::format("repeats [joints.{}-{}]: give each pair once", pair[1], pair[0]));
+      joints->fail(key, fmt::format("repeats [joints.{}-{}]. Give each pair once.", pair[1], pair[0]));
     read_joint(table, materials_of(c, key, pair), c.generator_input.joints[key]);
   }
 }
@@ -346,7 +354,7 @@ Case parse_case(const std::string& text, const std::string& path, CaseUse use) {
   root.attempt([&] { read_stages(root, c, use); });
   root.attempt([&] { check_amounts(root, c); });
   for (const auto read : {read_sensors, read_effects}) root.attempt([&] { read(root, c); });
-  root.attempt([&] { read_checks(root); });  // of no concern to a run, but a wrong one is said
+  root.attempt([&] { read_checks(root); });  // a run does not use them, but errors are reported
   // Before modes, plots and limits, which change nothing in a run.
   if (root.fine()) root.attempt([&] { c.hash = hash_text(resolved_text(c)); });
   for (const auto read : {read_modal, read_plots, read_limits}) root.attempt([&] { read(root, c); });

@@ -22,8 +22,7 @@ void read_modal(TableReader& root, Case& c) {
   modal.state = ModalSettings::State(table->word("state", modal_states(), 0));
   modal.geometric = table->flag("geometric", false);
   if (modal.geometric && modal.state == ModalSettings::State::intact)
-    table->fail("geometric",
-                "is true, but without gravity the joints carry no forces; give state = \"gravity\" with it");
+    table->fail("geometric", "is true, but without gravity the joints have no forces. Set state = \"gravity\", too.");
   for (TableReader& row : table->tables("expected")) {
     ExpectedPeriod expected;
     expected.direction = mode_directions()[row.required_word("direction", mode_directions())];

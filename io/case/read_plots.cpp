@@ -13,14 +13,14 @@ namespace voussoir {
 
 namespace {
 
-/// A file that is not there is no error: the plot is drawn without it, and the run's log says so.
+/// A missing file is no error: the plot is drawn without it, and the log of the run says so.
 MeasuredCurve read_measured(TableReader& table, const Case& c) {
   MeasuredCurve curve;
   const std::string file = table.required_text("file");
   curve.file = relative_to(c.path, file);
   curve.label = table.text("label", std::filesystem::path(file).stem().string());
   table.finish();
-  std::error_code ignored;  // nor is a name that cannot be looked up
+  std::error_code ignored;  // an error counts as a missing file
   if (std::filesystem::is_regular_file(curve.file, ignored)) {
     curve.text = read_text(curve.file);
     parse_curve(curve.text, curve.file);
@@ -45,10 +45,11 @@ void read_plots(TableReader& root, Case& c) {
     PlotSpec plot;
     plot.name = table.required_text("name");
     if (!file_name(plot.name))
-      table.fail("name", fmt::format("is \"{}\": it becomes a file's, so letters, digits, - and _ only", plot.name));
+      table.fail("name",
+                 fmt::format("is \"{}\". It becomes the name of a file: use only letters, digits, - and _", plot.name));
     for (const PlotSpec& other : c.plots)
       if (other.name == plot.name)
-        table.fail("name", fmt::format("is \"{}\", which another plot has: names must differ", plot.name));
+        table.fail("name", fmt::format("is \"{}\", which another plot has. Each plot needs its own name.", plot.name));
     plot.title = table.text("title", "");
     plot.label = table.text("label", plot.label);
     plot.x = table.text("x", plot.x);

@@ -24,8 +24,7 @@ void read_analysis(TableReader& table, SolverSettings& settings) {
   s.mass_scaling_limit = table.number("mass_scaling_limit", s.mass_scaling_limit, {0.0, 1.0, ""});
   s.mass_scaling_step = table.number("mass_scaling_step", s.mass_scaling_step, {0.0, 1.0, "s"});
   if (s.mass_scaling_step > 0.0 && s.mass_scaling_limit == 0.0)
-    table.missing("mass_scaling_limit",
-                  "the share of the mass that may be added, because 'mass_scaling_step' is given");
+    table.missing("mass_scaling_limit", "the share of the mass that may be added; 'mass_scaling_step' needs it");
   s.equilibrium_tolerance = table.number("equilibrium_tolerance", s.equilibrium_tolerance, {0.0, 0.1, "", true});
   s.intact_shortcut = table.flag("intact_shortcut", s.intact_shortcut);
   table.finish();
@@ -48,7 +47,7 @@ void read_damping(TableReader& table, DampingSettings& s) {
   if (table.has("band")) {
     const auto band = table.numbers("band", 2, {0.0, 1e4, "Hz", true});
     if (!(band[0] < band[1]))
-      table.fail("band", fmt::format("is [{}, {}]: the first frequency must be the lower", band[0], band[1]));
+      table.fail("band", fmt::format("is [{}, {}]. The first frequency must be the lower one.", band[0], band[1]));
     s.band = {band[0], band[1]};
   }
   s.branches = int(table.integer("branches", s.branches, 1, 4));
@@ -65,13 +64,13 @@ void read_output(TableReader& table, OutputSettings& s) {
   table.finish();
 }
 
-/// "x", "y", "z" or a vector of any length; one that is a unit vector to rounding is kept as it is.
+/// "x", "y", "z" or a vector of any length. A vector that has unit length to rounding is not changed.
 Vec3 read_direction(TableReader& table) {
   if (table.is_text("direction")) return Vec3::Unit(Eigen::Index(table.word("direction", {"x", "y", "z"}, 0)));
   if (!table.has("direction")) table.missing("direction", "\"x\", \"y\", \"z\" or a vector");
   const Vec3 v = table.vector("direction", Vec3::Zero());
   const double length = v.norm();
-  if (!(length > 1e-9)) table.fail("direction", "has no length: must be a vector other than zero");
+  if (!(length > 1e-9)) table.fail("direction", "is zero. It must be a vector other than zero.");
   return std::abs(length - 1.0) < 1e-12 ? v : Vec3(v / length);
 }
 
@@ -85,13 +84,14 @@ void read_guides(TableReader& root, std::vector<Guide>& guides) {
     for (const std::string& axis : table.has("free") ? table.texts("free") : std::vector<std::string>{}) {
       const std::size_t c = axis.size() == 1 ? std::string("xyz").find(axis) : std::string::npos;
       if (c == std::string::npos)
-        table.fail("free", fmt::format(R"(holds "{}": must be "x", "y" or "z", or a list of them)", axis));
+        table.fail("free", fmt::format(R"(contains "{}". It must be "x", "y" or "z", or a list of them.)", axis));
       guide.free[c] = true;
     }
     for (const Guide& other : guides)
       if (other.group == guide.group)
         table.fail("group",
-                   fmt::format("is \"{}\", which another [[guide]] has: name all its axes in one", guide.group));
+                   fmt::format("is \"{}\", which another [[guide]] has. Give all axes of a group in one [[guide]].",
+                               guide.group));
     table.finish();
     guides.push_back(std::move(guide));
   }
@@ -114,10 +114,11 @@ void read_sensors(TableReader& root, Case& c) {
     SensorSpec sensor;
     sensor.id = table.required_text("id");
     const bool usable = !sensor.id.empty() && sensor.id.find_first_of("/,;\n") == std::string::npos;
-    if (!usable) table.fail("id", fmt::format("is \"{}\": must not be empty nor hold / , or ;", sensor.id));
+    if (!usable)
+      table.fail("id", fmt::format("is \"{}\". It must not be empty and must not contain / , or ;", sensor.id));
     for (const SensorSpec& other : c.sensors)
       if (other.id == sensor.id)
-        table.fail("id", fmt::format("is \"{}\", which another sensor has: ids must differ", sensor.id));
+        table.fail("id", fmt::format("is \"{}\", which another sensor has. Each sensor needs its own id.", sensor.id));
     if (!table.has("position")) table.missing("position", "[x, y, z] in m");
     sensor.position = table.place_in_m("position", Vec3::Zero());
     sensor.direction = read_direction(table);

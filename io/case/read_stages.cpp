@@ -27,11 +27,12 @@ namespace {
 
 void check_peak(const TableReader& stage, const MotionSource& source, double peak) {
   if (!(peak <= largest_peak))
-    stage.fail(fmt::format("has a ground motion with a peak of {:.3g} m/s2, expected at most {:g}: look at its unit{}",
-                           peak, largest_peak, source.scale == 1.0 ? "" : " and 'scale'"));
+    stage.fail(
+        fmt::format("has a ground motion with a peak of {:.3g} m/s2; at most {:g} m/s2 are allowed. Check its unit{}.",
+                    peak, largest_peak, source.scale == 1.0 ? "" : " and 'scale'"));
 }
 
-/// Scaled; about the stage as a whole when it is not possible.
+/// The scaled motion of a stage. Errors name the stage.
 GroundMotion motion_of(const TableReader& stage, const MotionSource& source) {
   GroundMotion motion;
   try {
@@ -58,7 +59,7 @@ std::string label_of(const MotionSource& source) {
   return fmt::format("motion ({})", fmt::join(names, ", "));
 }
 
-/// A synthetic motion is checked but not made where nothing will be shaken: it may take seconds.
+/// A synthetic motion is only checked if the case is not run, because computing it may take seconds.
 void read_motion(TableReader& table, const Case& c, CaseUse use, StageSettings& stage, MotionSource& source) {
   source = read_motion_source(table, c.path, stage.duration);
   if (use == CaseUse::run || source.kind != MotionSource::Kind::synthetic) {
@@ -78,27 +79,26 @@ void read_drives(TableReader& table, StageSettings& stage) {
     Drive drive;
     drive.group = sub.required_text("group");
     if (sub.has("velocity") && stage.kind == StageSettings::Kind::quasi_static)
-      sub.fail("velocity",
-               "has no meaning in a quasi-static stage: give 'displacement', [x, y, z] in m at the share 1");
+      sub.fail("velocity", "is not for a quasi-static stage. Give 'displacement', [x, y, z] in m at the share 1.");
     if (sub.has("velocity") && sub.has("displacement"))
-      sub.fail("velocity", "and 'displacement' are both given: keep one");
+      sub.fail("velocity", "and 'displacement' are both given. Keep one of them.");
     const bool departs = sub.has("factor") || sub.has("delay");
     if (departs && stage.kind != StageSettings::Kind::motion)
       sub.fail(sub.has("factor") ? "factor" : "delay",
-               "compares with the ground's motion, but this stage has none: set kind = \"motion\" or remove it");
+               "refers to the ground motion, but this stage has none. Set kind = \"motion\" or remove it.");
     if (!sub.has("velocity") && !sub.has("displacement") && !departs)
       sub.missing("displacement",
-                  "[x, y, z] in m, from rest to rest over the stage; or 'velocity', constant, in m/s; in a motion "
-                  "stage also 'factor' or 'delay'");
+                  "[x, y, z] in m, from rest to rest over the stage; or 'velocity', constant, in m/s; or in a motion "
+                  "stage 'factor' or 'delay'");
     drive.velocity = sub.vector("velocity", Vec3::Zero());
     drive.displacement = sub.vector("displacement", Vec3::Zero());
     drive.factor = sub.number("factor", 1.0, {-10.0, 10.0, ""});
     drive.delay = sub.number("delay", 0.0, {-10.0, 10.0, "s"});
-    if (!(drive.velocity.norm() <= 10.0)) sub.fail("velocity", "is above 10 m/s: look at its unit");
+    if (!(drive.velocity.norm() <= 10.0)) sub.fail("velocity", "is above 10 m/s. Check its unit.");
     if (stage.timed() && !(drive.displacement.norm() <= 10.0 * stage.duration))
-      sub.fail("displacement", "asks for more than 10 m/s on average: look at its unit");
+      sub.fail("displacement", "needs a mean velocity above 10 m/s. Check its unit.");
     if (!stage.timed() && !(drive.displacement.norm() > 0.0 && drive.displacement.norm() <= 10.0))
-      sub.fail("displacement", "must be more than 0 and at most 10 m long");
+      sub.fail("displacement", "must have a length above 0 and at most 10 m");
     sub.finish();
     stage.drives.push_back(drive);
   }
@@ -112,8 +112,8 @@ void read_placements(TableReader& table, StageSettings& stage) {
     p.angle = to_radians(sub.number("angle", 0.0, {-180.0, 180.0, "degrees"}));
     p.axis = sub.vector("axis", p.axis);
     p.through = sub.place_in_m("through", p.through);
-    if (p.axis.norm() < 1e-9) sub.fail("axis", "has no direction");
-    if (p.angle != 0.0 && !sub.has("through")) sub.missing("through", "a point of the axis, [x, y, z] in m");
+    if (p.axis.norm() < 1e-9) sub.fail("axis", "is zero and has no direction. Give a vector other than zero.");
+    if (p.angle != 0.0 && !sub.has("through")) sub.missing("through", "a point on the axis, [x, y, z] in m");
     sub.finish();
     stage.placements.push_back(p);
   }
@@ -122,7 +122,7 @@ void read_placements(TableReader& table, StageSettings& stage) {
 ForceLoad read_force(TableReader& sub) {
   ForceLoad load;
   load.group = sub.required_text("group");
-  if (!sub.has("force")) sub.missing("force", "[x, y, z] in N, on the whole group");
+  if (!sub.has("force")) sub.missing("force", "[x, y, z] in N, the total force on the group");
   load.force = sub.vector("force", Vec3::Zero());
   if (sub.has("at")) load.at = sub.place_in_m("at", Vec3::Zero());
   return load;
@@ -133,27 +133,26 @@ RoadLoad read_road_load(TableReader& sub) {
   const std::vector<double> r = sub.numbers("road", 4, {-1e7, 1e7, "m"});
   load.area = {r[0], r[1], r[2], r[3]};
   if (!(r[0] < r[1] && r[2] < r[3]))
-    sub.fail("road", "must be [x from, x to, y from, y to] in m, each from the smaller to the larger");
+    sub.fail("road", "must be [x from, x to, y from, y to] in m, each with the smaller value first");
   load.pressure = sub.required_number("pressure", {0.0, 1e9, "N/m2"});
   load.of = sub.text("of", "a load");
   return load;
 }
 
-/// What stands still goes to `loads`, what has a speed moves.
+/// Adds a load without speed to `loads`, and one with a speed to the moving loads of the stage.
 void add_road_load(TableReader& sub, StageSettings& stage, Loads& loads, const RoadLoad& load, double speed) {
   if (speed == 0.0) {
     loads.road.push_back(load);
     return;
   }
   if (!stage.timed() && stage.kind != StageSettings::Kind::quasi_static)
-    sub.fail("speed",
-             "is for stages with a duration: kind = \"free\", \"motion\" or \"quasi-static\"; leave it out here");
+    sub.fail("speed", "is only for stages of kind \"free\", \"motion\" or \"quasi-static\". Leave it out here.");
   stage.moving.push_back({load, speed});
 }
 
 constexpr Limits speeds = {-100.0, 100.0, "m/s"};
 
-/// A vehicle of the library or of a file beside the case, where its front is.
+/// Vehicles of the library or of a file in the folder of the case, with the place of their front.
 void read_vehicles(TableReader& table, const std::string& beside, StageSettings& stage, Loads& loads) {
   if (!table.has("vehicle")) return;
   for (TableReader& sub : table.tables("vehicle")) {
@@ -163,7 +162,7 @@ void read_vehicles(TableReader& table, const std::string& beside, StageSettings&
       vehicle = read_vehicle(name.ends_with(".toml") ? relative_to(beside, name) : name);
       if (sub.has("variant")) vehicle = variant_named(vehicle, sub.text("variant", ""));
     } catch (const InputError& error) {
-      sub.fail("name", fmt::format("is no vehicle: {}", error.what()));
+      sub.fail("name", fmt::format("is not a vehicle: {}", error.what()));
     }
     VehiclePlace place;
     place.x = sub.required_number("x", {-1e6, 1e6, "m"});
@@ -182,8 +181,8 @@ void read_load_tables(TableReader& table, StageSettings& stage, Loads& loads) {
   for (TableReader& sub : table.tables("load")) {
     if (int(sub.has("acceleration")) + int(sub.has("group")) + int(sub.has("road")) != 1)
       sub.fail(
-          "needs one of 'acceleration' (m/s2, of all free blocks), 'group' with 'force' (N) and 'road' with 'pressure' "
-          "(N/m2)");
+          "needs one of 'acceleration' (m/s2, of all free blocks), 'group' with 'force' (N), and 'road' with "
+          "'pressure' (N/m2)");
     if (sub.has("acceleration"))
       loads.acceleration += sub.vector("acceleration", Vec3::Zero());
     else if (sub.has("group"))
@@ -199,11 +198,12 @@ void read_loads(TableReader& table, const std::string& beside, StageSettings& st
   Loads loads;
   read_load_tables(table, stage, loads);
   read_vehicles(table, beside, stage, loads);
-  if (!(loads.acceleration.norm() <= largest_peak)) table.fail("load", "is above 1e4 m/s2: look at its unit");
+  if (!(loads.acceleration.norm() <= largest_peak)) table.fail("load", "is above 1e4 m/s2. Check its unit.");
   const bool still = !loads.acceleration.isZero(0.0) || !loads.forces.empty() || !loads.road.empty();
   if (still && !stage.moving.empty())
-    table.fail("load",
-               "has loads with a speed and loads without: put those without into a stage before, from which they stay");
+    table.fail(
+        "load",
+        "has loads with a speed and loads without. Give the loads without a speed in an earlier stage; they stay.");
   if (stage.moving.empty()) stage.loads = loads;
 }
 
@@ -211,11 +211,12 @@ void read_collapse(TableReader& table, StageSettings& stage) {
   CollapseSettings& s = stage.collapse;
   if (table.has("tilt")) {
     s.tilt = table.vector("tilt", Vec3::Zero());
-    if (s.tilt->norm() < 1e-9) table.fail("tilt", "has no direction: give the axis about which gravity turns");
+    if (s.tilt->norm() < 1e-9)
+      table.fail("tilt", "is zero and has no direction. Give the axis about which gravity turns.");
   }
-  if (s.tilt && stage.loads) table.fail("tilt", "and 'load' are both given: keep one");
+  if (s.tilt && stage.loads) table.fail("tilt", "and 'load' are both given. Keep one of them.");
   if (!s.tilt && !stage.loads)
-    table.missing("load", "the pattern that is multiplied, for instance [{ acceleration = [9.81, 0, 0] }]; or 'tilt'");
+    table.missing("load", "the load pattern that is multiplied, such as [{ acceleration = [9.81, 0, 0] }]; or 'tilt'");
   s.to = table.number("to", s.to, {0.0, 1e12, "", true});
   s.tolerance = table.number("tolerance", 1e-3 * s.to, {1e-6 * s.to, 0.25 * s.to, ""});
   s.displacement = table.number("displacement", s.displacement, {1e-6, 10.0, "", true});
@@ -228,7 +229,7 @@ bool has_force(const Loads& loads) {
          std::ranges::any_of(loads.road, [](const RoadLoad& l) { return l.pressure > 0.0; });
 }
 
-/// Loads and drives have been read.
+/// Call it after loads and drives have been read.
 void read_quasi_static(TableReader& table, bool last, StageSettings& stage) {
   QuasiStaticSettings& s = stage.quasi_static;
   s.steps = int(table.integer("steps", s.steps, 1, 100000));
@@ -237,23 +238,24 @@ void read_quasi_static(TableReader& table, bool last, StageSettings& stage) {
   double from = 0.0;
   for (const double corner : s.path) {
     if (corner == from)
-      table.fail("path", fmt::format("goes from {0:g} to {0:g}: two corners one after the other must differ, and the "
-                                     "first from 0, where the path begins",
+      table.fail("path", fmt::format("goes from {0:g} to {0:g}. Successive corners must differ, and the first one must "
+                                     "differ from 0, where the path begins.",
                                      corner));
     from = corner;
   }
   if (!stage.moving.empty() && (s.path.size() != 1 || s.path[0] != 1.0))
-    table.fail("path", "is for loads that stay where they are; what has a speed goes its way once: remove it");
+    table.fail("path", "is not for loads with a speed, which cross the bridge once. Remove it.");
   if (!stage.loads && stage.moving.empty() && stage.drives.empty())
-    table.missing("load", "or 'vehicle' or 'drive': what changes from step to step");
+    table.missing("load", "or 'vehicle' or 'drive': the values that change from increment to increment");
   if (!table.has("push")) return;
   s.push = table.required_number("push", {-10.0, 10.0, "m"});
   if (!stage.loads || !has_force(*stage.loads))
-    table.fail("push", "asks a machine to push loads along, but this stage has none that stay where they are");
-  if (!stage.drives.empty()) table.fail("push", "and 'drive' are both given: keep one");
-  if (*s.push == 0.0) table.fail("push", "is 0: how far (m) are the loaded points to be pushed along the loads?");
-  if (!last)
-    table.fail("push", "finds the size of its loads, so that nothing could act on: such a stage must be the last");
+    table.fail("push",
+               "needs a load without speed that is not zero, but this stage has none. Give one, or remove the key.");
+  if (!stage.drives.empty()) table.fail("push", "and 'drive' are both given. Keep one of them.");
+  if (*s.push == 0.0)
+    table.fail("push", "is 0. Give the displacement (m) by which the loaded points are pushed along the loads.");
+  if (!last) table.fail("push", "is allowed in the last stage only, because the program finds the size of the loads");
 }
 
 ConstructionStep read_step(TableReader& table) {
@@ -261,9 +263,10 @@ ConstructionStep read_step(TableReader& table) {
   if (table.has("add")) step.add = table.texts("add");
   if (table.has("strike")) step.strike = table.texts("strike");
   if (step.add.empty() == step.strike.empty())
-    table.missing(step.add.empty() ? "add" : "strike",
-                  "a list of components or groups that come in this step, or 'strike', those whose centering is taken "
-                  "away, and not both");
+    table.missing(
+        step.add.empty() ? "add" : "strike",
+        "components or groups that this construction step adds; or 'strike', those whose centering it removes; "
+        "not both");
   step.label = table.text("label", "");
   step.below = table.number("below", step.below, {-1e5, 1e5, "m"});
   step.lift = table.number("lift", 0.0, {0.0, 1e4, "m"});
@@ -271,7 +274,7 @@ ConstructionStep read_step(TableReader& table) {
   if (!step.strike.empty())
     for (const char* key : {"below", "lift", "centering"})
       if (table.has(key))
-        table.fail(key, "belongs to a step that adds something, and this one strikes centering: remove it");
+        table.fail(key, "is only for a construction step with 'add', but this one has 'strike'. Remove it.");
   table.finish();
   return step;
 }
@@ -282,23 +285,25 @@ void read_construction(TableReader& table, bool first, StageSettings& stage) {
   if (!table.has("construction")) {
     if (lift)
       table.fail("lift",
-                 "says how high the lifts of a staged construction are: add construction = \"staged\" or remove it");
+                 "is the height of the lifts of a staged construction. Set construction = \"staged\" or remove it.");
     return;
   }
   ConstructionSettings construction;
   if (table.is_text("construction")) {
     if (table.word("construction", {"at once", "staged"}, 0) == 0) {
       if (lift)
-        table.fail("lift", "has no meaning where all is built at once: remove it, or set construction = \"staged\"");
+        table.fail("lift", "is not for construction = \"at once\". Remove it, or set construction = \"staged\".");
       return;
     }
     construction.lift = table.number("lift", construction.lift, {0.0, 1e4, "m", true});
   } else {
-    if (lift) table.fail("lift", "belongs to construction = \"staged\"; each step of a list has a 'lift' of its own");
+    if (lift)
+      table.fail("lift", "is only for construction = \"staged\". In a list give 'lift' in each construction step.");
     for (TableReader& sub : table.tables("construction")) construction.steps.push_back(read_step(sub));
-    if (construction.steps.empty()) table.fail("construction", "has no steps: give at least one, or \"staged\"");
+    if (construction.steps.empty())
+      table.fail("construction", "has no construction steps. Give at least one, or \"staged\".");
   }
-  if (!first) table.fail("construction", "belongs to the first stage: what stands already is built");
+  if (!first) table.fail("construction", "is only for the first stage. After it the structure is already built.");
   stage.construction = construction;
 }
 
@@ -315,37 +320,37 @@ const char* plain_label(const StageSettings& stage) {
   }
 }
 
-/// Keys that only other kinds of stage have get a message of their own instead of "unknown".
+/// Reports keys of other kinds of stages with their own message instead of as unknown.
 void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
   const std::string& name = stage_kinds()[std::size_t(kind)];
   if (kind == StageSettings::Kind::gravity || kind == StageSettings::Kind::collapse) {
     const char* why = kind == StageSettings::Kind::gravity ? "ends in equilibrium" : "takes no simulated time";
-    if (table.has("duration"))
-      table.fail("duration", "has no meaning in a " + name + " stage, which " + why + ": remove it");
+    if (table.has("duration")) table.fail("duration", "is not for a " + name + " stage, which " + why + ". Remove it.");
     if (table.has("place"))
-      table.fail("place", "has no meaning in a " + name + " stage: place blocks in a free or motion stage");
+      table.fail("place", "is not for a " + name + " stage. Place blocks in a free or motion stage.");
     if (table.has("drive"))
       table.fail("drive",
-                 "has no meaning in a " + name + " stage, which takes no time: drive in a free or motion stage");
+                 "is not for a " + name + " stage, which takes no time. Drive blocks in a free or motion stage.");
   }
   const bool steps = kind == StageSettings::Kind::quasi_static;
   if (steps && table.has("place"))
-    table.fail("place", "has no meaning in a quasi-static stage: place blocks in a free or motion stage");
+    table.fail("place", "is not for a quasi-static stage. Place blocks in a free or motion stage.");
   if (kind != StageSettings::Kind::gravity && !steps && table.has("method"))
-    table.fail("method", "belongs to a gravity or quasi-static stage: remove it");
+    table.fail("method", "is only for a gravity or quasi-static stage. Remove it.");
   if (kind != StageSettings::Kind::gravity)
     for (const char* key : {"allow_motion", "construction", "lift"})
-      if (table.has(key)) table.fail(key, "belongs to a gravity stage: remove it");
+      if (table.has(key)) table.fail(key, "is only for a gravity stage. Remove it.");
   if (!steps)
     for (const char* key : {"steps", "path", "push", "halvings"})
-      if (table.has(key)) table.fail(key, "belongs to a quasi-static stage: set kind = \"quasi-static\" or remove it");
+      if (table.has(key))
+        table.fail(key, "is only for a quasi-static stage. Set kind = \"quasi-static\" or remove it.");
   if (kind != StageSettings::Kind::collapse)
     for (const char* key : {"to", "tilt", "tolerance", "displacement", "confirm"})
-      if (table.has(key)) table.fail(key, "belongs to a collapse stage: set kind = \"collapse\" or remove it");
+      if (table.has(key)) table.fail(key, "is only for a collapse stage. Set kind = \"collapse\" or remove it.");
   if (kind == StageSettings::Kind::motion) return;
   for (const char* key :
        {"record", "pulse", "synthetic", "scale", "scale_to_pga", "units", "columns", "correct", "dt", "begin"})
-    if (table.has(key)) table.fail(key, "belongs to a motion stage: set kind = \"motion\" or remove it");
+    if (table.has(key)) table.fail(key, "is only for a motion stage. Set kind = \"motion\" or remove it.");
 }
 
 }  // namespace
@@ -353,7 +358,7 @@ void refuse_foreign_keys(TableReader& table, StageSettings::Kind kind) {
 void read_stages(TableReader& root, Case& c, CaseUse use) {
   std::vector<TableReader> tables = root.tables("stage");
   if (tables.empty() && (use == CaseUse::run || root.has("stage")))
-    root.missing("stage", "at least one [[stage]], usually kind = \"gravity\" first");
+    root.missing("stage", "at least one [[stage]], usually with kind = \"gravity\" first");
   for (TableReader& table : tables) {
     StageSettings stage;
     MotionSource source;
@@ -374,7 +379,7 @@ void read_stages(TableReader& root, Case& c, CaseUse use) {
     if (steps) read_quasi_static(table, &table == &tables.back(), stage);
     if (stage.kind == StageSettings::Kind::collapse) {
       read_collapse(table, stage);
-      if (&table != &tables.back()) table.fail("kind", "is \"collapse\": such a stage must be the last");
+      if (&table != &tables.back()) table.fail("kind", "is \"collapse\". A collapse stage must be the last stage.");
     }
     stage.label =
         table.text("label", stage.kind == StageSettings::Kind::motion ? label_of(source) : plain_label(stage));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double ringing = 20.0;  // s of free vibration after a motion that is no cause for a remark
 
-/// Goes through a case as it stands in its text, so that each value has its line.
+/// Goes through the text of a case, so that the line of each value is known.
 class Values {
  public:
   Values(const Case& c, std::vector<std::string>& out) : case_(c), out_(out) {}
@@ -23,7 +23,7 @@ class Values {
   void table(const toml::table& table, const std::string& section, const std::string& path) {
     for (const auto& [name, node] : table) {
       const std::string key(name.str());
-      if (section.empty() && key == "check") continue;  // judged as what it changes
+      if (section.empty() && key == "check") continue;  // a check is judged by the case that it changes
       if (const toml::table* inner = node.as_table()) {
         const bool named = section == "materials" || section == "joints";
         this->table(*inner, named ? section : joined(section, key), joined(path, key));
@@ -46,7 +46,7 @@ class Values {
     for (const toml::node& node : list) {
       ++i;
       if (const toml::table* inner = node.as_table()) {
-        // The pattern of a collapse stage is multiplied by what is sought.
+        // The load pattern of a collapse stage is multiplied by the unknown multiplier.
         if (key == "load" && section == "stage" && collapses_) continue;
         if (key == "stage") collapses_ = (*inner)["kind"].value_or(std::string()) == "collapse";
         table(*inner, joined(section, key), fmt::format("{}[{}]", joined(path, key), i));
@@ -80,7 +80,7 @@ class Values {
   bool collapses_ = false;  // the stage at hand
 };
 
-/// When a motion is largest (s), and how large (m/s2).
+/// Time (s) and size (m/s2) of the largest acceleration of a motion.
 std::pair<double, double> peak_of(const GroundMotion& motion) {
   std::pair<double, double> peak;
   for (std::size_t i = 0; i < motion.acceleration.size(); ++i)
@@ -89,14 +89,14 @@ std::pair<double, double> peak_of(const GroundMotion& motion) {
   return peak;
 }
 
-/// Where a key of a stage stands: "FILE:LINE: ".
+/// The place of a key of a stage: "FILE:LINE: ".
 std::string place_of(const Case& c, const toml::table& stage, const char* key) {
   const auto found = stage.find(key);
   const auto& source = found == stage.end() ? stage.source() : found->first.source();
   return fmt::format("{}:{}: ", c.path, source.begin.line);
 }
 
-/// How a motion fits its stage, and how large that of a record is.
+/// Checks the duration of a motion against its stage, and the peak of a record.
 void remark_motion(const Case& c, std::size_t i, const toml::table& table, std::vector<std::string>& out) {
   const StageSettings& stage = c.settings.stages[i];
   if (stage.motion.acceleration.size() < 2) return;
@@ -105,18 +105,18 @@ void remark_motion(const Case& c, std::size_t i, const toml::table& table, std::
   if (c.motions[i].kind == MotionSource::Kind::record)
     if (const std::string text = unusual(usual("peak"), peak); !text.empty())
       out.push_back(
-          fmt::format("{}the motion of stage {} has a peak of {:.4g} m/s2 ({:.3g} g): {} by 'units' or "
-                      "'scale'",
+          fmt::format("{}the motion of stage {} has a peak of {:.4g} m/s2 ({:.3g} g): {}; set it with 'units' "
+                      "or 'scale'",
                       place_of(c, table, "record"), i + 1, peak, peak / standard_gravity, text));
   const std::string place = place_of(c, table, "duration");
   if (stage.duration - duration > std::max(ringing, duration))
     out.push_back(
-        fmt::format("{}stage {} lasts {:g} s and its motion {:.4g} s: for the rest the ground stands still; "
-                    "look at 'duration', and at the time step of the motion, {:.4g} s",
+        fmt::format("{}stage {} lasts {:g} s, but its motion only {:.4g} s; for the rest of the stage the ground "
+                    "does not move. Check 'duration' and the time step of the motion, {:.4g} s.",
                     place, i + 1, stage.duration, duration, stage.motion.dt));
   if (when > stage.duration)
     out.push_back(
-        fmt::format("{}stage {} ends after {:g} s, before its motion has its peak of {:.3g} m/s2 at {:.4g} s "
+        fmt::format("{}stage {} ends after {:g} s, before the peak of its motion, which is {:.3g} m/s2 at {:.4g} s "
                     "of {:.4g} s",
                     place, i + 1, stage.duration, peak, when, duration));
 }
@@ -147,9 +147,9 @@ std::vector<std::string> remarks(const Assembly& assembly, const std::string& na
       box.low = box.low.cwiseMin(own.low);
       box.high = box.high.cwiseMax(own.high);
     }
-    judge("the structure's largest side is", "extent", (box.high - box.low).maxCoeff());
+    judge("the largest side of the structure is", "extent", (box.high - box.low).maxCoeff());
   }
-  if (!assembly.generator.empty()) return out;  // the case has said what it is made of
+  if (!assembly.generator.empty()) return out;  // the case states the materials
   for (const Material& m : assembly.materials) {
     judge(fmt::format("density of '{}' is", m.name), "density", m.density);
     judge(fmt::format("Young's modulus of '{}' is", m.name), "modulus", m.youngs_modulus);

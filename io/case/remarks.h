@@ -1,4 +1,4 @@
-// Values that can be computed with and are probably not what was meant: a modulus in GPa, a record in cm/s2.
+// Remarks on values that are possible but probably in another unit: a modulus in GPa, a record in cm/s2.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace voussoir {
 
-/// Of a case: "FILE:LINE: youngs_modulus = 4 Pa in [materials.masonry]: usual … is …; if it was meant in GPa, write
-/// 4e+09". Empty for a case of usual values. A remark stops nothing.
+/// Remarks on a case: "FILE:LINE: youngs_modulus = 4 Pa in [materials.masonry]: usual … is …; if it was meant in GPa,
+/// write 4e+09". Empty for a case with usual values. A remark never stops the program.
 std::vector<std::string> remarks(const Case& c);
 
-/// Of an assembly: its size; and of one that was read from a file its materials. `name` stands in front.
+/// Remarks on an assembly: on its size and, if it comes from a file, on its materials. They begin with `name`.
 std::vector<std::string> remarks(const Assembly& assembly, const std::string& name);
 
-/// Both.
+/// Remarks on both.
 std::vector<std::string> remarks(const Case& c, const Assembly& assembly);
 
 }  // namespace voussoir

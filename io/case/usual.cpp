@@ -1,4 +1,4 @@
-// The ranges are wide on purpose: a remark should mean a slip and not an uncommon stone. Densities, moduli and
+// The ranges are wide on purpose: a remark should mean a wrong unit and not an uncommon stone. Densities, moduli and
 // strengths are those of stone, brick, mortar and fill as Hendry, Sinha & Davies (2004), Design of Masonry Structures,
 // and Heyman (1995), The Stone Skeleton, give them, with room for tuff, loose sand and iron.
 #include "io/case/usual.h"
@@ -56,7 +56,7 @@ const std::map<std::string, Usual>& quantities() {
       {"ag", {"for codes", "g", 0.005, 1.5, 0.005, 1.5, {{1.0 / standard_gravity, "m/s2"}, {0.01, "per cent"}}}},
       {"pulse frequency", {"for ground motion", "Hz", 0.05, 60.0, 0.1, 20.0, {{1.0 / (2.0 * pi), "rad/s"}}}},
       {"duration", {"for a stage", "s", 1e-3, 600.0, 0.1, 300.0, {{1e-3, "ms"}}}},
-      {"sampling", {"for records", "s", 2e-4, 0.1, 5e-4, 0.05, {{1e-3, "ms"}, {1.0, "samples a second", true}}}},
+      {"sampling", {"for records", "s", 2e-4, 0.1, 5e-4, 0.05, {{1e-3, "ms"}, {1.0, "samples per second", true}}}},
       {"force",
        {"on a group of stones (or 0)", "N", 200.0, 1e9, 200.0, 1e8, {{1e3, "kN"}, {1e3 * standard_gravity, "t"}}}}};
   return all;

@@ -8,8 +8,8 @@ namespace voussoir {
 
 namespace {
 
-/// Looks for what the parser, and later the end of its tables, would follow one call deeper for each: brackets in
-/// brackets and keys of many parts. A hundred thousand of them would use up the stack.
+/// Looks for nested brackets and for keys with many parts. The parser and the destructor of its tables recurse once for
+/// each of them, so a hundred thousand of them would use up the stack.
 class NestingCheck {
  public:
   NestingCheck(const std::string& text, const std::string& path) : text_(text), path_(path) {}
@@ -29,7 +29,7 @@ class NestingCheck {
  private:
   static constexpr int deepest = 32, most_parts = 32;
 
-  /// Past a text in quotes. One without an end is the parser's to complain about.
+  /// Moves past a text in quotes. The parser reports a text without an end.
   void pass_text(char quote) {
     const std::string three(3, quote);
     const bool long_form = text_.compare(at_, 3, three) == 0;
@@ -50,11 +50,11 @@ class NestingCheck {
 
   void look(char c) {
     if (c == '.') {
-      if (++dots_ >= most_parts) fail(fmt::format("a key of more than {} parts with dots between", most_parts));
+      if (++dots_ >= most_parts) fail(fmt::format("a key has more than {} parts with dots between them", most_parts));
       return;
     }
     if (c == '[' || c == '{') {
-      if (++depth_ > deepest) fail(fmt::format("brackets in brackets, {} deep", depth_));
+      if (++depth_ > deepest) fail(fmt::format("brackets are nested {} deep", depth_));
     } else if (c == ']' || c == '}') {
       depth_ = std::max(0, depth_ - 1);
     }
@@ -63,8 +63,7 @@ class NestingCheck {
 
   [[noreturn]] void fail(const std::string& what) const {
     const auto line = 1 + std::count(text_.begin(), text_.begin() + std::ptrdiff_t(at_), '\n');
-    throw InputError("{}:{}: {}: no case needs that, so the file is damaged or was not meant as one", path_, line,
-                     what);
+    throw InputError("{}:{}: {}. No case needs that: the file is damaged or is not a case", path_, line, what);
   }
 
   const std::string &text_, &path_;

@@ -33,14 +33,15 @@ std::string range(const Limits& limits) {
   const std::string unit = limits.unit.empty() || limits.unit == "-" ? "" : " " + limits.unit;
   const bool low = std::isfinite(limits.low), high = std::isfinite(limits.high);
   if (low && high)
-    return fmt::format("must be {} {} to {}{}", limits.above ? "above" : "from", limits.low, limits.high, unit);
+    return fmt::format("must be {} {} {} {}{}", limits.above ? "above" : "from", limits.low,
+                       limits.above ? "and at most" : "to", limits.high, unit);
   if (low)
     return fmt::format("must be {}{}{}", limits.above ? "above " : "", limits.low,
                        limits.above ? unit : unit + " or more");
   return fmt::format("must be at most {}{}", limits.high, unit);
 }
 
-/// The same for a list of keys: "above 0 to 1e+10 Pa".
+/// The same for a list of keys: "above 0 and at most 1e+10 Pa".
 std::string number_words(const Limits& limits) {
   const std::string words = range(limits).substr(std::string_view("must be ").size());
   return std::isfinite(limits.low) || std::isfinite(limits.high) ? words : "a number";
@@ -116,12 +117,12 @@ bool TableReader::has(const std::string& key) {
 
 double TableReader::checked(const std::string& key, const toml::node& node, const Limits& limits) const {
   if (!node.is_number())
-    fail(key, fmt::format("is {}, expected a number{}", kind_of(node),
+    fail(key, fmt::format("is {}. It must be a number{}.", kind_of(node),
                           limits.unit.empty() || limits.unit == "-" ? "" : " in " + limits.unit));
   const double value = *node.value<double>();
-  if (!std::isfinite(value)) fail(key, fmt::format("is {}: must be a finite number", value));
+  if (!std::isfinite(value)) fail(key, fmt::format("is {}. It must be a finite number.", value));
   if (value < limits.low || value > limits.high || (limits.above && value == limits.low))
-    fail(key, fmt::format("is {}: {}", value, range(limits)));
+    fail(key, fmt::format("is {}. It {}.", value, range(limits)));
   return value;
 }
 
@@ -141,23 +142,24 @@ std::int64_t TableReader::integer(const std::string& key, std::int64_t fallback,
       find(key, fmt::format("a whole number from {} to {}", low, high), fmt::format("{}", fallback));
   if (!node) return fallback;
   if (!node->is_integer())
-    fail(key, fmt::format("is {}, expected a whole number", node->is_floating_point() ? "a fraction" : kind_of(*node)));
+    fail(key,
+         fmt::format("is {}. It must be a whole number.", node->is_floating_point() ? "a fraction" : kind_of(*node)));
   const std::int64_t value = *node->value<std::int64_t>();
-  if (value < low || value > high) fail(key, fmt::format("is {}: must be from {} to {}", value, low, high));
+  if (value < low || value > high) fail(key, fmt::format("is {}. It must be from {} to {}.", value, low, high));
   return value;
 }
 
 bool TableReader::flag(const std::string& key, bool fallback) {
   const toml::node* node = find(key, "true or false", fallback ? "true" : "false");
   if (!node) return fallback;
-  if (!node->is_boolean()) fail(key, fmt::format("is {}, expected true or false", kind_of(*node)));
+  if (!node->is_boolean()) fail(key, fmt::format("is {}. It must be true or false.", kind_of(*node)));
   return *node->value<bool>();
 }
 
 std::string TableReader::text(const std::string& key, const std::string& fallback) {
   const toml::node* node = find(key, "text in quotes", fallback.empty() ? "" : fmt::format("\"{}\"", fallback));
   if (!node) return fallback;
-  if (!node->is_string()) fail(key, fmt::format("is {}, expected text in quotes", kind_of(*node)));
+  if (!node->is_string()) fail(key, fmt::format("is {}. It must be text in quotes.", kind_of(*node)));
   return *node->value<std::string>();
 }
 
@@ -186,7 +188,7 @@ std::size_t TableReader::required_word(const std::string& key, const std::vector
 
 std::vector<double> TableReader::list(const std::string& key, const Limits& limits) {
   const toml::array* array = find(key)->as_array();
-  if (!array) fail(key, fmt::format("is {}, expected a list of numbers", kind_of(*find(key))));
+  if (!array) fail(key, fmt::format("is {}. It must be a list of numbers.", kind_of(*find(key))));
   std::vector<double> values;
   for (const toml::node& node : *array) values.push_back(checked(key, node, limits));
   return values;
@@ -195,14 +197,14 @@ std::vector<double> TableReader::list(const std::string& key, const Limits& limi
 std::vector<double> TableReader::numbers(const std::string& key, std::size_t count, const Limits& limits) {
   need(key, fmt::format("a list of {} numbers", count));
   const std::vector<double> values = list(key, limits);
-  if (values.size() != count) fail(key, fmt::format("has {} numbers, expected {}", values.size(), count));
+  if (values.size() != count) fail(key, fmt::format("has {} numbers. It must have {}.", values.size(), count));
   return values;
 }
 
 std::vector<double> TableReader::number_list(const std::string& key, const Limits& limits) {
   if (!is_list(key)) return {required_number(key, limits)};
   const std::vector<double> values = list(key, limits);
-  if (values.empty()) fail(key, "is empty: give at least one number");
+  if (values.empty()) fail(key, "is empty. Give at least one number.");
   return values;
 }
 
@@ -212,7 +214,7 @@ std::vector<std::string> TableReader::texts(const std::string& key) {
   if (!node->is_array()) return {text(key, "")};
   std::vector<std::string> values;
   for (const toml::node& item : *node->as_array()) {
-    if (!item.is_string()) fail(key, fmt::format("holds {}, expected texts in quotes", kind_of(item)));
+    if (!item.is_string()) fail(key, fmt::format("has {} in its list. It must have texts in quotes.", kind_of(item)));
     values.push_back(*item.value<std::string>());
   }
   return values;
@@ -226,17 +228,17 @@ std::vector<Vec3> TableReader::pairs(const std::string& key, const std::string& 
   const auto number = [&](const toml::node* item) {
     const std::optional<double> x = item && item->is_number() ? item->value<double>() : std::nullopt;
     if (!x || !(std::abs(*x) <= largest))
-      fail(key, fmt::format("has a point {} that is not {} in m, up to {:g}", list.size() + 1, pair, largest));
+      fail(key, fmt::format("has a wrong entry {}. It must be {} in m, each at most {:g} in size.", list.size() + 1,
+                            pair, largest));
     return *x;
   };
   const toml::array* points = node->as_array();
   if (!points || points->size() < least)
-    fail(key,
-         fmt::format("must be a list of at least {}, [{}, …], in m", least == 1 ? "one pair" : "two points", pair));
+    fail(key, fmt::format("must be a list of at least {} in m: [{}, …]", least == 1 ? "one pair" : "two points", pair));
   for (const toml::node& item : *points) {
     const toml::array* point = item.as_array();
     if (!point || point->size() != 2)
-      fail(key, fmt::format("has a point {} that is {}: expected {}, in m", list.size() + 1, kind_of(item), pair));
+      fail(key, fmt::format("has a wrong entry {}: {}. It must be {} in m.", list.size() + 1, kind_of(item), pair));
     const double first = number(point->get(0)), second = number(point->get(1));
     list.emplace_back(first, 0.0, second);
   }
@@ -247,7 +249,7 @@ std::vector<Vec3> TableReader::profile(const std::string& key) {
   const std::vector<Vec3> line = pairs(key, "[x, z]", 2);
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
     if (line[i + 1].x() <= line[i].x())
-      fail(key, fmt::format("goes back at x = {:g} m: give its points from left to right", line[i + 1].x()));
+      fail(key, fmt::format("goes back at x = {:g} m. Give its points from left to right.", line[i + 1].x()));
   return line;
 }
 
@@ -270,7 +272,7 @@ bool TableReader::is_text(const std::string& key) {
 
 TableReader TableReader::member(const std::string& key, const std::string& place) {
   const toml::node* node = find(key);
-  if (!node->is_table()) fail(key, fmt::format("is {}, expected a table", kind_of(*node)));
+  if (!node->is_table()) fail(key, fmt::format("is {}. It must be a table.", kind_of(*node)));
   return TableReader(*node->as_table(), file_, place, shared_);
 }
 
@@ -281,11 +283,11 @@ std::optional<TableReader> TableReader::table(const std::string& key, const std:
 
 std::vector<TableReader> TableReader::tables(const std::string& key) {
   std::vector<TableReader> readers;
-  const toml::node* node = find(key, fmt::format("tables headed [[{}]]", key));
+  const toml::node* node = find(key, fmt::format("tables with the heading [[{}]]", key));
   if (!node) return readers;
   const toml::array* array = node->as_array();
   if (!array || std::any_of(array->begin(), array->end(), [](const toml::node& item) { return !item.is_table(); }))
-    throw InputError("{}'{}' is {}: expected tables headed [[{}]], with double brackets", at(node->source()), key,
+    throw InputError("{}'{}' is {}. Give tables with the heading [[{}]], in double brackets.", at(node->source()), key,
                      kind_of(*node), key);
   for (const toml::node& item : *array)
     readers.push_back(

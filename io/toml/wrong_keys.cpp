@@ -11,7 +11,7 @@ namespace voussoir {
 
 namespace {
 
-/// The keys of a table in columns, as wide as they need to be.
+/// The keys of a table in columns.
 std::string keys_table(const std::vector<KnownKey>& known) {
   std::size_t names = 3, fallbacks = 7;
   for (const KnownKey& k : known) {
@@ -34,7 +34,7 @@ void WrongKeys::add(const std::string& where, int line, const std::string& key, 
   const std::string near = nearest_word(key, names);
   Key wrong{line, fmt::format("{}unknown key '{}' in {}", where, shown(key), place), {}, {}};
   if (near.empty()) {
-    wrong.text += ": no key there has a name like it";
+    wrong.text += ": no key of this table has a similar name";
     wrong.place = place;
     wrong.known = known;
   } else {
@@ -56,7 +56,7 @@ std::string WrongKeys::message(const std::string& file) const {
   for (const Key& key : sorted) {
     if (key.place.empty() || std::find(listed.begin(), listed.end(), key.place) != listed.end()) continue;
     listed.push_back(key.place);
-    text += fmt::format("\nkeys of {}, expected one of:\n{}", key.place, keys_table(key.known));
+    text += fmt::format("\nkeys of {}:\n{}", key.place, keys_table(key.known));
   }
   return text;
 }

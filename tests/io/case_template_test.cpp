@@ -56,7 +56,7 @@ TEST(CaseTemplate, RefusesLengthsBeyondTheirRange) {
   const auto message = [](const CaseTemplate& wanted) {
     return test::message_of<InputError>([&] { case_template(wanted); });
   };
-  EXPECT_NE(message({{}, "segmental", 0.0}).find("names 0 spans"), std::string::npos);
+  EXPECT_NE(message({{}, "segmental", 0.0}).find("has 0 spans"), std::string::npos);
   EXPECT_NE(message({{8.0, NAN}, "segmental", 0.0}).find("--spans has nan m"), std::string::npos);
   EXPECT_NE(message({std::vector<double>(61, 8.0), "segmental", 0.0}).find("61 spans"), std::string::npos);
   EXPECT_NE(message({{8.0}, "segmental", 0.5}).find("--width has 0.5 m"), std::string::npos);

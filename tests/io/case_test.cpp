@@ -462,7 +462,7 @@ TEST_F(CaseFile, MaterialsOfTheCasesOwnAndRingThicknessesAreReadAndWrittenOut) {
   refused(bridge + materials + "[materials.gravel]\ndensity = 1800.0\n", {"'gravel'", "is not a material"});
   refused(bridge + "[materials.granit]\ndensity = 1800.0\n", {"'granit'", "did you mean 'granite'?"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nring_thickness = 0.5\nring_thicknesses = [[0.3, 0.3]]\n",
-          {"'ring_thicknesses'", "'ring_thickness', which it replaces"});
+          {"'ring_thicknesses'", "'ring_thickness' are both given"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nring_thicknesses = [[0.3]]\n",
           {"'ring_thicknesses'", "[crown, springing]"});
 }

@@ -263,7 +263,7 @@ TEST_F(MeasuredFolder, About) {
   write("modes.csv", modes);
   expect_begins(problem("about.toml", "what = \"x\"\nunits = \"g\"\n"),
                 "about.toml:2: 'units' in the file is \"g\": expected \"SI\"");
-  expect_begins(problem("about.toml", "what = 3\n"), "about.toml:1: 'what' in the file is a number, expected text");
+  expect_begins(problem("about.toml", "what = 3\n"), "about.toml:1: 'what' in the file is a number. It must be text");
   expect_begins(problem("about.toml", "what = \"x\n"), "about.toml:1: not valid TOML");
   EXPECT_EQ(problem("about.toml", ""), "");
 }

@@ -43,11 +43,11 @@ TEST(RecordKeys, ColumnsOfATable) {
   EXPECT_EQ(motion_of(copy).acceleration, motion_of(c).acceleration);
   EXPECT_NE(fault(folder, record + "columns = [\"t\", \"x\"]\n").find("5 columns, but 'columns' names 2"),
             std::string::npos);
-  EXPECT_NE(fault(folder, record + "columns = [\"t\", \"up\"]\n").find("holds \"up\": expected t, x, y, z"),
+  EXPECT_NE(fault(folder, record + "columns = [\"t\", \"up\"]\n").find("contains \"up\". Give t, x, y or z"),
             std::string::npos);
-  EXPECT_NE(fault(folder, record + "columns = [\"x\", \"x\"]\n").find("holds \"x\" twice"), std::string::npos);
+  EXPECT_NE(fault(folder, record + "columns = [\"x\", \"x\"]\n").find("contains \"x\" twice"), std::string::npos);
   EXPECT_NE(fault(folder, record).find("for several name them: columns ="), std::string::npos);
-  EXPECT_NE(fault(folder, "record = [\"a.txt\", \"a.txt\"]\ncolumns = [\"t\", \"x\"]\n").find("belongs to one file"),
+  EXPECT_NE(fault(folder, "record = [\"a.txt\", \"a.txt\"]\ncolumns = [\"t\", \"x\"]\n").find("is for a single file"),
             std::string::npos);
 }
 
@@ -71,7 +71,7 @@ TEST(RecordKeys, ScaledToAPeak) {
   EXPECT_NE(fault(folder, "record = \"still.csv\"\nscale_to_pga = 3.0\n").find("ground motion is zero"),
             std::string::npos);
   EXPECT_NE(fault(folder, "record = \"a.csv\"\nscale_to_pga = 0\n"), "");
-  EXPECT_NE(fault(folder, "record = \"a.csv\"\nunits = \"g\"\n").find("says its units itself"), std::string::npos);
+  EXPECT_NE(fault(folder, "record = \"a.csv\"\nunits = \"g\"\n").find("states its own units"), std::string::npos);
 }
 
 /// Hundreds of motions of a million samples: they are checked, and not made.

@@ -86,7 +86,7 @@ const std::vector<Slipped> table = {
      {"c.toml:5: duration = 2000 s", "ms, write 2"}},
     {"OfAHundredSeconds",
      head + motion + "duration = 100.0\nsynthetic = { seed = 1, peak = 2.0, duration = 16.0 }\n",
-     {"c.toml:5: stage 1 lasts 100 s and its motion 16 s"}},
+     {"c.toml:5: stage 1 lasts 100 s, but its motion only 16 s"}},
     {"WithTimeToRing", head + motion + "duration = 20.0\nsynthetic = { seed = 1, peak = 2.0, duration = 8.0 }\n", {}}};
 
 class Remark : public ::testing::TestWithParam<Slipped> {};
@@ -137,7 +137,7 @@ TEST(RemarkOnRecords, ThatAreShorterThanTheirStage) {
   EXPECT_TRUE(with_record(2.0, 30.0).empty());
   const std::vector<std::string> found = with_record(2.0, 100.0);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].find("c.toml:5: stage 1 lasts 100 s and its motion 16 s"), std::string::npos) << found[0];
+  EXPECT_NE(found[0].find("c.toml:5: stage 1 lasts 100 s, but its motion only 16 s"), std::string::npos) << found[0];
 }
 
 TEST(RemarkOnAssemblies, OfKilometres) {
@@ -145,7 +145,7 @@ TEST(RemarkOnAssemblies, OfKilometres) {
   const Case c = parse_case(text, "c.toml", CaseUse::geometry);
   const std::vector<std::string> found = remarks(c, make_assembly(c));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].find("c.toml: the structure's largest side is 2.6e+04 m"), std::string::npos) << found[0];
+  EXPECT_NE(found[0].find("c.toml: the largest side of the structure is 2.6e+04 m"), std::string::npos) << found[0];
   EXPECT_NE(found[0].find("meant in mm, write 26"), std::string::npos) << found[0];
 }
 

@@ -283,7 +283,7 @@ const std::vector<Wrong> table = {
     {"AxlesOutOfOrder",
      road + "[[axle]]\nx = 3\nload = 1\n" + axle,
      {"v.toml:11: 'x' in [[axle]] number 2", "is 0 m", "before is 3 m", "front backwards"}},
-    {"AxleInFront", road + "[[axle]]\nx = -1\nload = 1\n", {"v.toml:8: 'x'", "is -1: must be from 0"}},
+    {"AxleInFront", road + "[[axle]]\nx = -1\nload = 1\n", {"v.toml:8: 'x'", "is -1. It must be from 0"}},
     {"NoWheel",
      "[vehicle]\ntitle = \"a\"\nsource = \"b\"\nkind = \"road\"\ntrack = 2\n" + axle,
      {"needs 'wheel'", "in m"}},
@@ -320,7 +320,7 @@ const std::vector<Wrong> table = {
      {"v.toml:15: 'name'", "as of another"}},
     {"VariantOfOtherAxles",
      road + axle + "[[variant]]\nname = \"a\"\nclause = \"b\"\nshares = [1.5, 0.5]\n",
-     {"v.toml:13: 'shares'", "2 numbers, expected 1"}},
+     {"v.toml:13: 'shares'", "2 numbers. It must have 1."}},
     {"NotToml", "[vehicle\n", {"v.toml:1:", "not valid TOML"}},
 };
 

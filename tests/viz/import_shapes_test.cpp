@@ -231,7 +231,7 @@ TEST(Import, MaterialsByObject) {
   EXPECT_NE(refused(iron + "[materials.lead]\nobjects = \"clamp b\"\n").find("fits two materials"), std::string::npos);
   EXPECT_NE(refused("[materials.lead]\nobjects = \"peg\"\n").find("no object has such a name"), std::string::npos);
   EXPECT_NE(refused("[materials.lead]\ndensity = -1\n").find("m.toml:2"), std::string::npos);
-  EXPECT_NE(refused("[materials.a]\n[materials.b]\n").find("only one"), std::string::npos);
+  EXPECT_NE(refused("[materials.a]\n[materials.b]\n").find("Only one"), std::string::npos);
   EXPECT_NE(refused("lead = 1\n").find("m.toml:1"), std::string::npos);
 }
 

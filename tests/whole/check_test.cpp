@@ -69,7 +69,8 @@ TEST(Check, SaysWhatIsWrong) {
   expect_error(voussoir({"check", "place.toml"}, there), 2, {"'multiplicator'", "multiplier"});
   folder.write("zero.toml", tipping("0.0"));
   for (const char* verb : {"check", "run", "info"})
-    expect_error(voussoir({verb, "zero.toml"}, there), 2, {"zero.toml:", "share of zero", "'within'"});
+    expect_error(voussoir({verb, "zero.toml"}, there), 2,
+                 {"zero.toml:", "share of the expected value, which is 0", "'within'"});
 }
 
 TEST(Check, AKnownMissIsSaidAndDoesNotFail) {

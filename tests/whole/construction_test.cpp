@@ -73,7 +73,7 @@ TEST(Construction, IsRefusedWhereItLeavesSomethingOut) {
   refused("construction = [ { label = \"nothing\" } ]\n", {"'add'", "or 'strike'"});
   refused("lift = 2.0\n", {"'lift'", "construction = \"staged\""});
   refused("[[stage]]\nkind = \"gravity\"\nconstruction = \"staged\"\n",
-          {"'construction'", "belongs to the first stage"});
+          {"'construction'", "is only for the first stage"});
 }
 
 }  // namespace VOUSSOIR_FILE
