@@ -49,7 +49,7 @@ std::string motion_text(const GroundMotion& motion) {
                      motion.dt, peak.x(), peak.y(), peak.z());
 }
 
-/// Of a synthetic motion, which is not made for this.
+/// Describes a synthetic motion without computing it.
 std::string synthetic_text(const MotionSource& source) {
   const SyntheticSettings& s = source.synthetic;
   const std::string size = s.spectrum
@@ -77,7 +77,7 @@ std::string describe_case(const std::string& path) {
       out.text += "; " + (stage.motion.acceleration.empty() ? synthetic_text(c.motions[i]) : motion_text(stage.motion));
     for (const Drive& d : stage.drives) out.text += fmt::format("; drives \"{}\"", d.group);
   }
-  if (c.settings.stages.empty()) out.add("  no stages: good for generate and modal, not for run");
+  if (c.settings.stages.empty()) out.add("  no stages: the case can be used for generate and modal, but not for run");
   out.add("  {} sensors", c.sensors.size());
   for (const std::string& remark : remarks(c)) out.add("  remark: {}", remark);
   return out.text;
@@ -98,7 +98,7 @@ std::string composite_text(const JointLaw& law) {
   std::string text = fmt::format("composite joints: tension {:g} Pa, cohesion {:g} Pa, GI {:g} and GII {:g} J/m2",
                                  law.tension, law.cohesion, law.fracture_energy[0], law.fracture_energy[1]);
   if (law.compressive_strength <= 0.0) return text + ", no crushing";
-  text += fmt::format("; compressive strength {:g} Pa, energy {:g} J/m2, shear {:g} times as heavy",
+  text += fmt::format("; compressive strength {:g} Pa, energy {:g} J/m2, weight of the shear in the cap {:g}",
                       law.compressive_strength, law.compressive_energy, law.cap_shear);
   return law.compressive_peak > 0.0 ? text + fmt::format(", peak at {:g} m", law.compressive_peak) : text;
 }
@@ -139,11 +139,12 @@ std::string describe_assembly(const std::string& path) {
   out.add("  {}", joints_text(assembly));
   for (const JointLaw& law : assembly.laws)
     if (law.kind == JointLaw::Kind::composite) out.add("  {}", composite_text(law));
-  if (!assembly.blocks.empty() && !states_joints(path)) out.add("  the file states no joints: these were found");
+  if (!assembly.blocks.empty() && !states_joints(path))
+    out.add("  the file states no joints; the program has found these");
   for (const std::string& line : fill_lines(assembly)) out.add("  {}", line);
   std::size_t objects = 0;
   for (const auto& [name, members] : assembly.groups) objects += name.starts_with(object_group_prefix);
-  constexpr std::size_t most = 20;  // of an imported bridge there are thousands
+  constexpr std::size_t most = 20;  // an imported bridge may have thousands
   for (const auto& [name, members] : assembly.groups)
     if (objects <= most || !name.starts_with(object_group_prefix))
       out.add("  group \"{}\": {} blocks", name, members.size());
@@ -154,7 +155,7 @@ std::string describe_assembly(const std::string& path) {
   return out.text;
 }
 
-/// Damage met by someone who only asks is wrong input, not failed work.
+/// The header of a checkpoint. A damaged file is an InputError here, not a RunError.
 CheckpointHeader header_of(const std::string& path) {
   try {
     return read_checkpoint_header(path);
@@ -198,7 +199,7 @@ std::string describe_modes(const std::string& path) {
   Lines out;
   out.add("{}: {} modes of {}", path, modes.modes.size(), modes.about);
   const std::string nodes = modes.nodes.empty() ? "" : fmt::format(", {} nodes of a fill", modes.nodes.size());
-  out.add("  {} blocks{}, {:.1f} kg that can move, assembly {:016x}", modes.places.mass.size(), nodes, modes.mass,
+  out.add("  {} blocks{}, movable mass {:.1f} kg, assembly {:016x}", modes.places.mass.size(), nodes, modes.mass,
           modes.assembly_hash);
   for (std::size_t i = 0; i < modes.modes.size(); ++i)
     out.add("  mode {}: {:.6g} Hz, {}", i + 1, modes.modes[i].frequency, modes.modes[i].words.text());
@@ -208,9 +209,9 @@ std::string describe_modes(const std::string& path) {
 void describe_channel(const RecordFile& file, Lines& out) {
   const Record& record = file.record;
   const std::vector<double> velocity = integrate(record.values, record.dt);
-  const auto said = [](const std::string& text) { return text.empty() ? "not said" : text; };
+  const auto said = [](const std::string& text) { return text.empty() ? "not stated" : text; };
   if (file.unit > 0.0)
-    out.add("  event {}, station {}, component {}; units of {:g} m/s2", said(file.event), said(file.station),
+    out.add("  event {}, station {}, component {}; unit {:g} m/s2", said(file.event), said(file.station),
             said(file.component), file.unit);
   out.add("  largest value {:.6g}, largest velocity {:.6g}, at the end {:.6g}", largest(record.values),
           largest(velocity), velocity.back());
@@ -230,7 +231,7 @@ std::string describe_record(const std::string& path) {
           channels.size() > 1 ? fmt::format("{} channels of ", channels.size()) : "", first.record.values.size(),
           first.record.duration(), first.record.dt);
   for (const RecordFile& channel : channels) describe_channel(channel, out);
-  out.add("  values in the file's own unit; velocities in that unit times s");
+  out.add("  values in the unit of the file; velocities in this unit times s");
   return out.text;
 }
 
@@ -240,7 +241,7 @@ std::string first_lines(const std::string& text, int count) {
   return text.substr(0, end);
 }
 
-/// Its case, its assembly, how far its history goes and its newest good checkpoint.
+/// Describes case, assembly, history and newest undamaged checkpoint of a run directory.
 std::string describe_run(const std::string& path) {
   Lines out;
   out.add("{}: run directory", path);
@@ -259,25 +260,25 @@ std::string describe_run(const std::string& path) {
   std::ifstream summary(path + "/summary.json");
   const std::string text{std::istreambuf_iterator<char>(summary), {}};
   if (text.find("\"finished\": true") != std::string::npos)
-    out.add("it has ended; its numbers are in {}/summary.json", path);
+    out.add("the run has ended; its results are in {}/summary.json", path);
   else
-    out.add("it has not ended; go on with: voussoir resume {}", path);
+    out.add("the run has not ended; continue it with: voussoir resume {}", path);
   return out.text;
 }
 
 }  // namespace
 
 std::string describe_file(const std::string& path) {
-  std::error_code ignored;  // a name that cannot be looked up names no file
+  std::error_code ignored;  // an error counts as a file that does not exist
   if (!std::filesystem::exists(path, ignored)) throw InputError("cannot read {}: there is no such file", path);
   if (std::filesystem::exists(path + "/case.toml", ignored)) return describe_run(path);
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError("cannot read {}: it is not a file", path);
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".toml") return describe_case(path);
   if (extension == ".json")
-    throw InputError("{} is plain text; read it as it is (docs/formats.md says what is in it)", path);
+    throw InputError("{} is a text file; read it with an editor (docs/formats.md describes its contents)", path);
   if (!h5::File::is_hdf5(path)) {
-    if (extension == ".h5") throw InputError("{} is not an HDF5 file (or its beginning is damaged)", path);
+    if (extension == ".h5") throw InputError("{} is not an HDF5 file, or its beginning is damaged", path);
     return describe_record(path);
   }
   const h5::File file = h5::File::open(path);
@@ -287,8 +288,8 @@ std::string describe_file(const std::string& path) {
   if (format == "voussoir-history") return describe_history(path);
   if (format == "voussoir-modes") return describe_modes(path);
   throw InputError(
-      "{} is an HDF5 file of another program (its attribute 'format' is \"{}\"): expected a voussoir assembly, "
-      "checkpoint, history or modes",
+      "{} is an HDF5 file of another program: its attribute 'format' is \"{}\". It must be an assembly, a checkpoint, "
+      "a history or a modes file of voussoir.",
       path, format);
 }
 

@@ -1,5 +1,5 @@
-// Channels that are no signal of a structure: an instrument that was off, lost its cable, hit its limits or is written
-// twice.
+// Channels without a signal of a structure: an instrument that was off, lost its cable, reached its limits or is
+// written twice.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace voussoir {
 
 namespace {
 
-constexpr double still_seconds = 1.0;  // s: to the last digit no bridge stands still for so long
+constexpr double still_seconds = 1.0;  // s; no bridge has equal samples, to the last digit, for so long
 constexpr Eigen::Index still_samples = 20;
 constexpr double most_still = 0.05;        // share of the samples
 constexpr Eigen::Index limit_run = 2;      // samples at a limit one after the other
@@ -57,7 +57,7 @@ Fault stillness(const Eigen::VectorXd& x, double dt, const std::vector<int>& row
   const Runs runs = runs_of(x, least, [](double) { return true; });
   if (runs.count == 0) return {};
   const double share = double(runs.samples) / double(x.size());
-  return {fmt::format("stands still at {} from row {} on, for {:.3g} % of the recording in all: a lost cable, or a gap "
+  return {fmt::format("is constant at {} from row {} on, in all for {:.3g} % of the recording: a lost cable, or a gap "
                       "that was filled",
                       x[runs.first], rows[std::size_t(runs.first)], 100.0 * share),
           share > most_still};
@@ -71,9 +71,10 @@ Fault limits(const Eigen::VectorXd& x, const std::vector<int>& rows) {
   const auto at_limit =
       std::count_if(x.begin(), x.end(), [&](double v) { return (above && v == high) || (below && v == low); });
   const double share = double(at_limit) / double(x.size());
-  return {fmt::format("is cut off at {} from row {} on, {} times, {:.2g} % of its samples: the instrument's limit",
-                      x[runs.first], rows[std::size_t(runs.first)], runs.count, 100.0 * share),
-          share > most_at_limit};
+  return {
+      fmt::format("is cut off at {} from row {} on, {} times, for {:.2g} % of its samples: the limit of the instrument",
+                  x[runs.first], rows[std::size_t(runs.first)], runs.count, 100.0 * share),
+      share > most_at_limit};
 }
 
 /// Another channel of the recording with the same values; −1: none.
@@ -85,7 +86,7 @@ Eigen::Index twin_of(const Recording& record, Eigen::Index c) {
   return -1;
 }
 
-/// The ground may rest before an earthquake, and what stands on it.
+/// Whether there is a channel of the ground, which may be at rest before an earthquake, and the bridge with it.
 bool knows_ground(const Recording& record) {
   return std::any_of(record.channels.begin(), record.channels.end(), is_base_channel);
 }
@@ -97,7 +98,7 @@ Fault fault_of(const Recording& record, Eigen::Index c, const std::vector<int>& 
   if (const Fault cut = limits(x, rows); !cut.what.empty()) return cut;
   if (knows_ground(record)) return {};
   if (const Eigen::Index twin = twin_of(record, c); twin >= 0)
-    return {fmt::format("has the same samples as '{}': which of them it belongs to cannot be told",
+    return {fmt::format("has the same samples as '{}'; the program cannot tell to which sensor they belong",
                         record.channels[std::size_t(twin)]),
             true};
   return stillness(x, record.dt, rows);

@@ -14,7 +14,7 @@ namespace voussoir {
 namespace {
 
 constexpr double even = 1e-6;      // s, as for ground motion in io/records
-constexpr int most_decimals = 17;  // that a number can have
+constexpr int most_decimals = 17;  // of a number
 constexpr std::size_t fewest_samples = 100;
 constexpr double slow_sampling = 0.5;         // s; coarser steps show no mode of a masonry bridge
 constexpr double large_acceleration = 100.0;  // m/s2
@@ -32,8 +32,8 @@ struct Samples {
   csv.fail(explain(trouble, word, column) + "; fill the gap, cut the recording there, or leave the channel out");
 }
 
-/// How many rows there can be at most: a row has at least a digit and a separator a column. So a broken file cannot ask
-/// for more memory than a few times its size.
+/// The largest possible number of rows: a row has at least a digit and a separator for each column. So a damaged file
+/// cannot use more memory than a few times its size.
 std::size_t most_rows(std::string_view rest, std::size_t columns) {
   const auto lines = std::size_t(std::count(rest.begin(), rest.end(), '\n')) + 1;
   return std::min(lines, rest.size() / (2 * columns) + 1);
@@ -93,11 +93,10 @@ void check_steps(const CsvReader& csv, const Samples& samples, double mean) {
   std::size_t against_usual = uneven_sample(t, usual, std::max(even, rounding));
   if (against_usual == 0) against_usual = uneven_sample(t, usual);
   const std::size_t i = against_usual > 0 ? against_usual : against_mean;
-  csv.fail(samples.rows[i],
-           fmt::format(
-               "time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s, or the times within half of "
-               "their last digit of even ones; resample the recording, or cut it at a gap",
-               t[i] - t[i - 1], against_usual > 0 ? usual : mean, even));
+  csv.fail(samples.rows[i], fmt::format("the time step is {:.9g} s here and {:.9g} s elsewhere. Time steps must be "
+                                        "equal within {} s, or the times must agree with equal time steps within half "
+                                        "of their last digit. Resample the recording, or cut it at a gap.",
+                                        t[i] - t[i - 1], against_usual > 0 ? usual : mean, even));
 }
 
 /// Steps that are equal one by one may still change in the course of a long recording.
@@ -105,10 +104,11 @@ void check_drift(const CsvReader& csv, const Samples& samples, double dt) {
   const std::vector<double>& t = samples.times;
   for (std::size_t i = 0; i < t.size(); ++i)
     if (const double expected = t[0] + dt * double(i); !(std::abs(t[i] - expected) <= std::max(even, 0.5 * dt)))
-      csv.fail(samples.rows[i],
-               fmt::format("time {:.9g} s, expected {:.9g} s at even steps of {:.9g} s: the sampling rate "
-                           "changes; resample the recording",
-                           t[i], expected, dt));
+      csv.fail(
+          samples.rows[i],
+          fmt::format("the time is {:.9g} s. It must be {:.9g} s at equal time steps of {:.9g} s. The sampling rate "
+                      "changes: resample the recording.",
+                      t[i], expected, dt));
 }
 
 /// The step in s of times that must be even.
@@ -116,9 +116,9 @@ double time_step(const CsvReader& csv, const Samples& samples) {
   const std::vector<double>& t = samples.times;
   for (std::size_t i = 1; i < t.size(); ++i)
     if (!(t[i] > t[i - 1]))
-      csv.fail(
-          samples.rows[i],
-          fmt::format("time {} s after {} s: times must increase; remove repeated rows, sort them", t[i], t[i - 1]));
+      csv.fail(samples.rows[i],
+               fmt::format("the time {} s follows {} s. Times must increase. Remove repeated rows and sort the rows.",
+                           t[i], t[i - 1]));
   const double steps = double(t.size() - 1), mean = (t.back() - t[0]) / steps;
   if (uneven_sample(t, mean) > 0)
     if (const auto step = grid_step(t, 0.5 * std::pow(10.0, -samples.decimals))) return *step;
@@ -133,9 +133,10 @@ std::size_t time_column(const CsvReader& csv) {
   const auto& columns = csv.columns();
   const auto found = std::find(columns.begin(), columns.end(), "t");
   if (found == columns.end())
-    csv.fail(csv.heading_row(), "no column 't', expected the time in s and a column for each channel: name them");
+    csv.fail(csv.heading_row(),
+             "there is no column 't'. Give the time in s in a column 't', and a column for each channel.");
   if (columns.size() < 2)
-    csv.fail(csv.heading_row(), "no channels, expected a column for each sensor: add them, or remove the file");
+    csv.fail(csv.heading_row(), "there are no channels. Add a column for each sensor, or remove the file.");
   return std::size_t(found - columns.begin());
 }
 
@@ -148,12 +149,12 @@ void check_channels(const CsvReader& csv, const std::vector<std::string>& channe
   std::sort(sorted.begin(), sorted.end());
   for (const std::string& channel : channels)
     if (!std::binary_search(sorted.begin(), sorted.end(), channel))
-      csv.fail(csv.heading_row(),
-               fmt::format("channel '{}' is neither a sensor of sensors.csv nor the ground's motion{}", shown(channel),
-                           short_suggestion(channel, known)));
+      csv.fail(csv.heading_row(), fmt::format("channel '{}' is neither a sensor of sensors.csv nor the ground motion{}",
+                                              shown(channel), short_suggestion(channel, known)));
 }
 
-/// Makes all channels accelerations in m/s2; what cannot be differentiated at the ends is cut off all of them.
+/// Converts all channels into accelerations in m/s2. The ends that cannot be differentiated are cut off in all
+/// channels.
 void convert_units(Recording& record, const std::vector<MeasuredSensor>& sensors) {
   std::vector<const ChannelUnit*> units;
   int most = 0;
@@ -178,12 +179,13 @@ void convert_units(Recording& record, const std::vector<MeasuredSensor>& sensors
 void remark_units(const Recording& record, std::vector<std::string>& remarks) {
   if (record.dt > slow_sampling)
     remarks.push_back(
-        fmt::format("{}: a sample every {:.4g} s shows no mode of a bridge: 't' must be in s", record.name, record.dt));
+        fmt::format("{}: the time step is {:.4g} s, which is too long for the modes of a bridge. 't' must be in s.",
+                    record.name, record.dt));
   if (const double peak = record.values.cwiseAbs().maxCoeff(); peak > large_acceleration)
-    remarks.push_back(fmt::format(
-        "{}: accelerations up to {:.4g} look like another unit: they must be in m/s2, or a column 'unit' of "
-        "sensors.csv say what they are in",
-        record.name, peak));
+    remarks.push_back(
+        fmt::format("{}: accelerations reach {:.4g} m/s2, so they are probably in another unit. They must be in m/s2, "
+                    "or in the unit that a column 'unit' of sensors.csv gives.",
+                    record.name, peak));
 }
 
 bool same_samples(const Recording& a, const Recording& b) {
@@ -204,8 +206,9 @@ void parse_record(const TextFile& file, Measured& measured) {
   if (samples.times.size() < fewest_samples)
     csv.fail(
         std::max(csv.row(), 1),
-        fmt::format("the recording ends after {} samples, expected at least {}: give a longer one, or remove the file",
-                    samples.times.size(), fewest_samples));
+        fmt::format(
+            "the recording ends after {} samples. At least {} are needed. Give a longer recording, or remove the file.",
+            samples.times.size(), fewest_samples));
   record.dt = time_step(csv, samples);
   record.values = std::move(samples.values);
   const std::string place = fmt::format("{}:{}", file.name, csv.heading_row());

@@ -28,7 +28,7 @@ Vec3 axis_direction(const std::string& word) {
   return direction;
 }
 
-/// The three numbers of "a;b;c"; none when the text is something else.
+/// The three numbers of "a;b;c"; nothing for another text.
 std::optional<Vec3> three_numbers(std::string_view text) {
   Vec3 v;
   for (int i = 0; i < 3; ++i) {
@@ -48,12 +48,14 @@ Vec3 read_direction(const CsvTable& table, std::size_t i) {
   if (const Vec3 axis = axis_direction(word); !axis.isZero(0.0)) return axis;
   const std::optional<Vec3> v = three_numbers(word);
   if (!v)
-    table.fail(i, fmt::format("direction '{}': expected x, y, z, -x, -y, -z or a unit vector such as 0.7071;0.7071;0",
-                              shown(word)));
+    table.fail(
+        i, fmt::format("direction is '{}'. It must be x, y, z, -x, -y, -z or a unit vector such as 0.7071;0.7071;0.",
+                       shown(word)));
   const double length = v->stableNorm();
   if (!(std::abs(length - 1.0) <= unit_tolerance))
-    table.fail(i, fmt::format("direction '{}' has the length {:.4g}: expected a unit vector; divide it by its length",
-                              shown(word), length));
+    table.fail(i,
+               fmt::format("direction '{}' has the length {:.4g}. It must be a unit vector: divide it by its length.",
+                           shown(word), length));
   return std::abs(length - 1.0) <= unit_already ? *v : Vec3(*v / length);
 }
 
@@ -61,8 +63,8 @@ MeasuredSensor read_sensor(const CsvTable& table, std::size_t i) {
   MeasuredSensor sensor;
   sensor.id = table.required_text(i, "id");
   if (sensor.id == "t" || std::find(base_channels.begin(), base_channels.end(), sensor.id) != base_channels.end())
-    table.fail(i, fmt::format("a sensor may not be named '{}': in recordings that is the {}; rename it", sensor.id,
-                              sensor.id == "t" ? "time" : "ground's motion"));
+    table.fail(i, fmt::format("a sensor has the name '{}', which means the {} in recordings. Rename the sensor.",
+                              sensor.id, sensor.id == "t" ? "time" : "ground motion"));
   sensor.position = {table.required_number(i, "x"), table.required_number(i, "y"), table.required_number(i, "z")};
   sensor.direction = read_direction(table, i);
   sensor.row = table.row(i);
@@ -84,7 +86,7 @@ std::array<double, 6> place_key(const MeasuredSensor& s) {
   return {s.position.x(), s.position.y(), s.position.z(), d.x(), d.y(), d.z()};
 }
 
-/// Keeps the row of each name; complains about the second of a kind.
+/// Keeps the row of each name, to find repeated names.
 template <class Key>
 class Rows {
  public:
@@ -104,23 +106,24 @@ void read_period(const CsvTable& table, std::size_t i, MeasuredMode& mode) {
   const std::string column = hertz ? "frequency" : "period";
   const double value = table.required_number(i, column), deviation = table.deviation(i, column + "_std");
   if (!(value > 0.0))
-    table.fail(i, fmt::format("{} is {} {}: must be above 0; remove the row when it is unknown", column, value,
+    table.fail(i, fmt::format("{} is {} {}. It must be above 0. Remove the row if it is unknown.", column, value,
                               hertz ? "Hz" : "s"));
   mode.period = hertz ? 1.0 / value : value;
   mode.period_std = hertz ? deviation / value / value : deviation;  // to first order
   if (!std::isfinite(mode.period) || !std::isfinite(mode.period_std))
-    table.fail(i, fmt::format("frequency is {} Hz: its period is beyond what numbers can hold; correct it", value));
+    table.fail(i, fmt::format("frequency is {} Hz. Its period is too large for the program. Correct it.", value));
 }
 
 void read_damping(const CsvTable& table, std::size_t i, MeasuredMode& mode) {
   mode.damping = table.number(i, "damping");
   mode.damping_std = table.deviation(i, "damping_std");
   if (mode.damping && !(*mode.damping >= 0.0 && *mode.damping < 1.0))
-    table.fail(i, fmt::format("damping is {}: must be from 0 to below 1, the ratio to critical; write 0.02 for 2 %",
-                              *mode.damping));
-  if (!mode.damping && mode.damping_std > 0.0)
     table.fail(
-        i, fmt::format("damping_std is {}, but there is no damping: give it, or leave both empty", mode.damping_std));
+        i, fmt::format("damping is {}. It must be at least 0 and below 1, as the ratio to critical: write 0.02 for 2 %",
+                       *mode.damping));
+  if (!mode.damping && mode.damping_std > 0.0)
+    table.fail(i, fmt::format("damping_std is {}, but there is no damping. Give both, or leave both empty.",
+                              mode.damping_std));
 }
 
 MeasuredMode read_mode(const CsvTable& table, std::size_t i) {
@@ -138,13 +141,14 @@ MeasuredMode read_mode(const CsvTable& table, std::size_t i) {
 
 void check_mode_columns(const CsvTable& table) {
   if (table.has("period") && table.has("frequency"))
-    table.fail_heading("both 'period' and 'frequency': expected one of them; remove the other");
+    table.fail_heading("the table has both 'period' and 'frequency'. Remove one of them.");
   if (!table.has("period") && !table.has("frequency"))
-    table.fail_heading("no column 'period' (s), nor 'frequency' (Hz): expected one of them");
+    table.fail_heading("the table has neither a column 'period' (s) nor a column 'frequency' (Hz). Add one of them.");
   const std::string strange = table.has("period") ? "frequency_std" : "period_std";
   if (table.has(strange))
-    table.fail_heading(fmt::format("'{}' without '{}': give the deviation of what is in the table", strange,
-                                   table.has("period") ? "frequency" : "period"));
+    table.fail_heading(
+        fmt::format("the table has '{}' but not '{}'. Give the standard deviation of the quantity in the table.",
+                    strange, table.has("period") ? "frequency" : "period"));
 }
 
 /// Frequencies in the column of periods are larger than periods of masonry, and rise from mode to mode.
@@ -160,12 +164,12 @@ void remark_periods(const CsvTable& table, Measured& measured) {
   measured.remarks.push_back(
       table.has("period")
           ? fmt::format(
-                "modes.csv: the periods, from {:.4g} s, are long for masonry: they look like frequencies (then name "
-                "the column 'frequency') or milliseconds",
+                "modes.csv: the periods, from {:.4g} s, are long for masonry. If they are frequencies, name the "
+                "column 'frequency'; if they are in milliseconds, convert them to s.",
                 modes[0].period)
           : fmt::format(
-                "modes.csv: the frequencies give periods from {:.4g} s, long for masonry: they look like periods "
-                "(then name the column 'period')",
+                "modes.csv: the frequencies give periods from {:.4g} s, which are long for masonry. If they are "
+                "periods, name the column 'period'.",
                 modes[0].period));
 }
 
@@ -179,12 +183,13 @@ std::size_t find_named(const CsvTable& table, std::size_t i, const std::string& 
   table.fail(i, fmt::format("{} '{}' is not in {}{}", column, shown(name), file, short_suggestion(name, names)));
 }
 
-/// A shape of one sensor, or of none that moves, tells nothing.
+/// Sets shapes aside that have one sensor or only zeros.
 void drop_empty_shape(MeasuredMode& mode, int row, const std::string& file, Measured& measured) {
   const bool zeros =
       std::all_of(mode.shape.begin(), mode.shape.end(), [](const MeasuredValue& v) { return v.value == 0.0; });
   if (mode.shape.empty() || (mode.shape.size() >= fewest_sensors && !zeros)) return;
-  const std::string why = zeros ? "has nothing but zeros" : fmt::format("has 1 sensor, needs {}", fewest_sensors);
+  const std::string why =
+      zeros ? "has only zeros" : fmt::format("has 1 sensor; at least {} are needed", fewest_sensors);
   measured.set_aside.push_back(
       {fmt::format("{}:{}", file, row), fmt::format("the shape of mode '{}' {}", mode.name, why)});
   mode.shape.clear();
@@ -211,7 +216,7 @@ void take_notes(const toml::node& node, const std::string& key, std::vector<Note
   notes.push_back({key, text.str()});
 }
 
-/// People keep there what they like; only a misspelt key is worth a line.
+/// about.toml may have any keys; only misspelt ones are reported.
 void keep_notes(const toml::table& root, const std::string& file, Measured& measured) {
   static const std::vector<std::string> known = {"what", "when", "units", "notes"};
   for (const auto& [key, node] : root) {
@@ -233,13 +238,14 @@ void parse_sensors(const TextFile& file, Measured& measured) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     const MeasuredSensor sensor = read_sensor(table, i);
     if (const int before = ids.add(sensor.id, sensor.row))
-      table.fail(i, fmt::format("sensor '{}' is already in row {}: expected each once; rename or remove one",
-                                shown(sensor.id), before));
+      table.fail(
+          i, fmt::format("sensor '{}' is already in row {}. Rename or remove one of them.", shown(sensor.id), before));
     if (const int before = places.add(place_key(sensor), sensor.row))
       table.fail(
-          i, fmt::format("sensor '{}' has the place and the axis of the one in row {}: expected one sensor for each; "
-                         "correct its place, or remove one and what it measured",
-                         shown(sensor.id), before));
+          i,
+          fmt::format("sensor '{}' has the same place and axis as the one in row {}. Correct its place, or remove one "
+                      "of them with its measurements.",
+                      shown(sensor.id), before));
     measured.sensors.push_back(sensor);
   }
 }
@@ -252,8 +258,8 @@ void parse_modes(const TextFile& file, Measured& measured) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     const MeasuredMode mode = read_mode(table, i);
     if (const int before = names.add(mode.name, mode.row))
-      table.fail(i, fmt::format("mode '{}' is already in row {}: expected each once; rename or remove one",
-                                shown(mode.name), before));
+      table.fail(
+          i, fmt::format("mode '{}' is already in row {}. Rename or remove one of them.", shown(mode.name), before));
     measured.modes.push_back(mode);
   }
   remark_periods(table, measured);
@@ -261,9 +267,10 @@ void parse_modes(const TextFile& file, Measured& measured) {
 
 void parse_shapes(const TextFile& file, Measured& measured) {
   const CsvTable table(file, {"mode", "sensor", "value"}, {"std"});
-  if (measured.modes.empty()) table.fail_heading("shapes, but no modes.csv: give the periods of these modes there");
+  if (measured.modes.empty())
+    table.fail_heading("there are shapes, but no modes.csv. Give the periods of these modes in modes.csv.");
   if (measured.sensors.empty())
-    table.fail_heading("shapes, but no sensors.csv: give the places of these sensors there");
+    table.fail_heading("there are shapes, but no sensors.csv. Give the places of these sensors in sensors.csv.");
   std::map<std::string, std::size_t> modes, sensors;
   for (std::size_t i = 0; i < measured.modes.size(); ++i) modes.emplace(measured.modes[i].name, i);
   for (std::size_t i = 0; i < measured.sensors.size(); ++i) sensors.emplace(measured.sensors[i].id, i);
@@ -273,7 +280,7 @@ void parse_shapes(const TextFile& file, Measured& measured) {
     const std::size_t mode = find_named(table, i, "mode", "modes.csv", modes);
     const std::size_t sensor = find_named(table, i, "sensor", "sensors.csv", sensors);
     if (const int before = pairs.add({mode, sensor}, table.row(i)))
-      table.fail(i, fmt::format("sensor '{}' of mode '{}' is already in row {}: expected each once; remove one",
+      table.fail(i, fmt::format("sensor '{}' of mode '{}' is already in row {}. Remove one of them.",
                                 shown(measured.sensors[sensor].id), shown(measured.modes[mode].name), before));
     if (first_row[mode] == 0) first_row[mode] = table.row(i);
     measured.sensors[sensor].named = true;
@@ -291,9 +298,10 @@ void parse_about(const TextFile& file, Measured& measured) {
   measured.notes = table.text("notes", "");
   if (const std::string units = table.text("units", "SI"); units != "SI")
     table.fail("units",
-               fmt::format("is \"{}\": expected \"SI\" (m, s, m/s2); convert the tables, and give recordings a column "
-                           "'unit' in sensors.csv",
-                           shown(units)));
+               fmt::format(
+                   "is \"{}\". It must be \"SI\" (m, s, m/s2). Convert the tables, and give the units of recordings in "
+                   "a column 'unit' of sensors.csv.",
+                   shown(units)));
   keep_notes(root, file.name, measured);
 }
 

@@ -6,7 +6,7 @@ namespace voussoir {
 
 namespace {
 
-/// m. Models leave out mouldings and are some centimetres off, so this is more than for the sensors of a case.
+/// m. Models leave out mouldings and have errors of some centimetres, so this is more than for the sensors of a case.
 constexpr double reach = 0.5;
 
 std::string vector_text(const Vec3& v) {
@@ -17,11 +17,11 @@ std::string vector_text(const Vec3& v) {
                           const NearestBlock& nearest) {
   const std::string place =
       fmt::format("{}:{}: sensor '{}' at {} m", file, sensor.row, shown(sensor.id), vector_text(sensor.position));
-  if (nearest.block < 0) throw InputError("{}: there is no block to put it on; expected a bridge", place);
+  if (nearest.block < 0) throw InputError("{}: there is no block to which it could belong. Give a bridge.", place);
   const Box box = block_box(assembly.blocks[std::size_t(nearest.block)]);
   throw InputError(
-      "{} lies {:.3g} m from the nearest, {}, which reaches from {} to {} m: expected within {} m of a block; correct "
-      "its place, or move the origin of the measurements to the model's",
+      "{} is {:.3g} m away from the nearest block, {}, which reaches from {} to {} m. It must be within {} m of a "
+      "block. Correct its place, or move the origin of the measurements to that of the model.",
       place, nearest.distance, block_label(assembly, nearest.block), vector_text(box.low), vector_text(box.high),
       reach);
 }

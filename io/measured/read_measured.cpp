@@ -13,7 +13,7 @@ namespace voussoir {
 namespace {
 
 constexpr const char* expected_parts =
-    "modes.csv or records/*.csv or both, and as far as there are sensors.csv, shapes.csv and about.toml";
+    "modes.csv or records/*.csv or both, and optionally sensors.csv, shapes.csv and about.toml";
 const std::vector<std::string>& known_parts() {
   static const std::vector<std::string> names = {"sensors.csv", "modes.csv", "shapes.csv", "records", "about.toml"};
   return names;
@@ -33,7 +33,7 @@ TextFile open_text(const std::string& path, const std::string& name) {
   std::error_code ignored;
   // A pipe would keep the reader waiting.
   if (!std::filesystem::is_regular_file(file.path, ignored))
-    throw InputError("{}: is not an ordinary file, expected a text: remove or rename it", file.path);
+    throw InputError("{}: is not a text file. Remove or rename it.", file.path);
   file.text = read_text(file.path);
   return file;
 }
@@ -49,31 +49,30 @@ void set_aside_strangers(const std::vector<std::string>& names, Measured& measur
   for (const std::string& name : names) {
     if (contains(known_parts(), name)) continue;
     const std::string near = nearest_word(shown(name), known_parts());
-    measured.set_aside.push_back(
-        {name, near.empty() ? "nothing that is read" : fmt::format("nothing that is read: did you mean '{}'?", near)});
+    measured.set_aside.push_back({name, near.empty() ? "not read" : fmt::format("not read: did you mean '{}'?", near)});
   }
 }
 
 void read_records(const std::string& directory, Measured& measured) {
   const std::string folder = path_in(directory, "records");
-  if (!is_folder(folder)) throw InputError("{}: is a file, expected a folder with recordings: make it one", folder);
+  if (!is_folder(folder)) throw InputError("{}: is a file. It must be a folder with recordings.", folder);
   for (const std::string& name : names_in(folder)) {
     const std::string inside = "records/" + name;
     if (is_record(name))
       parse_record(open_part(directory, inside), measured);
     else
-      measured.set_aside.push_back({inside, "nothing that is read: recordings end in .csv"});
+      measured.set_aside.push_back({inside, "not read: names of recordings end in .csv"});
   }
 }
 
 void check_folder(const std::string& directory, const std::vector<std::string>& names) {
   if (!is_folder(directory))
-    throw InputError("{}: no such folder, expected one with {}: correct its name", directory, expected_parts);
+    throw InputError("{}: there is no such folder. Give a folder with {}.", directory, expected_parts);
   if (contains(names, "modes.csv") || contains(names, "records")) return;
   const std::size_t listed = std::min<std::size_t>(names.size(), 10);
   std::vector<std::string> found;
   for (std::size_t i = 0; i < listed; ++i) found.push_back(shown(names[i]));
-  throw InputError("{}: found {}{}, expected {}: add what was measured", directory,
+  throw InputError("{}: the folder has {}{}. It must have {}. Add the measurements.", directory,
                    names.empty() ? "nothing" : fmt::format("{}", fmt::join(found, ", ")),
                    listed < names.size() ? ", …" : "", expected_parts);
 }
@@ -93,7 +92,7 @@ bool same_shape(const MeasuredMode& a, const MeasuredMode& b) {
   return true;
 }
 
-/// A row that was copied and named anew would count twice.
+/// Sets repeated modes aside, because a copied row would count twice.
 void set_aside_repeats(Measured& measured) {
   std::vector<MeasuredMode> kept;
   for (const MeasuredMode& mode : measured.modes) {
@@ -112,7 +111,7 @@ void set_aside_repeats(Measured& measured) {
   measured.modes = std::move(kept);
 }
 
-/// Sensors that show nothing.
+/// Sets sensors aside that no recording and no shape names.
 void set_aside_unnamed(Measured& measured) {
   const auto& sensors = measured.sensors;
   if (!sensors.empty() && std::none_of(sensors.begin(), sensors.end(), [](const auto& s) { return s.named; }))
@@ -124,14 +123,15 @@ void set_aside_unnamed(Measured& measured) {
                                     fmt::format("no recording and no shape names sensor '{}'", shown(s.id))});
 }
 
-/// Something must be left to use.
+/// Throws InputError if no modes and no recordings are left.
 void check_left(const Measured& measured) {
   if (!measured.modes.empty() || !measured.records.empty()) return;
   std::string why;
   if (!measured.set_aside.empty())
     why = fmt::format(" ({}: {})", measured.set_aside.back().place, measured.set_aside.back().what);
-  throw InputError("{}: no recording that can be used{}, and no modes.csv: expected {}; add what was measured",
-                   measured.directory, why, expected_parts);
+  throw InputError(
+      "{}: there is no usable recording{} and no modes.csv. The folder must have {}. Add the measurements.",
+      measured.directory, why, expected_parts);
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ std::vector<std::string> names_in(const std::string& directory) {
     names.push_back(entry->path().filename().string());
     entry.increment(error);
   }
-  if (error) throw InputError("{}: cannot be read as a folder: {}", directory, error.message());
+  if (error) throw InputError("{}: cannot read the folder: {}", directory, error.message());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -157,7 +157,7 @@ std::vector<std::string> names_in(const std::string& directory) {
 std::vector<MeasuredSensor> read_sensors(const std::string& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
-    throw InputError("{}: no such file, expected a table id,x,y,z,direction: correct its name", file);
+    throw InputError("{}: there is no such file. Give a table with the columns id,x,y,z,direction.", file);
   Measured measured;
   parse_sensors(open_text(file, file), measured);
   return measured.sensors;
@@ -178,7 +178,7 @@ Measured read_measured(const std::string& directory) {
   check_left(measured);
   set_aside_unnamed(measured);
   if (measured.sensors.empty() && !measured.records.empty())
-    measured.remarks.emplace_back("no sensors.csv: the channels of the recordings have no place on the bridge");
+    measured.remarks.emplace_back("no sensors.csv: the places of the channels on the bridge are not known");
   return measured;
 }
 

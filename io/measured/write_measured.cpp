@@ -81,7 +81,7 @@ std::string record_text(const Recording& record) {
 std::string record_name(const Recording& record) {
   const std::string name = std::filesystem::path(record.name).filename().string();
   if (name.empty() || name.starts_with('.'))
-    throw InputError("recording '{}': expected a name for its file; give it one", record.name);
+    throw InputError("recording '{}' has no name for its file. Give it a name.", record.name);
   return fmt::format("records/{}{}", name, name.ends_with(".csv") ? "" : ".csv");
 }
 
@@ -90,7 +90,7 @@ class Files {
  public:
   Files(const Measured& measured, const std::string& directory) : directory_(directory) {
     if (measured.modes.empty() && measured.records.empty())
-      throw InputError("{}: neither modes nor recordings to write, expected some of them", directory);
+      throw InputError("{}: there are neither modes nor recordings to write", directory);
     add("about.toml", about_text(measured), parse_about);
     if (!measured.sensors.empty()) add("sensors.csv", sensors_text(measured), parse_sensors);
     if (!measured.modes.empty()) add("modes.csv", modes_text(measured), parse_modes);
@@ -105,7 +105,7 @@ class Files {
     for (const TextFile& file : files_) write_atomically(file.path, file.text);
   }
 
-  /// Old files that stayed beside the new ones would be read with them.
+  /// Throws InputError if the folder has old files, which would be read together with the new ones.
   void check_mixing() const {
     for (const char* name : {"sensors.csv", "modes.csv", "shapes.csv"}) check_old(name);
     for (const std::string& name : names_in(path_in(directory_, "records")))
@@ -122,15 +122,12 @@ class Files {
   void check_old(const std::string& name) const {
     const std::string path = path_in(directory_, name);
     if (std::error_code ignored; has(name) || !std::filesystem::exists(path, ignored)) return;
-    throw InputError(
-        "{}: is there from before and would be mixed with what is to be written, expected none: remove it or "
-        "choose another folder",
-        path);
+    throw InputError("{}: this old file would be mixed with the new ones. Remove it, or choose another folder.", path);
   }
 
-  /// Reads the text back at once, so that nothing is written that could not be read.
+  /// Reads the text back at once, so that no file is written that could not be read.
   void add(const std::string& name, const std::string& text, void (*parse)(const TextFile&, Measured&)) {
-    if (has(name)) throw InputError("{}: two recordings of this name, expected one; rename the other", name);
+    if (has(name)) throw InputError("{}: two recordings have this name. Rename one of them.", name);
     files_.push_back({path_in(directory_, name), name, text});
     parse(files_.back(), read_back_);
   }

@@ -10,7 +10,7 @@ namespace voussoir {
 
 namespace {
 
-/// What follows the colon of the line that begins with `key`, and its line from 1; "" and 0 where there is none.
+/// The text after the colon of the line that begins with `key`, and the number of the line from 1; "" and 0: none.
 std::pair<std::string, std::size_t> after(const std::vector<std::string_view>& lines, std::string_view key) {
   for (std::size_t i = 0; i < lines.size() && i < 100; ++i)
     if (upper(trimmed(lines[i])).starts_with(key))
@@ -23,7 +23,7 @@ std::pair<std::string, std::size_t> needed(const std::vector<std::string_view>& 
                                            const std::string& name) {
   const auto found = after(lines, key);
   if (found.second == 0)
-    throw InputError("{}: the heading has no line '{}': the file is not whole; fetch it again", name, key);
+    throw InputError("{}: the heading has no line '{}': the file is incomplete; download it again", name, key);
   return found;
 }
 
@@ -45,7 +45,7 @@ std::vector<RecordFile> read_afad(const std::string& text, const std::string& na
   if (table.columns.size() != 3)
     throw InputError("{}:{}: {} columns, expected three: N-S, E-W, U-D", name, table.first_row, table.columns.size());
   if (table.columns[0].size() != samples)
-    throw InputError("{}: {} samples, but line {} says {}: the file is not whole; fetch it again", name,
+    throw InputError("{}: {} samples, but line {} says {}: the file is incomplete; download it again", name,
                      table.columns[0].size(), count_line, samples);
   std::vector<RecordFile> channels;
   std::vector<std::string> roles = {"y", "x", "z"};
@@ -66,7 +66,7 @@ std::vector<RecordFile> read_cwa(const std::string& text, const std::string& nam
   const std::vector<std::string_view> lines = lines_of(text);
   const auto [unit, unit_line] = needed(lines, "#AMPLITUDEUNIT", name);
   if (!upper(unit).starts_with("GAL"))
-    throw InputError("{}:{}: '{}': expected accelerations in gal", name, unit_line, excerpt(unit));
+    throw InputError("{}:{}: the unit is '{}'. It must be gal.", name, unit_line, excerpt(unit));
   const auto [rate, rate_line] = needed(lines, "#SAMPLERATE", name);
   const double step = checked_step(1.0 / first_number(rate), name, rate_line);
   std::vector<std::string> roles = {"t", "z", "y", "x"};  // Time U(+); N(+); E(+)

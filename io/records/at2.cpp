@@ -28,13 +28,16 @@ std::pair<double, double> size_and_step(const std::string& line, const std::stri
     if (std::isdigit(static_cast<unsigned char>(c)) || c == '.' || ((c == 'E' || c == '-') && !word.empty())) {
       word += c;
     } else if (!word.empty()) {
-      if (word != ".") numbers.push_back(number_in(word, name, heading, "expected the number of samples and the step"));
+      if (word != ".")
+        numbers.push_back(number_in(word, name, heading, "the number of samples and the time step are expected here"));
       word.clear();
     }
   }
   if (numbers.size() < 2)
-    throw InputError("{}:{}: '{}' names no number of samples and step (s), expected as in 'NPTS= 4000, DT= .0050 SEC'",
-                     name, heading, excerpt(line));
+    throw InputError(
+        "{}:{}: '{}' does not state the number of samples and the time step (s). It must have the form 'NPTS= 4000, "
+        "DT= .0050 SEC'.",
+        name, heading, excerpt(line));
   return {double(checked_samples(numbers[0], name, heading)), checked_step(numbers[1], name, heading)};
 }
 
@@ -42,10 +45,10 @@ RecordFile read_at2(const std::string& text, const std::string& name, double dt)
   const std::vector<std::string_view> lines = lines_of(text);
   const std::string quantity = upper(lines[2]);
   if (quantity.find("VELOCITY") != std::string::npos || quantity.find("DISPLACEMENT") != std::string::npos)
-    throw InputError("{}:3: '{}': velocities and displacements (VT2, DT2) are not needed beside the accelerations",
+    throw InputError("{}:3: '{}': the program reads only accelerations, not velocities and displacements (VT2, DT2)",
                      name, excerpt(lines[2]));
   if (quantity.find("ACCELERATION") == std::string::npos || quantity.find(" G") == std::string::npos)
-    throw InputError("{}:3: '{}': expected a time series of accelerations in units of g", name, excerpt(lines[2]));
+    throw InputError("{}:3: '{}' is not a time series of accelerations in units of g", name, excerpt(lines[2]));
   const auto [samples, step] = size_and_step(upper(lines[heading - 1]), name);
   RecordFile file;
   file.record.dt = dt > 0.0 ? dt : step;
@@ -53,7 +56,7 @@ RecordFile read_at2(const std::string& text, const std::string& name, double dt)
     append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after four lines of heading",
                    file.record.values);
   if (double(file.record.values.size()) != samples)
-    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is not whole; fetch it again", name,
+    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is incomplete; download it again", name,
                      file.record.values.size(), heading, samples);
   // "Imperial Valley-06, 10/15/1979, Agrarias, 3"
   const std::string_view about = lines[1];

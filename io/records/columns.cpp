@@ -34,7 +34,7 @@ std::vector<Row> parse_rows(std::string_view text, const std::string& name) {
 void check_order(const std::vector<Row>& rows, const std::string& name) {
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (const double t = rows[i].values[0], before = rows[i - 1].values[0]; !(t > before))
-      throw InputError("{}:{}: time {} s after {} s: times must increase", name, rows[i].number, t, before);
+      throw InputError("{}:{}: the time {} s follows {} s. Times must increase.", name, rows[i].number, t, before);
 }
 
 /// The step of the times in the first column.
@@ -45,8 +45,8 @@ double time_step(const std::vector<Row>& rows, const std::string& name) {
     const double t = rows[i].values[0], before = rows[i - 1].values[0];
     if (std::abs(t - before - dt) > even)
       throw InputError(
-          "{}:{}: time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s; resample the record, or "
-          "give accelerations alone and the key 'dt'",
+          "{}:{}: the time step is {:.9g} s here and {:.9g} s elsewhere. Time steps must be equal within {} s. "
+          "Resample the record, or give accelerations alone and the key 'dt'.",
           name, rows[i].number, t - before, dt, even);
   }
   return dt;
@@ -62,7 +62,7 @@ Record parse_columns(const std::string& text, const std::string& name, double dt
     break;
   }
   const std::vector<Row> rows = parse_rows(text, name);
-  if (rows.size() < 2) throw InputError("{}: {} rows of numbers, expected at least 2", name, rows.size());
+  if (rows.size() < 2) throw InputError("{}: {} rows of numbers. At least 2 are needed.", name, rows.size());
   const std::size_t columns = dt > 0.0 ? 1 : 2;
   for (const Row& row : rows)
     if (row.values.size() != columns)

@@ -75,14 +75,15 @@ Table table_at(const std::vector<std::string_view>& lines, std::size_t& at, std:
     table.values = fixed_numbers(lines, ++at, count, layout_of(line), name);
     return table;
   }
-  throw InputError("{}: no line '… {} … Format=': the file is not whole, or holds no accelerations", name, words);
+  throw InputError("{}: there is no line '… {} … Format=': the file is incomplete, or has no accelerations", name,
+                   words);
 }
 
 RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& at, const std::string& name) {
   const std::size_t head = at;
   const Table whole = table_at(lines, at, "INTEGER", name), numbers = table_at(lines, at, "REAL", name);
   if (whole.values.size() < numbers_needed || numbers.values.size() < numbers_needed)
-    throw InputError("{}:{}: tables of {} and {} numbers: expected at least {} each", name, whole.row,
+    throw InputError("{}:{}: the tables have {} and {} numbers. They must have at least {} each.", name, whole.row,
                      whole.values.size(), numbers.values.size(), numbers_needed);
   const auto code = [&](std::size_t i) { return std::abs(whole.values[i]) < 1e6 ? int(whole.values[i]) : -1; };
   const Table samples = table_at(lines, at, "ACCELERATION", name);
@@ -90,8 +91,8 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   file.unit = unit_of(code(2));
   if (file.unit == 0.0)
     throw InputError(
-        "{}:{}: physical units have code {}: expected 2 (g), 4 (cm/s2), 7 (in/s2), 10 (gal), 11 (mg) or "
-        "12 (micro g); of counts (V0) take the file of volume 1 or 2",
+        "{}:{}: the code of the physical units is {}. It must be 2 (g), 4 (cm/s2), 7 (in/s2), 10 (gal), 11 (mg) or "
+        "12 (micro g). If the file has counts (V0), use the file of volume 1 or 2.",
         name, whole.row, code(2));
   file.record.dt = checked_step(1e-3 * numbers.values[61], name, numbers.row);
   file.record.values = samples.values;
@@ -105,9 +106,9 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
 
 std::vector<RecordFile> read_cosmos(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
-  if (lines.size() < 5) throw InputError("{}: {} lines: the file is not whole; fetch it again", name, lines.size());
+  if (lines.size() < 5) throw InputError("{}: {} lines: the file is incomplete; download it again", name, lines.size());
   if (upper(lines[0]).find("ACCELERATION") == std::string::npos)
-    throw InputError("{}:1: '{}': take the file of accelerations", name, excerpt(lines[0]));
+    throw InputError("{}:1: '{}': use the file with the accelerations", name, excerpt(lines[0]));
   std::vector<RecordFile> channels;
   for (std::size_t at = 0; at < lines.size();) {
     channels.push_back(channel_of(lines, at, name));

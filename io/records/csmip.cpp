@@ -51,7 +51,8 @@ struct Announced {
 
 /// Of a line that says them.
 Announced announced_in(std::string_view text, const std::string& name, std::size_t row) {
-  const std::string rule = "expected as in '5696 " + std::string(mark) + "  .010 SEC.  (UNITS: CM/SEC/SEC)'";
+  const std::string rule =
+      "this line must have the form '5696 " + std::string(mark) + "  .010 SEC.  (UNITS: CM/SEC/SEC)'";
   const std::string line = upper(text);
   const std::size_t at = line.find(mark);
   const std::string_view before = trimmed(std::string_view(line).substr(0, at)),

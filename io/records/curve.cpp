@@ -44,7 +44,7 @@ Curve parse_curve(const std::string& text, const std::string& name) {
     }
   }
   if (curve.x.size() < 2)
-    throw InputError("{}: {} lines that begin with two numbers, expected at least 2", name, curve.x.size());
+    throw InputError("{}: {} lines begin with two numbers. At least 2 are needed.", name, curve.x.size());
   return curve;
 }
 

@@ -33,7 +33,7 @@ Header header_of(const std::vector<std::string_view>& lines) {
 double number_of(const Header& header, std::string_view key, const std::string& name) {
   const auto at = header.values.find(key);
   if (at == header.values.end())
-    throw InputError("{}: the heading has no line '{}:': the file is not whole; fetch it again", name, key);
+    throw InputError("{}: the heading has no line '{}:': the file is incomplete; download it again", name, key);
   const auto& [value, line] = at->second;
   return number_in(value, name, line, std::string(key) + " must be a number");
 }
@@ -50,7 +50,7 @@ RecordFile read_dyna(const std::string& text, const std::string& name, double dt
   const std::string type = text_of(header, "DATA_TYPE"), units = text_of(header, "UNITS");
   const std::string kind = upper(type);
   if (kind.find("ACCELERATION") == std::string::npos || kind.find("SPECTR") != std::string::npos)
-    throw InputError("{}: DATA_TYPE is '{}': take the file of accelerations (…ACC.ASC)", name, excerpt(type));
+    throw InputError("{}: DATA_TYPE is '{}': use the file with the accelerations (…ACC.ASC)", name, excerpt(type));
   if (const std::string unit = upper(units); unit != "CM/S^2" && unit != "CM/S2" && unit != "GAL")
     throw InputError("{}: UNITS is '{}', expected cm/s^2", name, excerpt(units));
   const double step = number_of(header, "SAMPLING_INTERVAL_S", name), samples = number_of(header, "NDATA", name);
@@ -60,7 +60,7 @@ RecordFile read_dyna(const std::string& text, const std::string& name, double dt
   for (std::size_t i = header.lines; i < lines.size(); ++i)
     append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after the heading", file.record.values);
   if (double(file.record.values.size()) != samples)
-    throw InputError("{}: {} samples, but NDATA is {:.0f}: the file is not whole; fetch it again", name,
+    throw InputError("{}: {} samples, but NDATA is {:.0f}: the file is incomplete; download it again", name,
                      file.record.values.size(), samples);
   file.event = text_of(header, "EVENT_NAME");
   file.station = text_of(header, "STATION_CODE");

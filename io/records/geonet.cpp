@@ -59,8 +59,9 @@ std::string component_of(const std::vector<std::string_view>& lines, std::size_t
 RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& at, double dt, const std::string& name) {
   const std::size_t head = at;
   if (head + heading_lines > lines.size())
-    throw InputError("{}:{}: {} lines are left, but a heading of GeoNet has {}: the file is not whole; fetch it again",
-                     name, head + 1, lines.size() - head, heading_lines);
+    throw InputError(
+        "{}:{}: {} lines are left, but a heading of GeoNet has {}: the file is incomplete; download it again", name,
+        head + 1, lines.size() - head, heading_lines);
   at = head + geonet_text_lines;
   const std::vector<double> numbers = fixed_numbers(lines, at, 100, rows, name);
   const bool corrected = upper(lines[head]).find("UNCORRECTED") == std::string::npos;

@@ -24,7 +24,8 @@ struct Heading {
   const std::pair<std::string, std::size_t>& at(const std::string& key, const std::string& name) const {
     const auto found = values.find(key);
     if (found == values.end())
-      throw InputError("{}: the heading of K-NET has no line '{}': the file is not whole; fetch it again", name, key);
+      throw InputError("{}: the heading of K-NET has no line '{}': the file is incomplete; download it again", name,
+                       key);
     return found->second;
   }
   std::string text(const std::string& key) const {
@@ -52,7 +53,8 @@ double scale_of(const Heading& heading, const std::string& name) {
   const double above = first_number(text),
                below = slash == std::string::npos ? 0.0 : first_number(std::string_view(text).substr(slash + 1));
   if (!(above > 0.0 && above <= 1e6 && below >= 1.0 && below <= 1e12))
-    throw InputError("{}:{}: scale factor '{}': expected as in '3920(gal)/6182761'", name, line, excerpt(text));
+    throw InputError("{}:{}: the scale factor is '{}'. It must have the form '3920(gal)/6182761'.", name, line,
+                     excerpt(text));
   return above / below;
 }
 
@@ -81,7 +83,7 @@ RecordFile read_knet(const std::string& text, const std::string& name, double dt
   for (std::size_t i = heading.lines; i < lines.size(); ++i)
     append_numbers(lines[i], " \t", name, i + 1, "counts are expected after the heading", values);
   if (std::abs(double(values.size()) - expected) > 1.0)
-    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is not whole; fetch it again", name,
+    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is incomplete; download it again", name,
                      values.size(), duration_line, expected);
   double mean = 0.0;
   for (const double count : values) mean += count / double(values.size());

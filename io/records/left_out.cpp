@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_named = 6;
 
-/// Without numbers and without what is quoted.
+/// A reason without digits and quoted texts.
 std::string kind_of(const std::string& reason) {
   std::string kind;
   bool quoted = false;
@@ -59,7 +59,7 @@ std::vector<std::string> said_once(const std::vector<LeftOut>& all) {
     lines.push_back(
         names[i].size() == 1
             ? fmt::format("{}{}{}: {}", first[i].name, first[i].row.empty() ? "" : ":", first[i].row, first[i].reason)
-            : fmt::format("{} of a kind ({}): {}", names[i].size(), names_text(names[i]), first[i].reason));
+            : fmt::format("{} files or recordings ({}): {}", names[i].size(), names_text(names[i]), first[i].reason));
   return lines;
 }
 

@@ -20,8 +20,8 @@ constexpr Known others[] = {{"UNCORRECTED ACCELEROGRAM DATA", "CSMIP volume 1 (u
                             {"ISMN BUILDING", "BHRC of Iran"},
                             {"BUILDING & HOUSING RESEARCH", "BHRC of Iran"},
                             {"<?XML", "XML"},
-                            {"<!DOCTYPE", "a page of the web"},
-                            {"<HTML", "a page of the web"}};
+                            {"<!DOCTYPE", "a web page"},
+                            {"<HTML", "a web page"}};
 
 /// "000001D ": six figures, a letter, a blank.
 bool is_miniseed(std::string_view text) {
@@ -32,8 +32,8 @@ bool is_miniseed(std::string_view text) {
 }
 
 std::string name_of(std::string_view text) {
-  if (text.starts_with("PK\x03\x04")) return "a zip archive: unpack it";
-  if (text.starts_with("\x1f\x8b")) return "packed by gzip: unpack it";
+  if (text.starts_with("PK\x03\x04")) return "a zip archive; unpack it";
+  if (text.starts_with("\x1f\x8b")) return "a gzip archive; unpack it";
   if (is_miniseed(text)) return "miniSEED";
   const std::string head = upper(text.substr(0, 300));
   for (const Known& other : others)
@@ -64,9 +64,9 @@ std::string first_line(std::string_view text) {
 void not_read(std::string_view text, const std::string& name) {
   const std::string other = name_of(text);
   throw InputError(
-      "{}:1: no format that is read: it begins '{}'{}; read are {}; of others make a table with a line of names and "
-      "units "
-      "above it, such as 'time (s), EW (g), NS (g), UD (g)', or rows of time and acceleration alone",
+      "{}:1: the format of this file is not known. It begins with '{}'{}. The known formats are: {}. Convert other "
+      "files into a table below a line of names and units, such as 'time (s), EW (g), NS (g), UD (g)', or into rows of "
+      "time and acceleration.",
       name, other == "not text" || other == "miniSEED" ? "" : first_line(text),
       other.empty() ? "" : ", which is " + other, formats_text());
 }

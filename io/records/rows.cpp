@@ -17,7 +17,7 @@ constexpr double largest_number = 1e12;
 constexpr double smallest_step = 1e-5, largest_step = 1.0;  // s
 constexpr double most_samples = 1e8;
 
-/// The fields of a row, or nothing where one of them is no number.
+/// The fields of a row; empty if one of them is not a number.
 std::vector<double> fields_of(std::string_view line, const FixedRows& rows) {
   std::vector<double> values;
   for (std::size_t begin = 0; begin < line.size() && values.size() < rows.per_row; begin += rows.width) {
@@ -72,9 +72,9 @@ double number_in(std::string_view word, const std::string& name, std::size_t row
   if (error != std::errc() || end != digits.data() + digits.size())
     throw InputError("{}:{}: '{}' is not a number: {}", name, row, word.substr(0, 60), rule);
   if (!std::isfinite(value))
-    throw InputError("{}:{}: {} is not a finite number: mend the record", name, row, word.substr(0, 60));
+    throw InputError("{}:{}: {} is not a finite number: correct the record", name, row, word.substr(0, 60));
   if (!(std::abs(value) <= largest_number))
-    throw InputError("{}:{}: {} is no sample of a ground motion: expected at most {:g} in size: mend the record", name,
+    throw InputError("{}:{}: the number {} is too large. It must be at most {:g} in size. Correct the record.", name,
                      row, word.substr(0, 60), largest_number);
   return value;
 }
@@ -124,8 +124,9 @@ std::vector<double> fixed_numbers(const std::vector<std::string_view>& lines, st
       append_numbers(lines[at], " \t", name, at + 1,
                      fmt::format("rows must be {} numbers of {} columns each", rows.per_row, rows.width), row);
     if (row.size() < wanted)
-      throw InputError("{}:{}: {} of {} samples, then a row with fewer than {}: the file is not whole; fetch it again",
-                       name, at + 1, values.size() + row.size(), count, rows.per_row);
+      throw InputError(
+          "{}:{}: after {} of {} samples a row has fewer than {} numbers: the file is incomplete; download it again",
+          name, at + 1, values.size() + row.size(), count, rows.per_row);
     values.insert(values.end(), row.begin(), row.begin() + std::ptrdiff_t(wanted));
   }
   return values;
@@ -133,20 +134,21 @@ std::vector<double> fixed_numbers(const std::vector<std::string_view>& lines, st
 
 double checked_step(double step, const std::string& name, std::size_t row) {
   if (!(step >= smallest_step && step <= largest_step))
-    throw InputError("{}:{}: time step of {:g} s: expected {:g} to {:g} s, as accelerographs have: mend the heading",
-                     name, row, step, smallest_step, largest_step);
+    throw InputError("{}:{}: the time step is {:g} s. It must be from {:g} to {:g} s. Correct the heading.", name, row,
+                     step, smallest_step, largest_step);
   return step;
 }
 
 std::size_t checked_samples(double samples, const std::string& name, std::size_t row) {
   if (!(samples >= 2.0 && samples <= most_samples) || samples != std::floor(samples))
-    throw InputError("{}:{}: {:g} samples: expected a whole number from 2 to {:g}: mend the heading", name, row,
-                     samples, most_samples);
+    throw InputError(
+        "{}:{}: the number of samples is {:g}. It must be a whole number from 2 to {:g}. Correct the heading.", name,
+        row, samples, most_samples);
   return std::size_t(samples);
 }
 
 void not_whole(const std::string& name, std::size_t samples, std::size_t expected) {
-  throw InputError("{}: {} of {} samples: the file is not whole; fetch it again", name, samples, expected);
+  throw InputError("{}: only {} of {} samples: the file is incomplete; download it again", name, samples, expected);
 }
 
 }  // namespace voussoir

@@ -39,7 +39,7 @@ std::vector<double> fixed_numbers(const std::vector<std::string_view>& lines, st
 /// A step (s) and a number of samples as a heading at NAME:ROW says them. Throw InputError with what is expected.
 double checked_step(double step, const std::string& name, std::size_t row);
 std::size_t checked_samples(double samples, const std::string& name, std::size_t row);
-/// "NAME: 5 of 19 samples: the file is not whole; fetch it again"
+/// "NAME: 5 of 19 samples: the file is incomplete; download it again"
 [[noreturn]] void not_whole(const std::string& name, std::size_t samples, std::size_t expected);
 
 }  // namespace voussoir

@@ -68,8 +68,8 @@ std::string component_words(const std::vector<const RecordComponent*>& component
   return words;
 }
 
-/// Which of the components goes along x, y and z. Throws InputError when that does not follow from their names, or when
-/// one of two horizontal ones is lacking and both are needed.
+/// The components along x, y and z. Throws InputError if their names do not determine them, or if one of two horizontal
+/// components is missing and both are needed.
 std::array<const RecordComponent*, 3> along_axes(std::vector<const RecordComponent*> components, bool both) {
   std::array<const RecordComponent*, 3> along = {};
   std::vector<const RecordComponent*> silent;
@@ -79,18 +79,18 @@ std::array<const RecordComponent*, 3> along_axes(std::vector<const RecordCompone
     if (axis < 0) {
       silent.push_back(c);
     } else if (along[std::size_t(axis)]) {
-      throw InputError("more than one component of the same direction");
+      throw InputError("more than one component has the same direction");
     } else {
       along[std::size_t(axis)] = c;
     }
   }
   if (silent.size() == 3 && silent[2]->word.ends_with('3')) along[2] = silent[2], silent.pop_back();
   for (const RecordComponent* c : silent) {
-    if (along[0] && along[1]) throw InputError("which of the components is vertical?");
+    if (along[0] && along[1]) throw InputError("it is not known which of the components is vertical");
     along[along[0] ? 1 : 0] = c;
   }
   if (both && (!along[0] || !along[1]))
-    throw InputError("expected two horizontal components and perhaps a vertical one");
+    throw InputError("two horizontal components are needed; a vertical one is optional");
   return along;
 }
 
@@ -111,8 +111,8 @@ bool makes_a_set(const std::vector<const RecordComponent*>& members) {
   }
 }
 
-/// By name; what is less than three components then by event and station of the headings, which all files of a
-/// recording share whatever their names are.
+/// Groups components by name. Groups of less than three components are then grouped by event and station of their
+/// headings, which all files of a recording share.
 Groups grouped(const std::vector<RecordComponent>& components) {
   Groups groups, shared;
   for (const RecordComponent& c : components) groups[c.set].push_back(&c);
@@ -145,12 +145,13 @@ std::string counted(const std::vector<const RecordComponent*>& members) {
   return members.size() == 1 || members.front()->alone ? "one file" : fmt::format("{} files", members.size());
 }
 
-/// Another recording whose name differs by digits only may hold what this one lacks.
+/// A hint at another incomplete recording whose name differs by digits only.
 std::string near_namesake(const std::string& name, const Groups& groups) {
   for (const auto& [other, members] : groups)
     if (other != name && without_digits(other) == without_digits(name) && !makes_a_set(members))
-      return fmt::format("; '{} ({})' differs by digits only: if they are one recording, name the files alike", other,
-                         component_words(members));
+      return fmt::format(
+          "; the name '{} ({})' differs by digits only: if both are one recording, give the files the same name", other,
+          component_words(members));
   return "";
 }
 
@@ -182,7 +183,7 @@ RecordSet set_of(const std::string& name, const std::array<const RecordComponent
 double acceleration_unit(const std::string& name) {
   for (const Unit& unit : units)
     if (name == unit.name) return unit.size;
-  throw InputError("units are '{}': expected m/s2, g or cm/s2", name);
+  throw InputError("the unit is '{}'. It must be m/s2, g or cm/s2.", name);
 }
 
 const std::vector<std::string>& acceleration_units() {
@@ -197,8 +198,9 @@ void check_size(const RecordFile& file, double unit) {
   constexpr double largest = 1e4;  // m/s2
   for (std::size_t k = 0; k < file.record.values.size(); ++k)
     if (const double a = file.record.values[k] * unit; !(std::abs(a) <= largest))
-      throw InputError("{}: sample {} is {:.3g} m/s2 ({:g} of {:g} m/s2): expected at most {:g}: look at its unit",
-                       file.path, k + 1, a, file.record.values[k], unit, largest);
+      throw InputError(
+          "{}: sample {} is {:.3g} m/s2 ({:g} times {:g} m/s2). It must be at most {:g} m/s2. Check its unit.",
+          file.path, k + 1, a, file.record.values[k], unit, largest);
 }
 
 }  // namespace
@@ -234,7 +236,7 @@ std::array<const RecordComponent*, 3> along_files(const std::array<std::string, 
     const std::size_t channels = kept[axis].size();
     if (channels < 2) continue;
     if (std::ranges::count(files, "") < 2)
-      throw InputError("{}: {} channels: give such a file alone, it holds x, y and z", files[axis], channels);
+      throw InputError("{}: the file has {} channels. Give it alone; it contains all axes.", files[axis], channels);
     try {
       return along_axes(pointers_to(kept[axis]), false);
     } catch (const InputError& error) {
@@ -263,7 +265,7 @@ RecordSet read_record_set(const std::array<std::string, 3>& files, const Columns
   const auto along = along_files(files, kept, [&](std::size_t axis) { return read_components(files[axis], meaning); });
   for (const RecordComponent* c : along)
     if (c) return set_of(c->set, along, meaning);
-  throw InputError("no record: give one file, or up to three for x, y, z");
+  throw InputError("there is no record. Give one file, or up to three for x, y and z.");
 }
 
 RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning& meaning) {
@@ -272,7 +274,7 @@ RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning&
   for (const auto& entry : fs::directory_iterator(folder, trouble))
     if (entry.is_regular_file() && !entry.path().filename().string().starts_with('.'))
       paths.push_back(entry.path().string());
-  if (trouble) throw InputError("{}: {}: give a folder of record files", folder, trouble.message());
+  if (trouble) throw InputError("{}: {}. Give a folder of record files.", folder, trouble.message());
   std::ranges::sort(paths);
 
   RecordFolder found;
@@ -293,7 +295,7 @@ RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning&
   found.left_out = said_once(left_out);
   if (found.sets.empty())
     throw InputError("{}: no record with two horizontal components among {} files{}{}", folder, paths.size(),
-                     found.left_out.empty() ? "" : "; the first that was left out: ",
+                     found.left_out.empty() ? "" : "; the first file that was left out: ",
                      found.left_out.empty() ? "" : found.left_out.front());
   return found;
 }

@@ -27,9 +27,9 @@ std::string direction_of(double from_vertical, double azimuth) {
 RecordFile read_smc(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
   if (const std::string first = upper(trimmed(lines[0])); first.find("ACCELEROGRAM") == std::string::npos)
-    throw InputError("{}:1: '{}': take the file of accelerations", name, excerpt(lines[0]));
+    throw InputError("{}:1: '{}': use the file with the accelerations", name, excerpt(lines[0]));
   if (lines.size() < smc_text_lines + whole_lines + number_lines)
-    throw InputError("{}: {} lines, but the heading of SMC has {}: the file is not whole; fetch it again", name,
+    throw InputError("{}: {} lines, but the heading of SMC has {}: the file is incomplete; download it again", name,
                      lines.size(), smc_text_lines + whole_lines + number_lines);
   std::size_t at = smc_text_lines;
   const std::vector<double> whole = fixed_numbers(lines, at, whole_lines * whole_rows.per_row, whole_rows, name);

@@ -18,7 +18,8 @@ namespace {
 constexpr std::string_view table_separators = " \t,;", without_commas = " \t;";
 constexpr double even_step = 1e-6;  // s
 
-/// A line of numbers whose every comma stands between digits, beside another separator, and that has no points.
+/// Whether a line of numbers has decimal commas: every comma is between digits, there is another separator, and there
+/// are no points.
 bool looks_decimal(std::string_view line) {
   if (line.find('.') != std::string_view::npos || line.find(',') == std::string_view::npos) return false;
   for (std::size_t i = 0; i < line.size(); ++i)
@@ -39,7 +40,7 @@ std::string_view uncommented(std::string_view line) {
   return trimmed(line.substr(0, line.find('#')));
 }
 
-/// Decimal commas are those of the whole file: "0,01;1" and "0;1" are rows of one file.
+/// Whether the whole file has decimal commas: "0,01;1" and "0;1" may be rows of one file.
 bool decimal_commas(const std::vector<std::string_view>& lines) {
   bool some = false;
   for (const std::string_view whole : lines) {
@@ -102,8 +103,10 @@ double step_of(const TextTable& table, std::size_t column, double unit, const st
   const double dt = unit * (t.back() - t.front()) / double(t.size() - 1);
   for (std::size_t i = 1; i < t.size(); ++i)
     if (const double here = unit * (t[i] - t[i - 1]); !(std::abs(here - dt) <= even_step) || !(here > 0.0))
-      throw InputError("{}:{}: time step {:.9g} s, elsewhere {:.9g} s: steps must be equal within {} s: resample it",
-                       name, table.first_row + i, here, dt, even_step);
+      throw InputError(
+          "{}:{}: the time step is {:.9g} s here and {:.9g} s elsewhere. Time steps must be equal within {} s. "
+          "Resample the record.",
+          name, table.first_row + i, here, dt, even_step);
   return checked_step(dt, name, table.first_row);
 }
 
@@ -126,11 +129,11 @@ TextTable parse_table(std::string_view text, const std::string& name) {
     append_numbers(line, between, name, i + 1, "rows of a table must be numbers", row);
     if (table.columns.empty()) table.columns.resize(row.size()), table.first_row = i + 1;
     if (row.size() != table.columns.size())
-      throw InputError("{}:{}: {} columns, {} in the rows before", name, i + 1, row.size(), table.columns.size());
+      throw InputError("{}:{}: {} columns, but {} in the rows before", name, i + 1, row.size(), table.columns.size());
     for (std::size_t k = 0; k < row.size(); ++k) table.columns[k].push_back(row[k]);
   }
   if (table.columns.empty() || table.columns[0].size() < 2)
-    throw InputError("{}: {} rows of numbers, expected at least 2", name,
+    throw InputError("{}: {} rows of numbers. At least 2 are needed.", name,
                      table.columns.empty() ? 0 : table.columns[0].size());
   table.names = names_in(table.heading, table.columns.size());
   return table;
@@ -173,7 +176,7 @@ double column_unit(const std::string& name) {
   }
   const auto found = known.find(plain);
   if (found == known.end())
-    throw InputError("the unit in '{}' is not known: expected m/s2, cm/s2, mm/s2, gal, g or mg, of times s or ms",
+    throw InputError("the unit in '{}' is not known. It must be m/s2, cm/s2, mm/s2, gal, g or mg; for times s or ms.",
                      excerpt(name));
   return found->second;
 }
@@ -181,7 +184,7 @@ double column_unit(const std::string& name) {
 std::vector<RecordFile> channels_of(const TextTable& table, const std::vector<std::string>& roles,
                                     const std::string& name, double dt) {
   if (roles.size() != table.columns.size())
-    throw InputError("{}:{}: {} columns, but 'columns' names {}: name each, \"\" for one that is passed over", name,
+    throw InputError("{}:{}: {} columns, but 'columns' names {}. Name each column; \"\" skips one.", name,
                      table.first_row, table.columns.size(), roles.size());
   std::vector<RecordFile> channels;
   double step = dt;
@@ -195,10 +198,11 @@ std::vector<RecordFile> channels_of(const TextTable& table, const std::vector<st
     file.component = roles[k];
     channels.push_back(file);
   }
-  if (channels.empty()) throw InputError("{}: no column is a component: name them x, y or z", name);
+  if (channels.empty()) throw InputError("{}: no column is a component. Name the components x, y or z.", name);
   if (!(step > 0.0))
-    throw InputError("{}:{}: no column of times, and no step: name a column \"t\", or give 'dt' in s", name,
-                     table.first_row);
+    throw InputError(
+        "{}:{}: there is neither a column of times nor a time step. Name a column \"t\", or give 'dt' in s.", name,
+        table.first_row);
   for (RecordFile& file : channels) file.record.dt = step;
   return channels;
 }
@@ -244,9 +248,8 @@ std::vector<RecordFile> read_table(const std::string& text, const std::string& n
     roles.push_back(column_role(column));
     if (roles.back().empty())
       throw InputError(
-          "{}:{}: column '{}' is no acceleration: name the columns with 'columns', \"\" for one that is "
-          "passed over",
-          name, table.first_row - 1, excerpt(column));
+          "{}:{}: column '{}' is not an acceleration. Name the columns with 'columns'; \"\" skips a column.", name,
+          table.first_row - 1, excerpt(column));
   }
   return channels_of(table, roles, name, dt);
 }

@@ -26,8 +26,9 @@ TEST(CampaignPlan, WhatAFolderLeavesOutStandsInThePlan) {
   const Draft draft = make_draft(read_settings(file));
   EXPECT_EQ(draft.plan.records.size(), 1u);
   ASSERT_EQ(draft.plan.left_out.size(), 2u);
-  EXPECT_TRUE(draft.plan.left_out[0].starts_with("6 of a kind (RSN1_MUL-UP.DT2,")) << draft.plan.left_out[0];
-  EXPECT_TRUE(draft.plan.left_out[1].starts_with("lonely (EW of one file): expected two")) << draft.plan.left_out[1];
+  EXPECT_TRUE(draft.plan.left_out[0].starts_with("6 files or recordings (RSN1_MUL-UP.DT2,")) << draft.plan.left_out[0];
+  EXPECT_TRUE(draft.plan.left_out[1].starts_with("lonely (EW of one file): two horizontal components"))
+      << draft.plan.left_out[1];
   write_draft(draft, folder / "camp");
   EXPECT_EQ(read_plan(folder / "camp").left_out, draft.plan.left_out);
   // A recording in one file of several channels runs as any other.

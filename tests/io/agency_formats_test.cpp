@@ -77,10 +77,11 @@ TEST(AgencyFormats, Knet) {
   EXPECT_EQ(file.component, "NS");
   EXPECT_EQ(file.station, "ABC001");
   expect_motion(file, 1, 1e-5);
-  EXPECT_TRUE(says(fault(knet_text(1, "N-S", "3920(gal)/6182761", "0/0")), "r:7: scale factor '0/0'"));
-  EXPECT_TRUE(says(fault(knet_text(1, "N-S", "50Hz", "1e-9Hz")), "r:4: time step of 1e+09 s"));
+  EXPECT_TRUE(says(fault(knet_text(1, "N-S", "3920(gal)/6182761", "0/0")), "r:7: the scale factor is '0/0'"));
+  EXPECT_TRUE(says(fault(knet_text(1, "N-S", "50Hz", "1e-9Hz")), "r:4: the time step is 1e+09 s"));
   EXPECT_TRUE(says(fault(knet_text(1, "N-S", "(s)  0.86", "(s)  300")), "43 samples, but line 5 says 15000"));
-  EXPECT_TRUE(says(fault(knet_text(1, "N-S", "Scale Factor", "Scale Factr ")), "r:1: no format that is read"));
+  EXPECT_TRUE(
+      says(fault(knet_text(1, "N-S", "Scale Factor", "Scale Factr ")), "r:1: the format of this file is not known"));
   // The three files find each other, and so do those of the two sensors of KiK-net.
   const test::Folder folder;
   const char* const words[] = {"E-W", "N-S", "U-D"};
@@ -120,8 +121,8 @@ TEST(AgencyFormats, Smc) {
   EXPECT_EQ(file.station, "ABCD");
   expect_motion(file, 0, 1e-7);
   EXPECT_EQ(parse_record(smc_text(2, 0, -32768), "r.smc").component, "UP");
-  EXPECT_TRUE(says(fault(smc_text(0, 90, 67, 1e-9)), "time step of 1e+09 s"));
-  EXPECT_TRUE(says(fault("3 VELOCITY\n"), "r:1: '3 VELOCITY': take the file of accelerations"));
+  EXPECT_TRUE(says(fault(smc_text(0, 90, 67, 1e-9)), "the time step is 1e+09 s"));
+  EXPECT_TRUE(says(fault("3 VELOCITY\n"), "r:1: '3 VELOCITY': use the file with the accelerations"));
 }
 
 std::string cosmos_text(int axis, int orientation, int unit_code, double unit) {
@@ -152,8 +153,8 @@ TEST(AgencyFormats, Cosmos) {
   expect_motion(file, 0, 1e-7);
   expect_motion(parse_record(cosmos_text(1, 360, 2, 9.80665), "r"), 1, 1e-5);
   expect_recording("all.v2c", x + y + z, 1e-7);  // three channels in a file
-  EXPECT_TRUE(says(fault(cosmos_text(0, 90, 50, 1e-4)), "physical units have code 50"));
-  EXPECT_TRUE(says(fault(x.substr(0, x.size() / 2)), "not whole"));
+  EXPECT_TRUE(says(fault(cosmos_text(0, 90, 50, 1e-4)), "the code of the physical units is 50"));
+  EXPECT_TRUE(says(fault(x.substr(0, x.size() / 2)), "incomplete"));
 }
 
 std::string geonet_channel(int axis, const std::string& component) {
@@ -180,7 +181,7 @@ TEST(AgencyFormats, GeoNet) {
   EXPECT_EQ(channels[0].station, "ABCS");
   for (int axis = 0; axis < 3; ++axis) expect_motion(channels[std::size_t(axis)], axis, 1e-5);
   expect_recording("20240101_000015_ABCS_20.V2A", text, 1e-5);
-  EXPECT_TRUE(says(fault(text.substr(0, text.size() - 200)), "not whole"));
+  EXPECT_TRUE(says(fault(text.substr(0, text.size() - 200)), "incomplete"));
 }
 
 TEST(AgencyFormats, TablesOfAfadAndCwa) {
@@ -231,10 +232,10 @@ TEST(AgencyFormats, ComponentsSideBySideUnderTheirNames) {
     if (HasFailure()) FAIL() << style.heading;
   }
   EXPECT_TRUE(says(fault("time (s), EW (furlong)\n0 1\n0.1 2\n"), "unit in 'EW (furlong)' is not known"));
-  EXPECT_TRUE(says(fault("time, EW, velocity\n0 1 2\n0.1 2 3\n"), "column 'velocity' is no acceleration"));
-  EXPECT_TRUE(says(fault("NS EW\n1 2\n2 3\n"), "no column of times, and no step"));
+  EXPECT_TRUE(says(fault("time, EW, velocity\n0 1 2\n0.1 2 3\n"), "column 'velocity' is not an acceleration"));
+  EXPECT_TRUE(says(fault("NS EW\n1 2\n2 3\n"), "neither a column of times nor a time step"));
   EXPECT_EQ(parse_channels("NS EW\n1 2\n2 3\n", "r", 0.01).size(), 2u);
-  EXPECT_TRUE(says(fault("time EW\n0 1\n1e5 2\n"), "r:2: time step of 100000 s"));
+  EXPECT_TRUE(says(fault("time EW\n0 1\n1e5 2\n"), "r:2: the time step is 100000 s"));
 }
 
 TEST(AgencyFormats, ColumnsAsTheUserNamesThem) {
@@ -260,7 +261,7 @@ TEST(AgencyFormats, WhatIsNotReadIsNamed) {
   EXPECT_TRUE(says(fault("PK\x03\x04 etc"), "unpack it"));
   EXPECT_TRUE(says(fault("UNCORRECTED ACCELEROGRAM DATA\n1 2\n"), "CSMIP volume 1"));
   const std::string message = fault("My own words\nand more of them\n1 2\n2 3\n");
-  EXPECT_TRUE(says(message, "r:1: no format that is read: it begins 'My own words'")) << message;
+  EXPECT_TRUE(says(message, "r:1: the format of this file is not known. It begins with 'My own words'")) << message;
   // A line without an end is not echoed whole, and no name is as long.
   const std::string endless(200000, 'a');
   for (const std::string& text :

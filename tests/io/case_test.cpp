@@ -331,7 +331,7 @@ TEST_F(CaseFile, MeasuredCurvesAreTwoColumnsUnderHeadings) {
   };
   refused("0,0\n1,nan\n", "a.csv:2:");
   refused("0,0\n1\n", "a.csv:2:");
-  refused("mm,kN\n", "0 lines that begin with two numbers");
+  refused("mm,kN\n", "0 lines begin with two numbers");
   refused("", "0 lines");
 }
 

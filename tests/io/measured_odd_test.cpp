@@ -53,7 +53,7 @@ TEST_F(OddMeasurements, ChannelsAtTheirLimitAreSetAside) {
   ASSERT_EQ(much.set_aside.size(), 1u);
   EXPECT_EQ(much.set_aside[0].place, "records/wind.csv:1");
   expect_begins(much.set_aside[0].what, "channel 'a2' is cut off at ");
-  expect_holds(much.set_aside[0].what, "the instrument's limit");
+  expect_holds(much.set_aside[0].what, "the limit of the instrument");
   EXPECT_EQ(much.records[0].channels, (std::vector<std::string>{"a1", "a3"}));
 }
 
@@ -72,10 +72,11 @@ TEST_F(OddMeasurements, ChannelsThatStandStillAreSetAside) {
   const Measured longer = still(1500), shorter = still(610);
   ASSERT_EQ(longer.set_aside.size(), 1u);
   expect_begins(longer.set_aside[0].what,
-                "channel 'a1' stands still at 0.25 from row 502 on, for 41.7 % of the recording");
+                "channel 'a1' is constant at 0.25 from row 502 on, in all for 41.7 % of the recording");
   EXPECT_EQ(longer.records[0].channels, (std::vector<std::string>{"a2", "a3"}));
   ASSERT_EQ(shorter.remarks.size(), 1u);
-  expect_begins(shorter.remarks[0], "records/wind.csv: channel 'a1' stands still at 0.25 from row 502 on, for 4.58 %");
+  expect_begins(shorter.remarks[0],
+                "records/wind.csv: channel 'a1' is constant at 0.25 from row 502 on, in all for 4.58 %");
 }
 
 /// Before an earthquake all is still, and with the ground it may be.
@@ -90,7 +91,7 @@ TEST_F(OddMeasurements, OneChannelUnderTwoNamesIsNone) {
       read_spoilt([](int i, int c, double x) { return c == 2 ? std::sin(0.31 * i) + 0.5 * std::sin(0.97 * i) : x; });
   ASSERT_EQ(m.set_aside.size(), 2u);
   EXPECT_EQ(m.set_aside[0].what,
-            "channel 'a1' has the same samples as 'a3': which of them it belongs to cannot be told");
+            "channel 'a1' has the same samples as 'a3'; the program cannot tell to which sensor they belong");
   expect_begins(m.set_aside[1].what, "channel 'a3' has the same samples as 'a1'");
   EXPECT_EQ(m.records[0].channels, (std::vector<std::string>{"a2"}));
 }

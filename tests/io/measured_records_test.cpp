@@ -37,14 +37,14 @@ TEST_F(MeasuredFolder, WrongRecords) {
     return record_problem(text.replace(text.find(from), from.size(), to));
   };
   expect_begins(with("a2", "a9"),
-                "records/wind.csv:1: channel 'a9' is neither a sensor of sensors.csv nor the ground's motion: did "
+                "records/wind.csv:1: channel 'a9' is neither a sensor of sensors.csv nor the ground motion: did "
                 "you mean 'a1'?");
   expect_begins(with("a2", "base_w"),
                 "records/wind.csv:1: channel 'base_w' is neither a sensor of sensors.csv nor the "
-                "ground's motion: did you mean 'base_x'?");
+                "ground motion: did you mean 'base_x'?");
   expect_begins(with("a2", "a1"), "records/wind.csv:1: two columns have the name 'a1'");
-  expect_begins(with("t,", "time,"), "records/wind.csv:1: no column 't'");
-  expect_begins(record_problem("t\n0\n"), "records/wind.csv:1: no channels");
+  expect_begins(with("t,", "time,"), "records/wind.csv:1: there is no column 't'");
+  expect_begins(record_problem("t\n0\n"), "records/wind.csv:1: there are no channels");
   expect_begins(record_problem(""), "records/wind.csv:1: the file is empty");
   expect_begins(with("\n0.015000,", "\n0.015000,1,"), "records/wind.csv:5: the row has 4 cells, the heading has 3");
   expect_begins(with("\n0.015000,", "\n0.015000 "), "records/wind.csv:5: ");
@@ -53,27 +53,28 @@ TEST_F(MeasuredFolder, WrongRecords) {
   expect_begins(with("\n0.015000,", "\n0.015000,,1\n#"),
                 "records/wind.csv:5: the cell in column 'a1' is empty, but a number is needed; fill");
   expect_begins(with("\n0.015000,", "\n0.015000,1\n#"), "records/wind.csv:5: the row has 2 cells, the heading has 3");
-  expect_begins(with("\n0.015000,", "\n0.017000,"), "records/wind.csv:5: time step 0.007 s, elsewhere 0.005 s");
+  expect_begins(with("\n0.015000,", "\n0.017000,"),
+                "records/wind.csv:5: the time step is 0.007 s here and 0.005 s elsewhere");
   expect_begins(with("\n0.015000,", "\n0.010000,"),
-                "records/wind.csv:5: time 0.01 s after 0.01 s: times must increase");
-  expect_begins(with("\n0.015000,", "\n#"), "records/wind.csv:6: time step 0.01 s, elsewhere 0.005 s");
+                "records/wind.csv:5: the time 0.01 s follows 0.01 s. Times must increase");
+  expect_begins(with("\n0.015000,", "\n#"), "records/wind.csv:6: the time step is 0.01 s here and 0.005 s elsewhere");
   EXPECT_EQ(with("\n0.015000,", "\n0.0150005,"), "");
   expect_begins(record_problem(record({"a1"}, 99)),
-                "records/wind.csv:100: the recording ends after 99 samples, expected at least 100");
+                "records/wind.csv:100: the recording ends after 99 samples. At least 100 are needed");
   EXPECT_EQ(record_problem(record({"a1"}, 100)), "");
 }
 
 TEST_F(MeasuredFolder, ALongGapIsFoundWhereItIs) {
   std::string text = "t,a1\n";
   for (int i = 0; i < 200; ++i) text += fmt::format("{:.3f},{}\n", 0.01 * i + (i < 150 ? 0.0 : 1000.0), i % 3);
-  expect_begins(record_problem(text), "records/wind.csv:152: time step 1000.01 s, elsewhere 0.01 s");
+  expect_begins(record_problem(text), "records/wind.csv:152: the time step is 1000.01 s here and 0.01 s elsewhere");
 }
 
 TEST_F(MeasuredFolder, ASlowlyChangingRateIsRefused) {
   std::string text = "t,a1\n";
   double t = 0.0;
   for (int i = 0; i < 40000; ++i, t += i < 20000 ? 0.001 : 0.0010015) text += fmt::format("{:.9f},{}\n", t, i % 3);
-  expect_holds(record_problem(text), "the sampling rate changes");
+  expect_holds(record_problem(text), "The sampling rate changes");
 }
 
 TEST_F(MeasuredFolder, ConstantChannelsAreSetAside) {
@@ -101,8 +102,8 @@ TEST_F(MeasuredFolder, SuspiciousUnitsAreRemarked) {
   write_record(text);
   const Measured m = read();
   ASSERT_EQ(m.remarks.size(), 3u);
-  expect_begins(m.remarks[0], "records/wind.csv: a sample every 5 s");
-  expect_begins(m.remarks[1], "records/wind.csv: accelerations up to 990 look like another unit");
+  expect_begins(m.remarks[0], "records/wind.csv: the time step is 5 s");
+  expect_begins(m.remarks[1], "records/wind.csv: accelerations reach 990 m/s2");
 }
 
 TEST_F(MeasuredFolder, LongWordsMakeShortMessages) {

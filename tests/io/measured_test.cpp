@@ -63,21 +63,21 @@ TEST_F(MeasuredFolder, PartsMayBeMissing) {
 
 TEST_F(MeasuredFolder, NothingToUse) {
   expect_holds(test::message_of<InputError>([&] { read_measured(folder / "none"); }),
-               "/none: no such folder, expected one with modes.csv or records/*.csv");
-  expect_holds(problem(), "found nothing, expected modes.csv or records/*.csv or both");
-  expect_holds(problem("sensors.csv", sensors), "found sensors.csv, expected modes.csv");
+               "/none: there is no such folder. Give a folder with modes.csv or records/*.csv");
+  expect_holds(problem(), "the folder has nothing. It must have modes.csv or records/*.csv or both");
+  expect_holds(problem("sensors.csv", sensors), "the folder has sensors.csv. It must have modes.csv");
   std::filesystem::create_directory(folder / "records");
-  expect_holds(problem(), "no recording that can be used, and no modes.csv");
+  expect_holds(problem(), "there is no usable recording and no modes.csv");
   write_record("t,a1\n" + record({"a1"}).substr(5), "wind.txt");
-  expect_holds(problem(), "(records/wind.txt: nothing that is read: recordings end in .csv)");
+  expect_holds(problem(), "(records/wind.txt: not read: names of recordings end in .csv)");
   expect_begins(test::message_of<InputError>([&] { read_measured(folder / "sensors.csv"); }),
-                folder / "sensors.csv: no such folder");
+                folder / "sensors.csv: there is no such folder");
 }
 
 TEST_F(MeasuredFolder, WrongKindsOfFile) {
   write("modes.csv", modes);
   write("records", "t,a\n");
-  expect_begins(problem(), "records: is a file, expected a folder");
+  expect_begins(problem(), "records: is a file. It must be a folder");
   std::filesystem::remove(folder / "records");
   ASSERT_EQ(::mkfifo((folder / "shapes.csv").c_str(), 0600), 0);
   expect_begins(problem(), "shapes.csv: is not an ordinary file");
@@ -143,9 +143,9 @@ TEST_F(MeasuredFolder, SuspiciousPeriodsAreRemarked) {
     const Measured m = read();
     return m.remarks.empty() ? "" : m.remarks[0];
   };
-  expect_holds(remarks("mode,period\n1,5.5\n2,7\n"), "look like frequencies");
-  expect_holds(remarks("mode,period\n1,2.5\n2,4\n3,4.1\n"), "look like frequencies");
-  expect_holds(remarks("mode,frequency\n1,0.11\n2,0.1\n"), "look like periods");
+  expect_holds(remarks("mode,period\n1,5.5\n2,7\n"), "If they are frequencies");
+  expect_holds(remarks("mode,period\n1,2.5\n2,4\n3,4.1\n"), "If they are frequencies");
+  expect_holds(remarks("mode,frequency\n1,0.11\n2,0.1\n"), "If they are periods");
   EXPECT_EQ(remarks("mode,period\n1,5.5\n2,3\n"), "");
   EXPECT_EQ(remarks(modes), "");
 }
@@ -192,18 +192,19 @@ TEST_F(MeasuredFolder, ContradictorySensors) {
   const auto sensor = [&](const std::string& row) { return problem("sensors.csv", "id,x,y,z,direction\n" + row); };
   expect_begins(sensor("a,0,0,0,x\n\na,0,0,1,x\n"), "sensors.csv:4: sensor 'a' is already in row 2");
   expect_begins(sensor("a,0,0,0,x\nb,0,0,0,x\n"),
-                "sensors.csv:3: sensor 'b' has the place and the axis of the one in row 2");
-  expect_begins(sensor("a,0,0,0,x\nb,0,0,-0,-x\n"), "sensors.csv:3: sensor 'b' has the place");
+                "sensors.csv:3: sensor 'b' has the same place and axis as the one in row 2");
+  expect_begins(sensor("a,0,0,0,x\nb,0,0,-0,-x\n"), "sensors.csv:3: sensor 'b' has the same place");
   EXPECT_EQ(sensor("a,0,0,0,x\nb,0,0,0,y\nc,0,0,1,y\n"), "");
-  expect_begins(sensor("a,0,0,0,up\n"), "sensors.csv:2: direction 'up': expected x, y, z, -x, -y, -z or a unit vector");
-  expect_begins(sensor("a,0,0,0,1;0\n"), "sensors.csv:2: direction '1;0'");
-  expect_begins(sensor("a,0,0,0,1;0;0;0\n"), "sensors.csv:2: direction '1;0;0;0'");
+  expect_begins(sensor("a,0,0,0,up\n"),
+                "sensors.csv:2: direction is 'up'. It must be x, y, z, -x, -y, -z or a unit vector");
+  expect_begins(sensor("a,0,0,0,1;0\n"), "sensors.csv:2: direction is '1;0'");
+  expect_begins(sensor("a,0,0,0,1;0;0;0\n"), "sensors.csv:2: direction is '1;0;0;0'");
   expect_begins(sensor("a,0,0,0,1;1;0\n"), "sensors.csv:2: direction '1;1;0' has the length 1.414");
   expect_begins(sensor("a,0,0,0,0;0;0\n"), "sensors.csv:2: direction '0;0;0' has the length 0");
   EXPECT_EQ(sensor("a,0,0,0,1.009;0;0\n"), "");
   EXPECT_EQ(read().sensors[0].direction, Vec3(1, 0, 0));
-  expect_begins(sensor("t,0,0,0,x\n"), "sensors.csv:2: a sensor may not be named 't'");
-  expect_begins(sensor("base_x,0,0,0,x\n"), "sensors.csv:2: a sensor may not be named 'base_x'");
+  expect_begins(sensor("t,0,0,0,x\n"), "sensors.csv:2: a sensor has the name 't'");
+  expect_begins(sensor("base_x,0,0,0,x\n"), "sensors.csv:2: a sensor has the name 'base_x'");
 }
 
 TEST_F(MeasuredFolder, ContradictoryModes) {
@@ -211,14 +212,14 @@ TEST_F(MeasuredFolder, ContradictoryModes) {
     return problem("modes.csv", "mode,period,period_std,damping,damping_std,direction\n" + row);
   };
   expect_begins(mode("1,0.4,,,,\n2,0.3,,,,\n1,0.3,,,,\n"), "modes.csv:4: mode '1' is already in row 2");
-  expect_begins(mode("1,0,,,,\n"), "modes.csv:2: period is 0 s: must be above 0");
-  expect_begins(mode("1,-0.4,,,,\n"), "modes.csv:2: period is -0.4 s: must be above 0");
+  expect_begins(mode("1,0,,,,\n"), "modes.csv:2: period is 0 s. It must be above 0");
+  expect_begins(mode("1,-0.4,,,,\n"), "modes.csv:2: period is -0.4 s. It must be above 0");
   expect_begins(mode("1,nan,,,,\n"), "modes.csv:2: 'nan' in column 'period'");
   expect_begins(mode("1,inf,,,,\n"), "modes.csv:2: 'inf' in column 'period'");
   expect_begins(mode("1,,,,,\n"), "modes.csv:2: the cell in column 'period' is empty");
   expect_begins(mode(",0.4,,,,\n"), "modes.csv:2: the cell in column 'mode' is empty");
   expect_begins(mode("1,0.4,-0.1,,,\n"), "modes.csv:2: period_std is -0.1. A standard deviation must be 0 or more");
-  expect_begins(mode("1,0.4,,1,,\n"), "modes.csv:2: damping is 1: must be from 0 to below 1");
+  expect_begins(mode("1,0.4,,1,,\n"), "modes.csv:2: damping is 1. It must be at least 0 and below 1");
   expect_begins(mode("1,0.4,,-0.01,,\n"), "modes.csv:2: damping is -0.01");
   expect_begins(mode("1,0.4,,0.01,-1,\n"), "modes.csv:2: damping_std is -1");
   expect_begins(mode("1,0.4,,,0.01,\n"), "modes.csv:2: damping_std is 0.01, but there is no damping");
@@ -227,11 +228,12 @@ TEST_F(MeasuredFolder, ContradictoryModes) {
 }
 
 TEST_F(MeasuredFolder, ContradictoryShapes) {
-  expect_begins((write("modes.csv", modes), problem("shapes.csv", shapes)), "shapes.csv:1: shapes, but no sensors.csv");
+  expect_begins((write("modes.csv", modes), problem("shapes.csv", shapes)),
+                "shapes.csv:1: there are shapes, but no sensors.csv");
   std::filesystem::remove(folder / "modes.csv");
   write("sensors.csv", sensors);
   write_record(record({"a1"}));
-  expect_begins(problem(), "shapes.csv:1: shapes, but no modes.csv");
+  expect_begins(problem(), "shapes.csv:1: there are shapes, but no modes.csv");
   write("modes.csv", modes);
   const auto shape = [&](const std::string& row) { return problem("shapes.csv", "mode,sensor,value,std\n" + row); };
   expect_begins(shape("TT3,a1,1,\n"), "shapes.csv:2: mode 'TT3' is not in modes.csv: did you mean 'T3'?");
@@ -251,9 +253,9 @@ TEST_F(MeasuredFolder, EmptyShapesAreSetAside) {
   const Measured m = read();
   ASSERT_EQ(m.set_aside.size(), 2u);
   EXPECT_EQ(m.set_aside[0].place, "shapes.csv:2");
-  EXPECT_EQ(m.set_aside[0].what, "the shape of mode '1' has 1 sensor, needs 2");
+  EXPECT_EQ(m.set_aside[0].what, "the shape of mode '1' has 1 sensor; at least 2 are needed");
   EXPECT_EQ(m.set_aside[1].place, "shapes.csv:3");
-  EXPECT_EQ(m.set_aside[1].what, "the shape of mode '2' has nothing but zeros");
+  EXPECT_EQ(m.set_aside[1].what, "the shape of mode '2' has only zeros");
   EXPECT_TRUE(m.modes[0].shape.empty());
   EXPECT_TRUE(m.modes[1].shape.empty());
   EXPECT_EQ(m.modes[2].shape.size(), 2u);
@@ -262,7 +264,7 @@ TEST_F(MeasuredFolder, EmptyShapesAreSetAside) {
 TEST_F(MeasuredFolder, About) {
   write("modes.csv", modes);
   expect_begins(problem("about.toml", "what = \"x\"\nunits = \"g\"\n"),
-                "about.toml:2: 'units' in the file is \"g\": expected \"SI\"");
+                "about.toml:2: 'units' in the file is \"g\". It must be \"SI\"");
   expect_begins(problem("about.toml", "what = 3\n"), "about.toml:1: 'what' in the file is a number. It must be text");
   expect_begins(problem("about.toml", "what = \"x\n"), "about.toml:1: not valid TOML");
   EXPECT_EQ(problem("about.toml", ""), "");
@@ -312,8 +314,9 @@ TEST(PlaceSensors, FindsTheBlockThatHoldsEach) {
   m.sensors[1].position = Vec3(2.95, 0.5, 1.8);
   const std::string message = test::message_of<InputError>([&] { place_sensors(m, assembly); });
   expect_begins(message,
-                "measured/sensors.csv:3: sensor 'b' at (2.95, 0.5, 1.8) m lies 0.8 m from the nearest, block 2 (");
-  expect_holds(message, "from (2, 0, 0) to (3, 1, 1) m: expected within 0.5 m of a block; correct its place");
+                "measured/sensors.csv:3: sensor 'b' at (2.95, 0.5, 1.8) m is 0.8 m away from the nearest block, "
+                "block 2 (");
+  expect_holds(message, "from (2, 0, 0) to (3, 1, 1) m. It must be within 0.5 m of a block. Correct its place");
   expect_holds(test::message_of<InputError>([&] { place_sensors(m, Assembly{}); }), "there is no block");
 }
 }  // namespace VOUSSOIR_FILE

@@ -69,7 +69,7 @@ TEST_F(MeasuredFolder, WritesNothingThatCannotBeRead) {
   m.records[2].name = "elsewhere/r1.csv";
   expect_holds(refused(m), "records/r1.csv: two recordings of this name");
   m.records[2].name = "records/..";
-  expect_holds(refused(m), "expected a name for its file");
+  expect_holds(refused(m), "has no name for its file");
   m = difficult();
   m.records[0].channels[1] = "other";
   expect_holds(refused(m), "records/r0.csv:1: channel 'other'");
@@ -82,11 +82,11 @@ TEST_F(MeasuredFolder, OldFilesAreNotMixedWithNewOnes) {
   expect_same(read(), m);
   m.records[0].name = "other.csv";
   expect_holds(test::message_of<InputError>([&] { write_measured(m, folder.path()); }),
-               "records/wind.csv: is there from before");
+               "records/wind.csv: this old file would be mixed");
   m = read();
   for (MeasuredMode& mode : m.modes) mode.shape.clear();
   expect_holds(test::message_of<InputError>([&] { write_measured(m, folder.path()); }),
-               "shapes.csv: is there from before");
+               "shapes.csv: this old file would be mixed");
 }
 
 TEST_F(MeasuredFolder, TruncatedAnywhere) {

@@ -75,17 +75,19 @@ TEST(Records, PeerAt2) {
   // Rounded steps: the user knows better.
   EXPECT_EQ(parse_record(at2("NPTS= 13, DT= .0024 SEC", 13), "r", 1.0 / 409.6).record.dt, 1.0 / 409.6);
   EXPECT_TRUE(says(fault(at2("NPTS= 14, DT= .0024 SEC", 13)), "13 samples, but line 4 says 14"));
-  EXPECT_TRUE(says(fault(at2("NPTS, DT", 13)), "r:4: 'NPTS, DT' names no number of samples"));
+  EXPECT_TRUE(says(fault(at2("NPTS, DT", 13)), "r:4: 'NPTS, DT' does not state the number of samples"));
   EXPECT_TRUE(says(fault(at2("NPTS= 13, DT= 0 SEC", 13)), "r:4:"));
   std::string velocity = at2("NPTS= 13, DT= .0024 SEC", 13);
   velocity.replace(velocity.find("ACCELERATION"), 12, "VELOCITY    ");
   EXPECT_TRUE(says(fault(velocity), "r:3: 'VELOCITY"));
-  EXPECT_TRUE(says(fault(at2("NPTS= 13, DT= 1e5 SEC", 13)), "r:4: time step of 100000 s: expected 1e-05 to 1 s"));
-  EXPECT_TRUE(says(fault(at2("NPTS= 1e300, DT= .01 SEC", 13)), "r:4: 1E300 is no sample"));
-  EXPECT_TRUE(says(fault(at2("NPTS= 1e9, DT= .01 SEC", 13)), "r:4: 1e+09 samples: expected a whole number"));
+  EXPECT_TRUE(
+      says(fault(at2("NPTS= 13, DT= 1e5 SEC", 13)), "r:4: the time step is 100000 s. It must be from 1e-05 to 1 s"));
+  EXPECT_TRUE(says(fault(at2("NPTS= 1e300, DT= .01 SEC", 13)), "r:4: the number 1E300 is too large"));
+  EXPECT_TRUE(
+      says(fault(at2("NPTS= 1e9, DT= .01 SEC", 13)), "r:4: the number of samples is 1e+09. It must be a whole number"));
   std::string huge = at2("NPTS= 13, DT= .0024 SEC", 13);
   huge.replace(huge.rfind("1.2000000E-02"), 13, "1.2000000E308");
-  EXPECT_TRUE(says(fault(huge), "r:7: 1.2000000E308 is no sample of a ground motion: expected at most 1e+12"));
+  EXPECT_TRUE(says(fault(huge), "r:7: the number 1.2000000E308 is too large. It must be at most 1e+12"));
   std::string damaged = at2("NPTS= 13, DT= .0024 SEC", 13);
   damaged.replace(damaged.rfind("E-0"), 3, "NaN");
   EXPECT_TRUE(says(fault(damaged), "r:7: '"));
@@ -108,7 +110,7 @@ TEST(Records, ItacaAndEsm) {
   EXPECT_TRUE(says(fault(dyna_text(6, "cm/s^2", "g")), "UNITS is 'g', expected cm/s^2"));
   EXPECT_TRUE(says(fault(dyna_text(6, "NDATA: 6\n", "")), "no line 'NDATA:'"));
   EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "soon")), "r:3: 'soon' is not a number"));
-  EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "0")), "r:3: time step of 0 s: expected 1e-05 to 1 s"));
+  EXPECT_TRUE(says(fault(dyna_text(6, "0.005000", "0")), "r:3: the time step is 0 s. It must be from 1e-05 to 1 s"));
 }
 
 TEST(Records, CsmipInFixedColumns) {
@@ -121,8 +123,8 @@ TEST(Records, CsmipInFixedColumns) {
   EXPECT_EQ(file.event, "NOWHERE, CA  EARTHQUAKE");
   EXPECT_EQ(file.station, "OLD MILL");
   EXPECT_EQ(file.component, "1: UP");
-  EXPECT_TRUE(says(fault(csmip_text(11, csmip_line)), "11 of 19 samples, then a row with fewer than 8"));
-  EXPECT_TRUE(says(fault(csmip_text(19, "1e300" + csmip_line.substr(5))), "r:9: 1E300 is no sample"));
+  EXPECT_TRUE(says(fault(csmip_text(11, csmip_line)), "after 11 of 19 samples a row has fewer than 8"));
+  EXPECT_TRUE(says(fault(csmip_text(19, "1e300" + csmip_line.substr(5))), "r:9: the number 1E300 is too large"));
   EXPECT_TRUE(says(fault(csmip_text(19, csmip_line) + csmip_line), "0 of 19 samples"));
   EXPECT_TRUE(says(fault(csmip_text(19, csmip_line.substr(0, 60))), "r:9:"));
 }

@@ -91,7 +91,8 @@ TEST(RecordSets, WhatDoesNotFitIsLeftOutAndSaid) {
   EXPECT_EQ(found.sets[0].files[2], "");
   ASSERT_EQ(found.left_out.size(), 2u);  // two reasons
   EXPECT_NE(found.left_out[0].find("damaged_NS.txt:7"), std::string::npos) << found.left_out[0];
-  EXPECT_NE(found.left_out[1].find("2 of a kind (alone (EW of one file), damaged (EW of one file)): expected two"),
+  EXPECT_NE(found.left_out[1].find(
+                "2 files or recordings (alone (EW of one file), damaged (EW of one file)): two horizontal"),
             std::string::npos)
       << found.left_out[1];
   EXPECT_THROW(read_record_folder(folder.path() + "/none"), InputError);
@@ -130,7 +131,8 @@ TEST(RecordSets, AzimuthsAreComparedAsNumbers) {
     for (const std::string& file : found.sets[i].files) EXPECT_FALSE(file.empty()) << found.sets[i].name;
   }
   ASSERT_EQ(found.left_out.size(), 1u);  // not one for each of the thirty files
-  EXPECT_TRUE(found.left_out[0].starts_with("30 of a kind (RSN101_MUL-UP.DT2, RSN101_MUL-UP.VT2, RSN101_MUL009.DT2"))
+  EXPECT_TRUE(
+      found.left_out[0].starts_with("30 files or recordings (RSN101_MUL-UP.DT2, RSN101_MUL-UP.VT2, RSN101_MUL009.DT2"))
       << found.left_out[0];
 }
 

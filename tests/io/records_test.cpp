@@ -27,17 +27,19 @@ TEST(Columns, OneColumnWithGivenStep) {
 
 TEST(Columns, MessagesNameFileAndRow) {
   EXPECT_NE(
-      problem("time acc\n0 0\n0.1 1\n").find("r.txt:1: no format that is read: it begins 'time acc'; read are PEER"),
+      problem("time acc\n0 0\n0.1 1\n")
+          .find(
+              "r.txt:1: the format of this file is not known. It begins with 'time acc'. The known formats are: PEER"),
       std::string::npos);
   EXPECT_EQ(problem("0 0\n0.1 one\n"), "r.txt:2: 'one' is not a number: rows must be numbers, headings begin with #");
   EXPECT_NE(problem("0 0\n0.1 nan\n").find("r.txt:2: nan is not a finite number"), std::string::npos);
-  EXPECT_NE(problem("0 0\n0.1 1\n0.1 1\n0.3 0\n").find("r.txt:3: time 0.1 s after 0.1 s"), std::string::npos);
-  EXPECT_NE(problem("0 0\n0.1 1\n0.25 1\n0.3 0\n").find("r.txt:3: time step 0.15 s, elsewhere 0.1 s"),
+  EXPECT_NE(problem("0 0\n0.1 1\n0.1 1\n0.3 0\n").find("r.txt:3: the time 0.1 s follows 0.1 s"), std::string::npos);
+  EXPECT_NE(problem("0 0\n0.1 1\n0.25 1\n0.3 0\n").find("r.txt:3: the time step is 0.15 s here and 0.1 s elsewhere"),
             std::string::npos);
   EXPECT_NE(problem("0 0 3\n0.1 1 3\n").find("r.txt:1: 3 columns, expected 2"), std::string::npos);
   EXPECT_NE(problem("0\n1\n").find("give the key 'dt'"), std::string::npos);
   EXPECT_NE(problem("0 1\n1 2\n", 0.1).find("expected 1 (acceleration) because 'dt' is given"), std::string::npos);
-  EXPECT_NE(problem("0 0\n").find("1 rows of numbers, expected at least 2"), std::string::npos);
+  EXPECT_NE(problem("0 0\n").find("1 rows of numbers. At least 2 are needed"), std::string::npos);
   EXPECT_NE(problem("").find("0 rows"), std::string::npos);
 }
 

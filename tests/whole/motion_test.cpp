@@ -78,7 +78,7 @@ TEST(Motion, InfoSpectraAndProcessing) {
   const Outcome info = voussoir({"motion", "info", "made", "-o", "measures"}, there);
   ASSERT_EQ(info.status, 0) << info.err;
   EXPECT_TRUE(has(info.out, "PGA (g)") && has(info.out, "synthetic_0003")) << info.out;
-  EXPECT_TRUE(has(info.err, "left out: synthetic.html:1: no format that is read")) << info.err;
+  EXPECT_TRUE(has(info.err, "left out: synthetic.html:1: the format of this file is not known")) << info.err;
   EXPECT_EQ(json_of(folder / "measures/motion.json")["records"].size(), 6u);
   const std::string x = "made/synthetic_0001_x.txt", y = "made/synthetic_0001_y.txt";
   EXPECT_EQ(voussoir(with_target({"motion", "spectrum", x, y, "-o", "spectra"}), there).status, 0);
