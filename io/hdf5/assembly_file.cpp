@@ -244,8 +244,8 @@ void write_groups(h5::File& file, const Assembly& assembly) {
   for (const auto& [name, members] : assembly.groups) {
     if (name.starts_with(object_group_prefix)) continue;
     if (name.empty() || name.find('/') != std::string::npos)
-      throw InputError("cannot write {}: group \"{}\": a group's name must not be empty nor hold a '/'", file.path(),
-                       name);
+      throw InputError("cannot write {}: group \"{}\": the name of a group must not be empty and must not contain '/'",
+                       file.path(), name);
     file.write<std::int64_t>("groups/" + name, members);
   }
 }

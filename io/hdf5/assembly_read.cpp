@@ -126,8 +126,8 @@ void AssemblyReader::check_fixed() const {
   const auto is_fixed = [](const Block& block) { return block.fixed; };
   if (blocks() > 0 && std::none_of(assembly_.blocks.begin(), assembly_.blocks.end(), is_fixed))
     file_.fail("blocks/fixed",
-               "no block is fixed: at least one must be 1, or all would fall (voussoir import FILE -o OTHER --fixed "
-               "lowest sets it)");
+               "no block is fixed. At least one value must be 1, because otherwise all blocks would fall (voussoir "
+               "import FILE -o OTHER --fixed lowest sets it).");
 }
 
 void AssemblyReader::read_materials() {
@@ -156,9 +156,9 @@ void AssemblyReader::read_materials() {
   for (std::size_t i = 0; i < blocks(); ++i)
     if (const double own = density[std::size_t(material[i])]; std::abs(stated[i] - own) > 1e-9 * own)
       file_.fail("blocks/density",
-                 fmt::format("row {}: {} kg/m3, but its material \"{}\" has {} kg/m3: make them agree. A block of "
-                             "another density needs a material of its own: a further row in materials/* (and in its "
-                             "attribute names), whose number stands in blocks/material",
+                 fmt::format("row {}: {} kg/m3, but its material \"{}\" has {} kg/m3. Make them equal. A block of "
+                             "another density needs its own material: a further row in materials/* (and in its "
+                             "attribute names), whose number is in blocks/material.",
                              i, stated[i], names[std::size_t(material[i])], own));
 }
 
@@ -213,10 +213,10 @@ void AssemblyReader::read_stated(const std::string& name, std::size_t columns) {
       block.inertia = inertia;
     }
     if (error > 1e-6 * scale)
-      file_.fail(name,
-                 fmt::format("row {}: differs by {:.3g} from what the block's shape and density give: correct it or "
-                             "leave the dataset out",
-                             i, error));
+      file_.fail(name, fmt::format(
+                           "row {}: differs by {:.3g} from the value that follows from shape and density of the block. "
+                           "Correct it, or leave the dataset out.",
+                           i, error));
   }
 }
 
@@ -305,7 +305,8 @@ void AssemblyReader::check_joint(std::size_t row, const Joint& joint) const {
     file_.fail(name, fmt::format("row {} (blocks {} and {}): {}", row, joint.a, joint.b, reason));
   };
   if (joint.a == joint.b) fail("joints/blocks", "a joint needs two different blocks");
-  if (joint.a > joint.b) fail("joints/blocks", "the lower block must come first (and the normal point to the higher)");
+  if (joint.a > joint.b)
+    fail("joints/blocks", "the block with the lower number must come first, and the normal must point to the other");
   check_patch(joint, fail);
   const auto check_face = [&](std::int64_t block, std::int32_t cell, std::int32_t face) {
     const auto& cells = assembly_.blocks[std::size_t(block)].cells;
@@ -409,7 +410,7 @@ void AssemblyReader::read_objects() {
     if (!assembly_.groups
              .try_emplace(object_group_prefix + names[i], members.begin() + offset[i], members.begin() + offset[i + 1])
              .second)
-      file_.fail("objects/names", fmt::format("\"{}\" stands there twice, or as a group too", shown(names[i])));
+      file_.fail("objects/names", fmt::format("\"{}\" is given twice, or is also a group", shown(names[i])));
 }
 
 void AssemblyReader::read_sensors() {
@@ -424,20 +425,20 @@ void AssemblyReader::read_sensors() {
                                  Eigen::Map<const Vec3>(direction.data() + 3 * i), block[i]});
 }
 
-/// A file that gives the shapes alone leaves the rest to us.
+/// Finds the joints if the file has none.
 void AssemblyReader::find_joints(const JointSearch& search) {
   if (blocks() == 0) return;
   if (!assembly_.laws.empty())
-    file_.fail("laws/tension", "there are laws, but no joints/blocks whose joints have them: give joints, or no laws");
+    file_.fail("laws/tension", "there are laws, but no joints/blocks that have them. Give joints, or no laws.");
   if (!assembly_.fill.empty())
     file_.fail("joints/blocks",
-               "there is none, and the patches between stones and fill are not found on reading: write the stones "
-               "alone, and put the fill between them with voussoir import FILL.msh --into FILE -o OTHER");
+               "the dataset is missing, and the program does not find patches between stones and fill when it reads a "
+               "file. Write the stones alone, and add the fill with voussoir import FILL.msh --into FILE -o OTHER.");
   try {
     lay_joints(assembly_, search);
   } catch (const InputError& error) {
     file_.fail("joints/blocks",
-               fmt::format("there is none, so joints are looked for: {} (voussoir import FILE -o OTHER "
+               fmt::format("the dataset is missing, so the program looks for joints: {} (voussoir import FILE -o OTHER "
                            "finds them with moduli, strengths and gap of its options)",
                            error.what()));
   }

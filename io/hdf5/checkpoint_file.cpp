@@ -60,7 +60,7 @@ auto with_checkpoint(const std::string& path, Work&& work) {
   } catch (const h5::ForeignFile&) {
     throw;
   } catch (const InputError& error) {
-    throw RunError("checkpoint {} is damaged ({}): use the one before it", path, error.what());
+    throw RunError("checkpoint {} is damaged ({}): use the previous one", path, error.what());
   }
 }
 
@@ -103,8 +103,8 @@ bool readable(const std::string& path) {
 double CheckpointHeader::number(const std::string& name) const {
   const auto found = numbers.find(name);
   if (found == numbers.end())
-    throw RunError("the checkpoint of t = {:.4f} s lacks the attribute '{}' of {}: {}", time, name, numbers_group,
-                   begin_again);
+    throw RunError("the checkpoint of t = {:.4f} s does not have the attribute '{}' of {}: {}", time, name,
+                   numbers_group, begin_again);
   return found->second;
 }
 
@@ -112,8 +112,9 @@ std::int64_t CheckpointHeader::count(const std::string& name) const {
   constexpr double most = 9e15;  // whole numbers that a double holds
   const double value = number(name);
   if (!(value >= 0.0 && value < most && value == std::floor(value)))
-    throw RunError("the checkpoint of t = {:.4f} s has {} for '{}' of {}, expected a whole number from 0 on: {}", time,
-                   value, name, numbers_group, begin_again);
+    throw RunError(
+        "the checkpoint of t = {:.4f} s has {} for '{}' of {}, which must be a whole number of 0 or more: {}", time,
+        value, name, numbers_group, begin_again);
   return std::int64_t(value);
 }
 
@@ -156,15 +157,15 @@ void read_checkpoint(const std::string& path, CheckpointHeader& header, const st
     header = get_header(file);
     if (const std::int64_t version = file.integer("/", "format_version"); version != checkpoint_format_version)
       throw h5::ForeignFile(
-          "{} was written by voussoir {} and keeps the state in another order (version {}, expected {}): go on with "
-          "that program, or begin the run anew",
+          "{} was written by voussoir {} and has another format (version {} instead of {}). Continue with that version "
+          "of the program, or begin the run again.",
           path, header.program_version, version, checkpoint_format_version);
     for (const NamedArray& array : arrays) read_array(file, array);
     if (const std::size_t found = file.datasets().size(); found != arrays.size())
-      file.fail("/", fmt::format("it holds {} arrays, expected {}: another version wrote it ({})", found, arrays.size(),
-                                 header.program_version));
+      file.fail("/", fmt::format("it has {} arrays instead of {}: another version of the program wrote it ({})", found,
+                                 arrays.size(), header.program_version));
     if (const std::uint64_t digest = hash_arrays(arrays); digest != header.state_hash)
-      file.fail("/", fmt::format("its digest is {:016x}, expected {:016x}", digest, header.state_hash));
+      file.fail("/", fmt::format("its digest is {:016x} instead of {:016x}", digest, header.state_hash));
   });
 }
 

@@ -157,8 +157,8 @@ File File::open(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw InputError("cannot read {}: there is no such file", path);
   if (std::filesystem::is_directory(path, ignored))
-    throw InputError("cannot read {}: it is a folder, expected a file", path);
-  if (!is_hdf5(path)) throw InputError("{} is not an HDF5 file (or its beginning is damaged)", path);
+    throw InputError("cannot read {}: it is a folder, not a file", path);
+  if (!is_hdf5(path)) throw InputError("{} is not an HDF5 file, or its beginning is damaged", path);
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file.valid()) throw InputError("{} is truncated or damaged: {}", path, last_reason());
   return File(path, std::move(file), nullptr);

@@ -16,7 +16,7 @@ History::History(std::string path, std::vector<Channel> channels)
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (channels_[i].path.empty()) throw InputError("{}: channel {} has no name", path_, i);
     if (!index_.emplace(channels_[i].path, i).second)
-      throw InputError("{}: channel \"{}\" is listed twice: names must differ", path_, channels_[i].path);
+      throw InputError("{}: channel \"{}\" is listed twice. Names must differ.", path_, channels_[i].path);
   }
   if (channels_.empty() || channels_[0].path != "time")
     throw InputError("{}: the first channel must be \"time\"", path_);
@@ -37,7 +37,7 @@ History History::load(const std::string& path) {
 
 void History::append(std::span<const double> row) {
   if (row.size() != channels_.size())
-    throw RunError("{}: a row of {} values for {} channels", path_, row.size(), channels_.size());
+    throw RunError("{}: a row has {} values for {} channels", path_, row.size(), channels_.size());
   for (std::size_t i = 0; i < row.size(); ++i) columns_[i].push_back(row[i]);
 }
 

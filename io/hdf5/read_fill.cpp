@@ -40,7 +40,7 @@ void check_triangles(const h5::File& file, const FillMesh& fill) {
     const auto at = std::lower_bound(own.triangles.begin(), own.triangles.end(), triangle);
     if (at == own.triangles.end() || *at != triangle)
       file.fail("fill/triangles",
-                fmt::format("row {}: nodes {}, {} and {} are no face of the surface, counter-clockwise "
+                fmt::format("row {}: nodes {}, {} and {} are not a face of the surface, counter-clockwise "
                             "seen from outside",
                             i, triangle[0], triangle[1], triangle[2]));
     if (std::exchange(there[std::size_t(at - own.triangles.begin())], 1))
@@ -87,7 +87,7 @@ void check_fill_joint(const h5::File& file, std::size_t row, const Assembly& ass
   const double size = std::sqrt(polygon_area(triangle));
   for (const Vec3& p : joint.polygon)
     if (std::abs(outward.dot(p - triangle[0])) > 0.01 * size)
-      fail("joints/polygon", "it is not in the triangle's plane");
+      fail("joints/polygon", "it is not in the plane of the triangle");
   const auto& cells = assembly.blocks[std::size_t(joint.block)].cells;
   if (joint.cell < 0 || joint.cell >= std::int32_t(cells.size()))
     fail("joints/cells", fmt::format("block {} has no cell {}", joint.block, joint.cell));

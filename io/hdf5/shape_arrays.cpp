@@ -33,11 +33,11 @@ void check_offsets(const h5::File& file, const std::string& name, const std::vec
   if (offsets.empty() || offsets[0] != 0) file.fail(name, "the first offset must be 0");
   for (std::size_t i = 1; i < offsets.size(); ++i)
     if (offsets[i] < offsets[i - 1])
-      file.fail(name, fmt::format("row {}: offset {} is less than the one before it, {}: offsets must not decrease", i,
-                                  offsets[i], offsets[i - 1]));
+      file.fail(name, fmt::format("row {}: offset {} is less than the previous offset, {}: offsets must not decrease",
+                                  i, offsets[i], offsets[i - 1]));
   if (offsets.back() != std::int64_t(last))
-    file.fail(name, fmt::format("the last offset is {}, expected {}, the number of rows it points into", offsets.back(),
-                                last));
+    file.fail(name, fmt::format("the last offset is {}, expected {}, the number of rows to which it points",
+                                offsets.back(), last));
 }
 
 std::vector<double> read_finite(const h5::File& file, const std::string& name, const h5::Shape& expected) {

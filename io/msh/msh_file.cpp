@@ -53,8 +53,8 @@ class MshReader {
     const std::string_view word = values_.word();
     if (word != "$MeshFormat")
       throw InputError(
-          "{} is not a Gmsh mesh: it begins with \"{}\", expected \"$MeshFormat\"; save it from Gmsh as version 4.1 or "
-          "2.2",
+          "{} is not a Gmsh mesh: it begins with \"{}\" instead of \"$MeshFormat\". Save it from Gmsh as version 4.1 "
+          "or 2.2.",
           path_, shown(word));
     const std::string_view version = values_.word();
     if (!version.starts_with("2") && version != "4.1")
@@ -64,20 +64,20 @@ class MshReader {
     const std::int64_t binary = values_.whole_word("0 for text or 1 for binary");
     const std::int64_t width = values_.whole_word("the width of its numbers");
     if (binary < 0 || binary > 1 || width != 8)
-      values_.fail(
-          fmt::format("the format is {} {}, expected 0 or 1 (text or binary) and 8 (bytes a number)", binary, width));
+      values_.fail(fmt::format("the format is {} {}. It must be 0 or 1 (text or binary) and 8 (bytes for each number).",
+                               binary, width));
     if (binary == 1) {
       values_.end_line();
       values_.set_binary(false);
       const std::int64_t one = values_.integer(4, "the number 1, which tells the order of bytes");
-      if (one != 1 && one != 1 << 24) values_.fail("the number after the format is not 1 in either order of bytes");
+      if (one != 1 && one != 1 << 24) values_.fail("the number after the format is not 1 in any byte order");
       values_.set_binary(one != 1);
     }
     values_.end_section("MeshFormat");
   }
 
   void begin(bool& has, const std::string& name) {
-    if (has) values_.fail(fmt::format("a second section ${}: these are several files in one", name));
+    if (has) values_.fail(fmt::format("there is a second section ${}: this seems to be several files in one", name));
     has = true;
     if (version4_ || !values_.binary()) values_.end_line();
   }
@@ -91,7 +91,7 @@ class MshReader {
   }
 
   void add_node(std::int64_t number, const Vec3& place) {
-    if (number < 1) values_.fail(fmt::format("a node has the number {}; nodes count from 1", number));
+    if (number < 1) values_.fail(fmt::format("a node has the number {}, but nodes count from 1", number));
     nodes.push_back({number, place});
   }
 
@@ -117,8 +117,9 @@ class MshReader {
       values_.skip(1, 4);  // the entity
       const std::int64_t parametric = values_.integer(4, "0, or 1 for parametric nodes");
       if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
-        values_.fail(fmt::format("a block of nodes of dimension {}, parametric {}; expected 0 to 3, and 0 or 1",
-                                 dimension, parametric));
+        values_.fail(
+            fmt::format("a block of nodes has dimension {} and parametric {}. They must be 0 to 3, and 0 or 1.",
+                        dimension, parametric));
       numbers.resize(values_.count(values_.integer(8, "the number of nodes in a block"), 8, 32, "nodes"));
       for (std::int64_t& number : numbers) number = values_.integer(8, "the number of a node");
       for (const std::int64_t number : numbers) {
@@ -133,11 +134,11 @@ class MshReader {
     const ElementKind* kind = element_kind(number);
     if (!kind)
       values_.fail(
-          fmt::format("elements of the kind {}, which is not known; mesh it with Mesh.ElementOrder = 1", number));
+          fmt::format("elements have the kind {}, which is not known. Mesh it with Mesh.ElementOrder = 1.", number));
     if (kind->dimension == 3 && number != tetrahedron_kind)
       throw InputError(
-          "{}: it holds elements \"{} {}\" of {} nodes; the fill takes 4-node tetrahedra only: mesh it with "
-          "Mesh.ElementOrder = 1 and without recombination",
+          "{}: it has elements \"{} {}\" of {} nodes, but a fill must have tetrahedra of 4 nodes only. Mesh it with "
+          "Mesh.ElementOrder = 1 and without recombination.",
           path_, kind->name, kind->nodes, kind->nodes);
     return *kind;
   }
@@ -163,7 +164,7 @@ class MshReader {
       if (values_.binary()) {
         alike = values_.count(values_.integer(4, "the number of elements of a kind"), 8, 8, "elements");
         if (alike == 0 || alike > count - done)
-          values_.fail(fmt::format("{} elements of one kind, where {} are left", alike, count - done));
+          values_.fail(fmt::format("{} elements of one kind are stated, but only {} are left", alike, count - done));
       }
       const std::size_t tags = values_.count(values_.integer(4, "the number of tags"), 2, 4, "tags of an element");
       for (std::size_t i = 0; i < alike; ++i) {
@@ -195,18 +196,18 @@ class MshReader {
 
   void check() const {
     if (!has_nodes_ || !has_elements_)
-      throw InputError("{}: it has no section ${}: the file is damaged, or not a mesh: save it anew from Gmsh", path_,
-                       has_nodes_ ? "Elements" : "Nodes");
+      throw InputError("{}: it has no section ${}: the file is damaged or is not a mesh. Save it again from Gmsh.",
+                       path_, has_nodes_ ? "Elements" : "Nodes");
     if (!tets.empty()) return;
     static const char* const names[] = {"points", "curves", "surfaces"};
     if (highest_group_ >= 0 && highest_group_ < 3)
       throw InputError(
-          "{}: it holds no tetrahedra: its groups name {} only, and Gmsh saves what groups name: add a physical "
-          "volume, or set Mesh.SaveAll = 1",
+          "{}: it has no tetrahedra: its physical groups have {} only, and Gmsh saves only elements of groups. Add a "
+          "physical volume, or set Mesh.SaveAll = 1.",
           path_, names[highest_group_]);
     throw InputError(
-        "{}: it holds no tetrahedra (its {} elements on points, lines and surfaces do not count): mesh its volumes "
-        "(gmsh FILE -3); where it has physical groups, add a physical volume, or set Mesh.SaveAll = 1",
+        "{}: it has no tetrahedra (its {} elements on points, lines and surfaces do not count). Mesh its volumes (gmsh "
+        "FILE -3). If it has physical groups, add a physical volume, or set Mesh.SaveAll = 1.",
         path_, elements_[0] + elements_[1] + elements_[2]);
   }
 
@@ -223,7 +224,7 @@ void sort_by_number(std::vector<NumberedNode>& nodes, const std::string& path) {
   const auto twice =
       std::adjacent_find(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.number == b.number; });
   if (twice != nodes.end())
-    throw InputError("{}: node {} stands twice: give each node a number of its own", path, twice->number);
+    throw InputError("{}: node {} is given twice. Give each node its own number.", path, twice->number);
 }
 
 /// Place of each corner in the sorted nodes.
@@ -235,7 +236,7 @@ std::vector<std::array<std::size_t, 4>> places_of(const std::vector<Corners>& te
       const auto found = std::lower_bound(nodes.begin(), nodes.end(), tets[i][k],
                                           [](const NumberedNode& n, std::int64_t number) { return n.number < number; });
       if (found == nodes.end() || found->number != tets[i][k])
-        throw InputError("{}: tetrahedron {} has the node {}, and there is no such node: save it anew", path, i,
+        throw InputError("{}: tetrahedron {} has the node {}, which does not exist. Save the file again.", path, i,
                          tets[i][k]);
       places[i][k] = std::size_t(found - nodes.begin());
     }
@@ -254,7 +255,7 @@ FillMesh mesh_of(MshReader& file, const std::string& path, double scale) {
     own[n] = std::int32_t(mesh.nodes.size());
     mesh.nodes.push_back(scale * file.nodes[n].place);
     if (!within_reach(mesh.nodes.back()))
-      throw InputError("{}: node {} is at ({}, {}, {}) m; expected coordinates up to {:g} m: look at --scale ({:g})",
+      throw InputError("{}: node {} is at ({}, {}, {}) m. Coordinates must be at most {:g} m. Check --scale ({:g}).",
                        path, file.nodes[n].number, mesh.nodes.back().x(), mesh.nodes.back().y(), mesh.nodes.back().z(),
                        farthest, scale);
   }

@@ -53,8 +53,8 @@ std::int64_t MshValues::whole_word(const char* what) {
   const std::string_view text = word();
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty()) fail(fmt::format("the file ends where {} is expected: it is cut off, save it anew", what));
-  if (error == std::errc::result_out_of_range) fail(fmt::format("{} is {}, which no mesh needs", what, shown(text)));
+  if (text.empty()) fail(fmt::format("the file ends where {} is expected: it is cut off, save it again", what));
+  if (error == std::errc::result_out_of_range) fail(fmt::format("{} is {}, which is too large", what, shown(text)));
   if (error != std::errc{} || end != text.data() + text.size())
     fail(fmt::format("found \"{}\", expected a whole number ({})", shown(text), what));
   return value;
@@ -71,8 +71,8 @@ std::string MshValues::section() {
 void MshValues::end_section(const std::string& name) {
   const std::string_view text = word();
   if (text == "$End" + name) return;
-  if (text.empty()) fail(fmt::format("the file ends before $End{}: it is cut off, save it anew", name));
-  fail(fmt::format("found \"{}\", expected $End{}: the section holds more than it says", shown(text), name));
+  if (text.empty()) fail(fmt::format("the file ends before $End{}: it is cut off, save it again", name));
+  fail(fmt::format("found \"{}\", expected $End{}: the section is longer than it states", shown(text), name));
 }
 
 void MshValues::skip_section(const std::string& name) {
@@ -91,7 +91,7 @@ void MshValues::end_line() {
 std::string_view MshValues::take(std::size_t width, const char* what) {
   token_ = at_;
   if (bytes_.size() - at_ < width)
-    fail(fmt::format("the file ends where {} is expected: it is cut off, save it anew", what));
+    fail(fmt::format("the file ends where {} is expected: it is cut off, save it again", what));
   at_ += width;
   return bytes_.substr(token_, width);
 }
@@ -129,8 +129,7 @@ std::size_t MshValues::count(std::int64_t found, std::size_t least_text, std::si
                              const char* what) const {
   const std::size_t left = bytes_.size() - at_, least = binary_ ? least_binary : least_text;
   if (found < 0 || std::uint64_t(found) > left / least)
-    fail(
-        fmt::format("it says that it holds {} {}, and {} bytes of the file are left: save it anew", found, what, left));
+    fail(fmt::format("the file states {} {}, but only {} bytes of it are left: save it again", found, what, left));
   return std::size_t(found);
 }
 
@@ -139,10 +138,8 @@ void MshValues::end_record(const char* what) {
   while (at_ < bytes_.size() && bytes_[at_] != '\n' && blank(bytes_[at_])) ++at_;
   if (at_ == bytes_.size() || bytes_[at_] == '\n') return;
   token_ = at_;
-  fail(
-      fmt::format("the line of {} does not end where it should: it, or the one before, holds a number too few or too "
-                  "many",
-                  what));
+  fail(fmt::format("the line of {} has a wrong length: this line, or the one before, has a number too few or too many",
+                   what));
 }
 
 void MshValues::skip(std::size_t numbers, std::size_t width) {

@@ -61,7 +61,7 @@ void read_wheels(TableReader& table, Wheels& wheels) {
 /// N, from `load` or `tonnes`.
 double read_load(TableReader& table) {
   if (table.has("tonnes")) {
-    if (table.has("load")) table.fail("tonnes", "and 'load' are both given: give one of them");
+    if (table.has("load")) table.fail("tonnes", "and 'load' are both given. Keep one of them.");
     return standard_gravity * 1e3 * table.required_number("tonnes", {0.0, 1000.0, "t", true});
   }
   return table.required_number("load", {0.0, 1e7, "N", true});
@@ -72,14 +72,15 @@ void read_axle(TableReader& table, const Wheels& usual, Vehicle::Kind kind, std:
   ReadAxle one{{table.required_number("x", not_in_front), read_load(table)}, usual};
   if (kind == Vehicle::Kind::rail) {
     for (const char* key : {"track", "wheel"})
-      if (table.has(key)) table.fail(key, "is for road vehicles: an axle of a train stands on the sleepers of [track]");
+      if (table.has(key))
+        table.fail(key, "is only for road vehicles. The axles of a train act on the sleepers of [track].");
   } else {
     read_wheels(table, one.wheels);
     if (one.wheels.y.empty()) table.missing("track", "m between the middles of two wheels, or a list of the wheels' y");
     if (one.wheels.length == 0.0) table.missing("wheel", "[length, width] of the contact of a wheel, in m");
   }
   const std::int64_t repeat = table.integer("repeat", 1, 1, 1000);
-  if (repeat == 1 && table.has("spacing")) table.fail("spacing", "has no use without 'repeat' of 2 or more");
+  if (repeat == 1 && table.has("spacing")) table.fail("spacing", "needs 'repeat' of 2 or more");
   const double spacing = repeat > 1 ? table.required_number("spacing", {0.0, farthest_along, "m", true}) : 0.0;
   table.finish();
   const double first = one.axle.x;
@@ -99,8 +100,8 @@ std::vector<ReadAxle> read_axles(TableReader& root, const Wheels& usual, Vehicle
     const double x = axles[first].axle.x;
     if (x <= before)
       table.fail("x",
-                 fmt::format("is {} m, but that of the [[axle]] before is {} m: give axles from the front backwards", x,
-                             before));
+                 fmt::format("is {} m, but that of the previous [[axle]] is {} m. Give axles from the front backwards.",
+                             x, before));
     before = x;
   }
   // Repeated axles may stand between those of another table, as the wagons of a train do.
@@ -112,7 +113,7 @@ std::vector<ReadAxle> read_axles(TableReader& root, const Wheels& usual, Vehicle
 std::optional<Track> read_track(TableReader& root, Vehicle::Kind kind) {
   std::optional<TableReader> table = root.table("track", "[track]");
   if (kind == Vehicle::Kind::road) {
-    if (table) table->fail("is for trains, but 'kind' is \"road\": take it out, or set kind = \"rail\"");
+    if (table) table->fail("is only for trains, but 'kind' is \"road\". Remove it, or set kind = \"rail\".");
     return std::nullopt;
   }
   if (!table) root.missing("track", "a table [track] with the sleepers of a train");
@@ -120,15 +121,18 @@ std::optional<Track> read_track(TableReader& root, Vehicle::Kind kind) {
   Track track{sleeper[0], sleeper[1], table->required_number("spacing", size), {1.0}};
   if (table->has("shares")) track.shares = table->number_list("shares", {0.0, 1.0, ""});
   if (track.shares.size() % 2 == 0)
-    table->fail("shares", fmt::format("has {} numbers: expected an odd number, with the sleeper under the axle in the "
-                                      "middle",
-                                      track.shares.size()));
+    table->fail("shares",
+                fmt::format("has {} numbers. It must have an odd number of them; the middle one is the sleeper under "
+                            "the axle.",
+                            track.shares.size()));
   const double sum = std::accumulate(track.shares.begin(), track.shares.end(), 0.0);
   if (std::abs(sum - 1.0) > 1e-6)
-    table->fail("shares", fmt::format("add up to {:g}: must be 1, for they share out an axle", sum));
+    table->fail("shares",
+                fmt::format("have the sum {:g}. The sum must be 1, because they are shares of an axle.", sum));
   const double gauge = table->number("gauge", 0.0, size);
   if (gauge > track.length)
-    table->fail("gauge", fmt::format("is {} m: must be less than the sleeper's length, {} m", gauge, track.length));
+    table->fail("gauge",
+                fmt::format("is {} m. It must be less than the length of the sleeper, {} m.", gauge, track.length));
   table->finish();
   return track;
 }
@@ -155,12 +159,12 @@ LoadStrip read_uniform(TableReader& table, const std::optional<Track>& track) {
   if (table.has("from")) strip.from = table.required_number("from", along);
   if (table.has("to")) strip.to = table.required_number("to", along);
   if (!(strip.to > strip.from))
-    table.fail("to", fmt::format("is {} m: must be above 'from', {} m, or nothing is loaded", strip.to, strip.from));
+    table.fail("to", fmt::format("is {} m. It must be above 'from', {} m.", strip.to, strip.from));
   strip.y = table.number("y", 0.0, across);
   strip.width = track && !table.has("width") ? track->length : table.required_number("width", size);
   const Limits pressures = {0.0, 1e7, "N/m2", true}, forces = {0.0, 1e7, "N/m", true};
   if (table.has("pressure") && table.has("per_metre"))
-    table.fail("per_metre", "and 'pressure' are both given: give one of them");
+    table.fail("per_metre", "and 'pressure' are both given. Keep one of them.");
   strip.pressure = table.has("pressure") ? table.required_number("pressure", pressures)
                                          : table.required_number("per_metre", forces) / strip.width;
   table.finish();
@@ -172,7 +176,7 @@ DynamicFactor read_factor(TableReader& table) {
   factor.name = table.required_text("name");
   factor.clause = table.required_text("clause");
   if (table.has("formula")) {
-    if (table.has("value")) table.fail("value", "and 'formula' are both given: give one of them");
+    if (table.has("value")) table.fail("value", "and 'formula' are both given. Keep one of them.");
     factor.formula = DynamicFactor::Formula(1 + table.required_word("formula", factor_formulas()));
     factor.determinant = table.number("determinant", factor.determinant, {0.0, 10.0, "", true});
   } else {
@@ -194,7 +198,8 @@ VehicleVariant read_variant(TableReader& table, std::size_t axles) {
 template <class Named>
 void check_new(const TableReader& table, const std::vector<Named>& list, const std::string& name) {
   for (const Named& other : list)
-    if (other.name == name) table.fail("name", fmt::format("is \"{}\", as of another: give it its own", shown(name)));
+    if (other.name == name)
+      table.fail("name", fmt::format("is \"{}\", which another one has. Give each its own name.", shown(name)));
 }
 
 /// [vehicle], with the wheels that axles have unless they say otherwise.
@@ -249,7 +254,7 @@ Vehicle parse_vehicle(const std::string& text, const std::string& file) {
       vehicle.variants.push_back(variant);
     }
     if (vehicle.axles.empty() && vehicle.strips.empty())
-      root.fail("has no load: give at least one [[axle]] or [[uniform]]");
+      root.fail("has no load. Give at least one [[axle]] or [[uniform]].");
   });
   root.finish();
   return vehicle;
@@ -267,7 +272,7 @@ Vehicle read_vehicle(const std::string& name_or_path) {
   if (is_path(name_or_path)) return parse_vehicle(read_text(name_or_path), name_or_path);
   const std::vector<std::string> names = shipped_vehicles();
   if (std::find(names.begin(), names.end(), name_or_path) == names.end())
-    throw InputError("no vehicle '{}' comes with the program{}; a file of your own needs its ending, as in {}.toml",
+    throw InputError("the program has no vehicle '{}'{} (for your own file give its ending, too, as in {}.toml)",
                      shown(name_or_path), suggestion(name_or_path, names), shown(name_or_path));
   const std::string file = shipped(fmt::format("{}/{}.toml", library, name_or_path));
   return parse_vehicle(read_text(file), file);

@@ -44,7 +44,8 @@ const Named& named(const Vehicle& vehicle, const std::vector<Named>& list, const
     if (one.name == name) return one;
     names.push_back(one.name);
   }
-  if (names.empty()) throw InputError("vehicle '{}' has no {}, but '{}' is asked for", vehicle.name, what, shown(name));
+  if (names.empty())
+    throw InputError("vehicle '{}' has no {}, but you asked for '{}'", vehicle.name, what, shown(name));
   throw InputError("vehicle '{}' has no {} '{}'{}", vehicle.name, what, shown(name), suggestion(name, names));
 }
 
@@ -104,9 +105,9 @@ double dynamic_factor(const DynamicFactor& factor, double span, double cover) {
   using Formula = DynamicFactor::Formula;
   if (factor.formula == Formula::value) return factor.value;
   if (!(span > 0.0 && std::isfinite(span)))
-    throw InputError("dynamic factor '{}': the span is {} m: must be above 0", factor.name, span);
+    throw InputError("dynamic factor '{}': the span is {} m. It must be above 0.", factor.name, span);
   if (!(cover >= 0.0 && std::isfinite(cover)))
-    throw InputError("dynamic factor '{}': the cover is {} m: must be 0 or more", factor.name, cover);
+    throw InputError("dynamic factor '{}': the cover is {} m. It must be 0 or more.", factor.name, cover);
   const double length = factor.determinant * span;
   // EN 1991-2 6.4.5.2, (6.4) and (6.5), as public programs have them: the first with its limits; those of the second,
   // 1.00 and 2.00, are not checked.
@@ -132,7 +133,7 @@ Vehicle amplified(const Vehicle& vehicle, double factor) {
 
 Vehicle amplified(const Vehicle& vehicle, double factor, std::size_t axle) {
   if (axle >= vehicle.axles.size())
-    throw InputError("vehicle '{}' has {} axles: axle {}, counted from 0, is none of them", vehicle.name,
+    throw InputError("vehicle '{}' has {} axles; there is no axle {} (axles count from 0)", vehicle.name,
                      vehicle.axles.size(), axle);
   Vehicle other = vehicle;
   multiply_axle(other, axle, factor);

@@ -106,8 +106,8 @@ class CompasReader {
   void read_model(const Json& model, const Json& elements, const Json* nodes) {
     const Affine whole = transformation(model, "the model");
     if (const Json* materials = member(model, "materials"); materials && !materials->empty())
-      surface_.notes.push_back(
-          fmt::format("{}: its {} materials were passed over; options and --map give them", path_, materials->size()));
+      surface_.notes.push_back(fmt::format("{}: its {} materials were ignored; set materials with options or --map",
+                                           path_, materials->size()));
     std::vector<std::pair<std::string, const Json*>> list;
     if (elements.is_array())
       for (std::size_t i = 0; i < elements.size(); ++i) list.push_back({fmt::format("{}", i), &elements[i]});
@@ -176,13 +176,13 @@ class CompasReader {
 
   double number(const Json& json, const std::string& where) const {
     if (!json.is_number() || !std::isfinite(json.get<double>()))
-      fail(where, fmt::format("expected a finite number, found {}", json_excerpt(json)));
+      fail(where, fmt::format("it has {} instead of a finite number", json_excerpt(json)));
     return json.get<double>();
   }
 
   Vec3 vector(const Json& json, const std::string& where) const {
     const Json& values = inner(json);
-    if (!values.is_array() || values.size() != 3) fail(where, "expected three numbers");
+    if (!values.is_array() || values.size() != 3) fail(where, "it needs three numbers");
     return {number(values[0], where), number(values[1], where), number(values[2], where)};
   }
 
@@ -206,7 +206,7 @@ class CompasReader {
     if (member(data, "vertices") && member(data, "faces")) return add_polyhedron(data, where, place);
     if (member(data, "xsize")) return add_box(data, where, place);
     const Json* type = member(json, "dtype");
-    fail(where, fmt::format("its shape is {}, expected a Mesh, a Polyhedron or a Box of COMPAS",
+    fail(where, fmt::format("its shape is {}. It must be a Mesh, a Polyhedron or a Box of COMPAS",
                             type ? json_excerpt(*type) : "of a kind that is not known"));
   }
 
@@ -217,7 +217,7 @@ class CompasReader {
 
   void add_face(std::vector<int> loop, const std::string& where) {
     if (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-    if (loop.size() < 3) fail(where, fmt::format("a face needs three corners or more, found {}", loop.size()));
+    if (loop.size() < 3) fail(where, fmt::format("a face has {} corners; it needs at least 3", loop.size()));
     surface_.objects.back().faces.push_back(int(surface_.faces.size()));
     surface_.faces.push_back(std::move(loop));
     surface_.face_lines.push_back(0);
@@ -246,7 +246,7 @@ class CompasReader {
         const std::string text = corner.is_string() ? corner.get<std::string>() : corner.dump();
         const auto found = known.find(text);
         if (found == known.end())
-          fail(where, fmt::format("face {} names a vertex {} that is not there", shown(key), shown(text)));
+          fail(where, fmt::format("face {} has the vertex {}, which does not exist", shown(key), shown(text)));
         loop.push_back(found->second);
       }
       add_face(std::move(loop), where);
@@ -264,7 +264,8 @@ class CompasReader {
       for (const Json& corner : face) {
         if (!corner.is_number_integer() || corner.get<std::int64_t>() < 0 ||
             corner.get<std::int64_t>() >= std::int64_t(vertices.size()))
-          fail(where, fmt::format("a face names a vertex {}; there are {}", json_excerpt(corner), vertices.size()));
+          fail(where, fmt::format("a face has the vertex {}, but there are {} vertices", json_excerpt(corner),
+                                  vertices.size()));
         loop.push_back(first + int(corner.get<std::int64_t>()));
       }
       add_face(std::move(loop), where);
@@ -286,7 +287,8 @@ class CompasReader {
         fail(where, "the frame of a box needs point, xaxis and yaxis");
       const Vec3 x = vector(f["xaxis"], where).normalized();
       const Vec3 z = x.cross(vector(f["yaxis"], where)).normalized();
-      if (!x.allFinite() || !z.allFinite()) fail(where, "the axes of the box's frame have no direction");
+      if (!x.allFinite() || !z.allFinite())
+        fail(where, "the axes of the frame of the box are zero and have no direction");
       frame.col(0) = x, frame.col(1) = z.cross(x), frame.col(2) = z, frame.col(3) = vector(f["point"], where);
     }
     const Polyhedron shape = make_box(-half, half);

@@ -33,7 +33,7 @@ std::vector<Material> with_own_names(const Assembly& assembly, std::vector<std::
     m.name = name;
     for (int k = 2; !known.insert(m.name).second; ++k) m.name = fmt::format("{} ({})", name, k);
     if (!(m.youngs_modulus > 0.0) || !(m.shear_modulus > 0.0))
-      notes.push_back(fmt::format("the material {} has no moduli; an import takes those of its options", m.name));
+      notes.push_back(fmt::format("the material {} has no moduli; an import uses those of its options", m.name));
   }
   return materials;
 }
@@ -88,7 +88,7 @@ NameMap map_of(const Assembly& assembly, std::vector<std::string>& notes) {
 std::vector<std::string> left_out(const Assembly& assembly) {
   std::vector<std::string> notes = {
       "joints are not written: an import finds them where faces meet, with stiffness and strength from the materials "
-      "(generated bridges may have others, of their tables)"};
+      "(joints of generated bridges may have other values, from tables)"};
   const auto is_bar = [&](const Joint& j) { return assembly.laws[std::size_t(j.law)].kind == JointLaw::Kind::tie; };
   if (const auto ties = std::count_if(assembly.joints.begin(), assembly.joints.end(), is_bar); ties > 0)
     notes.push_back(fmt::format("{} ties are not written", ties));
@@ -97,7 +97,7 @@ std::vector<std::string> left_out(const Assembly& assembly) {
                                 assembly.fill.tets.size(), assembly.fill.nodes.size()));
   if (!assembly.sensors.empty()) notes.push_back(fmt::format("{} sensors are not written", assembly.sensors.size()));
   if (!assembly.effects.empty())
-    notes.push_back(fmt::format("of the effects ({}) only what they do to shapes and materials is written",
+    notes.push_back(fmt::format("of the effects ({}) only the changes of shapes and materials are written",
                                 fmt::join(assembly.effects, "; ")));
   std::vector<std::string> empty;
   for (const auto& [name, members] : assembly.groups)
@@ -173,7 +173,8 @@ ExportedBlocks export_compas(const Assembly& assembly) {
   }
   if (several > 0)
     out.notes.push_back(fmt::format(
-        "{} blocks of several cells stand there as one node a cell: in COMPAS each is a block of its own", several));
+        "{} blocks of several cells are written as one node for each cell: in COMPAS each cell is a separate block",
+        several));
   const nlohmann::json graph = {{"dtype", "compas.datastructures/Graph"},
                                 {"data",
                                  {{"attributes", none},

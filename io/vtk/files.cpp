@@ -46,13 +46,14 @@ void write(Data* data, const std::string& path, Packing packing) {
   writer->EncodeAppendedDataOff();
   set_packing(writer, packing);
   if (writer->Write() == 0 || failed || writer->GetErrorCode() != vtkErrorCode::NoError)
-    throw RunError("{}: VTK could not put it together", path);
+    throw RunError("{}: VTK could not write the file", path);
   write_atomically(path, writer->GetOutputString());
 }
 
 template <class Reader>
 auto read(const std::string& path, const char* kind) {
-  if (!std::filesystem::is_regular_file(path)) throw InputError("{}: no such file; expected a {} file", path, kind);
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError("{}: there is no such file. Give a {} file.", path, kind);
   const Silence silence;
   bool failed = false;
   const auto flag = error_flag(failed);
@@ -71,7 +72,7 @@ auto read(const std::string& path, const char* kind) {
   if (failed || reader->GetErrorCode() != vtkErrorCode::NoError)
     throw InputError("{}: is damaged and cannot be read; write it again", path);
   vtkSmartPointer output = reader->GetOutput();
-  if (!is_sound(output)) throw InputError("{}: is damaged: its parts do not fit together; write it again", path);
+  if (!is_sound(output)) throw InputError("{}: is damaged: its parts do not agree; write it again", path);
   return output;
 }
 
@@ -81,7 +82,7 @@ Packing packing_of(const std::string& word) {
   if (word == "lz4") return Packing::lz4;
   if (word == "zlib") return Packing::zlib_fast;
   if (word == "none") return Packing::none;
-  throw InputError("--compression is '{}'; it must be lz4, zlib or none", word);
+  throw InputError("--compression is '{}'. It must be lz4, zlib or none.", word);
 }
 
 void write_vtu(vtkUnstructuredGrid* grid, const std::string& path, Packing packing) {

@@ -17,8 +17,8 @@ void check(const FillMesh& mesh, const FillSnapshot& fill) {
   if (fill.displacement.size() != mesh.nodes.size() || fill.velocity.size() != mesh.nodes.size() ||
       fill.tets.size() != mesh.tets.size())
     throw InputError(
-        "pictures: the state's fill has {} nodes and {} tetrahedra and that of the assembly {} and {}; take both from "
-        "the same run",
+        "pictures: the fill of the state has {} nodes and {} tetrahedra, but that of the assembly has {} and {}. Use "
+        "state and assembly of the same run.",
         fill.displacement.size(), fill.tets.size(), mesh.nodes.size(), mesh.tets.size());
 }
 
@@ -98,7 +98,7 @@ vtkSmartPointer<vtkUnstructuredGrid> mode_fill_grid(const Assembly& assembly, co
   const auto n = vtkIdType(assembly.fill.nodes.size());
   if (mode.nodes.rows() != n)
     throw InputError(
-        "modes: the mode moves {} nodes of a fill and the assembly has {}; take both from the same analysis",
+        "modes: the mode has {} nodes of a fill, but the assembly has {}. Use mode and assembly of the same analysis.",
         mode.nodes.rows(), n);
   const Snapshot rest = rest_snapshot(assembly);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();

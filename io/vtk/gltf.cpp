@@ -86,7 +86,7 @@ class GltfReader {
       const GltfJson& chosen = list("scenes")[scene];
       if (list("scenes").size() > 1)
         surface_.notes.push_back(
-            fmt::format("{}: of its {} scenes number {} was read", path_, list("scenes").size(), scene));
+            fmt::format("{}: of {} scenes the program has read number {}", path_, list("scenes").size(), scene));
       for (const GltfJson& root : list("nodes", chosen))
         roots.push_back(index(root, nodes.size(), "a root of the scene"));
     } else {
@@ -97,8 +97,7 @@ class GltfReader {
     seen_.assign(nodes.size(), false);
     for (const std::size_t root : roots) walk(root);
     if (passed_over_ > 0)
-      surface_.notes.push_back(
-          fmt::format("{}: {} primitives of points and lines were passed over", path_, passed_over_));
+      surface_.notes.push_back(fmt::format("{}: {} primitives of points and lines were ignored", path_, passed_over_));
     surface_.up = "y";
     return std::move(surface_);
   }
@@ -116,7 +115,7 @@ class GltfReader {
 
   std::size_t index(const GltfJson& json, std::size_t count, const std::string& what) const {
     if (!json.is_number_integer() || json.get<std::int64_t>() < 0 || std::size_t(json.get<std::int64_t>()) >= count)
-      fail(fmt::format("{} is {}; there are {}, counted from 0", what, json_excerpt(json), count));
+      fail(fmt::format("{} is {}, but there are {}, which count from 0", what, json_excerpt(json), count));
     return std::size_t(json.get<std::int64_t>());
   }
 
@@ -128,7 +127,7 @@ class GltfReader {
     const GltfJson& value = of[key];
     if (!value.is_number_integer() || value.get<std::int64_t>() < 0 ||
         value.get<std::int64_t>() > (std::int64_t(1) << 40))
-      fail(fmt::format("'{}' is {}; expected a whole number of 0 or more", key, json_excerpt(value)));
+      fail(fmt::format("'{}' is {}. It must be a whole number of 0 or more.", key, json_excerpt(value)));
     return std::size_t(value.get<std::int64_t>());
   }
 
@@ -148,20 +147,21 @@ class GltfReader {
       if (kind == 0x004e4942 && !own_bytes_) own_bytes_ = contents;
       at += 8 + length;
     }
-    if (!has_json) fail("is cut off: it holds no JSON; export it again");
+    if (!has_json) fail("is cut off and has no JSON; export it again");
   }
 
   void check_version() const {
-    if (!json_.is_object()) fail("is not glTF: expected an object");
+    if (!json_.is_object()) fail("is not glTF: its JSON is not an object");
     const bool stated = json_.contains("asset") && json_["asset"].is_object() && json_["asset"].contains("version");
     const std::string version =
         stated && json_["asset"]["version"].is_string() ? json_["asset"]["version"].get<std::string>() : "";
     if (!version.starts_with("2."))
-      fail(fmt::format("is glTF of version '{}', expected 2.0: export it anew", shown(version)));
+      fail(fmt::format("has the glTF version '{}'. It must be 2.0. Export it again.", shown(version)));
     for (const GltfJson& extension : list("extensionsRequired")) {
       const std::string name = extension.is_string() ? extension.get<std::string>() : "";
       if (name != "KHR_mesh_quantization" && !name.starts_with("KHR_materials") && name != "KHR_texture_transform")
-        fail(fmt::format("needs the extension {}, which is not read: export it without compression", shown(name)));
+        fail(fmt::format("needs the extension {}, which the program does not read: export it without compression",
+                         shown(name)));
     }
   }
 
@@ -171,18 +171,18 @@ class GltfReader {
                                       ? buffer["uri"].get<std::string>()
                                       : "";
       if (address.empty()) {
-        if (!own_bytes_ || !buffers_.empty()) fail("a buffer has no address, and the file holds no bytes for it");
+        if (!own_bytes_ || !buffers_.empty()) fail("a buffer has no address, and the file has no bytes for it");
         buffers_.push_back(*own_bytes_);
       } else if (address.starts_with("data:")) {
         const std::size_t comma = address.find(";base64,");
         const auto bytes =
             comma == std::string::npos ? std::nullopt : from_base64(std::string_view(address).substr(comma + 8));
-        if (!bytes) fail("a buffer within the file is not of base64");
+        if (!bytes) fail("a buffer within the file is not coded in base64");
         buffers_.push_back(*bytes);
       } else {
         const std::filesystem::path side(without_percents(address));
         if (side.is_absolute() || address.find("://") != std::string::npos)
-          fail(fmt::format("its buffer '{}' must be a file beside it", shown(address)));
+          fail(fmt::format("its buffer '{}' must be a file in the same folder", shown(address)));
         try {
           buffers_.push_back(read_text((std::filesystem::path(path_).parent_path() / side).string()));
         } catch (const InputError& error) {
@@ -190,19 +190,20 @@ class GltfReader {
         }
       }
       if (buffers_.back().size() < size(buffer, "byteLength", 0))
-        fail("a buffer is shorter than it says: export it again");
+        fail("a buffer is shorter than its length states: export it again");
     }
   }
 
   /// All numbers of an accessor, `columns` a row.
   std::vector<double> numbers(std::size_t number, std::size_t columns) const {
     const GltfJson& accessor = list("accessors")[number];
-    if (accessor.is_object() && accessor.contains("sparse")) fail("sparse accessors are not read: export it without");
+    if (accessor.is_object() && accessor.contains("sparse"))
+      fail("the program does not read sparse accessors: export it without them");
     const std::size_t count = size(accessor, "count", -1), type = size(accessor, "componentType", -1);
     const std::string shape =
         accessor.contains("type") && accessor["type"].is_string() ? accessor["type"].get<std::string>() : "";
     if (shape != (columns == 3 ? "VEC3" : "SCALAR"))
-      fail(fmt::format("accessor {} is {}, expected {}", number, shown(shape), columns == 3 ? "VEC3" : "SCALAR"));
+      fail(fmt::format("accessor {} is {}. It must be {}.", number, shown(shape), columns == 3 ? "VEC3" : "SCALAR"));
     static const std::map<std::size_t, std::size_t> widths = {{5120, 1}, {5121, 1}, {5122, 2},
                                                               {5123, 2}, {5125, 4}, {5126, 4}};
     if (!widths.contains(type))
@@ -212,7 +213,7 @@ class GltfReader {
     if (!accessor.contains("bufferView")) fail(fmt::format("accessor {} has no bufferView", number));
     const GltfJson& view =
         list("bufferViews")[index(accessor["bufferView"], list("bufferViews").size(), "a bufferView")];
-    if (!view.is_object() || !view.contains("buffer")) fail("a bufferView names no buffer");
+    if (!view.is_object() || !view.contains("buffer")) fail("a bufferView has no buffer");
     const std::string& bytes = buffers_[index(view["buffer"], buffers_.size(), "a buffer")];
     const std::size_t stride = std::max(size(view, "byteStride", 0), width * columns);
     const std::size_t begin = size(view, "byteOffset", 0) + size(accessor, "byteOffset", 0);
@@ -257,8 +258,8 @@ class GltfReader {
       const Todo next = todo.back();
       todo.pop_back();
       const GltfJson& node = nodes[next.node];
-      if (!node.is_object()) fail(fmt::format("node {} is no object", next.node));
-      if (seen_[next.node]) fail(fmt::format("node {} hangs under two others, or under itself", next.node));
+      if (!node.is_object()) fail(fmt::format("node {} is not an object", next.node));
+      if (seen_[next.node]) fail(fmt::format("node {} has two parents, or is its own ancestor", next.node));
       seen_[next.node] = true;
       const Placement place = next.above * placement(node, next.node);
       const std::string name = name_of(node);
@@ -285,7 +286,7 @@ class GltfReader {
         fail(fmt::format("'{}' of a node must be finite numbers", key));
       out.push_back(value.get<double>());
     }
-    if (out.size() != count) fail(fmt::format("'{}' of a node needs {} numbers, found {}", key, count, out.size()));
+    if (out.size() != count) fail(fmt::format("'{}' of a node needs {} numbers, but has {}", key, count, out.size()));
     return out;
   }
 
@@ -298,7 +299,7 @@ class GltfReader {
     const auto move = values(node, "translation", 3, {0, 0, 0}), size = values(node, "scale", 3, {1, 1, 1}),
                turn = values(node, "rotation", 4, {0, 0, 0, 1});
     const Eigen::Quaterniond rotation(turn[3], turn[0], turn[1], turn[2]);
-    if (!(rotation.norm() > 0.5)) fail(fmt::format("the rotation of node {} is no unit quaternion", number));
+    if (!(rotation.norm() > 0.5)) fail(fmt::format("the rotation of node {} is not a unit quaternion", number));
     out.topLeftCorner<3, 3>() = rotation.normalized().toRotationMatrix() * Vec3(size[0], size[1], size[2]).asDiagonal();
     out.topRightCorner<3, 1>() = Vec3(move[0], move[1], move[2]);
     return out;
@@ -328,7 +329,7 @@ class GltfReader {
     const auto points = numbers(index(primitive["attributes"]["POSITION"], accessors, "POSITION"), 3);
     const int first = int(surface_.vertices.size());
     const int count = int(points.size() / 3);
-    if (surface_.vertices.size() + std::size_t(count) > most_corners) fail("holds more than ten million corners");
+    if (surface_.vertices.size() + std::size_t(count) > most_corners) fail("has more than ten million corners");
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector4d p = place * Eigen::Vector4d(points[std::size_t(3 * i)], points[std::size_t(3 * i + 1)],
                                                         points[std::size_t(3 * i + 2)], 1.0);
@@ -339,13 +340,13 @@ class GltfReader {
     if (primitive.contains("indices")) {
       for (const double v : numbers(index(primitive["indices"], accessors, "indices"), 1)) {
         if (!(v >= 0.0 && v < count))
-          fail(fmt::format("a face of '{}' names corner {}; there are {}", shown(object.name), v, count));
+          fail(fmt::format("a face of '{}' has the corner {}, but there are {} corners", shown(object.name), v, count));
         corners.push_back(first + int(v));
       }
     } else {
       for (int i = 0; i < count; ++i) corners.push_back(first + i);
     }
-    if (surface_.faces.size() + corners.size() > most_faces) fail("holds more than twenty million faces");
+    if (surface_.faces.size() + corners.size() > most_faces) fail("has more than twenty million faces");
     const auto add = [&](int a, int b, int c) {
       if (a == b || b == c || c == a) return;  // strips are stitched together with such
       object.faces.push_back(int(surface_.faces.size()));

@@ -21,13 +21,14 @@ void check(const Assembly& assembly, const Snapshot& snapshot) {
   const std::size_t blocks = assembly.blocks.size();
   if (snapshot.displacement.size() != blocks || snapshot.rotation.size() != blocks ||
       snapshot.velocity.size() != blocks)
-    throw InputError("pictures: the state has {} blocks and the assembly {}; take both from the same run",
-                     snapshot.displacement.size(), blocks);
+    throw InputError(
+        "pictures: the state has {} blocks, but the assembly has {}. Use state and assembly of the same run.",
+        snapshot.displacement.size(), blocks);
   for (const auto& patch : snapshot.patches)
     if (patch.a < 0 || patch.a >= std::int64_t(blocks) || patch.b >= std::int64_t(blocks))
       throw InputError(
-          "pictures: a joint patch of the state names blocks {} and {} but the assembly has {}; take both "
-          "from the same run",
+          "pictures: a joint patch of the state names blocks {} and {}, but the assembly has {} blocks. Use state and "
+          "assembly of the same run.",
           patch.a, patch.b, blocks);
 }
 

@@ -42,7 +42,7 @@ struct Repairs {
   std::int64_t cut = 0, cells = 0;
 };
 
-/// The remedy depends on how far the shape is from a convex one.
+/// Throws InputError with a remedy that depends on how far the shape is from a convex one.
 [[noreturn]] void refuse(const Polyhedron& shape, const std::string& where, const std::string& trouble,
                          const ImportOptions& options) {
   const double size = size_of(shape);
@@ -50,14 +50,14 @@ struct Repairs {
     if (share > options.flatten)
       if (const auto flat = flatten(shape, share * size))
         throw InputError(
-            "{} is not a convex stone: {}; to make its faces plane, corners would move by up to {:.3g} m, more than "
-            "--flatten {:g} of its size ({:.3g} m) lets them: give --flatten {:g} if that is no matter, draw it plane, "
-            "take its convex hull (--not-convex hull), or cut it into convex pieces (--cells)",
+            "{} is not a convex stone: {}. To make its faces plane, corners would have to move by up to {:.3g} m, "
+            "which is more than --flatten {:g} of its size ({:.3g} m) allows. Give --flatten {:g} if you accept that, "
+            "draw plane faces, use its convex hull (--not-convex hull), or cut it into convex pieces (--cells).",
             where, trouble, flat->moved, options.flatten, size, share);
   throw InputError(
-      "{} is not a convex stone: {}; have it cut (--not-convex cut), or draw it as convex pieces, leave these in one "
-      "object and give --cells objects (or name them NAME.1, NAME.2 and give --cells names): as objects of their own "
-      "they would be stones of their own, with a joint between them",
+      "{} is not a convex stone: {}. Let the program cut it (--not-convex cut), or draw it as convex pieces. Put the "
+      "pieces into one object and give --cells objects, or name them NAME.1, NAME.2 and give --cells names. Otherwise "
+      "each piece would be a separate stone, with joints between the pieces.",
       where, trouble);
 }
 
@@ -65,7 +65,7 @@ Polyhedron hull_of(const Polyhedron& shape, const std::string& where, const Impo
   Polyhedron hull = merge_coplanar_faces(convex_hull(shape.vertices), options.merge_angle);
   if (const std::string trouble = convexity_error(hull); !trouble.empty()) {
     const auto flat = flatten(hull, std::max(options.flatten * size_of(hull), options.search.gap));
-    if (!flat) throw InputError("{}: its convex hull is no sound stone: {}; draw it convex", where, trouble);
+    if (!flat) throw InputError("{}: its convex hull is not a valid stone: {}. Draw it convex.", where, trouble);
     hull = flat->shape;
   }
   const double before = mass_properties(shape).volume;
@@ -81,7 +81,7 @@ std::vector<Polyhedron> pieces_of(const Polyhedron& shape, const std::string& wh
   try {
     cells = decompose(shape);
   } catch (const InputError& error) {
-    throw InputError("{} is not convex, and cannot be cut: {}", where, error.what());
+    throw InputError("{} is not convex and cannot be cut: {}", where, error.what());
   }
   ++repairs.cut;
   repairs.cells += std::ssize(cells);
@@ -90,7 +90,7 @@ std::vector<Polyhedron> pieces_of(const Polyhedron& shape, const std::string& wh
     const std::string trouble = convexity_error(cell);
     if (trouble.empty()) continue;
     const auto flat = flatten(cell, std::max(options.flatten * size_of(shape), options.search.gap));
-    if (!flat) throw InputError("{}: one of its {} pieces is no sound cell: {}", where, cells.size(), trouble);
+    if (!flat) throw InputError("{}: one of its {} pieces is not a valid cell: {}", where, cells.size(), trouble);
     cell = flat->shape;
   }
   return cells;
@@ -104,7 +104,8 @@ std::vector<Polyhedron> cells_of(const Shell& shell, const std::string& where, c
     vertex = turn * vertex;
     if (!within_reach(vertex))
       throw InputError(
-          "{}: a corner at ({:g}, {:g}, {:g}) m, expected coordinates up to {:g} m: look at --units or --scale ({:g})",
+          "{}: a corner is at ({:g}, {:g}, {:g}) m. Coordinates must be at most {:g} m. Check --units or --scale "
+          "({:g}).",
           where, vertex.x(), vertex.y(), vertex.z(), farthest, options.scale);
   }
   shape = merge_coplanar_faces(shape, options.merge_angle);
@@ -130,19 +131,19 @@ JointSearch widened(JointSearch search, const Repairs& repairs) {
 
 void note_repairs(Import& import, const Repairs& repairs, const std::string& path, const ImportOptions& options) {
   if (repairs.hulls > 0)
-    import.notes.push_back(
-        fmt::format("{}: {} shapes were replaced by their convex hulls, which hold up to {:.3g} % more, the most {}",
-                    path, repairs.hulls, 100.0 * repairs.growth, repairs.grown));
+    import.notes.push_back(fmt::format(
+        "{}: {} shapes were replaced by their convex hulls; the volume grows by up to {:.3g} %, most for {}", path,
+        repairs.hulls, 100.0 * repairs.growth, repairs.grown));
   if (repairs.cut > 0)
     import.notes.push_back(
         fmt::format("{}: {} shapes were cut into {} convex cells", path, repairs.cut, repairs.cells));
   if (repairs.stones == 0) return;
   std::string note = fmt::format(
-      "{}: {} stones had faces that are not plane; corners were moved by up to {:.3g} m to make them so, the "
-      "farthest of {}",
+      "{}: {} stones had faces that were not plane; the program has made them plane and moved corners by up to {:.3g} "
+      "m, most for {}",
       path, repairs.stones, repairs.moved, repairs.where);
   if (2.0 * repairs.moved > options.search.gap)
-    note += fmt::format("; so faces that are {:.3g} m apart count as in contact", 2.0 * repairs.moved);
+    note += fmt::format("; faces up to {:.3g} m apart therefore count as in contact", 2.0 * repairs.moved);
   import.notes.push_back(note);
 }
 
@@ -157,7 +158,7 @@ void add_groups(Import& import, bool of_objects) {
   }
 }
 
-/// The remedy of overlaps is found in the other program, so its names are used.
+/// Throws InputError for overlaps. It uses the names of the other program, in which the user corrects them.
 void check_overlaps(const Import& import, const std::string& path, double gap) {
   const auto overlaps = find_overlaps(import.assembly, gap);
   if (overlaps.empty()) return;
@@ -165,16 +166,16 @@ void check_overlaps(const Import& import, const std::string& path, double gap) {
     return import.names[i].empty() ? fmt::format("stone {}", i) : fmt::format("'{}' (stone {})", import.names[i], i);
   };
   throw InputError(
-      "{}: {} pairs of stones overlap; the first, {} and {}, by {:g} m; move them apart or raise the gap "
-      "tolerance ({:g} m)",
+      "{}: {} pairs of stones overlap. The first pair, {} and {}, overlaps by {:g} m. Move them apart, or raise the "
+      "gap tolerance ({:g} m).",
       path, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
 }
 
 void check(const ImportOptions& options) {
   if (!(options.scale > 0.0) || !std::isfinite(options.scale))
-    throw InputError("import: the scale is {}; give metres per unit of the file, such as 0.001 for mm", options.scale);
+    throw InputError("import: the scale is {}. Give metres per unit of the file, such as 0.001 for mm.", options.scale);
   if (!(options.material.density > 0.0))
-    throw InputError("import: the density is {} kg/m3; give a value above 0", options.material.density);
+    throw InputError("import: the density is {} kg/m3. It must be above 0.", options.material.density);
 }
 
 /// Objects by their names; stones without one by none.

@@ -13,17 +13,17 @@ namespace {
 void check_joints(const Assembly& assembly, const std::string& path) {
   const char* held = nullptr;
   if (!assembly.fill.empty()) held = "a deformable fill";
-  if (!assembly.effects.empty()) held = "what an effect has changed";
+  if (!assembly.effects.empty()) held = "changes by effects";
   for (const Joint& joint : assembly.joints)
     if (assembly.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie) held = "ties";
   if (held)
     throw InputError(
-        "{}: it holds {}, which finding its joints anew would lose; use it as it is (assembly = \"...\" in [bridge]), "
-        "or import what it was made from",
+        "{}: it has {}, which would be lost if its joints were found again. Use the file without import (assembly = "
+        "\"...\" in [bridge]), or import the file from which it was made.",
         path, held);
 }
 
-/// A file of shapes and densities alone says nothing of what the stones are made of.
+/// Whether a material has a density only, as in files of shapes and densities.
 bool states_density_only(const Material& m) {
   return m.youngs_modulus == 0.0 && m.shear_modulus == 0.0 && m.tensile_strength == 0.0 && m.cohesion == 0.0 &&
          m.friction_angle == 0.0;
@@ -43,8 +43,8 @@ void change_materials(Import& import, const ImportOptions& options, const std::s
   }
   if (filled)
     import.notes.push_back(fmt::format(
-        "{}: it states densities alone; moduli and strengths are those of the options (E {:g} Pa, G {:g} Pa)", path,
-        options.material.youngs_modulus, options.material.shear_modulus));
+        "{}: the file states only densities; moduli and strengths are those of the options (E {:g} Pa, G {:g} Pa)",
+        path, options.material.youngs_modulus, options.material.shear_modulus));
 }
 
 void turn(Assembly& assembly, const Mat3& by) {
@@ -69,11 +69,11 @@ std::vector<std::string> names_of_stones(const Assembly& assembly) {
 
 Import import_assembly(const std::string& path, const ImportOptions& options) {
   if (options.scale != 1.0)
-    throw InputError("{}: --scale is {}, but assembly files are in metres: leave it out", path, options.scale);
+    throw InputError("{}: --scale is {}, but assembly files are in metres. Leave it out.", path, options.scale);
   if (options.cells != CellRule::none || !options.materials.empty() || !options.map.empty())
     throw InputError(
-        "{}: --cells, --materials and --map are for surfaces; an assembly file states cells, materials, components and "
-        "groups itself",
+        "{}: --cells, --materials and --map are for files of surfaces. An assembly file states cells, materials, "
+        "components and groups itself.",
         path);
   Import import;
   Assembly& assembly = import.assembly = read_stated_assembly(path);
@@ -96,8 +96,8 @@ Import import_assembly(const std::string& path, const ImportOptions& options) {
     throw InputError("{}: {}", path, error.what());
   }
   if (stated > 0)
-    import.notes.push_back(
-        fmt::format("{}: its {} joints have been left out, and {} found anew", path, stated, assembly.joints.size()));
+    import.notes.push_back(fmt::format("{}: the program has ignored its {} joints and has found {} joints", path,
+                                       stated, assembly.joints.size()));
   ImportOptions meant = options;
   if (options.keep_fixed) meant.fixed = "as stated";
   note_what_surprises(import, meant, path);

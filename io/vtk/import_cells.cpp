@@ -42,7 +42,7 @@ std::vector<std::vector<std::size_t>> stones_of(const Import& import, CellRule r
 template <class T>
 void add_member(std::optional<T>& to, const std::optional<T>& from, const std::string& where, const char* what) {
   if (to && from && *to != *from)
-    throw InputError("{} do not agree on their {}: give all pieces of a stone the same", where, what);
+    throw InputError("{} have different values of {}. Give all pieces of a stone the same value.", where, what);
   if (from) to = from;
 }
 
@@ -109,8 +109,8 @@ void join_cells(Import& import, CellRule rule, const JointSearch& search, const 
     const std::string name = several ? stone_of(import, pieces[0], rule) : object;
     if (const std::int64_t apart = piece_apart(pieces, touching); apart >= 0)
       throw InputError(
-          "{}: the pieces of '{}' do not make one stone: piece {} of the file ('{}') does not touch the others by a "
-          "face; draw it against them, give it another name, or raise --gap ({:g} m)",
+          "{}: the pieces of '{}' do not form one stone: piece {} of the file ('{}') has no face in contact with the "
+          "others. Move it into contact, give it another name, or raise --gap ({:g} m).",
           path, name, apart, import.names[std::size_t(apart)], search.gap);
     Block& block = joined.blocks.emplace_back();
     for (const std::size_t i : pieces)
@@ -126,7 +126,7 @@ void join_cells(Import& import, CellRule rule, const JointSearch& search, const 
   import.notes.push_back(
       of_several == 0
           ? path + ": no stone is made of several cells: --cells and --map found no pieces that belong together"
-          : fmt::format("{}: {} stones are made of several cells, {} cells in all", path, of_several, cells));
+          : fmt::format("{}: {} stones consist of several cells, {} cells in all", path, of_several, cells));
   import.assembly = std::move(joined);
   import.names = std::move(names);
   import.objects = std::move(objects);

@@ -35,7 +35,8 @@ std::string other_way_up(const Assembly& assembly, const std::string& up, std::i
     const auto count =
         std::count_if(turned.blocks.begin(), turned.blocks.end(), [](const Block& b) { return b.fixed; });
     if (2 * count <= lowest)
-      return fmt::format("; with --up {0} it would be {1}: give that if {0} points up there", word, count);
+      return fmt::format("; with --up {0} there would be {1}: give --up {0} if this axis points up in the file", word,
+                         count);
   }
   return "";
 }
@@ -55,8 +56,7 @@ void fix_named(Import& import, const std::string& entry, const std::string& list
   }
   if (!found)
     throw InputError(
-        "fixed stones '{}': there is no stone '{}'; give numbers 0 to {}, names of objects, 'lowest' or "
-        "'none'",
+        "fixed stones '{}': there is no stone '{}'. Give numbers from 0 to {}, names of objects, 'lowest' or 'none'.",
         list, entry, import.names.size() - 1);
 }
 
@@ -79,8 +79,10 @@ std::string odd_size(const Assembly& assembly) {
   }
   const double size = (box.high - box.low).maxCoeff();
   if (size > 2000.0)
-    return fmt::format("it is {:.4g} m long or high; --units says what its unit is (mm, cm, in, ft)", size);
-  if (size < 0.02) return fmt::format("it is {:.3g} m long or high; --units says what its unit is", size);
+    return fmt::format(
+        "the model is {:.4g} m long or high; if that is wrong, set its unit with --units (mm, cm, in, ft)", size);
+  if (size < 0.02)
+    return fmt::format("the model is {:.3g} m long or high; if that is wrong, set its unit with --units", size);
   return "";
 }
 
@@ -94,7 +96,7 @@ Mat3 turn_of(const std::string& up) {
   if (up == "-x") turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
   if (up == "-y") turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   if (up == "-z") turn << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  if (turn.isIdentity()) throw InputError("--up is '{}'; it must be x, y, z, -x, -y or -z", up);
+  if (turn.isIdentity()) throw InputError("--up is '{}'. It must be x, y, z, -x, -y or -z.", up);
   return turn;
 }
 
@@ -121,7 +123,7 @@ void note_strangers(const std::vector<Shell>& shells, const std::vector<NameRow>
   for (std::size_t i = 0; i < shells.size(); ++i)
     if (meant[i].pattern.empty()) strangers.insert(shells[i].object.empty() ? "(no name)" : shells[i].object);
   if (!strangers.empty())
-    notes.push_back(fmt::format("{}: it says nothing of the objects {}", map.path, listed(strangers)));
+    notes.push_back(fmt::format("{}: the map has no row for the objects {}", map.path, listed(strangers)));
 }
 
 void give_places(Import& import) {
@@ -151,7 +153,7 @@ class MaterialsOfStones {
  private:
   void add(const Material& m) {
     if (find(m.name) >= 0)
-      throw InputError("{}: the material {} is also in the table of --materials: give it once", options_.map.path,
+      throw InputError("{}: the material {} is also in the table of --materials. Give it once.", options_.map.path,
                        m.name);
     materials_.push_back(m);
   }
@@ -165,7 +167,7 @@ class MaterialsOfStones {
   void set(std::size_t stone, std::int32_t material) {
     std::int32_t& own = of_stone_[stone];
     if (own >= 0 && own != material)
-      throw InputError("{}: object '{}' fits two materials, {} and {}: name it once", path_, import_.objects[stone],
+      throw InputError("{}: object '{}' fits two materials, {} and {}. Name it once.", path_, import_.objects[stone],
                        materials_[std::size_t(own)].name, materials_[std::size_t(material)].name);
     own = material;
   }
@@ -226,13 +228,13 @@ void give_materials(Import& import, const ImportOptions& options, const std::str
   }
   for (std::size_t m = options.materials.size(); m < materials.size(); ++m)
     if (!used[m])
-      import.notes.push_back(fmt::format("{}: no stone is of the material {}", options.map.path, materials[m].name));
+      import.notes.push_back(fmt::format("{}: no stone has the material {}", options.map.path, materials[m].name));
   if (!others) return;
   for (const MaterialOfObjects& m : options.materials)
     if (m.material.name == options.material.name)
       throw InputError(
-          "{}: the material {} names its objects, and there are others: leave out its objects, so that it "
-          "is for these",
+          "{}: the material {} has a list of objects, but other objects need it, too. Leave out its objects, so that "
+          "it applies to all others.",
           path, m.material.name);
   materials.push_back(options.material);
 }
@@ -244,7 +246,7 @@ bool fix_stones(Import& import, const ImportOptions& options, const std::string&
   const auto supports = std::count(import.supports.begin(), import.supports.end(), true);
   if (options.keep_fixed && supports > 0) {
     for (std::size_t i = 0; i < import.supports.size(); ++i) import.assembly.blocks[i].fixed = import.supports[i];
-    import.notes.push_back(fmt::format("{}: {} stones are supports there, and are fixed", path, supports));
+    import.notes.push_back(fmt::format("{}: {} stones are supports in this file and are fixed", path, supports));
   } else if (!(options.keep_fixed && mapped)) {
     asked = true;
     fix_asked(import, options);
@@ -259,16 +261,16 @@ void note_what_surprises(Import& import, const ImportOptions& options, const std
   const std::int64_t n = std::ssize(blocks);
   const auto fixed = std::count_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.fixed; });
   const auto note = [&](const std::string& text) { import.notes.push_back(path + ": " + text); };
-  if (fixed == 0) note("no stone is fixed; the assembly will fall as a whole");
+  if (fixed == 0) note("no stone is fixed; the whole assembly will fall");
   if (fixed == n)
-    note(n == 1 ? "its only stone is fixed, so nothing can move; --fixed says what is"
-                : "every stone is fixed, so nothing can move; --fixed says which are");
+    note(n == 1 ? "the only stone is fixed, so nothing can move; --fixed sets the fixed stones"
+                : "every stone is fixed, so nothing can move; --fixed sets the fixed stones");
   else if (import.assembly.joints.empty() && n > 1)
-    note("no joint was found; --gap says how far apart faces in contact may be, --units how long a unit is");
+    note("no joint was found; --gap sets the largest distance of faces in contact, --units the unit of the file");
   if (const std::string odd = odd_size(import.assembly); !odd.empty()) note(odd);
   if (options.fixed != "lowest" || n < 3 || 2 * fixed <= n) return;
   if (const std::string other = other_way_up(import.assembly, options.up, fixed); !other.empty())
-    note(fmt::format("{} of {} stones reach down to the lowest point and are fixed{}", fixed, n, other));
+    note(fmt::format("{} of {} stones reach the lowest point and are fixed{}", fixed, n, other));
 }
 
 }  // namespace voussoir

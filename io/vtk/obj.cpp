@@ -87,13 +87,13 @@ class ObjReader {
       const std::int64_t vertex = !index ? -1 : *index > 0 ? *index - 1 : count + *index;
       if (!index || *index == 0 || vertex < 0 || vertex >= count)
         throw InputError(
-            "{}:{}: face corner '{}' is not one of the {} vertices above; indices begin at 1, negative ones "
-            "count back from the last",
+            "{}:{}: face corner '{}' is not one of the {} vertices above it. Indices begin at 1; negative ones count "
+            "back from the last vertex.",
             path_, line, shown(words[k]), count);
       loop.push_back(int(vertex));
     }
     if (loop.size() < 3)
-      throw InputError("{}:{}: a face needs three corners or more, found {}", path_, line, loop.size());
+      throw InputError("{}:{}: a face has {} corners; it needs at least 3", path_, line, loop.size());
     surface_.faces.push_back(loop);
     surface_.face_lines.push_back(line);
     face_owner_.push_back({object_, group_, layer_, part_, part_of_group_});

@@ -76,16 +76,16 @@ class PlyReader {
         if (word == "ascii" || word == "binary_little_endian" || word == "binary_big_endian")
           form = word == "ascii" ? Form::text : word == "binary_little_endian" ? Form::little : Form::big;
         else
-          fail(fmt::format("the format is '{}', expected ascii, binary_little_endian or binary_big_endian",
+          fail(fmt::format("the format is '{}'. It must be ascii, binary_little_endian or binary_big_endian",
                            shown(word)));
       } else if (keyword == "element") {
         Element element;
-        if (!(words >> element.name >> element.count)) fail("expected 'element NAME COUNT'");
+        if (!(words >> element.name >> element.count)) fail("this line must have the form 'element NAME COUNT'");
         elements_.push_back(element);
       } else if (keyword == "property") {
         read_property(words);
       } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        fail(fmt::format("'{}' is no keyword of a PLY header", shown(keyword)));
+        fail(fmt::format("'{}' is not a keyword of a PLY header", shown(keyword)));
       }
     }
     check_elements();
@@ -94,7 +94,7 @@ class PlyReader {
   }
 
   void read_property(std::istringstream& words) {
-    if (elements_.empty()) fail("a property before the first element");
+    if (elements_.empty()) fail("there is a property before the first element");
     Property property;
     std::string word;
     words >> word;
@@ -119,7 +119,7 @@ class PlyReader {
     if (any("uint", "uint32")) return {4, false, false};
     if (any("float", "float32")) return {4, true, true};
     if (any("double", "float64")) return {8, true, true};
-    fail(fmt::format("'{}' is no type of a PLY file", shown(name)));
+    fail(fmt::format("'{}' is not a type of a PLY file", shown(name)));
   }
 
   /// Rows must take room in the file, or a count could keep us busy for ever.
@@ -169,7 +169,7 @@ class PlyReader {
                          surface_.vertices.size()));
       loop.push_back(int(corner));
     }
-    if (loop.size() < 3) fail(fmt::format("face {} needs three corners or more, found {}", row, loop.size()));
+    if (loop.size() < 3) fail(fmt::format("face {} has {} corners; it needs at least 3", row, loop.size()));
     surface_.objects[0].faces.push_back(int(surface_.faces.size()));
     surface_.faces.push_back(std::move(loop));
     surface_.face_lines.push_back(form_ == Form::text ? line_ : 0);
@@ -210,13 +210,13 @@ class PlyReader {
     double value = 0.0;
     const auto [stop, error] = std::from_chars(begin, bytes_.data() + end, value);
     if (error != std::errc{} || stop != bytes_.data() + end)
-      fail(fmt::format("{} {}: expected a number", shown(element.name), row));
+      fail(fmt::format("{} {} has no number where one is needed", shown(element.name), row));
     at_ = end;
     return value;
   }
 
   [[noreturn]] void cut_off(const Element& element, std::size_t row) const {
-    fail(fmt::format("the file ends in {} {} of {}: export it again", shown(element.name), row, element.count));
+    fail(fmt::format("the file ends within {} {} of {}: export it again", shown(element.name), row, element.count));
   }
 
   std::string path_;

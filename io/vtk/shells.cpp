@@ -149,8 +149,8 @@ std::vector<Part> split_by_edges(const Part& part, const std::string& where) {
     }
   if (open > 0)
     throw InputError(
-        "{} is not closed: {} edges have a face on one side only, the first near ({:g}, {:g}, {:g}); close "
-        "the holes, or turn the faces of each stone the same way",
+        "{} is not closed: {} edges have a face on one side only, the first near ({:g}, {:g}, {:g}). Close the holes, "
+        "or give all faces of a stone the same orientation.",
         where, open, open_at.x(), open_at.y(), open_at.z());
   std::vector<int> key(part.loops.size());
   std::iota(key.begin(), key.end(), 0);
@@ -191,7 +191,7 @@ std::vector<Part> split_loose(Part loose, double tolerance, const std::string& w
     part.faces.push_back(loose.faces[f]);
   }
   if (const int dropped = drop_repeated(part))
-    notes.push_back(fmt::format("{}: {} faces stand there twice; each has been taken once", where, dropped));
+    notes.push_back(fmt::format("{}: {} faces occur twice; each was used once", where, dropped));
   const bool inside_out = mass_properties(polyhedron(part)).volume < 0.0;
   const auto turn = [](Part& p) {
     for (auto& loop : p.loops) std::reverse(loop.begin(), loop.end());
@@ -212,7 +212,7 @@ Shell make_shell(const Part& part, const Surface& surface, const std::string& na
   }
   const double size = diagonal(shell.shape.vertices);
   if (!(volume > 1e-9 * size * size * size))
-    throw InputError("{} bounds no volume (found {:g} in a size of {:g}); remove it or give it thickness",
+    throw InputError("{} encloses no volume ({:g} in a size of {:g}). Remove it, or give it a thickness.",
                      place(path, name, shell.line), volume, size);
   return shell;
 }

@@ -78,7 +78,7 @@ Surface read_binary(const std::string& path, const std::string& bytes) {
   Surface surface = facets.finish();
   if (const std::size_t end = head_size + count * facet_size; end < bytes.size())
     surface.notes.push_back(
-        fmt::format("{}: the {} bytes behind its {} facets were passed over", path, bytes.size() - end, count));
+        fmt::format("{}: the {} bytes after its {} facets were ignored", path, bytes.size() - end, count));
   return surface;
 }
 
@@ -121,7 +121,8 @@ Surface read_text_form(const std::string& path, std::string_view text) {
       facets.face(std::move(loop), loop_line);
       loop.clear();
     } else if (!is(words[0], "outer") && !is(words[0], "endloop") && !is(words[0], "endsolid")) {
-      facets.fail(line, "expected an STL keyword (facet, outer loop, vertex, endloop, endfacet, endsolid)");
+      facets.fail(line,
+                  "this line must begin with an STL keyword (facet, outer loop, vertex, endloop, endfacet, endsolid)");
     }
   }
   if (!loop.empty()) facets.fail(loop_line, "the facet is cut off: export the file again");
@@ -144,8 +145,8 @@ Surface parse_stl(const std::string& bytes, const std::string& path) {
   if (first != std::string::npos && is(std::string_view(bytes).substr(first, 5), "solid"))
     return read_text_form(path, bytes);
   throw InputError(
-      "{}: is not an STL file, or is cut off: neither text that begins with 'solid' nor as long as its count of facets "
-      "says; export it again",
+      "{}: is not an STL file, or is cut off: it neither begins with 'solid' nor has the length that its number of "
+      "facets needs. Export it again.",
       path);
 }
 

@@ -23,14 +23,14 @@ Surface read_surface(const std::string& path) {
   const auto known = [&] { return fmt::format("{}", fmt::join(endings, ", ")); };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw InputError("{}: no such file; give a file that ends in one of: {}", path, known());
+    throw InputError("{}: no such file; give a file with one of the endings: {}", path, known());
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   const auto format = std::find(endings.begin(), endings.end(), ending);
   if (format == endings.end())
-    throw InputError("{}: '{}' files are not read; give one of: {}", path, shown(ending), known());
+    throw InputError("{}: the program does not read '{}' files; give one of: {}", path, shown(ending), known());
   const Surface surface = surface_formats()[std::size_t(format - endings.begin())].parse(read_text(path), path);
-  if (surface.faces.empty()) throw InputError("{}: holds no faces; export closed surfaces, one per stone", path);
+  if (surface.faces.empty()) throw InputError("{}: has no faces; export closed surfaces, one for each stone", path);
   return surface;
 }
 

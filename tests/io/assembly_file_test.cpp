@@ -289,7 +289,7 @@ TEST(AssemblyFile, RefusesBadJoints) {
   EXPECT_TRUE(holds(refusal<std::int64_t>("joints/blocks", [](auto& v) { v[3] = 3; }),
                     "joints/blocks: row 1: 3 is out of range"));
   EXPECT_TRUE(holds(refusal<std::int64_t>("joints/blocks", [](auto& v) { std::swap(v[0], v[1]); }),
-                    "the lower block must come first"));
+                    "the block with the lower number must come first"));
   EXPECT_TRUE(holds(refusal<std::int32_t>("joints/law", [](auto& v) { v[2] = 2; }),
                     "joints/law: row 2: 2 is out of range, expected 0 to 1"));
   EXPECT_TRUE(

@@ -70,7 +70,7 @@ TEST(BlockModels, AnAssemblyOfCompas) {
   EXPECT_EQ(import.names[10], "block 10");
   EXPECT_NEAR(import.assembly.blocks[10].centroid.z(), 10.5, 1e-12);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(import.assembly.blocks[i].fixed, i == 0);
-  EXPECT_NE(import.notes.at(0).find("1 stones are supports there"), std::string::npos);
+  EXPECT_NE(import.notes.at(0).find("1 stones are supports in this file"), std::string::npos);
 }
 
 /// compas_dem: elements by GUIDs in the order of the graph, moved by their transformations; other shapes than meshes.
@@ -131,16 +131,16 @@ void expect_refused(const std::string& bytes, const std::string& name, const std
 
 TEST(BlockModels, DamagedCompasFilesAreNamed) {
   expect_refused("{", "a.json", "not valid JSON");
-  expect_refused("[]", "a.json", "holds no faces");
+  expect_refused("[]", "a.json", "has no faces");
   expect_refused("3", "a.json", "block 0");
   expect_refused("{\"dtype\": \"compas.geometry/Brep\", \"data\": {}}", "a.json", "compas.geometry/Brep");
   json bad = assembly(2);
   json& node = bad["data"]["graph"]["data"]["node"]["1"]["block"]["data"];
   node["face"]["0"][1] = 99;
-  expect_refused(bad.dump(), "a.json", "vertex 99 that is not there");
+  expect_refused(bad.dump(), "a.json", "vertex 99, which does not exist");
   bad = assembly(2);
   bad["data"]["graph"]["data"]["node"]["1"]["block"]["data"]["vertex"]["8"]["x"] = "wide";
-  expect_refused(bad.dump(), "a.json", "expected a finite number");
+  expect_refused(bad.dump(), "a.json", "instead of a finite number");
   bad = assembly(2);
   bad["data"]["graph"]["data"]["node"]["1"]["block"]["data"]["face"] = json::object();
   expect_refused(bad.dump(), "a.json", "has no faces");
@@ -274,17 +274,17 @@ TEST(BlockModels, DamagedGltfFilesAreNamed) {
   };
   refused("/asset/version", "1.0", "version '1.0'");
   refused("/extensionsRequired", {"KHR_draco_mesh_compression"}, "without compression");
-  refused("/nodes/1/children", {0}, "hangs under two others");
+  refused("/nodes/1/children", {0}, "has two parents");
   refused("/nodes/1/mesh", 7, "a mesh is 7; there are 2");
   refused("/accessors/0/count", 1000000000, "do not fit");
   refused("/accessors/0/type", "VEC2", "expected VEC3");
   refused("/accessors/0/componentType", 7, "does not know");
   refused("/bufferViews/0/byteOffset", 1 << 30, "do not fit");
-  refused("/nodes/2/rotation", {0, 0, 0, 0}, "no unit quaternion");
+  refused("/nodes/2/rotation", {0, 0, 0, 0}, "not a unit quaternion");
   refused("/nodes/2/scale", {1, 1}, "needs 3 numbers");
   refused("/meshes/0/primitives/0/mode", 9, "mode 9");
   expect_refused(gltf.beside("none.bin"), "a.gltf", "none.bin");
-  expect_refused(gltf.beside("https://x.org/a.bin"), "a.gltf", "beside it");
+  expect_refused(gltf.beside("https://x.org/a.bin"), "a.gltf", "in the same folder");
   expect_refused("{}", "a.gltf", "version");
 }
 

@@ -186,7 +186,7 @@ TEST(Checkpoint, EarlierVersionsAreNotResumed) {
   CheckpointHeader header;
   const std::string message =
       test::message_of<InputError>([&] { read_checkpoint(folder / "d.h5", header, other.arrays()); });
-  EXPECT_NE(message.find("begin the run anew"), std::string::npos) << message;
+  EXPECT_NE(message.find("begin the run again"), std::string::npos) << message;
   EXPECT_EQ(read_checkpoint_header(folder / "d.h5").step, make_header().step);
 }
 
@@ -226,7 +226,7 @@ TEST(Checkpoint, AnotherSetOfArraysIsRefused) {
   CheckpointHeader header;
   EXPECT_NE(test::message_of<RunError>([&] {
               read_checkpoint(folder / "c.h5", header, fewer);
-            }).find("holds 5 arrays, expected 4"),
+            }).find("has 5 arrays instead of 4"),
             std::string::npos);
   auto wider = other.arrays();
   wider[0].columns = 4;

@@ -78,7 +78,7 @@ density = 2700
   };
   EXPECT_TRUE(said("names.toml: no object fits 'keystone*'"));
   EXPECT_TRUE(said("names.toml: no layer of the drawing fits 'Deck'"));
-  EXPECT_TRUE(said("it says nothing of the objects 'corbel a', 'corbel b', 'foot left', 'foot right'"));
+  EXPECT_TRUE(said("the map has no row for the objects 'corbel a', 'corbel b', 'foot left', 'foot right'"));
   EXPECT_TRUE(said("no stone is of the material granite"));
   EXPECT_TRUE(import.assembly.groups.empty());
   // Nothing is fixed by the map, so what is lowest is.
@@ -92,8 +92,8 @@ TEST(ImportNames, WhatCannotBeIsAnError) {
   };
   says("[names]\n\"lintel*\" = {material = \"granit\"}\n[materials.granite]\ndensity = 1\n", "granite");
   says("[names]\n\"corbel*\" = {block = \"c\"}\n\"corbel a\" = {part = 1}\n\"corbel b\" = {part = 2}\n",
-       "the pieces of 'c' do not agree on their part");
-  says("[names]\n\"foot*\" = {block = \"feet\"}\n", "does not touch the others");
+       "the pieces of 'c' have different values of part");
+  says("[names]\n\"foot*\" = {block = \"feet\"}\n", "has no face in contact with the others");
 }
 
 TEST(ImportNames, LayersOfAnObjAreItsGroups) {
@@ -135,7 +135,8 @@ TEST(ImportNames, AShapeThatIsNotConvexIsCutOrItsHullTaken) {
   // The hull bridges the corner under the corbel's head: a triangle of 0.7 by 1.2.
   EXPECT_NEAR(hull.assembly.blocks[1].mass, stone + 2000.0 * 0.5 * 0.5 * 0.7 * 1.2, 1e-9);
   EXPECT_EQ(hull.assembly.blocks[1].cells.size(), 1u);
-  EXPECT_NE(hull.notes.at(0).find("convex hulls, which hold up to 43.8 % more"), std::string::npos) << hull.notes[0];
+  EXPECT_NE(hull.notes.at(0).find("convex hulls; the volume grows by up to 43.8 %"), std::string::npos)
+      << hull.notes[0];
   try {
     const Import cut = import_with(text, "[names]\n\"corbel\" = {not_convex = \"cut\"}\n\"pier\" = {part = 0}\n");
     ASSERT_EQ(cut.assembly.blocks.size(), 2u);
@@ -164,7 +165,7 @@ TEST(ImportNames, AWarpedStoneMayBeReplacedByItsHull) {
   // Corners of the top at 2.1, 1.9, 2.1, 1.9: the two triangles of the hull stand 1/30 above the mean on average.
   EXPECT_NEAR(import.assembly.blocks[1].mass, 2000.0 * (1.0 + 0.1 / 3.0), 1e-6);
   EXPECT_EQ(import.assembly.joints.size(), 1u);
-  EXPECT_TRUE(has_note(import, "hold up to 3.33 % more"));
+  EXPECT_TRUE(has_note(import, "grows by up to 3.33 %"));
 }
 
 TEST(ImportNames, ADrawingInAnotherUnitIsSaid) {

@@ -120,33 +120,33 @@ TEST(MshFile, OthersAreRefusedByName) {
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .5 .5 0\n"
       "7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n$Elements\n1\n1 11 2 0 1 1 2 3 4 5 6 7 8 9 "
       "10\n$EndElements\n",
-      {"tetrahedron", "of 10 nodes; the fill takes 4-node tetrahedra only"});
+      {"tetrahedron", "of 10 nodes, but a fill must have tetrahedra of 4 nodes only"});
   EXPECT_NE(test::message_of<InputError>([] { read_msh("/nowhere/fill.msh"); }), "");
 }
 
 TEST(MshFile, WithoutTetrahedraTheCauseIsSaid) {
   const std::string nodes = two_tets.substr(0, two_tets.find("$Elements"));
-  expect_said(nodes + "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n", {"holds no tetrahedra", "gmsh FILE -3"});
+  expect_said(nodes + "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n", {"has no tetrahedra", "gmsh FILE -3"});
   // A physical group on the surface, by number (2.2) and by name (4.1).
   expect_said(nodes + "$Elements\n1\n1 2 2 7 1 1 2 3\n$EndElements\n",
-              {"its groups name surfaces only", "add a physical volume", "Mesh.SaveAll = 1"});
+              {"its physical groups have surfaces only", "add a physical volume", "Mesh.SaveAll = 1"});
   std::string named = with(one_tet_41, "$Entities", "$PhysicalNames\n1\n2 3 \"skin\"\n$EndPhysicalNames\n$Entities");
   named = with(named, "3 1 4 1\n1 1 2 3 4\n", "2 1 2 1\n1 1 2 3\n");
-  expect_said(named, {"its groups name surfaces only"});
+  expect_said(named, {"its physical groups have surfaces only"});
 }
 
 TEST(MshFile, WhatIsOutOfRangeIsNamedByItsLine) {
-  expect_said(with(one_tet_41, "1 1 2 3 4\n$", "1 1 2 3 -1\n$"), {"has the node -1, and there is no such node"});
+  expect_said(with(one_tet_41, "1 1 2 3 4\n$", "1 1 2 3 -1\n$"), {"has the node -1, which does not exist"});
   expect_said(with(one_tet_41, "1 1 2 3 4\n$", "1 1 2 3 18446744073709551616\n$"),
               {"fill.msh:23: ", "18446744073709551616"});
   expect_said(with(one_tet_41, "3 1 4 1\n", "3 1 4 999999999999\n"), {"fill.msh:22: ", "999999999999 elements"});
   expect_said(with(one_tet_41, "3 1 0 4\n", "3 1 0 -4\n"), {"fill.msh:10: ", "-4 nodes"});
   expect_said(with(one_tet_41, "1 4 1 4\n", "1 4000000000 1 4\n"), {"fill.msh:9: ", "4000000000 nodes"});
-  expect_said(with(two_tets, "2 1000 0 0", "2 1e308 0 0"), {"1e+308", "up to 1e+07 m", "--scale"});
+  expect_said(with(two_tets, "2 1000 0 0", "2 1e308 0 0"), {"1e+308", "at most 1e+07 m", "--scale"});
   expect_said(with(two_tets, "2 1000 0 0", "2 1e999 0 0"), {"fill.msh:7: ", "1e999"});
   expect_said(with(two_tets, "2 1000 0 0", "2 nan 0 0"), {"fill.msh:7: ", "nan"});
   expect_said(with(two_tets, "2 1000 0 0", "-2 1000 0 0"), {"fill.msh:7: ", "number -2"});
-  expect_said(with(two_tets, "2 1000 0 0", "1 1000 0 0"), {"node 1 stands twice"});
+  expect_said(with(two_tets, "2 1000 0 0", "1 1000 0 0"), {"node 1 is given twice"});
   expect_said(with(two_tets, "3 4 2 0 1 1 2 3 4", "3 4 2 0 1 1 2 3"), {"fill.msh:18: ", "too few or too many"});
   expect_said(with(two_tets, "3 4 2 0 1 1 2 3 4", "3 4 2 0 1 1 2 3 4 5"), {"fill.msh:17: ", "too few or too many"});
   expect_said(with(two_tets, "3 4 2 0", "3 4 1000000 0"), {"fill.msh:17: ", "1000000 tags"});
@@ -184,9 +184,10 @@ TEST(MshFile, FilesOfGmshAndMeshio) {
     EXPECT_NEAR(fill_volume(read_msh(folder / name)), 0.25, 1e-12) << name;
   EXPECT_NE(test::message_of<InputError>([&] { read_msh(folder / "tet10.msh"); }).find("of 10 nodes"),
             std::string::npos);
-  EXPECT_NE(
-      test::message_of<InputError>([&] { read_msh(folder / "skin_only.msh"); }).find("its groups name surfaces only"),
-      std::string::npos);
+  EXPECT_NE(test::message_of<InputError>([&] {
+              read_msh(folder / "skin_only.msh");
+            }).find("its physical groups have surfaces only"),
+            std::string::npos);
 }
 
 }  // namespace VOUSSOIR_FILE

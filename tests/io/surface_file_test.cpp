@@ -35,7 +35,7 @@ TEST(SurfaceFile, BytesBehindTheLastFacetArePassedOverWithANote) {
       EXPECT_EQ(surface.vertices.size(), 4u);
       ASSERT_EQ(surface.notes.size(), more > 0 ? 1u : 0u);
       if (surface.notes.empty()) continue;
-      EXPECT_EQ(surface.notes[0], fmt::format("stone.stl: the {} bytes behind its 4 facets were passed over", more));
+      EXPECT_EQ(surface.notes[0], fmt::format("stone.stl: the {} bytes after its 4 facets were ignored", more));
     }
 }
 

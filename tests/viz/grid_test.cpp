@@ -160,7 +160,7 @@ TEST(BlockGrid, RefusesAStateOfAnotherAssembly) {
   const Assembly two = test::two_cubes();
   Snapshot snapshot = rest_snapshot(two);
   snapshot.displacement.pop_back();
-  EXPECT_NE(message_of<InputError>([&] { block_grid(two, snapshot); }).find("1 blocks and the assembly 2"),
+  EXPECT_NE(message_of<InputError>([&] { block_grid(two, snapshot); }).find("1 blocks, but the assembly has 2"),
             std::string::npos);
   snapshot = rest_snapshot(two);
   snapshot.patches[0].b = 7;
@@ -219,7 +219,7 @@ TEST(FillGrid, RefusesAStateOfAnotherAssembly) {
   snapshot.fill.tets.pop_back();
   EXPECT_NE(message_of<InputError>([&] {
               fill_grid(assembly, snapshot);
-            }).find("6 nodes and 3 tetrahedra and that of the assembly 6 and 4"),
+            }).find("6 nodes and 3 tetrahedra, but that of the assembly has 6 and 4"),
             std::string::npos);
   EXPECT_EQ(fill_grid(test::two_cubes(), rest_snapshot(test::two_cubes()))->GetNumberOfCells(), 0);
 }

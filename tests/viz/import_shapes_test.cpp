@@ -73,7 +73,8 @@ TEST(Import, ADomeInMillimetresIsTheSameDome) {
     change += rounded.assembly.blocks[i].mass - exact.assembly.blocks[i].mass;
   }
   EXPECT_LT(std::abs(change), 1e-3 * mass);
-  EXPECT_TRUE(has_note(rounded, "stones had faces that are not plane; corners were moved by up to"));
+  EXPECT_TRUE(has_note(
+      rounded, "stones had faces that were not plane; the program has made them plane and moved corners by up to"));
 }
 
 /// The same in triangles and single precision, far from the origin.
@@ -98,7 +99,7 @@ TEST(Import, AWarpThatIsAShapeIsNamedWithTheOptionThatAllowsIt) {
   set_bytes(folder / "w.obj", obj_of({{"flat", make_box({0, 0, 0}, {1, 1, 1})}, {"warped", warped}}));
   ImportOptions options;
   const std::string message = message_of<InputError>([&] { import_blocks(folder / "w.obj", options); });
-  for (const char* piece : {"'warped'", "0.012 m", "--flatten 0.001", "give --flatten 0.01"})
+  for (const char* piece : {"'warped'", "0.012 m", "--flatten 0.001", "Give --flatten 0.01"})
     EXPECT_NE(message.find(piece), std::string::npos) << message;
   options.flatten = 0.01;
   const Import import = import_blocks(folder / "w.obj", options);
@@ -119,7 +120,7 @@ TEST(Import, FacesThatStandTwiceAreTakenOnce) {
   const Import import = import_blocks(folder / "twice.obj");
   EXPECT_EQ(import.assembly.blocks.size(), 2u);
   EXPECT_EQ(import.assembly.joints.size(), 1u);
-  EXPECT_TRUE(has_note(import, "'low': 6 faces stand there twice"));
+  EXPECT_TRUE(has_note(import, "'low': 6 faces occur twice"));
 }
 
 /// An arch drawn with y up lies on its side when z is taken for it.
@@ -135,7 +136,7 @@ TEST(Import, TheWayUp) {
   ImportOptions options;
   const Import flat = import_blocks(folder / "y.obj", options);
   EXPECT_TRUE(has_note(flat, "every stone is fixed"));
-  EXPECT_TRUE(has_note(flat, "3 of 3 stones reach down to the lowest point and are fixed; with --up y it would be 1"));
+  EXPECT_TRUE(has_note(flat, "3 of 3 stones reach the lowest point and are fixed; with --up y there would be 1"));
   options.up = "y";
   const Import right = import_blocks(folder / "y.obj", options);
   EXPECT_TRUE(right.notes.empty());
@@ -174,7 +175,7 @@ TEST(Import, PiecesBecomeCellsOfOneStone) {
     EXPECT_EQ(import.assembly.blocks[1].cells.size(), 2u);
     EXPECT_NEAR(import.assembly.blocks[1].mass, 2000.0 * 0.5 * (0.5 * 1.2 + 1.2 * 0.3), 1e-9);
     EXPECT_EQ(import.assembly.groups.at("object corbel"), std::vector<std::int64_t>{1});
-    EXPECT_TRUE(has_note(import, "1 stones are made of several cells, 2 cells in all"));
+    EXPECT_TRUE(has_note(import, "1 stones consist of several cells, 2 cells in all"));
   };
   ImportOptions options;
   // Two closed shapes of one object.
@@ -200,7 +201,7 @@ TEST(Import, PiecesBecomeCellsOfOneStone) {
       make_prism({{0, 0, 1}, {0.5, 0, 1}, {0.5, 0, 2.2}, {1.2, 0, 2.2}, {1.2, 0, 2.5}, {0, 0, 2.5}}, {0, 0.5, 0});
   set_bytes(folder / "w.obj", obj_of({{"pier", pier}, {"corbel", whole}}));
   const std::string message = message_of<InputError>([&] { import_blocks(folder / "w.obj"); });
-  EXPECT_NE(message.find("leave these in one object and give --cells objects"), std::string::npos) << message;
+  EXPECT_NE(message.find("Put the pieces into one object and give --cells objects"), std::string::npos) << message;
 }
 
 TEST(Import, MaterialsByObject) {
@@ -252,7 +253,7 @@ TEST(Import, AnAssemblyFile) {
   options.given = {&Material::cohesion};
   const Import again = import_blocks(folder / "own.h5", options);
   EXPECT_EQ(again.assembly.joints.size(), 2u);
-  EXPECT_TRUE(has_note(again, "its 1 joints have been left out, and 2 found anew"));
+  EXPECT_TRUE(has_note(again, "has ignored its 1 joints and has found 2 joints"));
   EXPECT_EQ(again.assembly.materials[0].youngs_modulus, 3e9);
   EXPECT_EQ(again.assembly.materials[0].friction_angle, 0.4);
   EXPECT_EQ(again.assembly.laws.at(0).cohesion, 7e4);
@@ -266,11 +267,11 @@ TEST(Import, AnAssemblyFile) {
   const Import filled = import_blocks(folder / "own.h5", options);
   EXPECT_EQ(filled.assembly.materials[0].density, 1700.0);
   EXPECT_EQ(filled.assembly.materials[0].youngs_modulus, 4e9);
-  EXPECT_TRUE(has_note(filled, "it states densities alone"));
+  EXPECT_TRUE(has_note(filled, "the file states only densities"));
   // What shapes do not tell is not thrown away.
   first.laws[0].kind = JointLaw::Kind::tie;
   write_assembly(folder / "own.h5", first);
-  EXPECT_NE(message_of<InputError>([&] { import_blocks(folder / "own.h5", options); }).find("it holds ties"),
+  EXPECT_NE(message_of<InputError>([&] { import_blocks(folder / "own.h5", options); }).find("it has ties"),
             std::string::npos);
   options.scale = 0.001;
   EXPECT_NE(message_of<InputError>([&] { import_blocks(folder / "own.h5", options); }).find("--scale"),

@@ -34,7 +34,7 @@ TEST(FillGrid, ReadsBackAsWritten) {
   const vtkIdType corners[4] = {0, 1, 4, 77};
   wrong->GetCells()->ReplaceCellAtId(0, 4, corners);
   write_vtu(wrong, folder / "wrong.vtu");
-  EXPECT_NE(message_of<InputError>([&] { read_vtu(folder / "wrong.vtu"); }).find("do not fit together"),
+  EXPECT_NE(message_of<InputError>([&] { read_vtu(folder / "wrong.vtu"); }).find("its parts do not agree"),
             std::string::npos);
 }
 
