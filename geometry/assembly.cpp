@@ -13,18 +13,20 @@ void check_cell(const Assembly& assembly, std::int64_t block, std::size_t cell) 
   for (std::size_t v = 0; v < shape.vertices.size(); ++v) {
     const Vec3& p = shape.vertices[v];
     if (!p.allFinite())
-      throw InputError("{}: vertex {} is ({}, {}, {}); expected finite coordinates in metres. Correct that vertex.",
-                       at(), v, p.x(), p.y(), p.z());
+      throw InputError(
+          "{}: vertex {} is ({}, {}, {}). Coordinates must be finite numbers in metres. Correct this vertex.", at(), v,
+          p.x(), p.y(), p.z());
   }
   const int count = static_cast<int>(shape.vertices.size());
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const auto& face = shape.faces[f];
     if (face.size() < 3)
-      throw InputError("{}: face {} has {} corners; expected at least 3. Remove that face or complete it.", at(), f,
+      throw InputError("{}: face {} has {} corners. It must have at least 3. Remove the face or complete it.", at(), f,
                        face.size());
     for (int v : face)
       if (v < 0 || v >= count)
-        throw InputError("{}: face {} uses vertex {}; expected 0 to {}. Correct that index.", at(), f, v, count - 1);
+        throw InputError("{}: face {} uses vertex {}. It must be from 0 to {}. Correct the index.", at(), f, v,
+                         count - 1);
   }
 }
 
@@ -38,30 +40,31 @@ bool negligible(double volume, const Polyhedron& cell) {
 void check_volume(const Assembly& assembly, std::int64_t block, std::size_t cell, double volume) {
   const auto at = [&] { return fmt::format("{}, cell {}", block_label(assembly, block), cell); };
   if (negligible(volume, assembly.blocks[block].cells[cell]))
-    throw InputError("{}: volume is {} m3; expected more than zero. Give the cell a thickness or remove it.", at(),
+    throw InputError("{}: the volume is {} m3. It must be above 0. Give the cell a thickness or remove it.", at(),
                      volume);
   if (volume < 0.0)
     throw InputError(
-        "{}: volume is {} m3; expected more than zero. Its faces point inwards (inside-out): list the corners of "
-        "every face counter-clockwise seen from outside.",
+        "{}: the volume is {} m3. It must be above 0. The faces point inwards (inside-out): list the corners of every "
+        "face "
+        "counter-clockwise seen from outside.",
         at(), volume);
 }
 
 void check_density(const Assembly& assembly, std::int64_t block) {
   const Block& b = assembly.blocks[block];
   if (b.material < 0 || b.material >= static_cast<std::int32_t>(assembly.materials.size()))
-    throw InputError("{}: material index is {}; expected 0 to {}. Add the material or correct the index.",
+    throw InputError("{}: the material index is {}. It must be from 0 to {}. Add the material or correct the index.",
                      block_label(assembly, block), b.material, static_cast<int>(assembly.materials.size()) - 1);
   const Material& material = assembly.materials[b.material];
   if (!std::isfinite(material.density) || material.density <= 0.0)
-    throw InputError("{}: material \"{}\" has density {} kg/m3; expected more than zero. Set the density.",
+    throw InputError("{}: material \"{}\" has the density {} kg/m3. It must be above 0. Set the density.",
                      block_label(assembly, block), material.name, material.density);
 }
 
 void finish_block(Assembly& assembly, std::int64_t block) {
   Block& b = assembly.blocks[block];
   if (b.cells.empty())
-    throw InputError("{}: no cells; expected at least one convex cell. Give the block a shape or remove it.",
+    throw InputError("{}: the block has no cells. It must have at least one convex cell. Give it a shape or remove it.",
                      block_label(assembly, block));
   check_density(assembly, block);
   for (std::size_t c = 0; c < b.cells.size(); ++c) {
@@ -116,7 +119,7 @@ Box block_box(const Block& block) {
 
 std::array<Vec3, 2> tie_anchors(const Joint& tie) {
   if (tie.polygon.size() != 4)
-    throw InputError("the tie between blocks {} and {} has a polygon of {} corners; it must have 4, two at each anchor",
+    throw InputError("the tie between blocks {} and {} has a polygon of {} corners. It must have 4, two at each anchor",
                      tie.a, tie.b, tie.polygon.size());
   return {0.5 * (tie.polygon[0] + tie.polygon[1]), 0.5 * (tie.polygon[2] + tie.polygon[3])};
 }

@@ -182,13 +182,14 @@ CutShape* cutter() {
       file = shipped_library(cutter_name);
     } catch (const RunError&) {
       throw InputError(
-          "the program was built without CGAL, which cuts shapes: install it (Debian: libcgal-dev) and build anew");
+          "the program was built without CGAL, which cuts shapes. Install it (Debian: libcgal-dev) and build the "
+          "program again.");
     }
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library)
-      throw RunError("the library that cuts shapes cannot be loaded: {}; build all of the program anew", dlerror());
+      throw RunError("the library that cuts shapes cannot be loaded: {}. Build the whole program again.", dlerror());
     auto* const found = reinterpret_cast<CutShape*>(dlsym(library, "voussoir_cut_shape"));
-    if (!found) throw RunError("{} is of another version; build all of the program", cutter_name);
+    if (!found) throw RunError("{} has another version. Build the whole program again.", cutter_name);
     return found;
   }();
   return function;
@@ -266,8 +267,8 @@ std::vector<Polyhedron> cut_along(const Polyhedron& shape, const Mat3& axes) {
     out.push_back(std::move(piece.shape));
   }
   if (out.empty() || std::abs(sum - volume) > k_volume * volume || std::abs(kept - volume) > k_volume * volume)
-    throw InputError("its {} pieces hold {:.9g} m3, expected its {:.9g} m3: its surface may cut itself", cut.size(),
-                     kept, volume);
+    throw InputError("its {} pieces have a volume of {:.9g} m3 instead of {:.9g} m3: its surface may intersect itself",
+                     cut.size(), kept, volume);
   return out;
 }
 

@@ -19,7 +19,8 @@ void* mesher() {
   static void* const library = [] {
     void* found = dlopen(shipped_library(mesher_name).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!found)
-      throw RunError("the library that meshes the fill cannot be loaded: {}; build all of the program anew", dlerror());
+      throw RunError("the library that meshes the fill cannot be loaded: {}. Build the whole program again.",
+                     dlerror());
     return found;
   }();
   return library;
@@ -28,7 +29,8 @@ void* mesher() {
 template <class Function>
 Function* look_up(const char* name) {
   auto* const function = reinterpret_cast<Function*>(dlsym(mesher(), name));
-  if (!function) throw RunError("{} has no {}: it is of another version; build all of the program", mesher_name, name);
+  if (!function)
+    throw RunError("{} has no {}, so it has another version. Build the whole program again.", mesher_name, name);
   return function;
 }
 
@@ -40,9 +42,8 @@ void check_size(const FillSpace& space, double edge) {
   const double tets = in_a_cube * volume / (edge * edge * edge);
   if (!(tets <= most))
     throw InputError(
-        "[bridge] a fill of up to {:.3g} m3 in tetrahedra with edges of {:g} m is about {:.1g} of them, expected at "
-        "most "
-        "{:g}: choose a larger fill_edge",
+        "[bridge] a fill of up to {:.3g} m3 with edges of {:g} m needs about {:.1g} tetrahedra; at most {:g} are "
+        "allowed. Choose a larger fill_edge.",
         volume, edge, tets, most);
 }
 

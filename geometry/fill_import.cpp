@@ -20,8 +20,8 @@ void set_stiffness(const Assembly& assembly, const FillInterface& interface, Fil
   const Material& stone = assembly.materials[std::size_t(block.material)];
   if (!(stone.youngs_modulus > 0.0 && stone.shear_modulus > 0.0)) {
     throw InputError(
-        "{}: its material \"{}\" has no moduli to take the stiffness of the fill's patches from: give kn "
-        "and ks",
+        "{}: its material \"{}\" has no moduli, from which the stiffness of the patches of the fill would follow. Give "
+        "kn and ks.",
         block_label(assembly, joint.block), stone.name);
   }
   const double distance = std::abs(joint.normal.dot(block.centroid - polygon_centroid(joint.polygon)));
@@ -34,13 +34,12 @@ void set_stiffness(const Assembly& assembly, const FillInterface& interface, Fil
 
 FillJointReport put_fill(Assembly& assembly, FillMesh mesh, std::int32_t material, const FillInterface& interface) {
   if (!assembly.fill.empty()) {
-    throw InputError("the assembly already has a deformable fill of {} tetrahedra; take one without",
+    throw InputError("the assembly already has a deformable fill of {} tetrahedra. Use an assembly without one.",
                      assembly.fill.tets.size());
   }
   if ((interface.kn > 0.0) != (interface.ks > 0.0)) {
     throw InputError(
-        "the fill's patches: kn is {:g} and ks {:g} Pa/m; give both, or neither to take them from the "
-        "moduli",
+        "patches of the fill: kn is {:g} and ks is {:g} Pa/m. Give both, or neither; then they follow from the moduli.",
         interface.kn, interface.ks);
   }
   assembly.fill = std::move(mesh);

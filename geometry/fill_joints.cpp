@@ -115,8 +115,8 @@ void check_cover(const Assembly& assembly, const std::vector<Triangle>& triangle
     covered[t] += joint.area;
     if (covered[t] > triangles[t].area * (1.0 + 1e-6) + 1e-7) {
       throw InputError(
-          "{} and {} both cover the fill's surface at {} m: the stones lie in one another, or the fill in one of them; "
-          "move them apart",
+          "{} and {} both cover the surface of the fill at {} m: the stones overlap each other, or one of them "
+          "overlaps the fill. Move them apart.",
           block_label(assembly, other[t]), block_label(assembly, joint.block), point_text(triangles[t].centre));
     }
     other[t] = joint.block;
@@ -145,8 +145,8 @@ void check_touch(const Assembly& assembly) {
     box = joined(box, {fill.nodes[i], fill.nodes[i]});
   }
   throw InputError(
-      "a part of the fill, from {} to {} m, does not touch the masonry: its surface lies on no face of a stone; check "
-      "the units (metres) and the place of the mesh, or raise the gap tolerance",
+      "a part of the fill, from {} to {} m, does not touch the masonry: its surface is on no face of a stone. Check "
+      "the unit (metres) and the place of the mesh, or raise the gap tolerance.",
       point_text(box.low), point_text(box.high));
 }
 

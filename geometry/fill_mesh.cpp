@@ -101,8 +101,8 @@ void check_nodes(const FillMesh& mesh, const std::string& what) {
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& p = mesh.nodes[i];
     if (!p.allFinite()) {
-      throw InputError("{}: node {} is at ({}, {}, {}); finite coordinates in m are needed: mesh it anew", what, i,
-                       p.x(), p.y(), p.z());
+      throw InputError("{}: node {} is at ({}, {}, {}). Coordinates must be finite numbers in m. Mesh it again.", what,
+                       i, p.x(), p.y(), p.z());
     }
   }
   std::vector<char> used(mesh.nodes.size(), 0);
@@ -110,7 +110,7 @@ void check_nodes(const FillMesh& mesh, const std::string& what) {
   for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
     for (const std::int32_t k : mesh.tets[i]) {
       if (k < 0 || k >= n) {
-        throw InputError("{}: tetrahedron {} has the node {}; nodes count from 0 to {}", what, i, k, n - 1);
+        throw InputError("{}: tetrahedron {} has the node {}, but nodes count from 0 to {}", what, i, k, n - 1);
       }
       used[std::size_t(k)] = 1;
     }
@@ -118,7 +118,7 @@ void check_nodes(const FillMesh& mesh, const std::string& what) {
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused == used.end()) return;
   const auto i = std::size_t(unused - used.begin());
-  throw InputError("{}: node {} at {} belongs to no tetrahedron, so nothing would hold it: leave it out", what, i,
+  throw InputError("{}: node {} at {} belongs to no tetrahedron, so nothing would hold it. Leave it out.", what, i,
                    place(mesh.nodes[i]));
 }
 
@@ -128,14 +128,14 @@ void check_shapes(const FillMesh& mesh, const std::string& what) {
     const double volume = tet.volume(), longest = tet.edges().second;
     if (std::abs(volume) * 3.0 <= kFlat * longest * tet.largest_face()) {
       throw InputError(
-          "{}: tetrahedron {} at {} is flat: its longest edge is {:.3g} m and its height {:.3g} m, expected more than "
-          "{:g} of that edge; mesh it anew, with shorter edges there",
+          "{}: tetrahedron {} at {} is flat: its longest edge is {:.3g} m and its height {:.3g} m. The height must be "
+          "more than {:g} of that edge. Mesh it again with shorter edges at this place.",
           what, i, place(tet.centroid()), longest, tet.largest_face() > 0.0 ? tet.height() : 0.0, kFlat);
     }
     if (volume < 0.0) {
       throw InputError(
-          "{}: tetrahedron {} at {} is inverted: its volume is {:.3g} m3, expected more than 0; exchange two of its "
-          "nodes",
+          "{}: tetrahedron {} at {} is inverted: its volume is {:.3g} m3. It must be above 0. Exchange two of its "
+          "nodes.",
           what, i, place(tet.centroid()), volume);
     }
   }
@@ -152,13 +152,13 @@ void check_faces(const FillMesh& mesh, const std::string& what) {
     };
     if (i + 2 < faces.size() && faces[i + 2].key == p.key) {
       throw InputError(
-          "{}: the face of nodes {}, {} and {} is shared by {} and one more, {}; two may share a face: "
-          "mesh it anew",
+          "{}: the face of nodes {}, {} and {} is shared by {} and a further one, {}. At most two may share a face. "
+          "Mesh it again.",
           what, p.key[0], p.key[1], p.key[2], tets(), faces[i + 2].tet);
     }
     // Seen from outside one and the other a shared face runs opposite ways round.
     if (p.nodes == q.nodes) {
-      throw InputError("{}: {} lie on the same side of the face they share, in one another: mesh it anew", what,
+      throw InputError("{}: {} overlap: they are on the same side of the face they share. Mesh it again.", what,
                        tets());
     }
   }
@@ -207,8 +207,8 @@ void check_volume(const FillMesh& mesh, double expected) {
   const double volume = fill_volume(mesh);
   if (std::abs(volume - expected) <= 1e-3 * expected) return;
   throw InputError(
-      "the mesh of the fill holds {:.6g} m3, and the space it is to fill {:.6g} m3; they may differ by 0.1 %: choose a "
-      "smaller fill_edge, or backfill = \"rigid\"",
+      "the mesh of the fill has a volume of {:.6g} m3, but the space for it has {:.6g} m3. They may differ by 0.1 %. "
+      "Choose a smaller fill_edge, or backfill = \"rigid\".",
       volume, expected);
 }
 

@@ -126,17 +126,19 @@ HalfRing read_half(const GeneratorInput& in) {
   half.foot = 0.5 * radians(in("embrace_angle"));
   half.crown = std::asin(e);
   if (half.inner < 0.1 * radius) {
-    throw InputError("[bridge] thickness = {:g} m is too much for mean_radius = {:g} m: at most 1.8 times the radius",
-                     t, radius);
+    throw InputError(
+        "[bridge] thickness = {:g} m is too large for mean_radius = {:g} m. It must be at most 1.8 times the radius.",
+        t, radius);
   }
   if (e > 0.0 && int(in("voussoirs")) % 2 != 0) {
-    throw InputError("[bridge] voussoirs = {:g} with eccentricity = {:g}: a pointed arch needs an even number",
-                     in("voussoirs"), e);
+    throw InputError(
+        "[bridge] voussoirs = {:g}, but eccentricity = {:g}. A pointed arch needs an even number of voussoirs.",
+        in("voussoirs"), e);
   }
   if (half.inner <= 1.05 * half.centre || half.foot <= half.crown + radians(1.0)) {
     throw InputError(
-        "[bridge] eccentricity = {:g} is too much for thickness = {:g} m, mean_radius = {:g} m and "
-        "embrace_angle = {:g} deg: the halves would not meet; make it smaller",
+        "[bridge] eccentricity = {:g} is too large for thickness = {:g} m, mean_radius = {:g} m and embrace_angle = "
+        "{:g} deg: the halves of the arch would not meet. Make it smaller.",
         e, t, radius, in("embrace_angle"));
   }
   return half;
@@ -147,12 +149,13 @@ Buttress read_buttress(const GeneratorInput& in, double least) {
   Buttress b = {in("buttress_width"), in("buttress_height"), int(in("buttress_courses"))};
   if (b.height <= 0.0) return b;
   if (in("embrace_angle") < 20.0)
-    throw InputError("[bridge] buttress_height = {:g} with embrace_angle = {:g} deg: buttresses need at least 20 deg",
-                     b.height, in("embrace_angle"));
+    throw InputError(
+        "[bridge] buttress_height = {:g} m, but embrace_angle = {:g} deg. Buttresses need at least 20 deg.", b.height,
+        in("embrace_angle"));
   if (b.width < least * (1.0 - 1e-9))
     throw InputError(
-        "[bridge] buttress_width = {:g} m is less than the {:g} m that the springing joint takes in plan: make it at "
-        "least that wide",
+        "[bridge] buttress_width = {:g} m is less than the width of the springing joint in plan, {:g} m. Make it at "
+        "least that wide.",
         b.width, least);
   return b;
 }

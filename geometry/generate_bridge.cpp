@@ -15,11 +15,11 @@ namespace voussoir {
 
 namespace {
 
-/// Keys that contradict one another, by name.
+/// Throws InputError for keys that contradict one another.
 void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
   const auto at_most = [](double low, const std::string& small, double high, const std::string& large) {
     if (low > high + 1e-9)
-      throw InputError("[bridge] {} = {:g} m is more than {} = {:g} m: make the first smaller or the second larger",
+      throw InputError("[bridge] {} = {:g} m is larger than {} = {:g} m. Make the first smaller or the second larger.",
                        small, low, large, high);
   };
   const double lowest = std::min(bridge.deck_at(0.0), bridge.deck_at(bridge.length()));
@@ -29,14 +29,14 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
     at_most(p.z() - bridge.springing, "z of [bridge.backing] profile", bridge.deck_at(p.x()) - bridge.springing,
             "springing to deck there");
   if (lowest < bridge.springing + 0.1)
-    throw InputError("[bridge] gradient = {:g} % takes the deck {:g} m below the springing: make it less",
+    throw InputError("[bridge] gradient = {:g} % brings the deck {:g} m below the springing. Make it smaller.",
                      in("gradient"), bridge.springing - lowest);
   const double surfacing = in("surfacing_depth");
   at_most(surfacing, "surfacing_depth", lowest - bridge.springing, "springing to deck");
   if (surfacing > 0.0 && bridge.gradient != 0.0 && bridge.deformable_backfill)
     throw InputError(
-        "[bridge] surfacing_depth = {:g} m with backfill = \"deformable\" needs a level deck, and gradient = {:g} %: "
-        "choose backfill = \"rigid\", or one of the two as 0",
+        "[bridge] surfacing_depth = {:g} m with backfill = \"deformable\" needs a level deck, but gradient = {:g} %. "
+        "Choose backfill = \"rigid\", or set one of the two values to 0.",
         surfacing, in("gradient"));
   if (!bridge.strip) {
     const double inside = 0.9 * in("width");
@@ -50,19 +50,19 @@ void check_bridge(const Bridge& bridge, const GeneratorInput& in) {
     const std::string heading = support_heading(i, bridge.vaults.size());
     const double backing = least_backing(bridge, support.x0, support.x1);
     if (support.top > backing + 1e-9)
-      throw InputError("{} = {:g} m ends below the feet of the vaults on {}: at least {:g} m are needed",
+      throw InputError("{} = {:g} m is below the feet of the vaults on {}. At least {:g} m are needed.",
                        bridge.backing_line.empty() ? "[bridge] backing_height" : "[bridge.backing] profile: z",
                        backing - bridge.springing, heading, support.top - bridge.springing);
     const double wall = bridge.transverse_thickness, least = support.x1 - support.x0;
-    if (!bridge.is_abutment(i)) at_most(wall, "transverse_walls", least, "what " + heading + " is long");
+    if (!bridge.is_abutment(i)) at_most(wall, "transverse_walls", least, "the thickness of " + heading);
     if (support.makeup != Makeup::solid)
       for (const char* key : {"leaf_thickness_even", "leaf_thickness_odd"})
         at_most(2.0 * in(key), std::string("2 ") + key, 0.95 * std::min(support.leaf_beside_span, bridge.width),
-                "0.95 times the least of width and what " + heading + " is long");
+                "0.95 times the smaller of width and the length of " + heading);
   }
 }
 
-/// One pair of values for each component whose keys are given.
+/// The stiffnesses of the components whose keys are given.
 std::map<Component, Stiffness> given_table(const JointRules& rules, const GeneratorInput& in) {
   std::map<Component, Stiffness> table;
   for (const auto& [component, size] : rules.nominal) {
@@ -73,8 +73,8 @@ std::map<Component, Stiffness> given_table(const JointRules& rules, const Genera
     const double kn = in("kn_" + row), ks = in("ks_" + row);
     if ((kn > 0.0) != (ks > 0.0))
       throw InputError(
-          "[bridge] kn_{0} = {1:g} and ks_{0} = {2:g} Pa/m: give both, or neither to have them from the moduli", row,
-          kn, ks);
+          "[bridge] kn_{0} = {1:g} and ks_{0} = {2:g} Pa/m. Give both, or neither; then they follow from the moduli.",
+          row, kn, ks);
     if (kn > 0.0) table[component] = {kn / in("block_scale"), ks / in("block_scale")};
   }
   return table;
@@ -93,7 +93,7 @@ void find_named_materials(Bridge& bridge, const std::vector<Material>& materials
     bridge.supports[i].material = named(support_prefix(in, i, bridge.vaults.size()));
 }
 
-/// Without that of a surfacing which is not there.
+/// The materials, without that of the surfacing if there is none.
 std::vector<Material> used_materials(const std::vector<Material>& defaults, const GeneratorInput& in) {
   std::vector<Material> materials = in_order(defaults, in);
   const auto names_it = [](const auto& choice) {

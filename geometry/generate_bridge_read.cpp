@@ -58,7 +58,7 @@ double span_length(const GeneratorInput& in, std::size_t i) {
                                    : line->second.back().x() - line->second.front().x();
 }
 
-/// How thick each ring is: as it is said of every one, or in equal parts.
+/// The thickness of each ring: as given for each of them, or in equal parts.
 void read_rings(VaultShape& v, const GeneratorInput& in, std::size_t i) {
   const std::string key = span_prefix(i);
   const auto each = in.profiles.find(key + "ring_thicknesses");
@@ -72,14 +72,14 @@ void read_rings(VaultShape& v, const GeneratorInput& in, std::size_t i) {
   constexpr double least = 0.01, most = 5.0;  // m
   constexpr std::size_t most_rings = 8;
   if (each->second.size() > most_rings)
-    throw InputError("{}: ring_thicknesses has {} rings, expected at most {}: leave some out", span_heading(i),
-                     each->second.size(), most_rings);
+    throw InputError("{}: ring_thicknesses has {} rings. At most {} are allowed.", span_heading(i), each->second.size(),
+                     most_rings);
   for (const Vec3& pair : each->second) {
     v.crown.push_back(pair.x()), v.springing.push_back(pair.z());
     for (const double t : {pair.x(), pair.z()})
       if (!(t >= least && t <= most))
-        throw InputError("{}: ring_thicknesses has {:g} m in ring {}, expected {:g} to {:g} m: change it",
-                         span_heading(i), t, v.crown.size(), least, most);
+        throw InputError("{}: ring_thicknesses has {:g} m in ring {}. It must be from {:g} to {:g} m.", span_heading(i),
+                         t, v.crown.size(), least, most);
   }
 }
 
@@ -91,17 +91,18 @@ VaultShape read_shape(const GeneratorInput& in, std::size_t i, double x, double 
   const auto line = in.profiles.find(key + "intrados");
   const bool given = line != in.profiles.end();
   if (given && v.shape != "surveyed")
-    throw InputError("{}: intrados is given, and shape = \"{}\": give shape = \"surveyed\", or leave out intrados",
+    throw InputError("{}: intrados is given, but shape = \"{}\". Set shape = \"surveyed\", or leave out intrados.",
                      span_heading(i), v.shape);
   if (!given && v.shape == "surveyed")
     throw InputError("{}: shape = \"surveyed\" needs intrados = [[x, z], …], from springing to springing",
                      span_heading(i));
   if (given && line->second.size() < 3)
-    throw InputError("{}: intrados has {} points, expected at least 3, from springing to springing", span_heading(i),
-                     line->second.size());
+    throw InputError("{}: intrados has {} points. It must have at least 3, from springing to springing.",
+                     span_heading(i), line->second.size());
   if (given && (in(key + "rise") != 0.0 || in(key + "springing_right") != 0.0))
-    throw InputError("{}: rise = {:g} m and springing_right = {:g} m follow from intrados: leave them out",
-                     span_heading(i), in(key + "rise"), in(key + "springing_right"));
+    throw InputError(
+        "{}: rise = {:g} m and springing_right = {:g} m are given, but follow from intrados. Leave them out.",
+        span_heading(i), in(key + "rise"), in(key + "springing_right"));
   v.left = {x, 0.0, z + in(key + "springing_left")};
   v.right = {x + span_length(in, i), 0.0, z + in(key + "springing_right")};
   if (given) {
@@ -126,8 +127,8 @@ Vault make_vault(const GeneratorInput& in, std::size_t i, const VaultShape& shap
   for (const Vec3& p : rings.front().intrados)
     if (p.x() < shape.left.x() - no_masonry || p.x() > shape.right.x() + no_masonry)
       throw InputError(
-          "{}: its intrados overhangs a springing by {:g} m: lessen the difference of springing_left = {:g} m and "
-          "springing_right = {:g} m, or choose another shape",
+          "{}: its intrados overhangs a springing by {:g} m. Reduce the difference between springing_left = {:g} m and "
+          "springing_right = {:g} m, or choose another shape.",
           span_heading(i), std::max(shape.left.x() - p.x(), p.x() - shape.right.x()),
           in(span_prefix(i) + "springing_left"), in(span_prefix(i) + "springing_right"));
   Vault vault;
@@ -143,7 +144,7 @@ double support_height(const GeneratorInput& in, std::size_t support, std::size_t
   return in(support_prefix(in, support, spans) + "height");
 }
 
-/// To which the heights of piers and abutments reach, above the lowest base, m.
+/// The common springing level above the lowest base, m.
 double springing_level(const GeneratorInput& in, std::size_t spans) {
   double level = 0.0;
   for (std::size_t i = 0; i <= spans; ++i) level = std::max(level, support_height(in, i, spans));
@@ -158,14 +159,15 @@ void read_backing_line(Bridge& bridge, const GeneratorInput& in, double length) 
   const Polygon& line = bridge.backing_line;
   if (line.size() < 2 || std::abs(line.front().x()) > 1e-6 || std::abs(line.back().x() - length) > 1e-6)
     throw InputError(
-        "[bridge.backing] profile goes from x = {:g} to {:g} m, expected from 0 to {:g} m, the length of the bridge "
-        "square to its supports",
+        "[bridge.backing] profile goes from x = {:g} to {:g} m. It must go from 0 to {:g} m, the length of the bridge "
+        "square to its supports.",
         line.empty() ? 0.0 : line.front().x(), line.empty() ? 0.0 : line.back().x(), length);
   bridge.backing_line.front().x() = 0.0, bridge.backing_line.back().x() = length;
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
     if (line[i + 1].x() - line[i].x() < 0.01)
-      throw InputError("[bridge.backing] profile: point {} has x = {:g} m, expected at least 0.01 m more than {:g} m",
-                       i + 2, line[i + 1].x(), line[i].x());
+      throw InputError(
+          "[bridge.backing] profile: point {} has x = {:g} m. It must be at least 0.01 m more than {:g} m.", i + 2,
+          line[i + 1].x(), line[i].x());
   bridge.backing_top = bridge.springing;  // no course of the spandrel walls ends with it
 }
 
@@ -195,9 +197,8 @@ void read_spans(Bridge& bridge, const GeneratorInput& in) {
   if (given > 0.0) {
     if (bridge.gradient != 0.0 || bridge.springing + given < crown - 1e-9)
       throw InputError(
-          "[bridge] deck_height = {:g} m: a deck with a gradient, and one below the highest crown at {:g} m, is given "
-          "by "
-          "fill_over_crown: set deck_height to 0 or to more",
+          "[bridge] deck_height = {:g} m, but it needs a deck without gradient and above the highest crown, which is "
+          "at {:g} m. Set it to 0, so that fill_over_crown gives the height of the deck, or to a larger value.",
           given, crown - bridge.springing);
     bridge.deck = bridge.springing + given;
   }
@@ -205,7 +206,7 @@ void read_spans(Bridge& bridge, const GeneratorInput& in) {
   read_backing_line(bridge, in, end);
 }
 
-/// What an abutment or a pier says beside its height.
+/// Reads makeup, width and batter of an abutment or a pier.
 void read_makeup(Support& support, const GeneratorInput& in, const std::string& prefix, const std::string& heading,
                  bool pier) {
   const std::string& makeup = in.choices.at(prefix + "makeup");
@@ -213,12 +214,13 @@ void read_makeup(Support& support, const GeneratorInput& in, const std::string& 
   const double own = in(prefix + "width"), width = in("width");
   support.width = own > 0.0 ? own : width;
   if (support.width < width)
-    throw InputError("{}: width = {:g} m is less than [bridge] width = {:g} m: make it wider, or 0 for the same",
-                     heading, support.width, width);
+    throw InputError(
+        "{}: width = {:g} m is less than [bridge] width = {:g} m. Make it larger, or 0 for the same width.", heading,
+        support.width, width);
   support.slope_x = pier ? in(prefix + "batter_x") : 0.0;
   support.slope_y = in(prefix + "batter_y");
   if (support.makeup != Makeup::solid && (support.slope_x > 0.0 || support.slope_y > 0.0))
-    throw InputError("{}: makeup = \"{}\" has upright faces: set its batter to 0, or makeup = \"solid\"", heading,
+    throw InputError("{}: makeup = \"{}\" has upright faces. Set the batter to 0, or makeup = \"solid\".", heading,
                      makeup);
 }
 
@@ -230,12 +232,12 @@ void read_cutwater(Support& support, const GeneratorInput& in, const std::string
   support.cutwater.length = length > 0.0 ? length : 0.5 * (support.x1 - support.x0);
   support.cutwater.height = height > 0.0 ? height : support.height;
   if (support.cutwater.height > support.height + 1e-9)
-    throw InputError("{}: cutwater_height = {:g} m is more than the height to the springing, {:g} m", heading, height,
-                     support.height);
+    throw InputError("{}: cutwater_height = {:g} m is larger than the height of the springing above the base, {:g} m",
+                     heading, height, support.height);
   if (support.slope_y * support.height > 0.8 * support.cutwater.length)
     throw InputError(
-        "{}: batter_y = {:g} takes up {:g} m of cutwater_length = {:g} m: make the one less or the other more", heading,
-        support.slope_y, support.slope_y * support.height, support.cutwater.length);
+        "{}: batter_y = {:g} uses {:g} m of cutwater_length = {:g} m. Make the first smaller or the second larger.",
+        heading, support.slope_y, support.slope_y * support.height, support.cutwater.length);
 }
 
 void read_wings(Support& support, const Bridge& bridge, const GeneratorInput& in, const std::string& prefix,
@@ -252,18 +254,19 @@ void read_wings(Support& support, const Bridge& bridge, const GeneratorInput& in
   wings.counterfort_top = own > 0.0 ? support.base + own : support.springing;
   if (wings.length <= 0.0 && wings.counterforts == 0) return;
   if (in.choices.at("abutments") == "restrained")
-    throw InputError("{}: wing_length or counterforts and [bridge] abutments = \"restrained\" take up the same space",
-                     heading);
+    throw InputError(
+        "{}: wing_length or counterforts need the same space as [bridge] abutments = \"restrained\". Keep one of them.",
+        heading);
   const double most =
       std::max(wings.length > 0.0 ? wings.top : 0.0, wings.counterforts > 0 ? wings.counterfort_top : 0.0);
   if (most > deck + 1e-9)
     throw InputError(
-        "{}: wing_height or counterfort_height reaches {:g} m above the base, {:g} m more than the deck there", heading,
+        "{}: wing_height or counterfort_height reaches {:g} m above the base, which is {:g} m above the deck", heading,
         most - support.base, most - deck);
   const double room = bridge.width - (wings.length > 0.0 ? 2.0 * wings.thickness : 0.0);
   if (room < 0.1 || wings.counterforts * wings.counterfort_thickness > 0.9 * room)
     throw InputError(
-        "{}: wing_thickness and counterforts times counterfort_thickness leave too little of [bridge] width = {:g} m",
+        "{}: wing_thickness and counterforts x counterfort_thickness are too large for [bridge] width = {:g} m",
         heading, bridge.width);
 }
 
@@ -282,8 +285,8 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
     const auto stands = [&](const Vec3& in_end, const Vec3& out_end) {
       if (out_end.z() < in_end.z() - no_masonry)
         throw InputError(
-            "{}: the foot of a vault there reaches {:g} m below its springing, into the support: lessen the difference "
-            "of springing_left and springing_right of its [[bridge.span]]",
+            "{}: the foot of a vault on this support reaches {:g} m below its springing, into the support. Reduce the "
+            "difference between springing_left and springing_right of its [[bridge.span]].",
             heading, in_end.z() - out_end.z());
       support.springing = std::min(support.springing, in_end.z());
       support.top = std::max({support.top, in_end.z(), out_end.z()});
@@ -292,7 +295,7 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
     if (after) stands(after->rings.front().intrados.front(), after->rings.back().extrados.front());
     support.height = support.springing - support.base;
     if (support.height < 0.05)
-      throw InputError("{}: height = {:g} m leaves {:g} m below the springing there: make it higher", heading,
+      throw InputError("{}: height = {:g} m leaves only {:g} m below the springing. Make it larger.", heading,
                        support_height(in, i, spans), support.height);
     const std::string prefix = support_prefix(in, i, spans);
     read_makeup(support, in, prefix, heading, before && after);
@@ -305,15 +308,14 @@ void read_supports(Bridge& bridge, const GeneratorInput& in) {
     if (!(before && after) && in(prefix + "built_length") > 0.0) {
       support.leaf_beside_span = in(prefix + "built_length");
       if (support.makeup != Makeup::leaf || support.leaf_beside_span > support.x1 - support.x0 + 1e-9)
-        throw InputError(
-            "{}: built_length = {:g} m is for makeup = \"leaf\" and at most length = {:g} m: change one of them",
-            heading, support.leaf_beside_span, support.x1 - support.x0);
+        throw InputError("{}: built_length = {:g} m needs makeup = \"leaf\" and must be at most length = {:g} m",
+                         heading, support.leaf_beside_span, support.x1 - support.x0);
     }
     const double left = before ? before->rings.back().extrados.back().x() : support.x0 + 0.05,
                  right = after ? after->rings.back().extrados.front().x() : support.x1 - 0.05;
     if (right < left - 1e-9)
-      throw InputError("{}: {} = {:g} m is too little for the feet of the vaults on it: at least {:g} m", heading,
-                       before && after ? "thickness" : "length", support.x1 - support.x0,
+      throw InputError("{}: {} = {:g} m is too small for the feet of the vaults on it. It must be at least {:g} m.",
+                       heading, before && after ? "thickness" : "length", support.x1 - support.x0,
                        support.x1 - support.x0 + left - right);
     bridge.supports.push_back(support);
   }
@@ -328,15 +330,14 @@ void read_spandrels(Bridge& bridge, const GeneratorInput& in) {
   bridge.spandrel_bottom = bridge.spandrel_top = 0.5 * (bridge.taper_bottom + bridge.taper_top);
   if (in("internal.walls") > 0.0 && in.choices.at("internal.between") == "void")
     throw InputError(
-        "[bridge] spandrel_back = \"tapered\" leaves no bearing for the slabs of [bridge.internal] between = \"void\": "
-        "choose \"stepped\", or \"fill\"");
+        "[bridge] spandrel_back = \"tapered\" gives no bearing to the slabs of [bridge.internal] between = \"void\". "
+        "Choose \"stepped\" or \"fill\".");
   for (const std::size_t i : {std::size_t(0), bridge.last_support()}) {
     const auto [x0, x1] = wing_extent(bridge, i);
     if (bridge.deformable_backfill && x1 - x0 > no_masonry)
       throw InputError(
-          "[bridge] spandrel_back = \"tapered\" with backfill = \"deformable\" needs no fill between wing walls, and "
-          "{} "
-          "has built_length = {:g} m: set it to 0, or choose \"stepped\" or \"rigid\"",
+          "[bridge] spandrel_back = \"tapered\" with backfill = \"deformable\" allows no fill between wing walls, but "
+          "{} has built_length = {:g} m. Set it to 0, or choose \"stepped\" or \"rigid\".",
           support_heading(i, bridge.vaults.size()), in(support_prefix(in, i, bridge.vaults.size()) + "built_length"));
   }
 }
@@ -349,8 +350,8 @@ void read_internal_walls(Bridge& bridge, const GeneratorInput& in) {
   const double room = 2.0 * (bridge.half_width() - std::max(bridge.spandrel_bottom, bridge.spandrel_top));
   if (walls.number * walls.thickness > 0.8 * room)
     throw InputError(
-        "[bridge.internal] {} walls of {:g} m leave too little of the {:g} m between the spandrel walls: "
-        "fewer or thinner ones",
+        "[bridge.internal] {} walls of {:g} m leave too little of the {:g} m between the spandrel walls. Use fewer or "
+        "thinner walls.",
         walls.number, walls.thickness, room);
   const double lowest = std::min(bridge.deck_at(0.0), bridge.deck_at(bridge.length()));
   walls.slab_thickness = in("internal.slab_thickness");
@@ -358,22 +359,22 @@ void read_internal_walls(Bridge& bridge, const GeneratorInput& in) {
   walls.bearing = std::min(0.1, 0.3 * std::min(bridge.spandrel_bottom, bridge.spandrel_top));
   if (walls.hollow && walls.slab_bottom() < std::max(bridge.backing_top, bridge.springing) + 0.05)
     throw InputError(
-        "[bridge.internal] slab_thickness = {:g} m and fill_over_slabs = {:g} m take the slabs {:g} m above the "
-        "springing, into the backing: make them less, or backing_height",
+        "[bridge.internal] slab_thickness = {:g} m and fill_over_slabs = {:g} m bring the slabs {:g} m above the "
+        "springing, into the backing. Make them or backing_height smaller.",
         walls.slab_thickness, in("internal.fill_over_slabs"), walls.slab_bottom() - bridge.springing);
   const bool covered = in("backing_over_abutment") <= 0.0;
   if (!walls.hollow && !covered && bridge.deformable_backfill)
     throw InputError(
         "[bridge.internal] between = \"fill\" with backfill = \"deformable\" needs backing over the whole "
-        "abutments: set backing_over_abutment to 0");
+        "abutments. Set backing_over_abutment to 0.");
 }
 
-/// A strip has neither what stands along the faces nor what is turned or splayed.
+/// Makes the bridge a strip, without walls along the faces, cutwaters and wing walls.
 void make_strip(Bridge& bridge, const GeneratorInput& in) {
   if (bridge.skew != 0.0)
     throw InputError(
-        "[bridge] extent = \"strip\" is square to the supports, and skew = {:g} degrees: set skew to 0, or extent to "
-        "\"whole\"",
+        "[bridge] extent = \"strip\" is square to the supports, but skew = {:g} degrees. Set skew to 0, or extent to "
+        "\"whole\".",
         in("skew"));
   bridge.strip = true;
   bridge.width = in("strip_width");
@@ -383,8 +384,9 @@ void make_strip(Bridge& bridge, const GeneratorInput& in) {
   for (std::size_t i = 0; i < bridge.supports.size(); ++i) {
     Support& support = bridge.supports[i];
     if (support.makeup != Makeup::solid)
-      throw InputError("{}: makeup of a strip is \"solid\": a leaf around it has no place in plane strain",
-                       support_heading(i, bridge.vaults.size()));
+      throw InputError(
+          "{}: makeup must be \"solid\" with extent = \"strip\", because plane strain has no leaf around a support",
+          support_heading(i, bridge.vaults.size()));
     support.width = bridge.width, support.slope_y = 0.0;
     support.cutwater = {}, support.wings = {};
   }
@@ -396,17 +398,18 @@ void read_load_beam(Bridge& bridge, const GeneratorInput& in) {
   if (beam.length <= 0.0) return;
   const auto span = std::size_t(in("beam.span"));
   if (span > bridge.vaults.size())
-    throw InputError("[bridge.beam] span = {} is more than the {} spans of the bridge", span, bridge.vaults.size());
+    throw InputError("[bridge.beam] span = {}, but the bridge has {} spans", span, bridge.vaults.size());
   const Vault& vault = bridge.vaults[span - 1];
   beam.middle = vault.left() + in("beam.at") * (vault.right() - vault.left());
   const double room = 2.0 * std::min(beam.middle, bridge.length() - beam.middle);
   if (beam.length > room)
-    throw InputError("[bridge.beam] length = {:g} m reaches beyond the end of the bridge: at most {:g} m about there",
-                     beam.length, room);
+    throw InputError(
+        "[bridge.beam] length = {:g} m reaches beyond the end of the bridge. At this place it must be at most {:g} m.",
+        beam.length, room);
   if (in.choices.at("backfill") == "none")
     throw InputError(
-        "[bridge.beam] length = {:g} m: there is no fill to load with backfill = \"none\": set it to \"rigid\" or "
-        "\"deformable\"",
+        "[bridge.beam] length = {:g} m, but backfill = \"none\" gives no fill to load. Set backfill to \"rigid\" or "
+        "\"deformable\".",
         beam.length);
 }
 
@@ -415,8 +418,8 @@ void read_load_beam(Bridge& bridge, const GeneratorInput& in) {
 Bridge read_any_bridge(const GeneratorInput& in) {
   const std::size_t spans = in.entries.at("span"), piers = in.entries.at("pier");
   if (piers != 1 && piers + 1 != spans)
-    throw InputError("[[bridge.pier]] is there {} times for {} spans: give one, which holds for all, or {}", piers,
-                     spans, spans - 1);
+    throw InputError("[[bridge.pier]] is given {} times for {} spans. Give one, which applies to all piers, or {}.",
+                     piers, spans, spans - 1);
   Bridge bridge;
   bridge.width = in("width");
   bridge.skew = radians(in("skew"));

@@ -97,11 +97,11 @@ Bridge read_cs(const GeneratorInput& in) {
   return bridge;
 }
 
-/// Keys that contradict one another, by name.
+/// Throws InputError for keys that contradict one another.
 void check_cs(const GeneratorInput& in) {
   const auto at_most = [&](double low, const std::string& small, double high, const std::string& large) {
     if (low > high + 1e-9) {
-      throw InputError("[bridge] {} = {:g} m is more than {} = {:g} m: make the first smaller or the second larger",
+      throw InputError("[bridge] {} = {:g} m is larger than {} = {:g} m. Make the first smaller or the second larger.",
                        small, low, large, high);
     }
   };
@@ -121,7 +121,7 @@ void check_cs(const GeneratorInput& in) {
   at_most(in("parapet_height") > 0.0 ? in("parapet_thickness") : 0.0, "parapet_thickness", in("spandrel_thickness_top"),
           "spandrel_thickness_top");
   if (in("voussoirs") > 0.0 && in("voussoirs") < 4.0) {
-    throw InputError("[bridge] voussoirs = {:g}: a vault needs at least 4, or 0 for the number from voussoir_length",
+    throw InputError("[bridge] voussoirs = {:g}. A vault needs at least 4; 0 gives the number from voussoir_length.",
                      in("voussoirs"));
   }
   if (in.choices.at("makeup") != "leaf") return;
@@ -134,8 +134,8 @@ void check_cs(const GeneratorInput& in) {
   }
   if (in("batter_x") > 0.0 || in("batter_y") > 0.0) {
     throw InputError(
-        "[bridge] batter_x = {:g} and batter_y = {:g}: piers with a leaf (makeup = \"leaf\") have upright "
-        "faces; set both to 0 or makeup = \"solid\"",
+        "[bridge] batter_x = {:g} and batter_y = {:g}, but piers with a leaf (makeup = \"leaf\") have upright faces. "
+        "Set both to 0, or makeup = \"solid\".",
         in("batter_x"), in("batter_y"));
   }
 }

@@ -52,8 +52,9 @@ Ring make_segment(double middle, double span, double rise, double thickness, int
 Strip read_strip(const GeneratorInput& in) {
   const double span = in("clear_span"), rise = in("rise"), t = in("ring_thickness");
   if (rise > 0.45 * span)
-    throw InputError("[bridge] rise = {:g} m is too much for clear_span = {:g} m: at most {:g} m, a segment", rise,
-                     span, 0.45 * span);
+    throw InputError(
+        "[bridge] rise = {:g} m is too large for clear_span = {:g} m. It must be at most {:g} m for a segment.", rise,
+        span, 0.45 * span);
   Strip s;
   s.approach = in("approach");
   s.length = span + 2.0 * s.approach;
@@ -69,8 +70,8 @@ Strip read_strip(const GeneratorInput& in) {
   const double foot = s.ring.extrados.front().x();
   if (foot < 0.1 * s.approach)
     throw InputError(
-        "[bridge] approach = {:g} m is less than the fill beyond the ring needs: make it at least {:.2g} m", s.approach,
-        (s.approach - foot) / 0.9);
+        "[bridge] approach = {:g} m is too small for the fill beyond the ring. It must be at least {:.2g} m.",
+        s.approach, (s.approach - foot) / 0.9);
   return s;
 }
 

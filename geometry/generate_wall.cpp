@@ -16,7 +16,8 @@ class Bond {
  public:
   explicit Bond(double blocks) : units_(int(std::lround(2.0 * blocks))) {
     if (std::abs(0.5 * units_ - blocks) > 1e-9)
-      throw InputError("[bridge] length_blocks = {:g}, expected a whole number of blocks or one and a half", blocks);
+      throw InputError("[bridge] length_blocks = {:g}. It must be a whole number, or a whole number and a half.",
+                       blocks);
   }
   int units() const { return units_; }
   /// Whether a joint stands at a unit's end, between two blocks; in the middle of a block otherwise.

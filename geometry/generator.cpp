@@ -12,7 +12,7 @@ namespace voussoir {
 
 namespace {
 
-/// The same generator whose build() checks its input first.
+/// The same generator with a build() that checks its input first.
 Generator checked(Generator generator) {
   Generator keys = generator;
   keys.build = nullptr;
@@ -34,17 +34,17 @@ std::string joined(const std::vector<std::string>& words) {
 void check_value(const Generator& generator, const Parameter& parameter, const GeneratorInput& input) {
   const auto found = input.values.find(parameter.name);
   if (found == input.values.end()) {
-    throw InputError("generator \"{}\": no value for \"{}\"; give one from {} to {} {} (default {})", generator.name,
+    throw InputError("generator \"{}\": \"{}\" has no value. Give one from {} to {} {} (default {}).", generator.name,
                      parameter.name, parameter.low, parameter.high, parameter.unit, parameter.value);
   }
   const double value = found->second;
   if (!(value >= parameter.low && value <= parameter.high)) {  // also catches NaN
-    throw InputError("[bridge] {} = {} {}: generator \"{}\" takes {} to {} {} ({}; default {})", parameter.name, value,
-                     parameter.unit, generator.name, parameter.low, parameter.high, parameter.unit, parameter.help,
-                     parameter.value);
+    throw InputError("[bridge] {} = {} {}. For generator \"{}\" it must be from {} to {} {} ({}; default {}).",
+                     parameter.name, value, parameter.unit, generator.name, parameter.low, parameter.high,
+                     parameter.unit, parameter.help, parameter.value);
   }
   if (parameter.integer && value != std::floor(value)) {
-    throw InputError("[bridge] {} = {}: a whole number is needed, such as {}", parameter.name, value,
+    throw InputError("[bridge] {} = {}. It must be a whole number, such as {}.", parameter.name, value,
                      std::round(value));
   }
 }
@@ -56,8 +56,8 @@ void check_choice(const Generator& generator, const Choice& choice, const Genera
   for (const std::string& known : choice.words) {
     if (word == known) return;
   }
-  throw InputError("[bridge] {} = \"{}\": generator \"{}\" takes one of: {}", choice.name, word, generator.name,
-                   joined(choice.words));
+  throw InputError("[bridge] {} = \"{}\". For generator \"{}\" it must be one of: {}", choice.name, word,
+                   generator.name, joined(choice.words));
 }
 
 void check_names(const Generator& generator, const Keys& keys, const GeneratorInput& input) {
@@ -69,7 +69,7 @@ void check_names(const Generator& generator, const Keys& keys, const GeneratorIn
     for (const std::string& k : known) {
       if (k == name) return;
     }
-    throw InputError("[bridge] has the key \"{}\", which generator \"{}\" does not know; it knows: {}", name,
+    throw InputError("[bridge] has the key \"{}\", which generator \"{}\" does not have. Its keys are: {}", name,
                      generator.name, joined(known));
   };
   for (const auto& [name, value] : input.values) check(name);
@@ -83,23 +83,24 @@ void check_entries(const Generator& generator, const GeneratorInput& input) {
     const auto found = input.entries.find(table.name);
     const std::size_t count = found == input.entries.end() ? 0 : found->second;
     if (count < table.least || count > table.most)
-      throw InputError("[[bridge.{}]] is there {} times: generator \"{}\" takes {} to {}", table.name, count,
-                       generator.name, table.least, table.most);
+      throw InputError("[[bridge.{}]] is given {} times. For generator \"{}\" it must be given {} to {} times.",
+                       table.name, count, generator.name, table.least, table.most);
   }
 }
 
 void check_material(const std::string& name, const Material& m) {
   const auto positive = [&](const char* key, double value) {
     if (!(value > 0.0)) {
-      throw InputError("[materials.{}] {} = {}: a value above 0 is needed", name, key, value);
+      throw InputError("[materials.{}] {} = {}. It must be above 0.", name, key, value);
     }
   };
   positive("density", m.density);
   positive("youngs_modulus", m.youngs_modulus);
   positive("shear_modulus", m.shear_modulus);
   if (!(m.dilation_angle >= 0.0 && m.dilation_angle <= m.friction_angle)) {
-    throw InputError("[materials.{}] dilation_angle = {:g} degrees: 0 to the friction angle, {:g}, is needed", name,
-                     m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
+    throw InputError(
+        "[materials.{}] dilation_angle = {:g} degrees. It must be from 0 to the friction angle, {:g} degrees.", name,
+        m.dilation_angle * 180.0 / pi, m.friction_angle * 180.0 / pi);
   }
 }
 
@@ -150,7 +151,7 @@ const Generator& find_generator(const std::string& name, const char* where) {
     names.push_back(generator.name);
   }
   const std::string near = nearest_word(name, names);
-  throw InputError("{} \"{}\": there is none of that name{}; the generators are: {}", where, name,
+  throw InputError("{} \"{}\": there is no generator of this name{}; the generators are: {}", where, name,
                    near.empty() ? near : fmt::format(", did you mean \"{}\"?", near), joined(names));
 }
 
@@ -199,8 +200,8 @@ void check_named_materials(const Generator& generator, const GeneratorInput& inp
     const auto found = input.choices.find(choice.name);
     if (!choice.material || found == input.choices.end() || input.materials.contains(found->second)) continue;
     throw InputError(
-        "[bridge] {} = \"{}\": there is no material of that name; the materials are: {}. Name one of them, or give "
-        "[materials.{}]",
+        "[bridge] {} = \"{}\": there is no material of this name; the materials are: {}. Name one of them, or give "
+        "[materials.{}].",
         choice.name, found->second, joined(known), found->second);
   }
 }
@@ -234,8 +235,7 @@ void check_input(const Generator& generator, const GeneratorInput& input) {
   for (const Choice& choice : keys.choices) check_choice(generator, choice, input);
   check_materials(generator, input);
   if (!(input.gap_tolerance > 0.0 && input.gap_tolerance < 0.01)) {
-    throw InputError("gap_tolerance = {} m: more than 0 and less than 0.01 m is needed (default 1e-4)",
-                     input.gap_tolerance);
+    throw InputError("gap_tolerance = {} m. It must be above 0 and below 0.01 m (default 1e-4).", input.gap_tolerance);
   }
 }
 
@@ -264,8 +264,7 @@ std::string describe(const Generator& generator) {
   }
   text +=
       "\n| material | density kg/m3 | E Pa | G Pa | ft Pa | c Pa | friction deg |\n| --- | --- | --- | --- | --- | --- "
-      "| "
-      "--- |\n";
+      "| --- |\n";
   for (const Material& m : generator.materials) {
     text += fmt::format("| `{}` | {:g} | {:g} | {:g} | {:g} | {:g} | {:g} |\n", m.name, m.density, m.youngs_modulus,
                         m.shear_modulus, m.tensile_strength, m.cohesion, m.friction_angle * 180.0 / pi);

@@ -58,8 +58,9 @@ std::vector<Box> collect_boxes(const Assembly& assembly) {
     for (const Polyhedron& cell : assembly.blocks[b].cells) {
       boxes.push_back(bounding_box(cell));
       if (!boxes.back().low.allFinite() || !boxes.back().high.allFinite())
-        throw InputError("{}: a cell has vertices that are not finite; expected coordinates in metres. Correct them.",
-                         block_label(assembly, static_cast<std::int64_t>(b)));
+        throw InputError(
+            "{}: a cell has vertices that are not finite numbers. Coordinates must be finite, in metres. Correct them.",
+            block_label(assembly, static_cast<std::int64_t>(b)));
     }
   return boxes;
 }
@@ -199,8 +200,8 @@ class OverlapCheck {
   const std::string more =
       overlaps.size() == 1 ? "" : fmt::format(" {} more pairs of blocks overlap.", overlaps.size() - 1);
   throw InputError(
-      "{} and {} overlap by {:.3g} m; expected at most the gap tolerance, {:g} m. Move or trim one of them, join them "
-      "as cells of one block, or raise gap_tolerance if the drawing is that coarse.{}",
+      "{} and {} overlap by {:.3g} m. The overlap must be at most the gap tolerance, {:g} m. Move or trim one of them, "
+      "join them as cells of one block, or raise gap_tolerance if the drawing is not more accurate.{}",
       block_label(assembly, worst.a), block_label(assembly, worst.b), worst.depth, gap, more);
 }
 

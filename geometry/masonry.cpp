@@ -71,8 +71,8 @@ void check_stones(double stones) {
   constexpr double most = 2e6;  // they take some kilobytes each before there is a model of them
   if (!(stones <= most))
     throw InputError(
-        "[bridge] asks for {:.3g} blocks, expected at most {:g}: make them larger (block_scale, or the sizes of the "
-        "blocks), or the structure smaller",
+        "[bridge] gives {:.3g} blocks; at most {:g} are allowed. Make the blocks larger (block_scale, or the sizes of "
+        "the blocks), or the structure smaller.",
         stones, most);
 }
 

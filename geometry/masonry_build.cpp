@@ -18,8 +18,8 @@ void check_feet(const Bridge& bridge) {
     const double grown = left.slope_x * left.height + right.slope_x * right.height, space = right.x0 - left.x1;
     if (grown > space)
       throw InputError(
-          "[bridge] the feet of {} and {} reach {:g} m into one another: batter_x times height may be {:g} m for both "
-          "together, the clear span, and is {:g} m",
+          "[bridge] the feet of {} and {} overlap by {:g} m: batter_x x height of both together must be at most the "
+          "clear span, {:g} m, but is {:g} m",
           support_name(bridge, i), support_name(bridge, i + 1), grown - space, space, grown);
   }
 }

@@ -162,8 +162,8 @@ void lay_oblique(Layout& layout, const Bridge& bridge, std::size_t i) {
   for (std::size_t k = 0; k + 1 < intrados.size(); ++k)
     if (intrados[k + 1].x() - intrados[k].x() < 1e-3 * (intrados[k + 1] - intrados[k]).norm())
       throw InputError(
-          "[[bridge.span]] number {}: its intrados is upright or overhangs beside a springing, and beds square to the "
-          "faces would have no end there: choose skew_bond = \"parallel\"",
+          "[[bridge.span]] number {}: its intrados is vertical or overhangs near a springing, so bed joints square to "
+          "the faces would not end there. Choose skew_bond = \"parallel\".",
           i + 1);
   const Beds beds = lay_out_beds(bridge, vault);
   double low = 1e300, high = -1e300;

@@ -118,8 +118,8 @@ Road::Road(const Assembly& assembly) : assembly_(&assembly) {
   }
   if (!any)
     throw InputError(
-        "there is no road: the assembly has neither a fill nor a group \"{}\"; set backfill = \"rigid\" or "
-        "\"deformable\" in [bridge], or name the stones of the deck so when they are imported",
+        "there is no road: the assembly has neither a fill nor a group \"{}\". Set backfill = \"rigid\" or "
+        "\"deformable\" in [bridge], or put the stones of the deck into this group when you import them.",
         deck_group);
   add_fill(assembly);
   add_blocks(assembly, wanted);

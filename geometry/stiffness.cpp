@@ -145,7 +145,7 @@ Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) 
     }
     if (pair.first < 0) {
       throw InputError(
-          "[joints] has \"{}\", which is not a pair of this bridge's materials; write two of ({}) with a "
+          "[joints] has \"{}\", which is not a pair of materials of this bridge. Write two of ({}) with a "
           "hyphen between them, such as \"{}-{}\", or \"ring-ring\" for the joints between the rings of a vault",
           key, names, assembly.materials.front().name, assembly.materials.back().name);
     }
@@ -171,8 +171,8 @@ const GeneratorInput::JointOverride* override_between_rings(const GeneratorInput
   if (found == input.joints.end()) return nullptr;
   if (rings.none())
     throw InputError(
-        "[joints.ring-ring] is given, and no vault of this bridge has several rings: set rings = 2 or more in a "
-        "[[bridge.span]] of generator = \"bridge\", or leave it out");
+        "[joints.ring-ring] is given, but no vault of this bridge has more than one ring. Set rings = 2 or more in a "
+        "[[bridge.span]] of generator = \"bridge\", or leave the table out.");
   return &found->second;
 }
 
@@ -247,8 +247,8 @@ void check_moduli(const Assembly& assembly) {
   }
   if (count > 0)
     throw InputError(
-        "blocks without moduli: joints need kn and ks, or give materials with youngs_modulus and shear_modulus above "
-        "0. It is so of {} blocks: {}{}",
+        "{} blocks have no moduli, so their joints have no stiffness. Give kn and ks, or materials with youngs_modulus "
+        "and shear_modulus above 0. The blocks are: {}{}",
         count, fmt::join(without, "; "), count > without.size() ? "; …" : "");
 }
 
@@ -256,7 +256,7 @@ void check_moduli(const Assembly& assembly) {
 
 JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform) {
   if ((uniform.kn > 0.0) != (uniform.ks > 0.0))
-    throw InputError("kn is {} and ks {} Pa/m; give both, or neither to take them from the moduli", uniform.kn,
+    throw InputError("kn is {} and ks is {} Pa/m. Give both, or neither; then they follow from the moduli.", uniform.kn,
                      uniform.ks);
   JointRules rules;
   rules.kind = uniform.kn > 0.0 ? JointRules::Kind::given : JointRules::Kind::moduli;
@@ -275,7 +275,7 @@ JointRules uniform_rules(const GeneratorInput& in) {
     rules.kind = JointRules::Kind::given;
     rules.uniform = {in("kn"), in("ks")};
   } else if (in("kn") > 0.0 || in("ks") > 0.0) {
-    throw InputError("[bridge] kn = {:g} and ks = {:g} Pa/m: give both, or neither to have them from the moduli",
+    throw InputError("[bridge] kn = {:g} and ks = {:g} Pa/m. Give both, or neither; then they follow from the moduli.",
                      in("kn"), in("ks"));
   }
   return rules;

@@ -229,7 +229,7 @@ double along_crown(const VaultShape& vault, double thickness) {
 void check_shape(const VaultShape& v, const std::string& key) {
   const double a = 0.5 * v.span();
   const auto refuse = [&](const char* why, double would) {
-    throw InputError("{}: rise = {:g} m and clear_span = {:g} m make no {} vault: {}, such as rise = {:g} m", key,
+    throw InputError("{}: rise = {:g} m and clear_span = {:g} m do not give a {} vault: {}, such as rise = {:g} m", key,
                      v.rise, v.span(), v.shape, why, would);
   };
   if (v.shape == "semicircular" && std::abs(v.rise - a) > 1e-9 * a) refuse("the rise is half the span", a);
@@ -238,7 +238,7 @@ void check_shape(const VaultShape& v, const std::string& key) {
   if (v.shape == "three-centred" && v.rise < 0.3 * a) refuse("the rise is at least 0.15 of the span", 0.3 * a);
   if (v.shape == "pointed" && v.rise < 1.001 * a) refuse("the rise is more than half the span", 1.2 * a);
   if (v.shape == "pointed" && v.voussoirs % 2 != 0)
-    throw InputError("{}: voussoirs = {}: a pointed vault has a joint at its crown and needs an even number", key,
+    throw InputError("{}: voussoirs = {}, but a pointed vault has a joint at its crown and needs an even number", key,
                      v.voussoirs);
 }
 
@@ -254,12 +254,13 @@ void check_convex(const Ring& ring, const std::string& key) {
                         turns(w[2], w[3], w[0]) <= 0.0 || turns(w[3], w[0], w[1]) <= 0.0;
     if (hollow || step.dot(ring.intrados[i + 1] - ring.intrados[i]) <= 0.0)
       throw InputError(
-          "{}: the joints {} and {} from the left cross within the ring: make it thinner, or the intrados rounder", key,
-          i, i + 1);
+          "{}: the joints {} and {} from the left cross within the ring. Make the ring thinner, or the curvature of "
+          "the intrados smaller.",
+          key, i, i + 1);
     if (i > 0 && turns(p[i - 1], p[i], p[i + 1]) > 1e-9 * step.squaredNorm())
       throw InputError(
-          "{}: its extrados is hollow at x = {:.3f} m, z = {:.3f} m: stones above could not be cut by it; give "
-          "another intrados, or less difference of thickness between crown and springing",
+          "{}: its extrados is concave at x = {:.3f} m, z = {:.3f} m, so stones above it cannot be cut to fit. Give "
+          "another intrados, or a smaller difference of thickness between crown and springing.",
           key, p[i].x(), p[i].z());
   }
 }

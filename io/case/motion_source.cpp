@@ -101,7 +101,7 @@ void read_record(TableReader& stage, const std::string& path, MotionSource& sour
     source.files[axis] = relative_to(path, names[axis]);
     std::error_code ignored;  // an error counts as a file that does not exist
     if (!std::filesystem::is_regular_file(source.files[axis], ignored))
-      stage.fail("record", fmt::format("is \"{}\". There is no such file.", shown(source.files[axis], 300)));
+      stage.fail("record", fmt::format("is \"{}\", but there is no such file", shown(source.files[axis], 300)));
     source.texts[axis] = read_text(source.files[axis]);
     const RecordFormat& format = recognise(source.texts[axis]);
     if (format.unit > 0.0 && stage.has("units"))

@@ -280,7 +280,7 @@ void read_bridge(TableReader& root, Case& c) {
     c.assembly_file = relative_to(c.path, bridge->text("assembly", ""));
     std::error_code ignored;  // a name that cannot be looked up names no file
     if (!std::filesystem::exists(c.assembly_file, ignored))
-      bridge->fail("assembly", fmt::format("is {}. There is no such file.", shown(c.assembly_file, 300)));
+      bridge->fail("assembly", fmt::format("is {}, but there is no such file", shown(c.assembly_file, 300)));
   }
   bridge->finish();
 }

@@ -94,7 +94,7 @@ TEST(FinishBlocks, NamesTheBlockThatIsWrong) {
                     "inside-out"));
   EXPECT_TRUE(holds(finishing_error([](Block& b) { b.cells[0].vertices[3].y() = NAN; }), "vertex 3"));
   EXPECT_TRUE(holds(finishing_error([](Block& b) { b.cells[0].vertices[3].y() = INFINITY; }), "finite"));
-  EXPECT_TRUE(holds(finishing_error([](Block& b) { b.cells[0].faces[2][1] = 8; }), "expected 0 to 7"));
+  EXPECT_TRUE(holds(finishing_error([](Block& b) { b.cells[0].faces[2][1] = 8; }), "It must be from 0 to 7"));
   EXPECT_TRUE(holds(finishing_error([](Block& b) { b.cells.clear(); }), "no cells"));
   EXPECT_TRUE(holds(finishing_error([](Block& b) { b.material = 1; }), "material index is 1"));
 }

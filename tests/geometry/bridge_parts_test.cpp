@@ -423,12 +423,12 @@ TEST(BridgeGenerator, WhatCannotBeNamesItsKeys) {
   in.values["pier.1.height"] = 50.0, in.values["pier.1.batter_x"] = 0.1;
   EXPECT_NE(refused(in).find("the feet of pier 0 and pier 1"), std::string::npos) << refused(in);
   in = with_entries(3, 3);
-  EXPECT_NE(refused(in).find("is there 3 times for 3 spans"), std::string::npos) << refused(in);
+  EXPECT_NE(refused(in).find("is given 3 times for 3 spans"), std::string::npos) << refused(in);
   in = with_entries(1, 1);
   in.choices["span.1.shape"] = "surveyed";
   EXPECT_NE(refused(in).find("needs intrados"), std::string::npos) << refused(in);
   in.profiles["span.1.intrados"] = {{0, 0, 0}, {2, 0, 0}};
-  EXPECT_NE(refused(in).find("has 2 points, expected at least 3"), std::string::npos) << refused(in);
+  EXPECT_NE(refused(in).find("has 2 points. It must have at least 3"), std::string::npos) << refused(in);
   in.profiles["span.1.intrados"] = {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}};
   in.values["span.1.rise"] = 1.0;
   EXPECT_NE(refused(in).find("follow from intrados"), std::string::npos) << refused(in);
@@ -438,7 +438,7 @@ TEST(BridgeGenerator, WhatCannotBeNamesItsKeys) {
   in = with_entries(1, 1);
   in.choices["span.1.shape"] = "segmental";
   in.values["backing_height"] = 0.0;
-  EXPECT_NE(refused(in).find("backing_height = 0 m ends below"), std::string::npos) << refused(in);
+  EXPECT_NE(refused(in).find("backing_height = 0 m is below"), std::string::npos) << refused(in);
   in = with_entries(1, 1);
   in.values["abutment.left.height"] = 0.1, in.values["span.1.springing_left"] = -0.3,
   in.values["abutment.right.height"] = 0.1;

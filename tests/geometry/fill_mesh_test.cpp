@@ -117,7 +117,7 @@ TEST(FillMesh, ErrorsSayWhere) {
   EXPECT_TRUE(holds(error([](FillMesh& m) { m.nodes[3].y() = NAN; }), "node 3 is at (1, nan, 0)"));
   EXPECT_TRUE(holds(error([](FillMesh& m) { m.nodes.emplace_back(2, 2, 2); }), "node 8 at (2.000, 2.000, 2.000) m "));
   EXPECT_TRUE(
-      holds(error([](FillMesh& m) { m.tets[1][2] = 8; }), "tetrahedron 1 has the node 8; nodes count from 0 to 7"));
+      holds(error([](FillMesh& m) { m.tets[1][2] = 8; }), "tetrahedron 1 has the node 8, but nodes count from 0 to 7"));
   const std::string third = error([](FillMesh& m) {
     m.nodes.emplace_back(0.5, 0.5, 3.0);
     m.tets.push_back({0, 7, 1, 8});  // on a face that two have already, or its twin on the other side
@@ -148,7 +148,7 @@ TEST(FillMesh, ThreeTetrahedraOnAFaceAndTwoOnOneSide) {
 
 TEST(FillMesh, AMissedVolumeIsAnError) {
   EXPECT_NO_THROW(check_volume(finished_cube(), 1.0005));
-  EXPECT_TRUE(holds(complaint([] { check_volume(finished_cube(), 1.002); }), "holds 1 m3"));
+  EXPECT_TRUE(holds(complaint([] { check_volume(finished_cube(), 1.002); }), "has a volume of 1 m3"));
 }
 
 // ---- patches
@@ -218,7 +218,7 @@ TEST(FillJoints, AFillThatTouchesNothingIsAnError) {
 TEST(FillJoints, StonesInOneAnotherAreAnError) {
   Assembly assembly = stones({{{-1, -1, -1}, {2, 2, 0}}, {{0, 0, -1}, {1, 1, 0}}});
   assembly.fill = finished_cube();
-  EXPECT_TRUE(holds(complaint([&] { find_fill_joints(assembly); }), "both cover the fill's surface"));
+  EXPECT_TRUE(holds(complaint([&] { find_fill_joints(assembly); }), "both cover the surface of the fill"));
 }
 
 TEST(FillImport, StiffnessIsAShareOfTheStones) {
@@ -365,7 +365,7 @@ TEST(FillOfBridges, TetrahedraWithoutEndAreRefusedWithTheirNumber) {
   space.boxes.push_back({Vec3(0, 0, 0), Vec3(100, 10, 10)});
   FillMeshing fine;
   fine.edge = 0.05;
-  EXPECT_TRUE(holds(complaint([&] { mesh_fill(space, fine); }), "of 0.05 m is about 2e+09 of them"));
+  EXPECT_TRUE(holds(complaint([&] { mesh_fill(space, fine); }), "of 0.05 m needs about 2e+09 tetrahedra"));
 }
 
 TEST(FillOfBridges, TheSameBitsTwice) {

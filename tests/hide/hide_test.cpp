@@ -97,7 +97,7 @@ TEST(Hide, TheTruthMayHaveOtherKeys) {
   EXPECT_NE(refused("backfil", "none").find("'backfill'"), std::string::npos);
   EXPECT_NE(refused("backfill", "sand").find("rigid, deformable, none"), std::string::npos);
   EXPECT_NE(refused("width", "wide").find("must be a number"), std::string::npos);
-  EXPECT_NE(refused("width", "700").find("takes 1 to 40"), std::string::npos);
+  EXPECT_NE(refused("width", "700").find("it must be from 1 to 40"), std::string::npos);
   EXPECT_NE(refused("block_scale", "2").find("--mesh"), std::string::npos);
 }
 

@@ -203,7 +203,7 @@ TEST(AgencyFormats, TablesOfAfadAndCwa) {
   EXPECT_EQ(parse_channels(cwa, "r").at(0).station, "ABC");
   expect_recording("one.txt", afad, 1e-7);
   expect_recording("two.txt", cwa, 1e-5);
-  EXPECT_TRUE(says(fault(afad + "1 2\r\n"), "2 columns, 3 in the rows before"));
+  EXPECT_TRUE(says(fault(afad + "1 2\r\n"), "2 columns, but 3 in the rows before"));
   EXPECT_TRUE(says(fault(afad + "1 2 3\r\n"), "44 samples, but line 4 says 43"));
 }
 

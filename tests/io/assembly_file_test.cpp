@@ -421,9 +421,10 @@ TEST(AssemblyFile, JointsThatCannotBeFoundAreAnError) {
     EXPECT_TRUE(message.starts_with(path)) << message;
     for (const std::string& piece : pieces) EXPECT_TRUE(holds(message, piece)) << message;
   };
-  refused({.materials = false}, {"joints/blocks", "blocks without moduli: joints need kn and ks, or give materials",
-                                 "2 blocks: block 1 (block, part 0), material \"material 0\"; block 2"});
-  refused({.youngs = 0.0}, {"blocks without moduli", "material \"light\""});
+  refused({.materials = false},
+          {"joints/blocks", "2 blocks have no moduli, so their joints have no stiffness. Give kn and ks, or materials",
+           "The blocks are: block 1 (block, part 0), material \"material 0\"; block 2"});
+  refused({.youngs = 0.0}, {"blocks have no moduli", "material \"light\""});
   refused({.laws = true}, {"laws/tension", "no joints/blocks"});
   refused({.density = {1600.0, 2000.0, 2700.0}}, {"blocks/density: row 1", "a further row in materials/*"});
 }

@@ -275,9 +275,9 @@ TEST(BlockModels, DamagedGltfFilesAreNamed) {
   refused("/asset/version", "1.0", "version '1.0'");
   refused("/extensionsRequired", {"KHR_draco_mesh_compression"}, "without compression");
   refused("/nodes/1/children", {0}, "has two parents");
-  refused("/nodes/1/mesh", 7, "a mesh is 7; there are 2");
+  refused("/nodes/1/mesh", 7, "a mesh is 7, but there are 2");
   refused("/accessors/0/count", 1000000000, "do not fit");
-  refused("/accessors/0/type", "VEC2", "expected VEC3");
+  refused("/accessors/0/type", "VEC2", "It must be VEC3");
   refused("/accessors/0/componentType", 7, "does not know");
   refused("/bufferViews/0/byteOffset", 1 << 30, "do not fit");
   refused("/nodes/2/rotation", {0, 0, 0, 0}, "not a unit quaternion");

@@ -79,7 +79,7 @@ density = 2700
   EXPECT_TRUE(said("names.toml: no object fits 'keystone*'"));
   EXPECT_TRUE(said("names.toml: no layer of the drawing fits 'Deck'"));
   EXPECT_TRUE(said("the map has no row for the objects 'corbel a', 'corbel b', 'foot left', 'foot right'"));
-  EXPECT_TRUE(said("no stone is of the material granite"));
+  EXPECT_TRUE(said("no stone has the material granite"));
   EXPECT_TRUE(import.assembly.groups.empty());
   // Nothing is fixed by the map, so what is lowest is.
   EXPECT_TRUE(import.assembly.blocks[0].fixed);

@@ -80,10 +80,10 @@ TEST_F(MeasuredFolder, WrongKindsOfFile) {
   expect_begins(problem(), "records: is a file. It must be a folder");
   std::filesystem::remove(folder / "records");
   ASSERT_EQ(::mkfifo((folder / "shapes.csv").c_str(), 0600), 0);
-  expect_begins(problem(), "shapes.csv: is not an ordinary file");
+  expect_begins(problem(), "shapes.csv: is not a text file");
   std::filesystem::remove(folder / "shapes.csv");
   std::filesystem::create_directory(folder / "sensors.csv");
-  expect_begins(problem(), "sensors.csv: is not an ordinary file");
+  expect_begins(problem(), "sensors.csv: is not a text file");
 }
 
 TEST_F(MeasuredFolder, StrangersAreReported) {

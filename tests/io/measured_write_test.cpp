@@ -67,7 +67,7 @@ TEST_F(MeasuredFolder, WritesNothingThatCannotBeRead) {
   expect_holds(refused(m), "sensors.csv:2: ");
   m = difficult();
   m.records[2].name = "elsewhere/r1.csv";
-  expect_holds(refused(m), "records/r1.csv: two recordings of this name");
+  expect_holds(refused(m), "records/r1.csv: two recordings have this name");
   m.records[2].name = "records/..";
   expect_holds(refused(m), "has no name for its file");
   m = difficult();

@@ -129,7 +129,7 @@ TEST(MshFile, WithoutTetrahedraTheCauseIsSaid) {
   expect_said(nodes + "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n", {"has no tetrahedra", "gmsh FILE -3"});
   // A physical group on the surface, by number (2.2) and by name (4.1).
   expect_said(nodes + "$Elements\n1\n1 2 2 7 1 1 2 3\n$EndElements\n",
-              {"its physical groups have surfaces only", "add a physical volume", "Mesh.SaveAll = 1"});
+              {"its physical groups have surfaces only", "Add a physical volume", "Mesh.SaveAll = 1"});
   std::string named = with(one_tet_41, "$Entities", "$PhysicalNames\n1\n2 3 \"skin\"\n$EndPhysicalNames\n$Entities");
   named = with(named, "3 1 4 1\n1 1 2 3 4\n", "2 1 2 1\n1 1 2 3\n");
   expect_said(named, {"its physical groups have surfaces only"});

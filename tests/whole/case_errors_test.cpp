@@ -41,7 +41,7 @@ TEST(CaseErrors, UnknownKeysAreNamedWithTheNearest) {
 }
 
 TEST(CaseErrors, WrongTypes) {
-  expect_refused_with("courses = 6", "courses = \"six\"", {"bad.toml:4:", "'courses'", "expected a number"});
+  expect_refused_with("courses = 6", "courses = \"six\"", {"bad.toml:4:", "'courses'", "must be a number"});
   expect_refused_with("courses = 6", "courses = 6.5", {"'courses'", "6.5", "whole number"});
   expect_refused_with("kind = \"gravity\"", "kind = 3", {"'kind'", "a number"});
   expect_refused_with("kind = \"gravity\"", "kind = \"levity\"", {"levity", "gravity"});

@@ -99,7 +99,7 @@ TEST(Check, AKnownMissIsSaidAndDoesNotFail) {
 
   folder.write("why.toml", tipping("0.6") + "miss = \"\"\n");
   for (const char* verb : {"check", "run"})
-    expect_error(voussoir({verb, "why.toml"}, there), 2, {"why.toml:", "'miss'", "no reason"});
+    expect_error(voussoir({verb, "why.toml"}, there), 2, {"why.toml:", "'miss'", "State why"});
 }
 
 TEST(Check, WritesAMarkdownTable) {

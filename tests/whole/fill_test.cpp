@@ -129,7 +129,7 @@ TEST(Fill, ImportInWrongUnitsDoesNotTouch) {
   const Surroundings there = {.folder = folder.path()};
   ASSERT_EQ(voussoir({"import", "stone.obj", "-o", "stone.h5"}, there).status, 0);
   expect_error(voussoir({"import", "heap.msh", "--scale", "0.001", "--into", "stone.h5", "-o", "b.h5"}, there), 2,
-               {"heap.msh", "does not touch the masonry", "units"});
+               {"heap.msh", "does not touch the masonry", "unit (metres)"});
   EXPECT_FALSE(exists(folder / "b.h5"));
 }
 

@@ -130,7 +130,7 @@ TEST(Motion, WrongWordsAreExplained) {
   expect_error(voussoir({"motion", "select", "."}, there), 2, {"--target is missing"});
   expect_error(voussoir({"motion", "select", ".", "--target", "ntc2018", "--ag", "0.2", "--soil", "D"}, there), 2,
                {"needs --f0"});
-  expect_error(voussoir(with_target({"motion", "select", "nowhere"}), there), 2, {"nowhere", "give a folder"});
+  expect_error(voussoir(with_target({"motion", "select", "nowhere"}), there), 2, {"nowhere", "Give a folder"});
   expect_error(voussoir(with_target({"motion", "select", "."}), there), 2, {"no record with two horizontal"});
   expect_error(voussoir({"motion", "process", "a_EW.txt", "--band", "5", "1", "-o", "o"}, there), 2,
                {"lower corner frequency must come first"});

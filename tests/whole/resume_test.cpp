@@ -64,7 +64,7 @@ TEST(Resume, NotWhileAnotherHoldsTheFolder) {
   EXPECT_EQ(contents(folder / "run"), before);
   close(held);
   EXPECT_EQ(resume(folder, "run").status, 0);
-  EXPECT_NE(info().find("it has ended"), std::string::npos) << info();
+  EXPECT_NE(info().find("the run has ended"), std::string::npos) << info();
 }
 
 TEST(Resume, AFinishedRunStaysAsItIs) {
