@@ -1,12 +1,12 @@
-// Meeting of two convex polyhedra: separating axes, and the contact patch by clipping on the common plane.
+// Contact of two convex polyhedra: separating axes, and the contact patch by clipping in the common plane.
 #pragma once
 #include "geometry/polyhedron.h"
 
 namespace voussoir {
 
-/// How two convex polyhedra meet: the axis of largest separation (least overlap) and what they share there.
+/// The contact of two convex polyhedra: the axis of largest separation (least overlap) and the shared patch.
 struct Meeting {
-  enum class Kind { apart, face, edge };  // apart: farther than the asked distance
+  enum class Kind { apart, face, edge };  // apart: farther than the given distance
   Kind kind = Kind::apart;
   double separation = 0.0;       // m along `normal`; negative when they overlap
   Vec3 normal = Vec3::Zero();    // unit, from a to b
@@ -18,7 +18,7 @@ struct Meeting {
   double area = 0.0;             // m2 of the projected clip polygon; 0 for Kind::edge
 };
 
-/// Precomputed edges and face planes of a convex polyhedron, so that meeting() need not rebuild them.
+/// A convex polyhedron with its edges and face planes, computed once for meeting().
 struct Convex {
   std::vector<Vec3> vertices;
   std::vector<std::vector<int>> faces;

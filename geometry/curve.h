@@ -1,4 +1,4 @@
-// An order of points in which neighbours in space are near each other.
+// Orders points so that neighbours in space are near each other in the order.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace voussoir {
 
-/// Indices of the points along a Morton curve through their box; equal codes in the points' own order.
+/// Indices of the points along a Morton curve through their box. Points with equal codes keep their order.
 std::vector<std::int32_t> along_curve(const std::vector<Vec3>& points);
-/// The same slab by slab across the longest side of that box: neighbours are then no farther apart in the order than
-/// two slabs have points. `thickness` (m) is that of a slab.
+/// The same in slabs across the longest side of that box, each `thickness` (m) thick. In the order neighbours are then
+/// at most as far apart as two slabs have points.
 std::vector<std::int32_t> in_slabs(const std::vector<Vec3>& points, double thickness);
 
 }  // namespace voussoir

@@ -1,14 +1,14 @@
-// How far coordinates may go.
+// The limit of coordinates.
 #pragma once
 #include "geometry/polyhedron.h"
 
 namespace voussoir {
 
-/// m. Grids of whole countries reach 10,000 km from their origins. Beyond, a coordinate no longer tells micrometres,
-/// and squares and cubes of lengths leave what a double holds.
+/// Largest coordinate, m. National grids reach 10,000 km from their origins. Larger coordinates no longer resolve
+/// micrometres, and squares and cubes of lengths may overflow.
 inline constexpr double farthest = 1e7;
 
-/// False for what is not a number, too.
+/// Whether all coordinates are within the limit; false for NaN.
 inline bool within_reach(const Vec3& point) {
   return (point.array().abs() <= farthest).all();
 }

@@ -6,18 +6,18 @@
 
 namespace voussoir {
 
-/// What the patches between stones and such a fill are like: friction only.
+/// Properties of the patches between stones and an imported fill: friction only.
 struct FillInterface {
-  double kn = 0.0, ks = 0.0;          // Pa/m of every patch; both 0: from the stones' moduli
-  double share = 0.20;                // then: of E/dc and G/dc between two such stones
+  double kn = 0.0, ks = 0.0;          // Pa/m of every patch; both 0: from the moduli of the stones
+  double share = 0.20;                // then: share of E/dc and G/dc between two such stones
   double friction = 35.0 * pi / 180;  // rad
   JointSearch search;
 };
 
-/// Gives the assembly, which must have none, this fill of one of its materials, finds its patches and sets their
-/// stiffness and law. By the moduli kn = share E/dc, with dc twice the distance from the stone's centroid to the patch
-/// along its normal. An assembly without blocks just gets the fill. Throws InputError when there is a fill already,
-/// when only one of kn and ks is given, or when a stone has no modulus to take them from.
+/// Adds this fill of one of its materials to an assembly without a fill, finds its patches and sets their stiffness and
+/// law. From the moduli kn = share E/dc, where dc is twice the distance from the centroid of the stone to the patch
+/// along its normal. If the assembly has no blocks, only the fill is added. Throws InputError if there is already a
+/// fill, if only one of kn and ks is given, or if a stone has no modulus for them.
 FillJointReport put_fill(Assembly& assembly, FillMesh mesh, std::int32_t material, const FillInterface& interface);
 
 }  // namespace voussoir

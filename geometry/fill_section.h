@@ -1,5 +1,5 @@
-// The section of a deformable fill in triangles, and what is done so that as few as possible of them keep a bound of
-// their edges: equal triangles inside, and at the rim edges that are shortened one by one (docs/theory/geometry.md).
+// The section of a deformable fill in triangles. To keep a bound of the edges with few triangles, they are equal
+// inside, and the edges at the rim are shortened one by one (docs/theory/geometry.md).
 #pragma once
 #include <array>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-/// Triangles of the fill's section that share whole edges, each with how far across the fill reaches there.
+/// Triangles of the section that share whole edges. Each has the range of y over which the fill reaches.
 struct FillSection {
   struct Triangle {
     std::array<std::int32_t, 3> nodes = {};
@@ -21,15 +21,15 @@ struct FillSection {
 
 double longest_edge(const FillSection& section);  // m
 
-/// A straight piece of an outline: from and to where, m; y = 0.
+/// A straight piece of an outline: its two ends, m; y = 0.
 using Side = std::array<Vec3, 2>;
 
-/// Nodes of triangles with three edges of `edge` m, or a little less along the outline's highest level side, which they
-/// divide evenly; those inside the outline that keep 0.45 edges away from it.
+/// Nodes of equilateral triangles with edges of `edge` m, or slightly shorter ones that divide the highest level side
+/// of the outline evenly. Only nodes inside the outline with a distance of at least 0.45 edges from it.
 std::vector<Vec3> lattice_inside(const std::vector<Side>& outline, double edge);
 
-/// Moves nodes, turns edges to the other diagonal and, where neither helps, halves them, until none is longer than
-/// `bound` m. What lies on the outline, or between parts that reach differently far across, stays as it is.
+/// Moves nodes, flips edges to the other diagonal and, if neither helps, halves them, until no edge is longer than
+/// `bound` m. Edges on the outline and between parts with different ranges of y do not change.
 void shorten_edges(FillSection& section, double bound);
 
 }  // namespace voussoir

@@ -5,8 +5,8 @@
 namespace voussoir {
 
 /// Sweeps a section into tetrahedra with edges of at most `edge` m, if those of the section keep section_bound(), in
-/// layers of at most `layer` m. A fill that is alike on both sides of y = 0 gets a mesh that is its own mirror image.
-/// Oriented, with its surface; every tetrahedron of its triangle's material.
+/// layers of at most `layer` m. A fill that is symmetric about y = 0 gets a symmetric mesh. The tetrahedra are
+/// oriented, the surface is set, and every tetrahedron has the material of its triangle.
 FillMesh sweep(const FillSection& section, double edge, double layer);
 
 }  // namespace voussoir

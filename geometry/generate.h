@@ -13,8 +13,8 @@ Generator wall_generator();         // running-bond wall of equal blocks
 Generator column_generator();       // stack of equal blocks
 Generator filled_arch_generator();  // strip of an arch bridge with a deformable fill and a loading beam
 
-/// Materials of the case in the order of the generator's own list, so that indices are known to the generator; after
-/// them those that only the case has, by name.
+/// Materials of the case: first those of the generator in its order, so that it knows their indices, then materials
+/// that only the case has, by name.
 std::vector<Material> in_order(const std::vector<Material>& defaults, const GeneratorInput& input);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// The generator "bridge" in three files: its keys, what they mean, and what is built.
+// The generator "bridge" in three files: its keys, the dimensions that follow from them, and the assembly.
 #pragma once
 #include "geometry/generator.h"
 #include "geometry/masonry_parts.h"
@@ -11,14 +11,14 @@ std::vector<Parameter> any_bridge_keys();
 std::vector<Choice> any_bridge_choices();
 std::vector<KeyTable> any_bridge_tables();
 
-/// Throws InputError for what cannot be, with the keys of the entry.
+/// The dimensions of a bridge. Throws InputError for impossible dimensions, with the keys of the entry.
 Bridge read_any_bridge(const GeneratorInput& in);
-/// Where the keys of a span and of a support are: "span.1.", "pier.1." (one entry holds for all), "abutment.left.".
+/// The beginnings of the keys of a span and of a support: "span.1.", "pier.1." (one entry for all), "abutment.left.".
 std::string span_prefix(std::size_t span);
 std::string support_prefix(const GeneratorInput& in, std::size_t support, std::size_t spans);
-/// How errors name a support: "[bridge.abutment.left]", "[[bridge.pier]] number 1".
+/// The name of a support in errors: "[bridge.abutment.left]", "[[bridge.pier]] number 1".
 std::string support_heading(std::size_t support, std::size_t spans);
-/// The lowest point of the backing's top from x0 to x1, z.
+/// The lowest z of the top of the backing between x0 and x1.
 double least_backing(const Bridge& bridge, double x0, double x1);
 
 }  // namespace voussoir

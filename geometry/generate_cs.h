@@ -1,4 +1,4 @@
-// The keys of the two bridges.
+// The keys of the generators cs1 and cs2.
 #pragma once
 #include "geometry/generator.h"
 

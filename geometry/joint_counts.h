@@ -1,4 +1,4 @@
-// How many joints of which kind an assembly has.
+// Numbers of the joints of an assembly by kind.
 #pragma once
 #include "geometry/assembly.h"
 
@@ -11,7 +11,7 @@ struct JointCounts {
 };
 
 JointCounts count_joints(const Assembly& assembly);
-/// "96 joints: 40 bonded, 56 dry", then ", 2 ties" and ", 120 patches with the fill" where there are any.
+/// "96 joints: 40 bonded, 56 dry", then ", 2 ties" and ", 120 patches with the fill" if there are any.
 std::string joints_text(const Assembly& assembly);
 
 }  // namespace voussoir

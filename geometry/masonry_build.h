@@ -1,4 +1,4 @@
-// From the description of a bridge to its assembly: what all generators of whole bridges do.
+// Builds the assembly of a bridge from its description; common to all generators of whole bridges.
 #pragma once
 #include "geometry/generator.h"
 #include "geometry/masonry_parts.h"
@@ -6,10 +6,10 @@
 
 namespace voussoir {
 
-/// What the keys that all of them have say: blocks and their scale, fill, restraint of the ends.
+/// Reads the keys that all of them have: blocks and their scale, fill, restraint of the ends.
 void read_fill_and_blocks(Bridge& bridge, const GeneratorInput& in);
-/// Indices of "vault", "infill" and "backfill"; a bridge without a material of its own for a part uses the first.
-/// Vaults and supports get the usual ones.
+/// Sets the indices of "vault", "infill" and "backfill"; a part without its own material uses the first one. Vaults and
+/// supports get their default materials.
 void find_materials(Bridge& bridge, const std::vector<Material>& materials);
 /// Stiffness from the moduli, over blocks of these sizes.
 JointRules joint_rules(const Bridge& bridge, const GeneratorInput& in);

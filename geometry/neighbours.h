@@ -1,4 +1,4 @@
-// Broad phase: which boxes meet.
+// Broad phase of the contact search: pairs of boxes that are close to each other.
 #pragma once
 #include <memory>
 #include <utility>
@@ -9,12 +9,12 @@
 namespace voussoir {
 
 /// Pairs (i, j), i < j, of boxes that come within `distance` (m) of each other along all three axes, sorted. Negative
-/// distances ask for boxes that interpenetrate by more than that. Sweep along the axis on which the boxes spread most
-/// (after Baraff 1992), column by column of a grid across it, so that the time grows with the number of boxes however
-/// many stand side by side (after Tracy, Buss & Woods 2009).
+/// distances find boxes that overlap by more than that. Sweep along the axis on which the boxes spread most
+/// (after Baraff 1992), in columns of a grid across it, so that the time is proportional to the number of boxes even if
+/// many are side by side (after Tracy, Buss & Woods 2009).
 std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, double distance);
 
-/// The same boxes to be asked many times, by several threads at once.
+/// An index of boxes for many queries, also by several threads at once.
 class BoxIndex {
  public:
   /// `distance` as above, not negative.

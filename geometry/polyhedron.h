@@ -1,4 +1,4 @@
-// Polyhedra with planar faces: the shape of one stone, or of one convex cell of it.
+// Polyhedra with planar faces: the shape of a stone, or of a convex cell of it.
 #pragma once
 #include <Eigen/Dense>
 #include <vector>
@@ -9,7 +9,7 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Polygon = std::vector<Vec3>;  // planar loop, metres
 
-/// A half-space {p : normal·p <= offset}; `normal` is a unit vector that points out of it.
+/// A half-space {p : normal·p <= offset}; `normal` is the outward unit vector.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();
   double offset = 0.0;  // m
@@ -51,8 +51,8 @@ Box bounding_box(const Polygon& points);  // of any set of points
 Box bounding_box(const Polyhedron& shape);
 double surface_area(const Polyhedron& shape);
 
-/// The part of a convex polyhedron inside the half-space; empty (no faces) when less than `tolerance` deep remains.
-/// Vertices within `tolerance` of the plane are taken to lie on it, so that cuts along existing faces leave no slivers.
+/// The part of a convex polyhedron inside the half-space; empty (no faces) if its depth would be below `tolerance` (m).
+/// Vertices within `tolerance` of the plane count as on it, so that cuts along existing faces leave no slivers.
 Polyhedron cut(const Polyhedron& convex, const Plane& keep, double tolerance = 1e-9);
 /// The part of a convex planar polygon inside the half-space (Sutherland & Hodgman 1974).
 Polygon cut(const Polygon& convex, const Plane& keep, double tolerance = 1e-12);

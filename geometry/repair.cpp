@@ -148,8 +148,8 @@ std::string check_closed(const Polyhedron& shape) {
       const auto [at, fresh] = owner.try_emplace(edge, static_cast<int>(f));
       if (!fresh)
         return fmt::format(
-            "faces {} and {} run along the edge from vertex {} to {} the same way; turn one of them round", at->second,
-            f, edge.first, edge.second);
+            "faces {} and {} run along the edge from vertex {} to {} in the same direction; reverse one of them",
+            at->second, f, edge.first, edge.second);
     }
   }
   for (const auto& [edge, face] : owner)
@@ -179,7 +179,7 @@ std::string check_convex(const Polyhedron& shape, double tolerance) {
     for (std::size_t v = 0; v < shape.vertices.size(); ++v) {
       const double height = plane.normal.dot(shape.vertices[v]) - plane.offset;
       if (height > tolerance)
-        return fmt::format("it is not convex: vertex {} stands {:.3g} m out of the plane of face {}", v, height, f);
+        return fmt::format("it is not convex: vertex {} is {:.3g} m outside the plane of face {}", v, height, f);
     }
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()], &r = polygon[(i + 2) % polygon.size()];

@@ -1,4 +1,4 @@
-// Making and checking clean convex cells out of surfaces that come from elsewhere.
+// Makes clean convex cells from imported surfaces, and checks them.
 #pragma once
 #include <string>
 
@@ -13,7 +13,7 @@ namespace voussoir {
 Polyhedron merge_coplanar_faces(const Polyhedron& triangulated, double angle);
 
 /// Empty if the shape is a closed convex polyhedron with finite vertices, planar faces that look outwards and a volume;
-/// otherwise a sentence that says what is wrong and where. Planes hold to 1e-6 of the shape's size.
+/// otherwise a text with the fault and its place. Planes hold to 1e-6 of the shape's size.
 std::string convexity_error(const Polyhedron& shape);
 
 }  // namespace voussoir

@@ -1,13 +1,13 @@
-// The road of a bridge: what lies uppermost between the parapets, and what bears a pressure on it.
+// The road of a bridge: the uppermost faces between the parapets, and the blocks and nodes below a pressure on it.
 #pragma once
 #include "geometry/assembly.h"
 #include "geometry/road_area.h"
 
 namespace voussoir {
 
-/// What of a rectangle lies on which blocks and nodes. A pressure p in plan, which acts downwards, is a force p A on a
-/// block at `centre`, and p times `area` on a node (∫ N dA, consistent with linear tetrahedra): the sum and the moment
-/// of the forces are those of the pressure, for any mesh.
+/// The shares of blocks and nodes in a rectangle of the road. A downward pressure p in plan gives the force p A on a
+/// block, at `centre`, and p times `area` on a node (∫ N dA, consistent with linear tetrahedra). For any mesh the sum
+/// and the moment of these forces are those of the pressure.
 struct RoadShare {
   struct OfBlock {
     std::int64_t block = 0;
@@ -25,19 +25,19 @@ struct RoadShare {
 
 class Road {
  public:
-  /// The fill's open upper faces, those of its blocks, and those of walls that reach as high; where there is no fill,
-  /// the upper faces of the group "deck". Throws InputError when there is neither.
+  /// Finds the road: the open upper faces of the fill or of its blocks, and of walls of the same height; without a fill
+  /// the upper faces of the group "deck". Throws InputError if there is neither.
   explicit Road(const Assembly& assembly);
 
   RoadArea extent() const { return extent_; }
   RoadShare under(const RoadArea& area) const;
 
  private:
-  /// A part of the road, or what covers one (with a negative sign).
+  /// A part of the road, or a face that covers a part (with a negative sign).
   struct Piece {
     Polygon polygon;
     Box box;
-    std::int64_t block = -1;  // or a triangle of the fill's surface
+    std::int64_t block = -1;  // −1: the piece is a triangle of the surface of the fill
     std::int32_t triangle = -1;
     double sign = 1.0;
   };

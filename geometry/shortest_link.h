@@ -1,5 +1,5 @@
-// The normal of a pair of convex cells that meet at edges or corners, where no face of either says what it is: the
-// direction of the shortest link between both cells, each shrunk a little (docs/theory/contacts.md).
+// The normal of two convex cells that meet at edges or corners, where no face determines it: the direction of the
+// shortest link between both cells, each slightly shrunk (docs/theory/contacts.md).
 #pragma once
 #include <optional>
 

@@ -13,52 +13,53 @@ struct Stiffness {
   double kn = 0.0, ks = 0.0;  // Pa/m
 };
 
-/// How the joints of an assembly get their stiffness and strength.
+/// The rules for stiffness and strength of the joints of an assembly.
 struct JointRules {
-  /// moduli: kn = E/dc, ks = G/dc from the two half-lengths, in series where materials differ.
-  /// table:  one pair of values per component in every direction, unlike ones in series from equal halves; rigid
-  ///         backfill, which has no row, from the moduli.
+  /// moduli: kn = E/dc, ks = G/dc from the two half-lengths, in series if the materials differ.
+  /// table:  one pair of values for each component in every direction; different components in series from equal
+  /// halves.
+  ///         Rigid backfill has no row and takes its values from the moduli.
   /// given:  `uniform` for every joint.
   enum class Kind { moduli, table, given };
   Kind kind = Kind::moduli;
   Stiffness uniform;                     // given only
-  std::map<Component, Stiffness> table;  // also what `interface_share` refers to
-  bool rows_from_moduli = false;         // what the table lacks: E and G of a stone over the mean size of a block
-  std::map<Component, Vec3> nominal;     // m, block size: half of it stands for the fixed block below or beside
+  std::map<Component, Stiffness> table;  // interface_share refers to it, too
+  bool rows_from_moduli = false;         // components without a row: E and G of a stone over the mean size of a block
+  std::map<Component, Vec3> nominal;     // m, block size: half of it counts for a fixed block
   double interface_share = 0.20;         // masonry-backfill: share of the masonry's value (table or moduli)
   double interface_friction = 0.0;       // rad
   double restraint_share = 0.50;         // joints with restraint blocks: share of the stiffness
   bool rings_bonded = true;              // joints between the rings of a vault; otherwise friction only
-  double smallest_half_length = 1e-3;    // m: nearer centroids count as this far from the joint
+  double smallest_half_length = 1e-3;    // m: smallest distance of a centroid from the joint
 };
 
-/// Sets kn, ks and law of every joint (blocks finished, joints found). In this order of precedence: the case's override
-/// for joints between rings ("ring-ring") or for the pair of materials; the interface between masonry and backfill; the
-/// rules above. A fixed block takes the material of what it touches. Strength between unlike materials is the weaker of
-/// the two in each value; residual cohesion is 0 and residual friction the friction. Joints between two fixed blocks
-/// are removed. Throws InputError for an override that names an unknown material.
+/// Sets kn, ks and law of every joint. The blocks must be finished and the joints found. Order of precedence: the
+/// override of the case for joints between rings ("ring-ring") or for the pair of materials; the interface between
+/// masonry and backfill; the rules above. A fixed block has the material of the stone that touches it. Between
+/// different materials each strength is the lower of the two; residual cohesion is 0, and residual friction equals
+/// friction. Joints between two fixed blocks are removed. Throws InputError for an override with an unknown material.
 void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
 
-/// The same for the patches between stones and a deformable fill, with the rules of rigid backfill. A fixed block takes
-/// the fill's material; between the two stands one nominal block of backfill, E/dc with its size along the normal,
-/// times `restraint_share` for a restraint block. Tetrahedra have no size of their own there: the fill's stiffness up
-/// to its surface is in them.
+/// The same for the patches between stones and a deformable fill, with the rules of rigid backfill. A fixed block has
+/// the material of the fill; the patch then has the stiffness E/dc of one nominal block of backfill, with its size
+/// along the normal, times `restraint_share` for a restraint block. The tetrahedra add no length, because they already
+/// have the stiffness of the fill up to its surface.
 void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
 
-/// Finds the joints of an assembly that has none and gives each its stiffness and strength (blocks finished): `uniform`
-/// for all, or, where it is zero, from the moduli; blocks of backfill meet masonry with a fifth of that and a friction
-/// of 35 degrees alone. Throws InputError naming the first blocks without moduli, for
-/// overlaps, and when only one of kn and ks is given.
+/// Finds the joints of an assembly that has none and sets their stiffness and strength (blocks finished). The stiffness
+/// is `uniform` or, if that is zero, follows from the moduli. Joints of masonry with blocks of backfill have a fifth of
+/// it and a friction angle of 35 degrees without cohesion. Throws InputError for blocks without moduli, for overlaps,
+/// and if only one of kn and ks is given.
 JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform = {});
 
-/// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli where both are 0. Throws
-/// InputError when only one of them is given.
+/// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli if both are 0. Throws InputError
+/// if only one of them is given.
 JointRules uniform_rules(const GeneratorInput& input);
 
 /// Strength of a joint within one material: brittle, no residual cohesion.
 JointLaw strength_of(const Material& material);
 
-/// Where the law stands in the list, to which it is added when it is new.
+/// Index of the law in the list; a new law is added to the list.
 std::int32_t law_index(std::vector<JointLaw>& laws, const JointLaw& law);
 
 }  // namespace voussoir

@@ -107,9 +107,9 @@ extern "C" __attribute__((visibility("default"))) void voussoir_cut_shape(const 
   try {
     cut_into(shape, pieces, trouble);
   } catch (const std::exception& error) {
-    trouble = std::string("CGAL does not take it: ") + error.what();
+    trouble = std::string("CGAL cannot cut it: ") + error.what();
   } catch (...) {
-    trouble = "CGAL does not take it and does not say why";
+    trouble = "CGAL cannot cut it and gives no reason";
   }
 }
 

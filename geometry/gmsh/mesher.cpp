@@ -49,9 +49,9 @@ auto with_gmsh(const std::string& before, const std::string& after, Work&& work)
   } catch (const std::string& error) {
     reason = error;
   } catch (...) {
-    reason = "it does not say why";
+    reason = "Gmsh gives no reason";
   }
-  throw RunError("{}: {}; {}", before, reason.empty() ? "it does not say why" : reason, after);
+  throw RunError("{}: {}; {}", before, reason.empty() ? "Gmsh gives no reason" : reason, after);
 }
 
 /// Level of the lower foot of the extrados.

@@ -74,7 +74,7 @@ TEST(ConvexityError, SaysWhatIsWrong) {
   EXPECT_TRUE(says(bad, "inside-out"));
   bad = cube;
   std::reverse(bad.faces[2].begin(), bad.faces[2].end());
-  EXPECT_TRUE(says(bad, "the same way"));
+  EXPECT_TRUE(says(bad, "the same direction"));
   bad = cube;
   bad.vertices[4].z() = NAN;
   EXPECT_TRUE(says(bad, "vertex 4 is not finite"));
