@@ -1,4 +1,4 @@
-// Assembly files: blocks, joints, materials and laws in HDF5, a public layout (docs: file formats).
+// Assembly files: blocks, joints, materials and laws in HDF5, with a public layout (docs/formats.md).
 #pragma once
 #include <string>
 
@@ -8,27 +8,28 @@
 namespace voussoir {
 
 inline constexpr std::int64_t assembly_format_version = 3;
-/// Groups of this beginning are the objects of a drawing. There may be thousands: they stand in one table, objects/*,
-/// which version 3 brought; files without any are written as version 2.
+/// Groups whose names begin with this are the objects of a drawing. There may be thousands, so they are stored in one
+/// table, objects/*, since version 3; files without such groups are written as version 2.
 inline constexpr const char* object_group_prefix = "object ";
 
-/// Writes the assembly (finished: masses, joints) atomically. blocks/* hold the outer boundary of each block; the
-/// convex cells of blocks that have several are in cells/*. Throws RunError when it cannot be written.
+/// Writes the assembly (finished: masses, joints) atomically. blocks/* have the outer boundary of each block; the
+/// convex cells of blocks with several cells are in cells/*. Throws RunError if the file cannot be written.
 void write_assembly(const std::string& path, const Assembly& assembly);
 
 /// Reads an assembly file and checks everything in it: format and version, shapes, offsets, index ranges, finite
 /// numbers, convex closed blocks of positive volume, stated masses, at least one fixed block, sensible joints, a sound
 /// mesh of the fill. Optional in a file: cells/*, materials/* (then from blocks/density), mass, centroid and inertia,
 /// joints/cells and faces, joints as a whole, fill/*, groups, sensors; a file of a fill needs no blocks. Joints that it
-/// does not state are found, with stiffness and strength of its materials. Throws InputError naming file, dataset and
+/// does not state are found, with stiffness and strength of its materials. Throws InputError with file, dataset and
 /// row.
 Assembly read_assembly(const std::string& path, const JointSearch& search = careful_search());
-/// The same, but as it stands: no joints are found, and no block need be fixed. For those who change it first.
+/// The same without changes: joints are not found, and no block needs to be fixed. For callers that change the
+/// assembly.
 Assembly read_stated_assembly(const std::string& path);
-/// Whether the file has a list of joints, be it empty.
+/// Whether the file has a list of joints, which may be empty.
 bool states_joints(const std::string& path);
 
-/// Hash of everything that decides how the assembly moves (shapes, masses, joints, laws; not names, groups, the case).
+/// Hash of everything that affects the motion of the assembly (shapes, masses, joints, laws; not names, groups, case).
 std::uint64_t assembly_hash(const Assembly& assembly);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// What joints between stones and patches with the fill have in common when they are read from a file.
+// Checks that joints between stones and patches with the fill share when they are read from a file.
 #pragma once
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 namespace voussoir {
 
-/// Calls `fail(dataset, reason)` for the first thing that is wrong with a Joint or a FillJoint by itself.
+/// Calls `fail(dataset, reason)` for the first fault of a Joint or a FillJoint by itself.
 template <class Patch, class Fail>
 void check_patch(const Patch& patch, const Fail& fail) {
   if (patch.polygon.size() < 3) fail("joints/polygon_offset", "a patch needs at least 3 corners");

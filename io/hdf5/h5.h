@@ -1,5 +1,5 @@
-// One thin layer over the HDF5 C API: handles that close themselves, datasets with a unit and a checksum, and errors
-// that name the file, the dataset and the reason.
+// A thin layer over the C interface of HDF5: handles that close themselves, datasets with unit and checksum, and errors
+// with file, dataset and reason.
 #pragma once
 #include <concepts>
 #include <cstdint>
@@ -17,10 +17,10 @@ concept Element = std::same_as<T, double> || std::same_as<T, float> || std::same
     std::same_as<T, std::int32_t> || std::same_as<T, std::uint8_t>;
 
 using Shape = std::vector<std::size_t>;
-/// In an expected shape: any size will do.
+/// In an expected shape: any size.
 inline constexpr std::size_t any = static_cast<std::size_t>(-1);
 
-/// The innermost description of HDF5's error stack, which it empties.
+/// The innermost description on the error stack of HDF5. Empties the stack.
 std::string last_reason();
 
 /// Owns one HDF5 identifier (hid_t, a 64-bit integer).
@@ -41,7 +41,7 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
-/// Texts as HDF5 keeps them here: UTF-8 of one length, padded with nulls to the longest.
+/// Texts for HDF5: UTF-8 of one length, padded with nulls to the longest.
 struct PaddedTexts {
   explicit PaddedTexts(const std::vector<std::string>& values);
   std::size_t longest = 1;
@@ -50,8 +50,8 @@ struct PaddedTexts {
 };
 
 /// An HDF5 file. Paths of datasets are "group/name"; groups on the way are made as needed. A new file is built in
-/// memory and reaches the disk in one piece with save(), so a full disk or a kill leaves no half file. Reading throws
-/// InputError, writing RunError.
+/// memory and written atomically with save(), so that no incomplete file remains. Reading throws InputError, writing
+/// RunError.
 class File {
  public:
   File(File&&) noexcept;

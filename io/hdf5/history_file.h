@@ -1,4 +1,4 @@
-// Time series of a run: named channels, readable at any moment while the run goes on.
+// Time series of a run: named channels, readable at any time during the run.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -15,28 +15,27 @@ struct Channel {
   bool operator==(const Channel&) const = default;
 };
 
-/// Rows in memory, and on disk after flush(): every dataset is one-dimensional with one value a row.
+/// Rows in memory, and in the file after flush(). Every dataset is one-dimensional with one value for each row.
 class History {
  public:
   History() = default;
-  /// The first channel must be "time" (s). Nothing is written yet. Throws InputError on a name given twice or empty.
+  /// The first channel must be "time" (s). Nothing is written yet. Throws InputError for an empty or repeated name.
   History(std::string path, std::vector<Channel> channels);
-  /// Reads a history file. Throws InputError naming file and dataset.
+  /// Reads a history file. Throws InputError with file and dataset.
   static History load(const std::string& path);
 
-  /// One value per channel, in their order. Throws RunError when the number differs.
+  /// Adds one value for each channel, in their order. Throws RunError if the number differs.
   void append(std::span<const double> row);
-  /// Writes the whole file atomically, so a reader finds the old file or the new one, never half of it. Throws
-  /// RunError.
+  /// Writes the file atomically: a reader finds the old file or the new one. Throws RunError.
   void flush();
-  /// Drops all rows but the first `count`, as a resume does: a time says less, for stages without time end at the same.
+  /// Keeps only the first `count` rows, for a restart. A time would not be unique, because stages may take no time.
   void keep_first(std::size_t count);
 
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
   const std::string& path() const { return path_; }
   const std::vector<Channel>& channels() const { return channels_; }
   bool has(const std::string& channel) const { return index_.contains(channel); }
-  /// Throws InputError naming the file and the channels it does have.
+  /// The values of a channel. Throws InputError with the file and its channels if there is none.
   const std::vector<double>& values(const std::string& channel) const;
   const std::vector<double>& time() const { return values("time"); }
 

@@ -7,14 +7,14 @@ namespace voussoir {
 
 struct ElementKind {
   int number;        // in the file
-  const char* name;  // as people call it
+  const char* name;  // usual name
   int nodes;
   int dimension;  // 0 point, 1 line, 2 surface, 3 solid
 };
 
 inline constexpr std::int64_t tetrahedron_kind = 4;  // of 4 nodes
 
-/// Null for numbers of no kind that Gmsh's manual lists (version 4.11, "MSH file format").
+/// The kind with this number in the manual of Gmsh (version 4.11, "MSH file format"); null if there is none.
 inline const ElementKind* element_kind(std::int64_t number) {
   static constexpr ElementKind kinds[] = {
       {1, "line", 2, 1},          {2, "triangle", 3, 2},      {3, "quadrangle", 4, 2},    {4, "tetrahedron", 4, 3},

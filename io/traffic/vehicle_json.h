@@ -1,4 +1,4 @@
-// Vehicles as JSON, for programs that read what `voussoir vehicles --json` prints.
+// Vehicles as JSON, for `voussoir vehicles --json`.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -6,7 +6,7 @@
 
 namespace voussoir {
 
-/// Everything of a vehicle, in N and m; null where a strip has no end.
+/// All data of a vehicle, in N and m; null for a strip without end.
 nlohmann::json vehicle_json(const Vehicle& vehicle);
 
 }  // namespace voussoir

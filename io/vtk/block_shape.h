@@ -1,4 +1,4 @@
-// The outer surface of one block as indexed loops, ready to become a VTK cell.
+// The outer surface of one block as indexed loops, for a VTK cell.
 #pragma once
 #include <array>
 #include <optional>
@@ -8,11 +8,12 @@
 
 namespace voussoir {
 
-/// The block's outer surface as one closed polyhedron. A block of one cell is that cell; for several cells the outer
-/// faces are welded, and corners that lie on another loop's edge are inserted there so that the surface is watertight.
+/// The outer surface of a block as one closed polyhedron. A block of one cell is that cell. For several cells the outer
+/// faces are welded, and corners on the edge of another loop are inserted there, so that the surface is closed.
 Polyhedron outer_surface(const Block& block);
 
-/// Vertex order of a VTK hexahedron (bottom loop facing up, then the top loop), or nothing when the shape is not one.
+/// Vertex order of a VTK hexahedron (bottom loop facing up, then the top loop), or nothing if the shape is not a
+/// hexahedron.
 std::optional<std::array<int, 8>> hexahedron_order(const Polyhedron& shape);
 
 }  // namespace voussoir

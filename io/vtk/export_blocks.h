@@ -1,4 +1,4 @@
-// Blocks for other programs, and the map of names with which import makes the same assembly of them again.
+// Exports blocks for other programs, with the map of names with which import makes the same assembly again.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 namespace voussoir {
 
 struct ExportedBlocks {
-  std::string text;                // of the file of shapes: m, z up, every digit
+  std::string text;                // text of the file of shapes: m, z up, all digits
   NameMap map;                     // components, parts, materials, groups, fixed blocks, cells of blocks
-  std::vector<std::string> notes;  // what the assembly holds and the files do not
+  std::vector<std::string> notes;  // parts of the assembly that the files do not have
 };
 
-/// Every convex cell is an object (OBJ) or a node with a mesh (JSON of COMPAS 2, compas_assembly) of the name
-/// COMPONENT_PART_bBLOCK_cCELL; an OBJ's objects lie in groups COMPONENT_PART. Joints are not written: they are found
-/// anew where faces meet.
+/// Every convex cell is an object (OBJ) or a node with a mesh (JSON of COMPAS 2, compas_assembly) with the name
+/// COMPONENT_PART_bBLOCK_cCELL; the objects of an OBJ are in groups COMPONENT_PART. Joints are not written: an import
+/// finds them where faces meet.
 ExportedBlocks export_obj(const Assembly& assembly);
 ExportedBlocks export_compas(const Assembly& assembly);
 

@@ -1,4 +1,4 @@
-// VTK XML files: appended raw data, compressed, written whole or not at all.
+// VTK XML files: appended raw data, compressed, written atomically.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -10,11 +10,11 @@
 
 namespace voussoir {
 
-/// Throw RunError naming the path when the file cannot be written.
+/// Write a file. Throw RunError with the path if it cannot be written.
 void write_vtu(vtkUnstructuredGrid* grid, const std::string& path, Packing packing = usual_packing);
 void write_vtp(vtkPolyData* data, const std::string& path, Packing packing = usual_packing);
 
-/// Throw InputError naming the path when the file is absent, damaged or of another kind.
+/// Read a file. Throw InputError with the path if it is missing, damaged or of another kind.
 vtkSmartPointer<vtkUnstructuredGrid> read_vtu(const std::string& path);
 vtkSmartPointer<vtkPolyData> read_vtp(const std::string& path);
 

@@ -1,4 +1,4 @@
-// What stones drawn elsewhere and assemblies of other programs have in common on their way in.
+// Steps of the import that surface files and assembly files share.
 #pragma once
 #include "io/vtk/import.h"
 #include "io/vtk/shells.h"
@@ -7,24 +7,24 @@ namespace voussoir {
 
 /// The rotation that makes the axis "x", "y", "z", "-x", "-y" or "-z" point up. Throws InputError for another word.
 Mat3 turn_of(const std::string& up);
-/// Adds notes on names that the map and the drawing do not have in common.
+/// Adds notes on rows of the map without objects, and on objects without rows.
 void note_strangers(const std::vector<Shell>& shells, const std::vector<NameRow>& meant, const std::vector<bool>& used,
                     const NameMap& map, std::vector<std::string>& notes);
-/// Makes one stone of the pieces that the map or the rule says belong together; until then each is a stone. Throws
-/// InputError for pieces that do not touch, or of which the map says different things.
+/// Joins pieces that belong together by the map or the rule into one stone; before, each is a stone. Throws InputError
+/// for pieces that do not touch, or for which the map gives different values.
 void join_cells(Import& import, CellRule rule, const JointSearch& search, const std::string& path);
-/// Gives stones the components and parts that the map says.
+/// Sets components and parts of stones as in the map.
 void give_places(Import& import);
-/// Gives every stone the material for its object. Throws InputError for an object of two materials, for a name that
-/// fits none, and for a material that is not known.
+/// Sets the material of every stone. Throws InputError for an object with two materials, for a name that fits no
+/// object, and for an unknown material.
 void give_materials(Import& import, const ImportOptions& options, const std::string& path);
-/// Fixes what `options.fixed` names, or with `keep_fixed` what the file or the map says where they say anything. The
-/// map comes before all else. Whether it was `fixed` that decided. Throws InputError for a stone that is not there.
+/// Fixes the stones of `options.fixed` or, with `keep_fixed`, those of the file or the map if these fix any. The map
+/// takes precedence. Returns whether `fixed` was used. Throws InputError for a stone that does not exist.
 bool fix_stones(Import& import, const ImportOptions& options, const std::string& path);
-/// Adds notes on what cannot be meant: nothing that can move, nothing fixed, no joint, a model that lies on its side.
+/// Adds notes on probable mistakes: nothing can move, nothing is fixed, no joint, a model that lies on its side.
 void note_what_surprises(Import& import, const ImportOptions& options, const std::string& path);
-/// An assembly file: its shapes, materials, groups and sensors stay, its joints are found anew. Throws InputError for
-/// one whose joints cannot be found from shapes (ties, a fill, effects).
+/// Imports an assembly file: shapes, materials, groups and sensors stay, joints are found again. Throws InputError if
+/// the joints do not follow from the shapes (ties, a fill, effects).
 Import import_assembly(const std::string& path, const ImportOptions& options);
 
 }  // namespace voussoir

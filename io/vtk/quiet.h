@@ -1,4 +1,4 @@
-// VTK reports errors to its observers, and to the terminal where there is none.
+// Keeps VTK from printing errors. It prints them to the terminal if it has no observer.
 #pragma once
 #include <vtkCallbackCommand.h>
 #include <vtkObject.h>
@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-/// An observer that notes the error and keeps VTK from printing it: our own message says more. `failed` must outlive
-/// it.
+/// An observer that notes an error and keeps VTK from printing it, because the program has its own message. `failed`
+/// must outlive it.
 inline vtkSmartPointer<vtkCallbackCommand> error_flag(bool& failed) {
   auto command = vtkSmartPointer<vtkCallbackCommand>::New();
   command->SetClientData(&failed);
@@ -15,7 +15,7 @@ inline vtkSmartPointer<vtkCallbackCommand> error_flag(bool& failed) {
   return command;
 }
 
-/// Keeps VTK's pipeline, which has no observer of ours, from printing as long as the object lives.
+/// Keeps the pipeline of VTK, which has no observer, from printing during the lifetime of the object.
 class Silence {
  public:
   Silence() : before_(vtkObject::GetGlobalWarningDisplay()) { vtkObject::GlobalWarningDisplayOff(); }

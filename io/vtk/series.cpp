@@ -46,14 +46,15 @@ std::vector<PvdSeries::Frame> read_frames(const std::string& path) {
   vtkXMLDataElement* root = parser->Parse() && !failed ? parser->GetRootElement() : nullptr;
   vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (!collection)
-    throw InputError("{}: is not a ParaView collection (.pvd); remove it; the frames remain readable", path);
+    throw InputError("{}: is not a ParaView collection (.pvd). Remove it; the frames remain readable.", path);
   std::vector<PvdSeries::Frame> frames;
   for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
     vtkXMLDataElement* entry = collection->GetNestedElement(i);
     PvdSeries::Frame frame;
     const char* file = entry->GetAttribute("file");
     if (!file || !entry->GetScalarAttribute("timestep", frame.time))
-      throw InputError("{}: entry {} has no file or no timestep; remove the .pvd; the frames remain readable", path, i);
+      throw InputError("{}: entry {} has no file or no timestep. Remove the .pvd; the frames remain readable.", path,
+                       i);
     frame.file = file;
     frames.push_back(frame);
   }

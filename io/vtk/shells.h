@@ -1,4 +1,4 @@
-// Taking a file's surfaces apart into closed shells, one a stone.
+// Splits the surfaces of a file into closed shells, one for each stone.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,22 +8,21 @@
 
 namespace voussoir {
 
-/// One closed surface and where it came from.
+/// One closed surface and its origin in the file.
 struct Shell {
   Polyhedron shape;      // file units, outward loops
-  std::string name;      // of its object, with #2, #3 … where an object holds several shells
+  std::string name;      // name of its object, with #2, #3 … if the object has several shells
   std::size_t line = 0;  // of its first face; 0: unknown
-  bool flipped = false;  // the file had it inside-out
-  std::string object{};  // its name, without number
-  std::string layer{};   // of its object
-  bool support = false;  // as the file says of its object
+  bool flipped = false;  // its faces were inside-out in the file
+  std::string object{};  // name of the object, without number
+  std::string layer{};   // layer of the object
+  bool support = false;  // whether the file fixes the object
 };
 
-/// Splits every object of the surface into closed shells: first by shared vertices; what is not closed that way has its
-/// corners of equal place welded and is followed from face to face over shared edges, at an edge of several stones by
-/// the sharper inner angle. Inside-out shells are turned. A face that stands there
-/// twice is taken once, with a note. `path` is for messages. Throws InputError naming object and
-/// line when a surface is not closed or bounds no volume.
+/// Splits every object of the surface into closed shells, first by shared vertices. If a shell is then not closed,
+/// corners at the same place are welded, and faces are followed over shared edges; at an edge of several stones the
+/// sharper inner angle decides. Inside-out shells are reversed. A face that occurs twice is used once, with a note.
+/// `path` is used in messages. Throws InputError with object and line if a surface is not closed or encloses no volume.
 std::vector<Shell> split_shells(const Surface& surface, const std::string& path, std::vector<std::string>& notes);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Whether what a VTK file says of itself holds together. VTK takes a damaged file at its word and reads past the end.
+// Checks VTK files for consistency, because VTK trusts the numbers of a damaged file and may read beyond its end.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -7,10 +7,10 @@
 
 namespace voussoir {
 
-/// That the head of an XML file is whole and names a type for every array: its readers crash where one is missing.
+/// Whether the head of an XML file is complete and has a type for every array; the readers of VTK crash without it.
 bool head_is_sound(const std::string& path);
-/// Arrays as long as there are points or cells, corners among the points, faces within their list, known components,
-/// vectors of three.
+/// Whether arrays have as many entries as there are points or cells, corners are points, faces are within their list,
+/// components are known, and vectors have three components.
 bool is_sound(vtkUnstructuredGrid* grid);
 bool is_sound(vtkPolyData* data);
 
