@@ -1,4 +1,4 @@
-// A fill that was meshed elsewhere: put into an assembly, with its patches.
+// Adds an imported mesh of a fill to an assembly, with its patches.
 #pragma once
 
 #include "geometry/fill_joints.h"

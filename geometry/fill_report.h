@@ -1,4 +1,4 @@
-// A deformable fill in words, for those who look at an assembly.
+// Describes a deformable fill in words.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace voussoir {
 
-/// What is known of how the mesh should be; zero where it is not.
+/// Target values of the mesh; 0: not known.
 struct FillAim {
-  double volume = 0.0;  // m3, of the space to be filled
-  double edge = 0.0;    // m, bound of the longest edge as it is meshed
-  double skew = 0.0;    // rad, to which the mesh was turned then
+  double volume = 0.0;  // m3, of the space of the fill
+  double edge = 0.0;    // m, bound of the longest edge before the skew
+  double skew = 0.0;    // rad, skew of the mesh afterwards
 };
 
-/// Aligned lines: sizes, volume, edges, angle and height. None for an assembly without a deformable fill.
+/// Aligned lines: sizes, volume, edges, angle and height. Empty for an assembly without a deformable fill.
 std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim = {});
 
 }  // namespace voussoir

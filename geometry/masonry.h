@@ -1,4 +1,4 @@
-// Laying stones: courses of boxes in running bond, cut by the vaults, collected in a Layout. Parts of a bridge (vault,
+// Lays stones: courses of boxes in running bond, cut by the vaults, collected in a Layout. Parts of a bridge (vault,
 // pier, spandrel …) are functions that add stones to a Layout; see masonry_parts.h.
 #pragma once
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace voussoir {
 
-/// A stone as it is laid, before slivers are joined to their neighbours.
+/// A stone before slivers are merged with their neighbours.
 struct Stone {
   std::vector<Polyhedron> cells;  // convex, m
   Component component = Component::block;
@@ -18,11 +18,11 @@ struct Stone {
   std::int32_t material = 0;
   bool fixed = false;
   bool was_cut = false;         // only cut stones can be slivers
-  std::uint32_t layers = 1;     // bits; slivers join stones that have one in common, such as a ring of a vault
+  std::uint32_t layers = 1;     // bits; slivers are merged with stones that share a bit, such as a ring of a vault
   Vec3 nominal = Vec3::Ones();  // m, size of the uncut stone (length, width, height)
 };
 
-/// What a course is made of: the size aimed at (m) and what the stones belong to.
+/// The stones of a course: their target size (m), component, part and material.
 struct Unit {
   Component component = Component::block;
   std::int32_t part = 0;
@@ -31,50 +31,50 @@ struct Unit {
   bool bonded = true;        // running bond; otherwise stacked, joints above joints
 };
 
-/// The stones laid so far, and what cuts those that follow.
+/// The stones laid so far, and the limits that cut further stones.
 struct Layout {
   std::vector<Stone> stones;
   SectionLimits limits;
   std::map<std::string, std::vector<std::int64_t>> groups;  // indices into `stones`
 };
 
-/// Throws InputError where a layout is to hold more stones than a model can be made of.
+/// Throws InputError if a layout would have more stones than a model may have.
 void check_stones(double stones);
 
 /// Boundaries that divide [from, to] into round(length / size) equal parts, at least one. With `half` the parts are
 /// shifted by half of one, with half parts at both ends; a single part is never halved.
 std::vector<double> split(double from, double to, double size, bool half = false);
 
-/// Lays stones side by side across, between the given y (m, ascending); each has one cell for every polygon (in the
-/// plane x-z, counter-clockwise seen from -y).
+/// Lays stones next to each other across the bridge, between the given y (m, ascending). Each has one cell for every
+/// polygon (in the plane x-z, counter-clockwise seen from -y).
 void lay_across(Layout& layout, const std::vector<Polygon>& polygons, const std::vector<double>& y, const Unit& unit,
                 const Vec3& nominal);
 
 /// Lays the wedges of a ring across [y0, y1] in stretcher bond: alternate wedges are offset half a stone, with half
-/// stones at the edges. Returns the first index of each wedge's stones in the layout, and one past the last.
-/// `bond`: number of the first wedge in the bond, for rings on one another.
+/// stones at the edges. Returns the first index of the stones of each wedge in the layout, and one past the last.
+/// `bond`: number of the first wedge in the bond, for rings on top of each other.
 std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, double y1, const Unit& unit,
                                    int bond = 0);
 
 /// Fills a box with horizontal courses in running bond: along x (a course is offset half a length against the ones
-/// above and below) and across y (a row is so against its neighbours in the course), unless the unit is stacked. Stones
-/// that meet the limits of the layout are cut by them; what falls apart becomes separate stones. `first` is the
+/// above and below) and across y (each row is offset against its neighbours in the course), unless the unit is stacked.
+/// The limits of the layout cut stones; separate pieces become separate stones. `first` is the
 /// number of the lowest course in the bond, for walls laid in several calls.
 void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, int first = 0);
 
 /// Adds one stone of the given cells.
 void lay_stone(Layout& layout, std::vector<Polyhedron> cells, const Unit& unit, const Vec3& nominal, bool was_cut);
 
-/// When a cut stone is too small to stand for itself.
+/// Rule for cut stones that are too small to be separate stones.
 struct SliverRule {
-  double thickness = 0.15;  // m: thinner than this (or half its nominal size, if that is less) along a face normal
-  double share = 0.25;      // of its nominal volume
-  double most = 2.0;        // times its nominal volume: a larger stone than this takes in none if another can
+  double thickness = 0.15;  // m: smallest thickness (or half the nominal size, if less) along a face normal
+  double share = 0.25;      // smallest share of its nominal volume
+  double most = 2.0;        // times its nominal volume: a larger stone is merged with slivers only if no other can be
 };
 
-/// Turns the layout into an assembly: finds the joints, joins each sliver to the neighbour of the same component and
-/// material it shares most area with (as further cells of that stone), and finishes the blocks. Joint stiffness and
-/// laws are left to set; materials are taken over. `gap` as in JointSearch.
+/// Makes an assembly of the layout: finds the joints, merges each sliver (as further cells) with the neighbour of the
+/// same component and material with the largest common area, and finishes the blocks. Stiffness and laws of joints are
+/// not set yet. `gap` as in JointSearch.
 Assembly assemble(Layout layout, const std::vector<Material>& materials, const SliverRule& slivers, double gap);
 
 }  // namespace voussoir

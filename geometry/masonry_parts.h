@@ -1,6 +1,6 @@
-// The parts of a masonry arch bridge, each a function that adds its stones to a layout (one small file each,
-// masonry_PART.cpp). All share one description of the bridge and take their coordinates from it, so that neighbours
-// meet at equal coordinates.
+// The parts of a masonry arch bridge. Each is a function that adds its stones to a layout (one file each,
+// masonry_PART.cpp). All take their coordinates from one description of the bridge, so that neighbouring parts have
+// equal coordinates where they meet.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -15,10 +15,11 @@ namespace voussoir {
 struct Vault {
   std::vector<Ring> rings;        // the lowest first
   std::vector<double> thickness;  // m, of each ring at the crown
-  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of the highest ring, which the fill lies on
+  Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of the highest ring
   std::int32_t material = 0;
-  std::size_t headers_every = 0;  // courses, from one of headers (stones through two rings) to the next; 0: none
-  /// Nominal size of a stone through some rings from one on.
+  std::size_t headers_every =
+      0;  // number of courses from one course of headers (stones through two rings) to the next; 0: none
+  /// Nominal size of a stone through `through` rings from `ring` on.
   Vec3 stone(std::size_t ring, std::size_t through) const {
     const auto from = thickness.begin() + std::ptrdiff_t(ring);
     return {voussoir.x(), voussoir.y(), std::accumulate(from, from + std::ptrdiff_t(through), 0.0)};
@@ -27,28 +28,28 @@ struct Vault {
   double right() const { return rings.front().intrados.back().x(); }
 };
 
-/// A nose of stones on each side face of a pier, from its base on.
+/// The cutwaters on both side faces of a pier, from its base upwards.
 struct Cutwater {
-  double length = 0.0;  // m, out of the side face; 0: none
+  double length = 0.0;  // m, beyond the side face; 0: no cutwaters
   double height = 0.0;  // m, above the base
   bool round = false;   // half an ellipse in flat facets, or a triangle
 };
 
-/// Walls beyond the end of a bridge, on the base of its abutment: two wings that go on from the side faces and splay
+/// Walls beyond the end of a bridge, on the base of its abutment: two wing walls that continue the side faces and splay
 /// outwards, and counterforts against the end face between them.
 struct Wings {
   double length = 0.0, thickness = 0.0;  // m, along the bridge and across it; length 0: none
-  double slope = 0.0;                    // way outwards over way along
+  double slope = 0.0;                    // tangent of the splay angle
   double top = 0.0;                      // z
   int counterforts = 0;
   double counterfort_length = 0.0, counterfort_thickness = 0.0, counterfort_top = 0.0;  // m; z
 };
 
-/// What a support is made of: solid courses, or an outer leaf around loose infill or around nothing.
+/// Make-up of a support: solid courses, or an outer leaf around infill or around a void.
 enum class Makeup { solid, leaf, hollow };
 
-/// Walls along the bridge between the spandrel walls, from the vaults and the backing to the deck with fill between
-/// them, or to slabs from wall to wall with nothing below.
+/// Walls along the bridge between the spandrel walls, on the vaults and the backing. They reach the deck with fill
+/// between them, or slabs from wall to wall with voids below.
 struct InternalWalls {
   int number = 0;
   double thickness = 0.0;  // m
@@ -64,27 +65,27 @@ struct LoadBeam {
   double middle = 0.0;                // x
 };
 
-/// What vaults spring from: an abutment or a pier.
+/// A support of vaults: an abutment or a pier.
 struct Support {
   double x0 = 0.0, x1 = 0.0;            // m, at the springing
   double height = 0.0;                  // m, from the base to the springing
   double base = 0.0, springing = 0.0;   // z
-  double top = 0.0;                     // z of the highest end of a vault's foot on it
+  double top = 0.0;                     // z of the highest foot of a vault on it
   double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
   double width = 0.0;                   // m, across, at the springing
-  std::int32_t material = 0;            // of its stones, not of its infill
+  std::int32_t material = 0;            // material of its stones, not of its infill
   Makeup makeup = Makeup::solid;
   Cutwater cutwater = {};         // of a pier
   Wings wings = {};               // of an abutment
-  double leaf_beside_span = 0.0;  // m, of an abutment with a leaf: the rest has wing walls
+  double leaf_beside_span = 0.0;  // m, length next to the span of an abutment with a leaf; the rest has wing walls
 };
 
-/// How the beds of a skew vault run: along its axis, or square to the faces at the chord or everywhere.
+/// Direction of the bed joints of a skew vault: along its axis, or square to the faces at the chord or everywhere.
 enum class SkewBond { parallel, helicoidal, logarithmic };
 
 /// Dimensions of a bridge in m (block sizes already scaled), in the axes of the whole program: x along, origin at the
 /// left end; y across, 0 at mid-width; z up, 0 at the top of the lowest base. A skew bridge is laid out square, with x
-/// square to its supports, and turned by turn_to_skew() once all is laid.
+/// square to its supports; turn_to_skew() skews it when all stones are laid.
 struct Bridge {
   std::vector<Vault> vaults;      // from left to right
   std::vector<Support> supports;  // left abutment, piers, right abutment
@@ -92,21 +93,21 @@ struct Bridge {
   LoadBeam beam = {};
   bool strip = false;  // in plane strain: no walls along the faces, no parapets
   double width = 0.0;
-  double skew = 0.0;  // rad, of the supports against the square to the axis
+  double skew = 0.0;  // rad, skew angle of the supports
   SkewBond skew_bond = SkewBond::parallel;
   double springing = 0.0;    // z of the lowest springing, where spandrel walls, backing and fill begin
   double deck = 0.0;         // z, where it is highest
   double gradient = 0.0;     // rise of the deck over x
   double deck_start = 0.0;   // z of a deck with a gradient at x = 0
   double backing_top = 0.0;  // z
-  Polygon backing_line;      // its top from end to end, where it is not level; otherwise empty
-  double backing_over_abutment[2] = {0.0, 0.0};      // length beside the span, left and right
+  Polygon backing_line;      // top of the backing from end to end if it is not level; otherwise empty
+  double backing_over_abutment[2] = {0.0, 0.0};      // length over the abutment from the span, left and right
   double spandrel_bottom = 0.0, spandrel_top = 0.0;  // thickness, stepped by course in between
   bool tapered = false;  // walls whose back is one plane: laid out with `spandrel_bottom` everywhere, see taper()
   double taper_bottom = 0.0, taper_top = 0.0;  // m, their thickness at the springing and at the deck
   double parapet_height = 0.0, parapet_thickness = 0.0;
   double string_height = 0.0, string_projection = 0.0;  // of a string course between deck and parapet
-  double transverse_thickness = 0.0;                    // of walls across over the piers; 0: none
+  double transverse_thickness = 0.0;                    // of transverse walls over the piers; 0: none
   double surfacing_depth = 0.0;                         // m, of the topmost part of the fill; 0: none
   double base_depth = 1.0, restraint_depth = 1.0;
   double wing_wall_thickness = 0.0;
@@ -125,8 +126,8 @@ struct Bridge {
 
   double length() const { return supports.back().x1; }
   double half_width() const { return 0.5 * width; }
-  double spandrel_at(double z) const;  // m, thickness of walls that are tapered
-  double spread_at(double z) const;    // factor on y of what lies between them, against the layout
+  double spandrel_at(double z) const;  // m, thickness of tapered walls
+  double spread_at(double z) const;    // factor on y between tapered walls, relative to the layout
   double half_width(std::size_t support) const { return 0.5 * supports[support].width; }
   double deck_at(double x) const { return gradient == 0.0 ? deck : deck_start + gradient * x; }
   std::size_t last_support() const { return supports.size() - 1; }
@@ -134,7 +135,7 @@ struct Bridge {
   Unit unit(Component component, int part) const;  // masonry block of a component
   Unit support_unit(std::size_t support) const;    // masonry block of an abutment or a pier
   Unit fill_unit() const;                          // rigid backfill
-  SectionLimits limits() const;                    // what vaults and supports take up above the springing
+  SectionLimits limits() const;                    // the space of vaults and supports above the springing
 };
 
 /// A part of the height above the springing with spandrel walls of one thickness.
@@ -145,33 +146,33 @@ struct Band {
 /// The courses of the spandrel walls. A course ends at the top of the backing; thickness goes from the bottom one in
 /// the first course to the top one in the last.
 std::vector<Band> spandrel_courses(const Bridge& bridge);
-/// The same with courses of equal thickness on one side of the backing's top taken together: what the space between the
-/// walls is laid in.
+/// The same, where courses with equal thickness on one side of the top of the backing are one band. The space between
+/// the walls is laid in these bands.
 std::vector<Band> interior_bands(const Bridge& bridge);
 
-/// Moves the stones from one on across, from walls of one thickness to tapered ones.
+/// Moves the stones from index `first` on across the bridge, from walls of one thickness to tapered walls.
 void taper(Layout& layout, const Bridge& bridge, std::size_t first);
-/// By how much that lengthens an edge between the walls at most.
+/// Largest factor by which taper() lengthens an edge between the walls.
 double longest_stretch(const Bridge& bridge);
 
-/// Where walls stand across over the piers, and what they leave of the length, both from left to right: from and to, m.
+/// The ranges of x of the transverse walls over the piers, and the ranges between them, both from left to right, m.
 std::vector<std::pair<double, double>> transverse_walls(const Bridge& bridge);
 std::vector<std::pair<double, double>> between_transverse_walls(const Bridge& bridge);
 void lay_transverse_walls(Layout& layout, const Bridge& bridge);
 
-/// From where to where internal walls stand across, and what they leave between -inner and inner, m.
+/// The ranges of y of the internal walls, and the ranges between them from -inner to inner, m.
 std::vector<std::pair<double, double>> internal_walls(const Bridge& bridge);
 std::vector<std::pair<double, double>> lanes(const Bridge& bridge, double inner);
 void lay_internal_walls(Layout& layout, const Bridge& bridge);
-/// What of a box lies above the backing, in courses.
+/// Lays the part of a box above the backing in courses.
 void lay_above_backing(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, const Unit& unit,
                        int course);
 
-/// Calls `piece` for each straight piece of the backing's top between x0 and x1, with the half-plane under it.
+/// Calls `piece` for each straight piece of the top of the backing between x0 and x1, with the half-plane below it.
 template <class Piece>
 void along_backing(const Bridge& bridge, double x0, double x1, Piece&& piece);
 
-/// The half-plane under a straight piece of the backing's top, which goes from left to right, and the other one.
+/// The half-plane below a straight piece of the top of the backing, given from left to right, and the opposite one.
 Plane under_backing(const Vec3& from, const Vec3& to);
 Plane opposite(const Plane& plane);
 
@@ -184,44 +185,43 @@ void along_backing(const Bridge& bridge, double x0, double x1, Piece&& piece) {
   }
 }
 
-/// A box of the fill; what lies within a vault's extrados does not belong to it.
+/// A box of the fill, without the space within the extrados of vaults.
 struct FillRegion {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // m
-  std::ptrdiff_t support = -1;   // the abutment between whose wing walls it lies; -1: above the springing
-  int course = 0;                // number of its lowest course in the bond
-  std::vector<Plane> past = {};  // beside the bridge's limits: of the backing below it
-  int lane = 0;                  // which of the spaces between internal walls it belongs to
-  bool surfacing = false;        // of the material of the surfacing
+  std::ptrdiff_t support = -1;                   // the abutment between whose wing walls it is; -1: above the springing
+  int course = 0;                                // number of its lowest course in the bond
+  std::vector<Plane> past = {};                  // in addition to the limits of the bridge: the backing below it
+  int lane = 0;                                  // number of the space between internal walls to which it belongs
+  bool surfacing = false;                        // whether it has the material of the surfacing
 };
-/// The boxes of the fill, which do not overlap: between the wing walls, then those above the springing from below. The
-/// rigid fill is laid in them and the deformable one is meshed in them. Over a backing that is not level they overlap
-/// it, and `past` says where the fill ends.
+/// The boxes of the fill, which do not overlap: those between the wing walls, then those above the springing upwards.
+/// They are used for rigid and for deformable fill. They overlap a backing that is not level; `past` then limits the
+/// fill.
 std::vector<FillRegion> fill_regions(const Bridge& bridge);
-/// What is not fill in the boxes above the springing beside the vaults, as polygons: the backing, what is above the
-/// deck.
+/// The parts of the boxes above the springing that are not fill, besides the vaults, as polygons: the backing, and the
+/// space above the deck.
 std::vector<Polygon> beside_fill(const Bridge& bridge);
-double fill_space(const Bridge& bridge);  // m3, of the boxes less what lies within the vaults
-/// From where to where the wing walls of an abutment go, m; of equal ends when it has none.
+double fill_space(const Bridge& bridge);  // m3, of the boxes without the space of the vaults
+/// Range of x of the wing walls of an abutment, m; empty (equal ends) if it has none.
 std::pair<double, double> wing_extent(const Bridge& bridge, std::size_t support);
 
 /// "abutment left", "pier 0", …, "abutment right".
 std::string support_name(const Bridge& bridge, std::size_t support);
 
-/// Over how many rings a stone of a course reaches that begins in `ring`; 0: the ring below has it as a header. With
-/// more than two rings the pairs that headers bind alternate.
+/// Number of rings of a stone of a course that begins in `ring`; 0: the stone is a header that begins in the ring
+/// below. With more than two rings the pairs of rings that headers bond alternate.
 std::size_t rings_of_stone(const Vault& vault, std::size_t ring, std::int64_t course);
-/// Whether a wedge is of the keystone: the middle one, or those on both sides of a joint at the crown.
+/// Whether a wedge belongs to the keystone: the middle wedge, or those on both sides of a joint at the crown.
 bool at_crown(int wedge, int wedges);
-/// Puts the stones from number `from` on into the groups of their rings.
+/// Adds the stones from index `from` on to the groups of their rings.
 void name_rings(Layout& layout, std::size_t vault, std::size_t first_ring, std::size_t rings, std::size_t from);
 
-/// Puts the stones from number `from` on into the group of a quarter point of a vault, 0 left and 1 right; −1: none.
+/// Adds the stones from index `from` on to the group of a quarter point of a vault: 0 left, 1 right, −1 none.
 void name_quarter(Layout& layout, std::size_t vault, int quarter, std::size_t from);
 
-/// The barrel of one vault in helicoidal or logarithmic bond. Throws InputError for an intrados that is upright or
-/// overhangs.
+/// Lays one vault in helicoidal or logarithmic bond. Throws InputError for an intrados that is vertical or overhangs.
 void lay_oblique(Layout& layout, const Bridge& bridge, std::size_t vault);
-/// From where things are laid out to where they are: x to x / cos + y tan, so that what was square to the supports is.
+/// Skews the layout: x becomes x / cos + y tan of the skew angle.
 void turn_to_skew(Layout& layout, double skew);
 Vec3 at_skew(const Vec3& p, double skew);
 
@@ -229,7 +229,7 @@ void lay_vaults(Layout& layout,
                 const Bridge& bridge);  // sets the layout's rings; groups "keystone i", "quarter i left", …
 void lay_piers(Layout& layout, const Bridge& bridge);      // groups "pier top 0" …
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them
-void lay_skewbacks(Layout& layout, const Bridge& bridge);  // supports from the springing to the vaults' feet
+void lay_skewbacks(Layout& layout, const Bridge& bridge);  // supports from the springing to the feet of the vaults
 void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y- pier 0" …
 void lay_backing(Layout& layout, const Bridge& bridge);
 void lay_backfill(Layout& layout, const Bridge& bridge);
@@ -238,7 +238,7 @@ void lay_region(Layout& layout, const Bridge& bridge, const FillRegion& region);
 void lay_parapets(Layout& layout, const Bridge& bridge);
 void lay_load_beam(Layout& layout, const Bridge& bridge);    // group "load"
 void lay_strip_walls(Layout& layout, const Bridge& bridge);  // group "walls"
-void smooth_strip_walls(Assembly& assembly);                 // neither friction nor bond on them
+void smooth_strip_walls(Assembly& assembly);                 // removes friction and bond on them
 void lay_bases(Layout& layout, const Bridge& bridge);        // groups "base pier 0" …
 void lay_restraints(Layout& layout, const Bridge& bridge);   // groups "restraint left" and "restraint right"
 
@@ -250,12 +250,11 @@ struct Solid {
 };
 void lay_solid(Layout& layout, const Solid& solid, const Unit& unit);
 
-/// A support of box shape: an outer leaf of pieces in courses whose thickness alternates, corners bonded by turns, and
-/// infill within in courses of half the height. A hollow one has no infill, and slabs from face to face as its top
-/// course.
+/// A support with the shape of a box: an outer leaf in courses of alternating thickness with bonded corners, and infill
+/// in courses of half the height. A hollow support has no infill, and slabs from face to face as its top course.
 void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, const Vec3& high, std::size_t support);
 void lay_cutwaters(Layout& layout, const Bridge& bridge, std::size_t support);
-/// Wings and counterforts of an abutment, and what its base has below them.
+/// Wing walls and counterforts of an abutment, and the part of its base below them.
 void lay_wing_walls(Layout& layout, const Bridge& bridge, std::size_t support);
 std::vector<Polyhedron> base_of_wings(const Bridge& bridge, std::size_t support);
 

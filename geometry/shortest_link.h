@@ -17,20 +17,20 @@ struct ShortestLink {
   Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();
 };
 
-/// Vertices of a cell whose faces have all moved inwards by `shrink` (m): those of a sharp tip move four times as far
-/// at most. Corners within an edge or a face move as it does, so that the shrunk cell does not depend on them.
+/// Vertices of a cell whose faces have all moved inwards by `shrink` (m). Vertices of a sharp tip move at most four
+/// times as far. Corners within an edge or a face move with it, so that the shrunk cell does not depend on them.
 std::vector<Vec3> shrunk_vertices(const Convex& shape, double shrink);
 
-/// None if the shrunk cells overlap. Its direction depends on nothing but the two sets of points, continuously
-/// (Gilbert, Johnson & Keerthi 1988 find it).
+/// The shortest link (Gilbert, Johnson & Keerthi 1988); empty if the shrunk cells overlap. Its direction depends only
+/// on the two sets of points, and continuously.
 std::optional<ShortestLink> shortest_link(const Convex& a, const Convex& b, double shrink);
 
-/// How two cells meet at edges or corners, by the shortest link of both shrunk: Kind::edge with one pair of points, or
-/// with two, at the ends of what edges that lie along each other share. Kind::apart (with the normal and separation)
-/// when farther than `within` along it. None when the shrunk cells overlap.
+/// The contact of two cells at edges or corners, by the shortest link of the shrunk cells: Kind::edge with one pair of
+/// points, or with two pairs at the ends of the common part of parallel edges; Kind::apart (with normal and separation)
+/// if the distance along the link is larger than `within`. Empty if the shrunk cells overlap.
 std::optional<Meeting> sharp_meeting(const Convex& a, const Convex& b, double within, double shrink);
 
-/// Whether a face of each lies in one plane, the cells on either side of it: within 10⁻³ rad and `within` (m).
+/// Whether the cells have faces in one plane, within 10⁻³ rad and `within` (m), and are on opposite sides of it.
 bool lie_flush(const Convex& a, const Convex& b, double within);
 
 /// Whether two faces that meet stand open like a book whose spine may be an edge of each: not flat on each other, and

@@ -1,4 +1,4 @@
-// Between geometry/decompose.cpp and the library that CGAL is compiled into.
+// The interface between geometry/decompose.cpp and the library with CGAL.
 #pragma once
 #include <array>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace voussoir {
 
-/// A closed shape whose corners are known exactly: each is where three planes meet. Faces of more than three corners
-/// have all their corners in one of these planes.
+/// A closed shape with exact corners: each is the intersection of three planes. All corners of a face with more than
+/// three corners are in one of these planes.
 struct ExactShape {
   std::vector<std::array<Plane, 3>> corners;
   std::vector<std::vector<int>> faces;  // outward
 };
 
-/// Of the library: convex pieces, or why there are none.
+/// The function of the library: returns convex pieces, or the reason why there are none.
 using CutShape = void(const ExactShape&, std::vector<Polyhedron>& pieces, std::string& trouble);
 
 }  // namespace voussoir
