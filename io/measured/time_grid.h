@@ -1,4 +1,4 @@
-// Even steps behind times that a logger has rounded. Private to io/measured.
+// Finds equal time steps in times that a logger has rounded. Private to io/measured.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -6,12 +6,12 @@
 
 namespace voussoir {
 
-/// Digits behind the decimal point of a number as it is written; none for one with an exponent.
+/// Number of digits after the decimal point of a number in a text; empty for a number with an exponent.
 std::optional<int> decimals_of(std::string_view word);
 
-/// The step of an even grid from which every time differs by no more than `half` (s), half of the last digit that is
-/// written. Of all such steps that of a whole number of samples a second, when there is one; else the one that the
-/// times fit best. None when no grid fits.
+/// The equal time step from which every time differs by at most `half` (s), half of the last written digit. If several
+/// steps fit, one with a whole number of samples per second is used, otherwise the one with the best fit. Empty if no
+/// step fits.
 std::optional<double> grid_step(const std::vector<double>& times, double half);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Measured curves as text: two columns, whatever they are.
+// Measured curves in text files: two columns.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,12 +6,12 @@
 namespace voussoir {
 
 struct Curve {
-  std::vector<double> x, y;  // same length, two points at least; in the file's units
+  std::vector<double> x, y;  // same length, at least two points; in the units of the file
 };
 
-/// The first two columns of a text of numbers, apart by blanks, commas or semicolons. Lines before the first that
-/// begins with two numbers are headings; `name` stands in messages. Throws InputError "NAME:ROW: …" on a later line
-/// that does not, InputError "NAME: …" on fewer than two points.
+/// The first two columns of a text of numbers, separated by blanks, commas or semicolons. Lines before the first line
+/// that begins with two numbers are headings. `name` is used in messages. Throws InputError "NAME:ROW: …" for a later
+/// line that does not begin with two numbers, and "NAME: …" for fewer than two points.
 Curve parse_curve(const std::string& text, const std::string& name);
 
 }  // namespace voussoir

@@ -1,4 +1,4 @@
-// Files of ground motion, recognised by what they contain. A new format is one file here and one line in format.cpp.
+// Files of ground motion, recognised by their content. A new format needs one file here and one line in format.cpp.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,35 +8,35 @@
 
 namespace voussoir {
 
-/// A component as its file has it.
+/// A component as in its file.
 struct RecordFile {
   Record record;
   std::string format;                     // "PEER AT2"
-  double unit = 0.0;                      // m/s2, of its numbers; 0: the file does not say
-  std::string event, station, component;  // as the file names them; empty where it does not
-  std::string path;                       // what messages call it
+  double unit = 0.0;                      // m/s2, unit of its numbers; 0: the file does not state it
+  std::string event, station, component;  // names in the file; empty: not stated
+  std::string path;                       // name of the file in messages
 };
 
 struct RecordFormat {
   std::string name;
-  double unit = 0.0;  // m/s2 of its numbers; 0: the file does not say
+  double unit = 0.0;  // m/s2, unit of its numbers; 0: the file does not state it
   bool (*recognises)(std::string_view text) = nullptr;
-  /// The channels of a file, in its order. Throws InputError "NAME:ROW: …" for what is not as the format says. `dt` > 0
-  /// (s) replaces the file's own step, which some files give with few digits.
+  /// The channels of a file, in its order. `dt` > 0 (s) replaces the time step of the file, which some files give with
+  /// few digits. Throws InputError "NAME:ROW: …" for contents that the format does not allow.
   std::vector<RecordFile> (*read)(const std::string& text, const std::string& name, double dt) = nullptr;
 };
 
-/// All of them, in the order in which they are tried; plain columns are the last.
+/// All formats, in the order in which they are tried; plain columns are the last one.
 const std::vector<RecordFormat>& record_formats();
 const RecordFormat& recognise(std::string_view text);
-/// All channels of a file. `columns` name those of a table in their order: "t", "x", "y", "z", "" for one that is
-/// passed over; none: as the file says.
+/// All channels of a file. `columns` gives the meaning of the columns of a table in their order: "t", "x", "y", "z", ""
+/// (skipped); empty: as in the file.
 std::vector<RecordFile> parse_channels(const std::string& text, const std::string& name, double dt = 0.0,
                                        const std::vector<std::string>& columns = {});
-/// The channel of a file that has one. Throws InputError for one with several.
+/// The channel of a file with one channel. Throws InputError if it has several.
 RecordFile parse_record(const std::string& text, const std::string& name, double dt = 0.0);
 RecordFile read_record(const std::string& path, double dt = 0.0);
-/// Numbers without times, whose step the file does not say.
+/// Whether a text has numbers without times, so that the time step is not known.
 bool columns_without_time(std::string_view text);
 
 /// For readers of files with one channel.

@@ -1,4 +1,4 @@
-// What a folder of records leaves out, each reason once.
+// The files of a folder of records that are not used, with each reason once.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,15 +6,15 @@
 namespace voussoir {
 
 struct LeftOut {
-  std::string name;    // of a file, without its folder, or of a recording
-  std::string reason;  // the message without the place that it begins with
-  std::string row;     // of the file, where the message names one
+  std::string name;    // name of a file, without its folder, or of a recording
+  std::string reason;  // the message without its place
+  std::string row;     // row of the file, if the message has one
 };
 
-/// Of a message about a file: what stands behind "PATH:" is the reason.
+/// From a message about a file: the reason is the text after "PATH:".
 LeftOut left_out_file(const std::string& path, const std::string& message);
-/// A line for each reason, in the order in which they came first: "36 of a kind (A.VT2, A.DT2 and 34 more): why".
-/// Reasons are alike when they differ by numbers and by what is quoted from the files.
+/// A line for each reason, in the order of first occurrence: "36 files or recordings (A.VT2, A.DT2 and 34 more): why".
+/// Reasons that differ only by numbers and quoted texts count as equal.
 std::vector<std::string> said_once(const std::vector<LeftOut>& all);
 
 }  // namespace voussoir
