@@ -54,8 +54,8 @@ Vec3 unsigned_direction(const Vec3& n) {
   return compare(n, Vec3::Zero()) < 0 ? Vec3(-n) : n;
 }
 
-/// Larger separation; in a tie the axis nearer to the line of centres, then an order that knows neither the numbering
-/// of faces nor which body is called a.
+/// Whether an axis is better: larger separation; in a tie nearer to the line of centres; then an order that depends
+/// neither on the numbering of faces nor on the order of the bodies.
 bool better(const Axis& axis, const Axis& best, const Vec3& centres) {
   if (std::abs(axis.separation - best.separation) > k_tie) return axis.separation > best.separation;
   const double here = std::abs(axis.normal.dot(centres)), there = std::abs(best.normal.dot(centres));
@@ -159,7 +159,7 @@ int facing(const Convex& shape, const Vec3& normal, const Vec3& near) {
   return best;
 }
 
-/// The middle of the part of the support edge (or corner) over a convex polygon; none if it lies beside it.
+/// The middle of the part of the support edge (or corner) above a convex polygon; empty if no part is above it.
 std::optional<Vec3> tip_over(const Convex& shape, const Polygon& polygon, const Vec3& normal) {
   const auto [p, q] = support_edges(shape, -normal).front();
   double low = 0.0, high = 1.0;

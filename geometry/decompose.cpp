@@ -60,9 +60,9 @@ class FacePlanes {
   }
 };
 
-/// Axes in which to try the cut. CGAL spans walls along x from edges that turn in. Where x lies in a face of such an
-/// edge, across it, that wall goes on from the face: fewer pieces than of a wall at some angle, which cuts on both
-/// sides of the edge. Which face is best depends on the others: a few are tried, those of the longest edges first.
+/// Axes to try for the cut. CGAL makes walls along x from reflex edges. If x is in a face of such an edge and across
+/// the edge, the wall continues the face, which gives fewer pieces than a wall at another angle, which cuts on both
+/// sides of the edge. The best face depends on the others, so a few faces are tried, those of the longest edges first.
 std::vector<Mat3> axes_for(const Polyhedron& shape) {
   constexpr std::size_t most = 4;
   std::map<std::pair<int, int>, int> face_of;
@@ -213,7 +213,7 @@ struct UnionOfTwo {
   ConvexPiece whole;
 };
 
-/// The union is convex when its hull holds no more than the two.
+/// The union is convex if the volume of its hull equals that of the two pieces.
 std::optional<UnionOfTwo> union_of(const std::vector<ConvexPiece>& pieces, std::size_t a, std::size_t b, double slack) {
   const ConvexPiece &p = pieces[a], &q = pieces[b];
   const double near = 1e-9 * ((p.box.high - p.box.low).norm() + (q.box.high - q.box.low).norm());
@@ -256,7 +256,7 @@ std::vector<Polyhedron> cut_along(const Polyhedron& shape, const Mat3& axes) {
   for (const Polyhedron& piece : cut) {
     ConvexPiece made = make_convex_piece(piece);
     sum += made.volume;
-    // Of rounding alone; the sum tells when it was more.
+    // Smaller pieces are due to rounding; the sum of volumes shows if they are not.
     if (made.volume > 1e-9 * volume) pieces.push_back(std::move(made));
   }
   join_pieces(pieces, 1e-9 * volume);

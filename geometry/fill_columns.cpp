@@ -29,7 +29,7 @@ std::vector<double> with_middle(std::vector<double> ends) {
   return ends;
 }
 
-/// How the space between two ends is divided.
+/// The division of the space between two ends.
 struct Layers {
   int count = 1;
   double thickness = 0.0;  // m
@@ -53,7 +53,7 @@ double staggered_layer(const std::vector<double>& ends, double layer) {
   return thickest;
 }
 
-/// Which of three staggers each column has: neighbours differ wherever the edge between them needs it.
+/// The stagger (one of three) of each column: neighbours differ if the edge between them needs it.
 class Colouring {
  public:
   Colouring(const FillSection& section, double edge, double layer) : colour(section.nodes.size(), -1) {
@@ -79,7 +79,7 @@ class Colouring {
   };
   std::vector<std::vector<Neighbour>> near_;
 
-  /// How bad a colour is for a node: by what edges have too much, then by the length of those that rise most.
+  /// Cost of a colour for a node: excess length of edges, then length of the edges that rise most.
   std::pair<double, double> cost(std::size_t node, int c) const {
     std::pair<double, double> sum{0.0, 0.0};
     for (const Neighbour& n : near_[node])

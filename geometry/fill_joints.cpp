@@ -25,7 +25,7 @@ struct Cell {
   std::int32_t cell = 0;
 };
 
-/// What the broad phase looks at: cells first, then triangles.
+/// The boxes of the broad phase: cells first, then triangles.
 struct Scene {
   std::vector<Cell> cells;
   std::vector<Triangle> triangles;

@@ -78,7 +78,7 @@ Triple lowest_first(Triple t) {
   return t;
 }
 
-/// All faces of all tetrahedra; those of equal nodes stand together.
+/// All faces of all tetrahedra, sorted so that faces with equal nodes follow each other.
 std::vector<Face> sorted_faces(const FillMesh& mesh) {
   std::vector<Face> faces;
   faces.reserve(4 * mesh.tets.size());

@@ -36,7 +36,7 @@ double fill_mass(const Assembly& assembly) {
   return mass;
 }
 
-/// By how much the turn to a skew lengthens an edge at most: the greatest singular value of at_skew().
+/// Largest factor by which the skew lengthens an edge: the greatest singular value of at_skew().
 double lengthening(double skew) {
   const double c = 1.0 / std::cos(skew), t = std::tan(skew), trace = c * c + t * t + 1.0;
   return std::sqrt(0.5 * (trace + std::sqrt(trace * trace - 4.0 * c * c)));

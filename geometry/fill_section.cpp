@@ -20,7 +20,7 @@ double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.x() - a.x()) * (c.z() - a.z()) - (b.z() - a.z()) * (c.x() - a.x());
 }
 
-/// How far a triangle is from what is wanted: edges below the bound, no height below 0.45 of it and then equal sides.
+/// Cost of a triangle: edges above the bound, heights below 0.45 of the bound, then unequal sides.
 /// Infinite, as it were, for one that is turned over or flat. The weights were tried on CS1 and CS2.
 double badness(const std::array<Vec3, 3>& corner, double turn, double bound) {
   constexpr double near = 0.985, low = 0.45, of_length = 400.0, of_height = 4.0, of_shape = 0.01, never = 1e6;

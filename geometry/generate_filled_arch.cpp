@@ -45,7 +45,7 @@ Ring make_segment(double middle, double span, double rise, double thickness, int
     ring.intrados.push_back(point(radius, angle, i == j));
     ring.extrados.push_back(point(radius + thickness, angle, i == j));
   }
-  // The fill's floor is level with the feet of the extrados: what lies above it is cut by the ring.
+  // The floor of the fill is level with the feet of the extrados; the ring cuts the fill above it.
   return ring;
 }
 
@@ -81,7 +81,7 @@ std::int64_t lay_fixed(Layout& layout, Polyhedron shape, Component component, Ma
   return number;
 }
 
-/// The fixed block that bears one springing joint and the fill beyond it: convex, as the joint rises outwards.
+/// The fixed block below one springing joint and the fill beyond it. It is convex, because the joint rises outwards.
 void lay_springing(Layout& layout, const Strip& s, bool left) {
   constexpr double depth = 0.5;
   const Vec3 in = s.ring.intrados.front(), out = s.ring.extrados.front();
@@ -95,8 +95,8 @@ void lay_springing(Layout& layout, const Strip& s, bool left) {
       lay_fixed(layout, make_prism(outline, {0.0, 2.0 * s.half, 0.0}), Component::base, masonry)};
 }
 
-/// Fixed and smooth, at both faces and both ends, from the fill's floor to the deck; a component of their own, so that
-/// pictures can leave them out.
+/// Lays fixed smooth walls at both faces and both ends, from the floor of the fill to the deck. They have a separate
+/// component, so that pictures can leave them out.
 void lay_walls(Layout& layout, const Strip& s) {
   constexpr double thickness = 0.3;
   const double y = s.half;
@@ -118,7 +118,7 @@ void lay_load(Layout& layout, const Strip& s) {
                                      Component::base, masonry)};
 }
 
-/// What the section of the fill takes up, m2: the whole less what lies between the extrados and the floor.
+/// Area of the section of the fill, m2: the whole area without that between the extrados and the floor.
 double section_area(const Strip& s) {
   return s.length * (s.deck - s.floor) - polygon_area(s.ring.extrados);
 }

@@ -20,7 +20,7 @@ class Bond {
                        blocks);
   }
   int units() const { return units_; }
-  /// Whether a joint stands at a unit's end, between two blocks; in the middle of a block otherwise.
+  /// Whether there is a head joint between two blocks at the end of a unit; otherwise it is the middle of a block.
   bool is_head(int unit, int course) const {
     return unit == 0 || unit == units_ || (unit + (units_ > 2 ? course : 0)) % 2 == 0;
   }

@@ -111,7 +111,7 @@ FaceOverlay overlay(const StoneCell& a, int face_a, const StoneCell& b, int face
   return out;
 }
 
-/// Of a long strip its width.
+/// Twice the area over the perimeter, which is the width of a long strip.
 double width_of(const FaceOverlay& overlay) {
   double outline = 0.0;
   for (std::size_t i = 0; i < overlay.polygon.size(); ++i)
@@ -124,7 +124,7 @@ bool is_sliver(const FaceOverlay& overlay, const JointSearch& search) {
          (search.smallest_width > 0.0 && width_of(overlay) < search.smallest_width);
 }
 
-/// What the search of one pair of cells found: the joint, or the smallest gap it left open.
+/// The result of the search for one pair of cells: the joint, or the smallest open gap.
 struct Found {
   std::optional<Joint> joint;
   double gap = 0.0;

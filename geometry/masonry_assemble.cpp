@@ -1,4 +1,4 @@
-// From a layout to an assembly: joints are found once, slivers joined to their neighbours, joints renumbered.
+// Makes an assembly of a layout: finds the joints once, merges slivers with their neighbours, renumbers the joints.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -150,7 +150,7 @@ Groups join_slivers(const std::vector<Stone>& stones, const std::vector<Joint>& 
   return groups;
 }
 
-/// Where each stone went: its block, and the first of its cells there.
+/// The block of each stone, and the first of its cells in that block.
 struct Place {
   std::int64_t block = 0;
   std::int32_t first_cell = 0;

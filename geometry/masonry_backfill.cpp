@@ -19,7 +19,7 @@ bool is_void(const Bridge& bridge, const Band& band) {
   return bridge.internal.number > 0 && bridge.internal.hollow && band.z0 < bridge.internal.slab_top - 1e-9;
 }
 
-/// Over a backing that is not level.
+/// Boxes over a backing that is not level.
 void add_over_line(std::vector<FillRegion>& regions, const Bridge& bridge, const Band& band, int course) {
   int lane = 0;
   for (const auto& [y0, y1] : lanes(bridge, bridge.half_width() - band.thickness)) {
@@ -31,7 +31,7 @@ void add_over_line(std::vector<FillRegion>& regions, const Bridge& bridge, const
   }
 }
 
-/// Over a level backing, or, in the bands beside it, behind the abutments only.
+/// Boxes over a level backing; in the bands at its height only behind the abutments.
 void add_over_level(std::vector<FillRegion>& regions, const Bridge& bridge, const Band& band, int course) {
   const double inner = bridge.half_width() - band.thickness;
   const auto add = [&](double x0, double x1, double y0, double y1, int lane) {

@@ -20,7 +20,7 @@ double crown(const Bridge& bridge, std::size_t span) {
   return 0.5 * (bridge.vaults[span].left() + bridge.vaults[span].right());
 }
 
-/// From crown to crown; what lies within the vaults is cut away.
+/// Lays the backing from crown to crown; the vaults cut it.
 std::pair<double, double> extent(const Bridge& bridge, std::size_t support) {
   const Support& at = bridge.supports[support];
   return {support == 0 ? at.x1 - bridge.backing_over_abutment[0] : crown(bridge, support - 1),
@@ -43,7 +43,7 @@ double height(const Plane& under, double x) {
   return (under.offset - under.normal.x() * x) / under.normal.z();
 }
 
-/// Under one straight piece of the line after the other; head joints go through where they meet.
+/// Lays the backing below each straight piece of the line; head joints are continuous where pieces meet.
 void lay_under_line(Layout& layout, const Bridge& bridge, std::size_t support) {
   const SectionLimits usual = layout.limits;
   const auto [x0, x1] = extent(bridge, support);

@@ -1,4 +1,4 @@
-// Where the parts of a bridge are.
+// Places of the parts of a bridge.
 #include <algorithm>
 #include <cmath>
 

@@ -44,7 +44,7 @@ void lay_above_backing(Layout& layout, const Bridge& bridge, const Vec3& low, co
 
 namespace {
 
-/// From the middle of one wall to that of the next, and onto the spandrel walls.
+/// Lays slabs from the middle of one wall to that of the next, and onto the spandrel walls.
 void lay_slabs(Layout& layout, const Bridge& bridge, const Band& band, double x0, double x1, Unit unit) {
   const double inner = bridge.half_width() - band.thickness;
   std::vector<double> y = {-inner};

@@ -97,7 +97,7 @@ std::vector<Polyhedron> between_beds(const Vault& vault, const Beds& beds, std::
   return {make_prism(first, sweep), make_prism(second, sweep)};
 }
 
-/// Of the volume of a stone: less of a prism is a corner of a millimetre, not masonry.
+/// Share of the volume of a stone below which a part of a prism is ignored.
 constexpr double no_share = 1e-7;
 
 /// Adds what of a prism lies between y0 and y1.

@@ -1,4 +1,4 @@
-// A strip of a bridge in plane strain: what stands along its faces is left out, and fixed smooth walls hold both.
+// A strip of a bridge in plane strain, without walls along its faces, between two fixed smooth walls.
 #include "geometry/masonry_parts.h"
 #include "geometry/stiffness.h"
 

@@ -5,7 +5,7 @@ namespace voussoir {
 
 namespace {
 
-/// Laid out straight behind an end; a point d m behind it then moves outwards by slope × d.
+/// Wing walls are laid out straight behind an end; then a point d m behind it moves outwards by slope × d.
 struct Wall {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // m
   double slope = 0.0;                            // along y over the way from the end

@@ -6,7 +6,7 @@ namespace voussoir {
 
 namespace {
 
-/// How far a point lies outside a convex cell: the largest distance beyond a face plane; negative inside.
+/// Distance of a point outside a convex cell: the largest distance beyond a face plane; negative inside.
 double outside(const Polyhedron& cell, const Vec3& point) {
   double distance = -1e300;
   for (std::size_t f = 0; f < cell.faces.size(); ++f) {

@@ -22,8 +22,8 @@ int longest_axis(const std::vector<Box>& boxes) {
   return axis;
 }
 
-/// Strips of equal width across the sweep: about two boxes wide, so that a box stands in few of them and each holds few
-/// boxes side by side.
+/// Strips of equal width across the sweep, about two boxes wide, so that a box is in few strips and a strip has few
+/// boxes next to each other.
 class Strips {
  public:
   Strips(const std::vector<Box>& boxes, int axis, double distance) : axis_(axis), reach_(std::max(distance, 0.0)) {
@@ -44,7 +44,7 @@ class Strips {
     return strip > 0.0 && size_ > 0.0 ? int(std::min(strip, count_ - 1.0)) : 0;
   }
   int first(const Box& box) const { return at(box.low[axis_]); }
-  /// With a little more than the distance asked for, against rounding.
+  /// The distance is slightly enlarged because of rounding.
   int last(const Box& box) const { return std::max(first(box), at(box.high[axis_] + reach_ + 1e-6 * size_)); }
 
  private:
@@ -70,7 +70,7 @@ class Columns {
   }
   std::size_t at(double y, double z) const { return std::size_t(y_.at(y) * z_.count() + z_.at(z)); }
 
-  /// Every column that a box stands in.
+  /// All columns of a box.
   template <class F>
   void each(const Box& box, F f) const {
     for (int i = y_.first(box); i <= y_.last(box); ++i)

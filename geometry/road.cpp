@@ -62,7 +62,7 @@ void Road::add_fill(const Assembly& assembly) {
     if (upper[std::size_t(joint.triangle)]) add(joint.polygon, -1, joint.triangle, -1.0);
 }
 
-/// Upper faces of blocks, less what stands on them.
+/// Upper faces of blocks, without the parts below other blocks.
 void Road::add_blocks(const Assembly& assembly, const std::vector<char>& wanted) {
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
     if (!wanted[i]) continue;
@@ -123,7 +123,7 @@ Road::Road(const Assembly& assembly) : assembly_(&assembly) {
         deck_group);
   add_fill(assembly);
   add_blocks(assembly, wanted);
-  // What lies under the road, such as fill that shows below it, is none of it.
+  // Faces below the road, such as fill that is visible below it, do not belong to it.
   std::vector<Piece> all = std::move(pieces_);
   pieces_.clear();
   for (const Piece& piece : all)

@@ -21,9 +21,9 @@ std::optional<Vec3> least_vector(const Eigen::Matrix<double, 3, Count>& normals)
   return normals * gram.inverse() * -Eigen::Matrix<double, Count, 1>::Ones();
 }
 
-/// How far a corner moves when its faces move inwards by one: to where three of them meet then, none of the others
-/// being in the way. Where more than three meet in a corner there may be several such places, of which the one farthest
-/// out is taken (along the shortest way behind all faces); within an edge or a face two faces or one say it.
+/// Displacement of a corner if its faces move inwards by one: to the intersection of three of them that is behind all
+/// others. If more than three faces meet in a corner, there may be several such points; the farthest out is used (along
+/// the shortest way behind all faces). Within an edge or a face, two faces or one determine it.
 Vec3 inset(const std::vector<Vec3>& normals) {
   std::vector<Vec3> ways[3];  // by one, two, three faces
   const auto take = [&](int faces, const std::optional<Vec3>& w) {
@@ -118,7 +118,7 @@ Simplex nearest_part(const Simplex& corners) {
   return best;
 }
 
-/// Corners that span the point of the difference b − a nearest to the origin; four if it holds the origin.
+/// Corners that span the point of the difference b − a nearest to the origin; four if it contains the origin.
 Simplex nearest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const Vec3& begin) {
   const auto support = [&](const Vec3& towards) {  // the corner of the difference farthest along −towards
     const int i = farthest(a, towards), j = farthest(b, -towards);
@@ -145,7 +145,7 @@ Segment segment_of(const std::vector<Vec3>& vertices, const std::vector<int>& en
   return {vertices[std::size_t(ends.front())], vertices[std::size_t(ends.back())]};
 }
 
-/// What two edges that lie along each other share: a pair of points at either end.
+/// The common part of two parallel edges: a pair of points at each end.
 struct Stretch {
   double length = 0.0;  // m
   std::array<Vec3, 2> on_a, on_b;

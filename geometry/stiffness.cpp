@@ -25,7 +25,7 @@ Stiffness times(const Stiffness& k, double factor) {
   return {factor * k.kn, factor * k.ks};
 }
 
-/// One side of a joint: the block, or the half of a nominal block that a fixed one stands for.
+/// One side of a joint: the block, or half a nominal block for a fixed block.
 struct Side {
   Component component = Component::block;
   std::int32_t material = 0;
@@ -42,7 +42,7 @@ class Assigner {
     const bool fill_a = a.component == Component::backfill, fill_b = b.component == Component::backfill;
     if (fill_a != fill_b) return times(of_masonry(fill_a ? b : a), rules_.interface_share);
     const bool from_table = rules_.kind == JointRules::Kind::table && !fill_a;
-    // The table's row of the loose filling is that of its contacts, whatever stands on their other side.
+    // The row of the infill applies to all its contacts, also with other components.
     const bool infill = a.component == Component::infill || b.component == Component::infill;
     if (from_table && infill) return row(a.component == Component::infill ? a : b);
     return in_series(from_table ? table_half(a) : moduli_half(a), from_table ? table_half(b) : moduli_half(b));
@@ -154,7 +154,7 @@ Overrides read_overrides(const Assembly& assembly, const GeneratorInput& input) 
   return overrides;
 }
 
-/// What the case sets takes the place of what the rules give.
+/// Values of the case replace those of the rules.
 void apply(const GeneratorInput::JointOverride& override, Stiffness& k, JointLaw& law) {
   if (override.kn >= 0.0) k.kn = override.kn;
   if (override.ks >= 0.0) k.ks = override.ks;
@@ -234,7 +234,8 @@ void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const Ge
 
 namespace {
 
-/// A joint takes its stiffness from the stones on its sides; a fixed one stands for more of the other.
+/// Throws InputError for blocks without moduli, from which the stiffness of their joints follows. A fixed block takes
+/// the moduli of the other block.
 void check_moduli(const Assembly& assembly) {
   std::vector<std::string> without;
   std::size_t count = 0;

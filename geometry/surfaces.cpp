@@ -1,4 +1,4 @@
-// Outer surface of the stones: what a picture shows and what the coverage test of the joints compares with.
+// Outer surface of the stones, for pictures and for the test of the coverage of joints.
 #include <cmath>
 
 #include "geometry/joints.h"
@@ -21,7 +21,7 @@ CellFace make_cell_face(const Polyhedron& cell, int face) {
   return out;
 }
 
-/// What is left of a convex polygon outside another one in the same plane, as convex pieces appended to `out`.
+/// Appends the part of a convex polygon outside another one in the same plane to `out`, as convex pieces.
 void subtract(const Polygon& from, const CellFace& hole, std::vector<Polygon>& out) {
   std::vector<Polygon> pieces;
   Polygon inside = from;

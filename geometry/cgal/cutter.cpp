@@ -1,4 +1,4 @@
-// The part of geometry/decompose that CGAL is compiled into: a library of its own, which is loaded when there is
+// The part of geometry/decompose that uses CGAL: a separate library, which is loaded when there is
 // something to cut. Its arithmetic needs -frounding-math and its GPL parts stay out of the program itself.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Nef_polyhedron_3.h>

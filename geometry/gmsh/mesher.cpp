@@ -1,4 +1,4 @@
-// The part of geometry/fill_gmsh that Gmsh is linked with: a library of its own, which is loaded when there is
+// The part of geometry/fill_gmsh that uses Gmsh: a separate library, which is loaded when there is
 // something to mesh.
 #include <gmsh.h>
 
@@ -37,7 +37,7 @@ class GmshLibrary {
   static void set(const char* option, double value) { gmsh::option::setNumber(option, value); }
 };
 
-/// Does some work with Gmsh; what it throws becomes a RunError with its own words between `before` and `after`.
+/// Runs some work with Gmsh. An exception becomes a RunError with its text between `before` and `after`.
 template <class Work>
 auto with_gmsh(const std::string& before, const std::string& after, Work&& work) {
   std::string reason;
@@ -66,7 +66,7 @@ bool reaches(const Ring& ring, const Box& box) {
          box.low.x() < ring.extrados.back().x();
 }
 
-/// A face in Gmsh's plane x-y, which stands for x-z.
+/// A face in the plane x-y of Gmsh, which is the plane x-z of the program.
 std::pair<int, int> add_face(const Polygon& outline) {
   std::vector<int> points, lines;
   for (const Vec3& p : outline) points.push_back(gmsh::model::occ::addPoint(p.x(), p.z(), 0.0));
@@ -76,8 +76,7 @@ std::pair<int, int> add_face(const Polygon& outline) {
   return {2, gmsh::model::occ::addPlaneSurface({gmsh::model::occ::addCurveLoop(lines)})};
 }
 
-/// What lies below the extrados. Its foot is below the springing, so that no edge but those of the extrados lies in a
-/// box.
+/// The space below the extrados. Its foot is below the springing, so that only edges of the extrados are in a box.
 std::pair<int, int> add_vault(const Ring& ring) {
   const double foot = springing(ring) - 1.0;
   Polygon outline = ring.extrados;
@@ -157,7 +156,7 @@ std::vector<Part> add_section(const FillSpace& space) {
   return parts;
 }
 
-/// Coordinates of all nodes that Gmsh holds, by its numbers.
+/// Coordinates of all nodes of Gmsh, by their numbers.
 std::map<std::size_t, Vec3> take_nodes() {
   std::vector<std::size_t> numbers;
   std::vector<double> x, ignored;
@@ -278,7 +277,7 @@ FillMesh mesh(const FillSpace& space, const FillMeshing& meshing) {
 
 }  // namespace voussoir
 
-// What the program looks up: all else is hidden, Eigen above all, which Gmsh has too, compiled otherwise.
+// The functions that the program looks up. All others are hidden, because Gmsh has its own build of Eigen.
 extern "C" {
 [[gnu::visibility("default")]] void voussoir_mesh_fill(const voussoir::FillSpace& space,
                                                        const voussoir::FillMeshing& meshing, voussoir::FillMesh& out) {

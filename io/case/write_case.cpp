@@ -30,7 +30,7 @@ class TomlText {
   std::string text_ = "# Resolved case: every value written out, also those that were defaults.\n";
 };
 
-/// Those whose dotted names are the prefix and one more part; without those that one of the profiles replaces.
+/// Writes the keys whose dotted names are the prefix and one more part, without keys that a profile replaces.
 void write_keys(TomlText& out, const GeneratorInput& input, const std::string& prefix,
                 const std::vector<Profile>& profiles) {
   std::vector<std::string> replaced;
@@ -315,7 +315,7 @@ void write_modal(TomlText& out, const Case& c) {
   }
 }
 
-/// A curve that was read stands beside the resolved case; one that was not there keeps the name it was looked for by.
+/// A curve that was read is copied next to the resolved case; a missing curve keeps its name.
 void write_plots(TomlText& out, const std::vector<PlotSpec>& plots) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const PlotSpec& plot = plots[i];
@@ -394,7 +394,7 @@ std::string motion_source_text(const MotionSource& source, const std::array<std:
   if (source.kind == MotionSource::Kind::synthetic) out.raw("synthetic", synthetic_text(source.synthetic));
   if (source.kind != MotionSource::Kind::record) return out.text_;
   out.raw("record", fmt::format("[{}, {}, {}]", quoted(files[0]), quoted(files[1]), quoted(files[2])));
-  // A file that says its unit itself is refused with another beside it.
+  // A case with 'units' is refused if a file states its own unit.
   if (std::ranges::none_of(source.texts, [](const std::string& text) { return recognise(text).unit > 0.0; }))
     out.set("units", source.units);
   if (source.dt > 0.0) out.set("dt", source.dt);

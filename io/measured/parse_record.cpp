@@ -19,7 +19,7 @@ constexpr std::size_t fewest_samples = 100;
 constexpr double slow_sampling = 0.5;         // s; coarser steps show no mode of a masonry bridge
 constexpr double large_acceleration = 100.0;  // m/s2
 
-/// What a text of numbers holds, row by row.
+/// The contents of a text of numbers, row by row.
 struct Samples {
   std::vector<double> times;  // s
   int decimals = 0;           // that the times are written with, at most
@@ -69,7 +69,7 @@ Samples read_samples(CsvReader& csv, std::size_t time_column) {
   return samples;
 }
 
-/// The first sample whose step from the one before is not `dt` within `slack` (s); 0 when there is none.
+/// The first sample whose time step from the previous one is not `dt` within `slack` (s); 0: none.
 std::size_t uneven_sample(const std::vector<double>& times, double dt, double slack = even) {
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(std::abs(times[i] - times[i - 1] - dt) <= slack)) return i;

@@ -7,7 +7,8 @@ namespace voussoir {
 
 namespace {
 
-/// How far the times spread about lines of a slope: the grid may start anywhere, so half of it is the largest error.
+/// Range of the differences between the times and a line with this slope. Half of it is the largest error, because the
+/// grid may start anywhere.
 double spread(const std::vector<double>& times, double step) {
   double low = 0.0, high = 0.0;
   for (std::size_t i = 0; i < times.size(); ++i) {

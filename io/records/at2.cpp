@@ -1,5 +1,5 @@
 // PEER AT2 (NGA-West2): four lines of heading, then numbers, five a row. The step is given with four decimals, so that
-// 1/409.6 s reads .0024: whoever knows better gives `dt`.
+// 1/409.6 s reads .0024; `dt` gives the exact time step.
 #include <algorithm>
 #include <cctype>
 

@@ -53,8 +53,8 @@ Part find_number(const std::string& name, int azimuth) {
   return whole.found() ? whole : ending;
 }
 
-/// The last place of a word that stands by itself; else of one of two letters or more at the end of the name, where
-/// stations and directions are run together ("BCRUP").
+/// The last place of a separate word; otherwise a word of at least two letters at the end of the name, where stations
+/// and directions have no separator ("BCRUP").
 Part find_word(const std::string& name, const std::string& word) {
   for (std::size_t at = name.rfind(word); at != std::string::npos;
        at = at == 0 ? std::string::npos : name.rfind(word, at - 1)) {
@@ -105,7 +105,7 @@ void name_component(RecordComponent& c) {
                     : is_number(c.word) ? find_number(name, number_of(c.word))
                                         : find_word(upper(name), c.word);
   if (part.found()) {
-    // "BCR140" and "BCR-UP" are of one set: what stands around the word goes with it.
+    // "BCR140" and "BCR-UP" belong to one recording: separators around the word are removed with it.
     const std::string before = without_ends(name.substr(0, part.at)),
                       after = without_ends(name.substr(part.at + part.size));
     c.set = without_ends(after.empty() ? before : fmt::format("{}.{}", before, after)) + sensor_of(c.word);

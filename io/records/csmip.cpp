@@ -17,7 +17,7 @@ bool is_csmip(std::string_view text) {
   return upper(text).find(mark) != std::string::npos;
 }
 
-/// What follows `key` up to two blanks.
+/// The text after `key` up to two blanks.
 std::string after(std::string_view line, std::string_view key) {
   const std::size_t at = upper(line).find(key);
   if (at == std::string::npos) return "";
@@ -49,7 +49,7 @@ struct Announced {
   FixedRows rows;
 };
 
-/// Of a line that says them.
+/// Reads them from their line.
 Announced announced_in(std::string_view text, const std::string& name, std::size_t row) {
   const std::string rule =
       "this line must have the form '5696 " + std::string(mark) + "  .010 SEC.  (UNITS: CM/SEC/SEC)'";

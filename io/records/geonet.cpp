@@ -20,7 +20,7 @@ bool recognises(std::string_view text) {
   return first.find("CORRECTED ACCELEROGRAM") != std::string::npos && first.find("GNS") != std::string::npos;
 }
 
-/// What a line of text says after `key`: "Number of points  1200" and "at 0.010 sec intervals". NaN: no line does.
+/// The number after `key` in a line of text, such as "Number of points  1200"; NaN: no such line.
 double said(const std::vector<std::string_view>& lines, std::size_t head, std::string_view key) {
   for (std::size_t i = head; i < head + geonet_text_lines; ++i)
     if (const std::size_t at = upper(lines[i]).find(key); at != std::string::npos)
@@ -28,7 +28,7 @@ double said(const std::vector<std::string_view>& lines, std::size_t head, std::s
   return std::nan("");
 }
 
-/// Of a line that ends "… at 0.010 sec intervals".
+/// The time step of a line that ends "… at 0.010 sec intervals".
 double said_step(const std::vector<std::string_view>& lines, std::size_t head) {
   for (std::size_t i = head; i < head + geonet_text_lines; ++i) {
     const std::string line = upper(lines[i]);
@@ -65,7 +65,7 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
   at = head + geonet_text_lines;
   const std::vector<double> numbers = fixed_numbers(lines, at, 100, rows, name);
   const bool corrected = upper(lines[head]).find("UNCORRECTED") == std::string::npos;
-  // The tables know best; where they are empty the text says it. The step of uncorrected ones stands in the text first.
+  // Values of the tables take precedence over those of the text, except the time step of uncorrected records.
   double samples = numbers[corrected ? 33 : 30], step = corrected ? numbers[65] : said_step(lines, head);
   if (!(samples > 0.0)) samples = said(lines, head, "NUMBER OF POINTS");
   if (!(step > 0.0)) step = corrected ? said_step(lines, head) : numbers[64];

@@ -48,7 +48,7 @@ std::string formats_text() {
   return text;
 }
 
-/// What can be printed of the first line that is not empty.
+/// The printable part of the first line that is not empty.
 std::string first_line(std::string_view text) {
   for (const std::string_view line : lines_of(text.substr(0, 2000))) {
     std::string excerpt;

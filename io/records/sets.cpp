@@ -224,7 +224,8 @@ GroundMotion join_components(const std::array<const RecordFile*, 3>& files, doub
 
 namespace {
 
-/// Files for x, y and z, or one with several channels; `read` gives the channels of one. `kept` holds them.
+/// The components along x, y and z from up to three files, or from one file with several channels. `read` returns the
+/// channels of a file, and `kept` stores them.
 template <class Read>
 std::array<const RecordComponent*, 3> along_files(const std::array<std::string, 3>& files,
                                                   std::array<std::vector<RecordComponent>, 3>& kept, const Read& read) {

@@ -25,20 +25,20 @@ const Limits not_in_front = {0.0, farthest_along, "m"};
 const Limits across = {-100.0, 100.0, "m"};
 const Limits size = {0.0, 100.0, "m", true};
 
-/// What the wheels of an axle are.
+/// The wheels of an axle.
 struct Wheels {
   std::vector<double> y;             // m, their middles
-  double length = 0.0, width = 0.0;  // m, of the contact of one
+  double length = 0.0, width = 0.0;  // m, contact area of a wheel
 };
 
-/// What an axle of a train stands on.
+/// The track below the axles of a train.
 struct Track {
   double length = 0.0, width = 0.0;  // m, of a sleeper: across and along the track
   double spacing = 0.0;              // m
-  std::vector<double> shares;        // of an axle, on the sleepers about it
+  std::vector<double> shares;        // shares of an axle on the sleepers around it
 };
 
-/// An axle with what it is laid out from.
+/// An axle with its wheels or its track.
 struct ReadAxle {
   VehicleAxle axle;
   Wheels wheels;
@@ -104,7 +104,7 @@ std::vector<ReadAxle> read_axles(TableReader& root, const Wheels& usual, Vehicle
                              x, before));
     before = x;
   }
-  // Repeated axles may stand between those of another table, as the wagons of a train do.
+  // Repeated axles may be between those of another table, as in the wagons of a train.
   std::stable_sort(axles.begin(), axles.end(),
                    [](const ReadAxle& a, const ReadAxle& b) { return a.axle.x < b.axle.x; });
   return axles;

@@ -12,7 +12,7 @@ namespace voussoir {
 
 namespace {
 
-/// Where the vehicle begins and ends, in m.
+/// Begin and end of the vehicle, in m.
 std::pair<double, double> extent_along(const Vehicle& vehicle) {
   if (!vehicle.axles.empty()) return {vehicle.axles.front().x, vehicle.axles.back().x};
   std::vector<double> ends;
@@ -113,8 +113,8 @@ double dynamic_factor(const DynamicFactor& factor, double span, double cover) {
   // 1.00 and 2.00, are not checked.
   const double phi = factor.formula == Formula::carefully_maintained ? of_length(1.44, 0.82, 1.67, length)
                                                                      : of_length(2.16, 0.73, 2.00, length);
-  // EN 1991-2 6.4.5.4: less where the cover is more than 1.00 m. The formula is not checked; that it reduces the factor
-  // of arch bridges from 1.00 m of cover on stands in ENV 1991-3 6.4.3.4.
+  // EN 1991-2 6.4.5.4: smaller if the cover is more than 1.00 m. The formula was not checked against the source; ENV
+  // 1991-3 6.4.3.4 states that it reduces the factor of arch bridges from 1.00 m of cover on.
   constexpr double least_cover = 1.0, per_metre = 10.0;
   return std::max(1.0, phi - std::max(0.0, cover - least_cover) / per_metre);
 }

@@ -1,5 +1,5 @@
-// Block models of COMPAS (compas.dev), as JSON. Every object there is {"dtype": …, "data": …}; what is in `data` has
-// changed over the years. Read are
+// Block models of COMPAS (compas.dev), as JSON. Every object is {"dtype": …, "data": …}; the contents of `data`
+// have changed over the years. The program reads
 //   Assembly of COMPAS 1 and 2 (compas_assembly, compas_cra): graph / node / N / block, is_support beside the block;
 //   Model of COMPAS 2 (compas_model, compas_dem): elements / GUID / geometry, is_support beside the geometry;
 //   Assembly of COMPAS 0 (compas_rbe): assembly / vertex / N and blocks / N;
@@ -34,7 +34,7 @@ Affine after(const Affine& second, const Affine& first) {
   return out;
 }
 
-/// What a "dtype"/"data" pair holds, or the thing itself.
+/// The data of a "dtype"/"data" pair, or the value itself.
 const Json& inner(const Json& json) {
   const bool wrapped =
       json.is_object() && json.contains("data") && (json.contains("dtype") || json.contains("datatype"));
@@ -186,7 +186,7 @@ class CompasReader {
     return {number(values[0], where), number(values[1], where), number(values[2], where)};
   }
 
-  /// A name of the thing itself comes before one of what is around it; without any, its key.
+  /// The name of an object: its own name, else that of its parent, else its key.
   void add_shape(const Json& json, const std::string& key, std::string name, bool support, const Affine& place) {
     const Json& data = inner(json);
     if (name.empty()) name = name_of(json);

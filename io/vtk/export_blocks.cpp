@@ -24,7 +24,7 @@ std::string name_of_cell(const Assembly& assembly, std::size_t block, std::size_
   return fmt::format("{}_c{}", name_of_block(assembly, block), cell);
 }
 
-/// Materials under names of their own: effects leave several of one name.
+/// Materials with unique names; effects may give several materials the same name.
 std::vector<Material> with_own_names(const Assembly& assembly, std::vector<std::string>& notes) {
   std::vector<Material> materials = assembly.materials;
   std::set<std::string> known;

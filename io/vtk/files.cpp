@@ -33,7 +33,7 @@ void set_packing(vtkXMLWriter* writer, Packing packing) {
   }
 }
 
-/// VTK makes the bytes and we write them: what is wrong with a disk, VTK says in its own words and on the terminal.
+/// VTK makes the bytes and the program writes them, because VTK prints errors of a disk to the terminal.
 template <class Writer, class Data>
 void write(Data* data, const std::string& path, Packing packing) {
   make_folder_of(path);

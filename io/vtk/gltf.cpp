@@ -246,7 +246,7 @@ class GltfReader {
     return number;
   }
 
-  /// Nodes are a forest; a list of what is still to do, because it may be as deep as the file is long.
+  /// Nodes form a forest. The program uses a list instead of recursion, because the depth may be as large as the file.
   void walk(std::size_t root) {
     struct Todo {
       std::size_t node;

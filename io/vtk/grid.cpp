@@ -36,7 +36,7 @@ Vec3 moved_point(const Block& block, const Snapshot& snapshot, std::size_t i, co
   return block.centroid + snapshot.displacement[i] + snapshot.rotation[i] * (x - block.centroid);
 }
 
-/// Where a point that is at `x` now was in the assembly, if it belongs to block i.
+/// The place in the assembly as built of a point of block i that is at `x` now.
 Vec3 reference_point(const Block& block, const Snapshot& snapshot, std::size_t i, const Vec3& x) {
   return block.centroid + snapshot.rotation[i].conjugate() * (x - block.centroid - snapshot.displacement[i]);
 }

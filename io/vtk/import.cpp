@@ -30,7 +30,7 @@ double size_of(const Polyhedron& shape) {
   return (box.high - box.low).norm();
 }
 
-/// What has been done to make shapes convex.
+/// Repairs that made shapes convex.
 struct Repairs {
   std::int64_t stones = 0;  // whose faces were made plane
   double moved = 0.0;       // m

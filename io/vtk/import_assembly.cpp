@@ -1,4 +1,4 @@
-// Assemblies of other programs: what they leave out is found, what was asked for is changed.
+// Imports assemblies of other programs: finds missing data, and applies the options.
 #include <algorithm>
 
 #include "geometry/stiffness.h"

@@ -1,4 +1,4 @@
-// Convex pieces of one stone, which surface files hold as shapes of their own.
+// Joins convex pieces of one stone, which are separate shapes in surface files.
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -16,7 +16,7 @@ std::string without_number(const std::string& name) {
   return numbered ? name.substr(0, last) : name;
 }
 
-/// The stone that a piece belongs to by the map or the rule; empty where it is a stone of its own.
+/// The stone to which a piece belongs by the map or the rule; empty: the piece is a separate stone.
 std::string stone_of(const Import& import, std::size_t piece, CellRule rule) {
   if (import.meant[piece].block) return *import.meant[piece].block;
   if (rule == CellRule::none) return "";
@@ -46,7 +46,7 @@ void add_member(std::optional<T>& to, const std::optional<T>& from, const std::s
   if (from) to = from;
 }
 
-/// What the map says of all pieces of a stone.
+/// The row of the map for all pieces of a stone.
 NameRow together(const Import& import, const std::vector<std::size_t>& pieces, const std::string& where) {
   NameRow whole = import.meant[pieces[0]];
   for (const std::size_t i : pieces) {

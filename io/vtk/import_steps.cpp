@@ -22,8 +22,8 @@ void fix_lowest(Assembly& assembly, double within) {
   for (Block& block : assembly.blocks) block.fixed = lowest_point(block) <= lowest + within;
 }
 
-/// A model that lies on its side stands on few stones once it is turned; empty when no axis helps. Modellers that do
-/// not draw with z up do so with y.
+/// A hint for a model that lies on its side: with another axis up it has few lowest stones; empty if no axis helps.
+/// Programs without z up have y up.
 std::string other_way_up(const Assembly& assembly, const std::string& up, std::int64_t lowest) {
   if (up != "z" && !up.empty()) return "";
   for (const char* word : {"y", "x"}) {
