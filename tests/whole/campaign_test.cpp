@@ -140,7 +140,8 @@ TEST(Campaign, GoesOnAfterTheEndOfAllItsProcessesBySigkill) {
 TEST(Campaign, GoesOnAfterSigterm) {
   interrupted_by([](Program& program, const std::string& directory) {
     program.send(SIGTERM);
-    expect_error(program.wait(), 1, {"have written their checkpoints", "Continue with: voussoir campaign " + directory});
+    expect_error(program.wait(), 1,
+                 {"have written their checkpoints", "Continue with: voussoir campaign " + directory});
     EXPECT_TRUE(exists(directory + "/table.csv"));
   });
 }
