@@ -193,9 +193,10 @@ class Simulation {
   RunCosts costs_;
   ContactBound bound_;
   LoadPlaces places_;
-  /// Replaces the observers.
-  void observe(Observers observers) { observers_ = std::move(observers); }
   std::int64_t part_of_way_ = -1;  // of moving loads
+  LoadsAtWork stage_loads_;        // without the forces of push()
+  std::vector<PointLoad> pushed_;
+  double controlled_ = -1.0;  // s, time of the last call of the control observer
   LostBonds lost_bonds_;
   LoadsAtWork step_pattern_;  // of a quasi-static stage
   StepRow step_row_;
