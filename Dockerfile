@@ -12,7 +12,7 @@ RUN git config --global --add safe.directory /voussoir \
 
 FROM debian:12-slim
 RUN --mount=type=bind,from=build,source=/voussoir/build/package/packages,target=/packages \
-    apt-get update && apt-get install -y --no-install-recommends /packages/voussoir_*.deb libopenblas0-pthread && rm -rf /var/lib/apt/lists/*
+    apt-get update && apt-get install -y --no-install-recommends /packages/voussoir_*.deb /packages/python3-voussoir_*.deb libopenblas0-pthread && rm -rf /var/lib/apt/lists/*
 WORKDIR /work
 ENTRYPOINT ["voussoir"]
 CMD ["--help"]
