@@ -4,6 +4,7 @@ import os
 import warnings
 
 from . import _voussoir
+from ._errors import InputError
 from ._toml import dumps
 
 
@@ -57,17 +58,12 @@ def assembly_from_blocks(blocks, *, fixed=None, components=None, parts=None, mat
             numbers = {int(f) for f in fixed}
             unknown = sorted(f for f in numbers if not 0 <= f < count)
             if unknown:
-                raise _errors().InputError(f"'fixed' names block {unknown[0]}, and there are blocks 0 to {count - 1}")
+                raise InputError(f"'fixed' names block {unknown[0]}, and there are blocks 0 to {count - 1}")
             flags = [i in numbers for i in range(count)]
     return _said(_voussoir._from_arrays(
         blocks, list(components or []), [int(p) for p in _first(parts, [])], list(block_materials or []), flags,
         [dumps(m) for m in (materials or [])], _first(kn, 0.0), _first(ks, 0.0), gap,
         {name: [int(b) for b in members] for name, members in (groups or {}).items()}))
-
-
-def _errors():
-    from . import _errors as errors
-    return errors
 
 
 def import_blocks(path, *, scale=1.0, up="", fixed="", map=None, material=None, kn=None, ks=None, gap=1e-4):

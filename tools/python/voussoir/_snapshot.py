@@ -1,6 +1,15 @@
 """The state at an instant."""
 
 
+def rotation_matrix(quaternion):
+    """The matrix, shape (3, 3), of a unit quaternion (w, x, y, z)."""
+    import numpy as np
+    w, x, y, z = quaternion
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
 class Snapshot:
     """The state at an instant, in the assembly's order.
 
@@ -33,12 +42,8 @@ class Snapshot:
 
         amplification multiplies the displacement and, to first order, the rotation.
         """
-        import numpy as np
         centre = assembly.centroids[block]
-        w, x, y, z = self.rotation[block]
-        turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+        turn = rotation_matrix(self.rotation[block])
         moved = [(corners - centre) @ turn.T + centre + self.displacement[block]
                  for corners, _ in assembly.block(block)]
         if amplification == 1.0:

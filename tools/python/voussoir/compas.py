@@ -1,7 +1,8 @@
 """COMPAS: block models in, results out.
 
     assembly = voussoir.compas.assembly_of(model)      # a COMPAS model, its JSON text, or a file of it
-    run = voussoir.Simulation({"stage": [{"kind": "gravity"}]}, assembly=...)
+    run = voussoir.Simulation({"stage": [{"kind": "gravity"}]}, assembly=assembly)
+    run.run()
     results = voussoir.compas.results(assembly, run.snapshot())
 
 COMPAS itself is not needed: what is exchanged is plain data.
@@ -12,6 +13,7 @@ import os
 import tempfile
 
 from ._assembly import import_blocks
+from ._snapshot import rotation_matrix
 
 
 def assembly_of(model, **options):
@@ -22,7 +24,7 @@ def assembly_of(model, **options):
 
     Raises InputError for a shape that is not closed or not convex.
     """
-    if isinstance(model, (str, os.PathLike)) and not str(model).lstrip().startswith("{"):
+    if isinstance(model, (str, os.PathLike)) and not str(model).lstrip().startswith(("{", "[")):
         return import_blocks(model, **options)
     if isinstance(model, str):
         text = model
@@ -45,12 +47,9 @@ def _dtype(model):
 def _frame(snapshot, assembly, block):
     """4 x 4 matrix that takes the block from where it was built to where it is."""
     import numpy as np
-    w, x, y, z = snapshot.rotation[block]
     centre = assembly.centroids[block]
     matrix = np.eye(4)
-    matrix[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    matrix[:3, :3] = rotation_matrix(snapshot.rotation[block])
     matrix[:3, 3] = centre + snapshot.displacement[block] - matrix[:3, :3] @ centre
     return matrix
 
