@@ -173,7 +173,7 @@ TEST(CampaignPlan, AForeignFolderIsLeftAlone) {
   folder.write("out/thesis.tex", "x");
   const std::string why = test::message_of<InputError>(
       [&] { write_draft(make_draft(read_settings(folder.campaign(""))), folder / "out"); });
-  EXPECT_NE(why.find("something else than a campaign (thesis.tex)"), std::string::npos) << why;
+  EXPECT_NE(why.find("files that are not part of a campaign (thesis.tex)"), std::string::npos) << why;
 }
 
 TEST(CampaignPlan, SamplesMayBeAdded) {

@@ -427,7 +427,7 @@ TEST_F(CaseFile, ListsOfSpansAreReadAndWrittenOut) {
   refused("[bridge]\ngenerator = \"bridge\"\n[bridge.span]\nrise = 1.0\n", {"'span'", "double brackets"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nrepeat = 100\n", {"'repeat'"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nintrados = [[0.0, 0.0], [2.0]]\n",
-          {"'intrados'", "point 2"});
+          {"'intrados'", "entry 2", "[x, z]"});
   refused("[bridge]\ngenerator = \"bridge\"\n[[bridge.span]]\nintrados = [[0.0, 0.0], [-2.0, 1.0]]\n",
           {"'intrados'", "left to right"});
 }

@@ -172,7 +172,7 @@ TEST(FillFile, ACaseSaysHowAMaterialDilates) {
   const std::string message = test::message_of<InputError>(
       [&] { parse_case(head + "friction_angle = 10\ndilation_angle = 12.5\n", "c.toml", CaseUse::geometry); });
   EXPECT_TRUE(holds(message, "c.toml:5: 'dilation_angle'")) << message;
-  EXPECT_TRUE(holds(message, "must not be more than the friction angle, 10")) << message;
+  EXPECT_TRUE(holds(message, "must not be larger than the friction angle, 10")) << message;
 }
 
 TEST(FillFile, OverridesOfACaseReachThePatches) {

@@ -130,10 +130,13 @@ TEST_F(MeasuredFolder, FrequenciesBecomePeriods) {
   EXPECT_EQ(m.modes[1].period_std, 0.0);
   EXPECT_TRUE(m.remarks.empty());
   expect_begins(problem("modes.csv", "mode,period,frequency\n1,0.4,2.5\n"),
-                "modes.csv:1: both 'period' and 'frequency'");
-  expect_begins(problem("modes.csv", "mode,period,frequency_std\n1,0.4,2.5\n"), "modes.csv:1: 'frequency_std' without");
-  expect_begins(problem("modes.csv", "mode,frequency,period_std\n1,0.4,2.5\n"), "modes.csv:1: 'period_std' without");
-  expect_begins(problem("modes.csv", "mode\n1\n"), "modes.csv:1: no column 'period' (s), nor 'frequency' (Hz)");
+                "modes.csv:1: the table has both 'period' and 'frequency'");
+  expect_begins(problem("modes.csv", "mode,period,frequency_std\n1,0.4,2.5\n"),
+                "modes.csv:1: the table has 'frequency_std' but not 'frequency'");
+  expect_begins(problem("modes.csv", "mode,frequency,period_std\n1,0.4,2.5\n"),
+                "modes.csv:1: the table has 'period_std' but not 'period'");
+  expect_begins(problem("modes.csv", "mode\n1\n"),
+                "modes.csv:1: the table has neither a column 'period' (s) nor a column 'frequency' (Hz)");
   expect_begins(problem("modes.csv", "mode,frequency\n1,1e-310\n"), "modes.csv:2: frequency is 1e-310 Hz");
 }
 

@@ -196,7 +196,9 @@ TEST(ViewerScene, OfARunHasAsManyFramesAsAskedFor) {
   Snapshot other = rest_snapshot(one);
   other.time = 7.0;
   series.write(one, other);
-  EXPECT_NE(message_of<InputError>([&] { run_scene(folder.path(), 9); }).find("blocks_000007.000.vtu: has 1 blocks"),
+  EXPECT_NE(message_of<InputError>([&] {
+              run_scene(folder.path(), 9);
+            }).find("blocks_000007.000.vtu: this frame has 1 blocks"),
             std::string::npos);
 }
 
