@@ -1,6 +1,8 @@
 // Makes an assembly of a layout: finds the joints once, merges slivers with their neighbours, renumbers the joints.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -10,6 +12,14 @@
 namespace voussoir {
 
 namespace {
+
+/// A length, area or volume (m, m2, m3) as a whole number of grains of 1e-11. Bridges are symmetric and have round
+/// dimensions: measures that are equal by design, or lie on a limit, differ by their rounding, which depends on the
+/// compiler. In grains they are equal.
+std::int64_t grains(double measure) {
+  constexpr double most = 1e7;
+  return std::llround(1e11 * std::min(measure, most));
+}
 
 /// Stones that were joined into one, as lists of stone indices; the first of a list is the stone that took in the rest.
 class Groups {
@@ -60,8 +70,8 @@ bool is_sliver(const std::vector<Stone>& stones, const std::vector<std::size_t>&
     }
   }
   const Vec3& nominal = stones[members.front()].nominal;
-  if (volume < rule.share * nominal.prod()) return true;
-  return thinness(cells) < std::min(rule.thickness, 0.5 * nominal.minCoeff());
+  if (grains(volume) < grains(rule.share * nominal.prod())) return true;
+  return grains(thinness(cells)) < grains(std::min(rule.thickness, 0.5 * nominal.minCoeff()));
 }
 
 /// Volumes of the groups, and how large each may become, m3.
@@ -69,21 +79,21 @@ class Sizes {
  public:
   Sizes(const std::vector<Stone>& stones, double most) {
     for (const Stone& stone : stones) {
-      volume_.push_back(mass_properties(stone.cells).volume);
-      most_.push_back(most * stone.nominal.prod());
+      volume_.push_back(grains(mass_properties(stone.cells).volume));
+      most_.push_back(grains(most * stone.nominal.prod()));
     }
   }
   void join(std::size_t host, std::size_t guest) { volume_[host] += volume_[guest]; }
   bool fit(std::size_t a, std::size_t b) const { return volume_[a] + volume_[b] <= most_[b]; }
-  double volume(std::size_t i) const { return volume_[i]; }
+  std::int64_t volume(std::size_t i) const { return volume_[i]; }
 
  private:
-  std::vector<double> volume_, most_;
+  std::vector<std::int64_t> volume_, most_;  // grains
 };
 
 struct Contact {
   std::size_t stone = 0;
-  double area = 0.0;
+  std::int64_t area = 0;  // grains
 };
 
 /// Joints of each stone with others of its own component, material and layer.
@@ -94,30 +104,30 @@ std::vector<std::vector<Contact>> like_neighbours(const std::vector<Stone>& ston
     if (stones[a].component != stones[b].component || stones[a].material != stones[b].material ||
         (stones[a].layers & stones[b].layers) == 0)
       continue;
-    contacts[a].push_back({b, joint.area});
-    contacts[b].push_back({a, joint.area});
+    contacts[a].push_back({b, grains(joint.area)});
+    contacts[b].push_back({a, grains(joint.area)});
   }
   return contacts;
 }
 
-constexpr double enough_of_a_joint = 0.05;
+constexpr std::int64_t part_of_a_joint = 20;  // a twentieth of the largest is the least that counts
 
 /// The group a sliver joins: the one it shares most area with, whole stones before other slivers, and before all those
-/// that do not become larger than the rule allows; itself if none.
+/// that do not become larger than the rule allows; of equals the first; itself if none.
 std::size_t best_host(std::size_t sliver, const Groups& groups, const std::vector<std::vector<Contact>>& contacts,
                       const std::vector<char>& slivers, const Sizes& sizes) {
-  std::map<std::size_t, double> shared;
+  std::map<std::size_t, std::int64_t> shared;
   for (const std::size_t i : groups.members(sliver)) {
     for (const Contact& contact : contacts[i]) {
       const std::size_t other = groups.root(contact.stone);
       if (other != sliver) shared[other] += contact.area;
     }
   }
-  double most = 0.0;
+  std::int64_t most = 0;
   for (const auto& [other, area] : shared) most = std::max(most, area);
   std::size_t best = sliver;
   for (const auto& [other, area] : shared) {
-    if (area < enough_of_a_joint * most) continue;  // it would hang by a corner
+    if (part_of_a_joint * area < most) continue;  // it would hang by a corner
     const auto rank = [&](std::size_t i) { return std::make_tuple(sizes.fit(sliver, i), slivers[i] == 0, shared[i]); };
     if (best == sliver || rank(other) > rank(best)) best = other;
   }
@@ -129,7 +139,7 @@ Groups join_slivers(const std::vector<Stone>& stones, const std::vector<Joint>& 
   const auto contacts = like_neighbours(stones, joints);
   std::vector<char> slivers(stones.size(), 0);
   Sizes sizes(stones, rule.most);
-  std::vector<std::pair<double, std::size_t>> queue;  // smallest first
+  std::vector<std::pair<std::int64_t, std::size_t>> queue;  // smallest first
   for (std::size_t i = 0; i < stones.size(); ++i) {
     slivers[i] = is_sliver(stones, {i}, rule);
     if (slivers[i]) queue.emplace_back(sizes.volume(i), i);
@@ -144,7 +154,7 @@ Groups join_slivers(const std::vector<Stone>& stones, const std::vector<Joint>& 
     sizes.join(host, sliver);
     if (slivers[host]) {
       slivers[host] = is_sliver(stones, groups.members(host), rule);
-      if (slivers[host]) queue.emplace_back(0.0, host);  // two slivers that are still one: look again later
+      if (slivers[host]) queue.emplace_back(0, host);  // two slivers that are still one: look again later
     }
   }
   return groups;
