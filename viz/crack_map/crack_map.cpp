@@ -67,7 +67,7 @@ CrackMap::CrackMap(const Assembly& assembly, const Snapshot& snapshot, const Cra
   stack_.push_back(seen_view(cracked, seen_from_behind(), before, "Elevation y+, from behind"));
   for (const Intrados& vault : vaults) across_.push_back(unrolled_view(cracked, vault));
   if (bridge)
-    remarks_.push_back("Intrados, seen from above: s along the intrados from the left springing, y+ upwards.");
+    remarks_.push_back("Intrados seen from above: s along it from the left springing, y+ upwards.");
   else
     remarks_.push_back("No intrados: the model has no vaults (stones of the component arch with a span).");
   Content content;
