@@ -168,7 +168,7 @@ std::string period_text(const json& period) {
   return period.is_number() ? fmt::format("{:.4f}", period.get<double>()) : "none";
 }
 std::string in_seconds(const json& period) {
-  return period.is_number() ? period_text(period) + " s" : "no such mode";
+  return period.is_number() ? period_text(period) + " s" : "no similar mode";
 }
 
 }  // namespace
@@ -248,7 +248,9 @@ std::string gravity_section(const json& reports) {
                          number(fmt::format("{:.3f}", mode["mac"].get<double>()))},
                         "td");
     html += "</table>\n" +
-            note("Intact: every joint is bonded and elastic. Now: the joints are as they rest under gravity.");
+            note("Intact: every joint is bonded and elastic. Now: the joints are as they rest under gravity. The modes of "
+                 "the two states are paired by shape. None: none of the lowest modes of the present state has a similar "
+                 "shape, because loose blocks have lower modes.");
   }
   return html;
 }

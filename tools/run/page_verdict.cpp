@@ -30,7 +30,7 @@ std::string steps_sentence(const RunFiles& run) {
   for (const json& one : steps_json(run.stages(), run.history)) {
     const bool loaded = one.value("largest_force", 0.0) != 0.0;
     std::string words = one.value("whole", false)
-                            ? "the bridge found an equilibrium at every increment"
+                            ? "the program found an equilibrium at every increment"
                             : fmt::format("there is no equilibrium beyond the share {:.4g}", one.value("share", 0.0));
     if (loaded)
       words += fmt::format(
