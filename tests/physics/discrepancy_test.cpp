@@ -223,7 +223,7 @@ TEST(TwoEffects, AnEffectGivesWayToItsNeighbourBesideALaterOne) {
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"abutment_restraint at right", "foundation_flexibility at pier 1"}))
       << said;
-  EXPECT_NE(said.find("abutment_restraint at right in the place of"), std::string::npos) << said;
+  EXPECT_NE(said.find("abutment_restraint at right replaces"), std::string::npos) << said;
 }
 
 /// What is promised of a channel is what a measurement that has it would show.
