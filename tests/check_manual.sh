@@ -31,7 +31,7 @@ if command -v groff >/dev/null; then
     said=$(groff -man -ww -z -Tutf8 "$page" 2>&1)
     [ -z "$said" ] || fail "groff: $said"
   done
-  groff -man -Tutf8 "$(page_of run)" | sed 's/\x1b\[[0-9;]*m//g; s/.\x08//g' > "$folder/run.txt"
+  groff -man -Tutf8 "$(page_of run)" | tr -s '[:space:]' ' ' | sed 's/\x1b\[[0-9;]*m//g; s/.\x08//g' > "$folder/run.txt"
   for words in 'voussoir run CASE [-o DIR] [--until T]' '-o, --output DIR' "(default: the case's name)" '--compression WORD' '(default: lz4)' \
                'voussoir run cases/demo.toml -o demo --threads 2'; do
     grep -qF -- "$words" "$folder/run.txt" || fail "the page of run does not show: $words"

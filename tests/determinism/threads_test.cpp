@@ -111,6 +111,8 @@ TEST(Threads, GiveTheSameBitsWhenThereAreManyMoreThanCores) {
 
 /// serial_step(): patch by patch into the sums of both bodies, then body by body; no teams, shares or incidence.
 TEST(Threads, EqualTheSerialLoop) {
+  if (kernels_are_compiled_apart())
+    GTEST_SKIP() << "the kernels for " << kernels().instructions << " are compiled apart";
   std::int64_t compared = 0, equal = 0;
   for (bool shortcut : {true, false})
     for (auto damping : {DampingSettings::Kind::none, DampingSettings::Kind::maxwell, DampingSettings::Kind::local}) {
@@ -149,6 +151,8 @@ TEST(Threads, EqualTheSerialLoop) {
 
 /// Large models have larger tiles. A blow from below breaks joints within a few steps.
 TEST(Threads, EqualTheSerialLoopInALargeModel) {
+  if (kernels_are_compiled_apart())
+    GTEST_SKIP() << "the kernels for " << kernels().instructions << " are compiled apart";
   const Assembly wall = weak_wall(130, 130);
   GroundMotion motion;
   motion.dt = 1.0;

@@ -4,11 +4,18 @@
 
 #include "geometry/stiffness.h"
 #include "solver/effects/parts.h"
+#include "solver/model/kernels.h"
 #include "tools/ladder/models.h"
 
 namespace voussoir::test {
 
 using namespace ladder;
+
+/// Whether the kernels at work are not those of the library, with which the plain serial loop is compiled. Such kernels
+/// round differently, with fused multiply-add; the tests kernels_sse2 compare those of the library.
+inline bool kernels_are_compiled_apart() {
+  return &kernels() != usable_kernels().front();
+}
 
 /// Adds a bar from a point of block a to one of block b, not along z: E A, yield force and pretension in N.
 inline void add_tie(Assembly& assembly, std::int64_t a, const Vec3& from, std::int64_t b, const Vec3& to, double axial,
