@@ -177,7 +177,8 @@ TEST(Campaign, GrowsByRunsAndRefusesOthers) {
   for (const auto& [run, time] : before) EXPECT_EQ(ended(folder / "long").at(run), time);
   folder.write("long.toml", exchanged(bytes_of(file), "amplitude = 3", "amplitude = 3.5"));
   const auto all = contents(folder / "long");
-  expect_error(campaign(folder, {"long.toml"}), 2, {"wall__r1__x1, which would be another now", "-o DIR"});
+  expect_error(campaign(folder, {"long.toml"}), 2,
+               {"wall__r1__x1, but its case, record, sample or duration has changed", "-o DIR"});
   expect_unchanged(folder / "long", all);
 }
 
@@ -214,7 +215,7 @@ TEST(Campaign, WhatIsWrongIsSaid) {
   const Outcome good = campaign(folder, {"long.toml"});
   EXPECT_EQ(good.status, 0) << "nothing of that is in the way\n" << good.err;
   folder.write("long/campaign.json", "{");
-  expect_error(campaign(folder, {"long"}), 2, {"campaign.json is no valid JSON"});
+  expect_error(campaign(folder, {"long"}), 2, {"campaign.json is not valid JSON"});
 }
 
 /// The example that comes with the program, as far as its plan.
