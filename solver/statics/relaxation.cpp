@@ -56,6 +56,13 @@ void choose_node_inertia(const BlockMatrix& k, std::size_t bodies, FillModel& fi
   for (std::size_t i = 0; i < fill.nodes.size(); ++i) fill.inertial[i] = 0.5 * rows[bodies + i];
 }
 
+constexpr double enough = 1.0001;  // what is raised by less is not worth stopping a body
+
+/// Whether an inertia is at least as large as another about every axis.
+bool covers(const Mat3& inertia, const Mat3& other) {
+  return largest_eigenvalue(other, inertia) < enough;
+}
+
 /// Gives the bodies the inertia that relaxes fastest; after new contacts (`again`) it only ever raises it. A body whose
 /// inertia changes is stopped, for its momentum no longer means its velocity.
 void choose_inertia(bool again, State& state, Model& model) {
@@ -68,10 +75,17 @@ void choose_inertia(bool again, State& state, Model& model) {
     Mat3 inertia;
     least_inertia(k.diagonal(std::int32_t(i)), model.typical_size, mass, inertia);
     if (!again && mass <= 0.0) hang_freely(model, body);
-    if (mass <= 0.0 || (again && mass < 1.0001 * body.inertial_mass)) continue;
+    if (mass <= 0.0) continue;
     const Mat3 r = rotation_of(state, i).toRotationMatrix();
+    inertia = r.transpose() * inertia * r;
+    if (again) {
+      const bool turns = covers(body.inertia, inertia);
+      if (turns && mass < enough * body.inertial_mass) continue;
+      mass = std::max(mass, body.inertial_mass);
+      inertia = turns ? body.inertia : covers(inertia, body.inertia) ? inertia : Mat3(body.inertia + inertia);
+    }
     body.inertial_mass = mass;
-    body.inertia = r.transpose() * inertia * r;
+    body.inertia = inertia;
     body.inverse_inertia = body.inertia.inverse();
     for (int c = 0; c < 6; ++c) state.motion[motion_width * i + std::size_t(c)] = 0.0;
   }

@@ -102,8 +102,10 @@ Finding of_area(const std::string& shape, const StiffnessErrors& errors) {
   return nothing("error of kn A and ks A, " + shape, errors.force, 1e-12, "-", "beam theory");
 }
 
+/// The turn of 1e-3 moves the corners on the short side of the triangle by 2e-4 m. This is a difference of places of
+/// about 2 m, each rounded to 4e-16 m, so that every corner is off by some 2e-12 of its way.
 Finding of_inertia(const std::string& shape, const StiffnessErrors& errors) {
-  return nothing("error of kn I and ks J, " + shape, errors.moment, 1e-12, "-", "beam theory");
+  return nothing("error of kn I and ks J, " + shape, errors.moment, 1e-11, "-", "beam theory");
 }
 
 std::vector<Finding> climb_joint_stiffness(int) {
