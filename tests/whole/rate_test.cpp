@@ -76,7 +76,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(Rate, SweepsAStripAndSaysWhereItIsWorst) {
   const Bridge folder;
   const Outcome outcome = rate(
-      folder, {"--strip", "0.4", "--step", "0.8", "--refine", "1", "--most", "14", "--tolerance", "1", "--no-runs"});
+      folder, {"--strip", "0.4", "--step", "0.8", "--refine", "1", "--most", "4", "--tolerance", "0.25", "--no-runs"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("adequacy factor"), std::string::npos) << outcome.out;
   const nlohmann::json json = read_json(folder / "rated/rate.json");
