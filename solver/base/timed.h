@@ -4,19 +4,22 @@
 
 namespace voussoir {
 
+/// s, wall-clock time.
+inline double seconds_since(std::chrono::steady_clock::time_point begun) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
 /// Adds the wall-clock time between its construction and destruction to a sum.
 class Timed {
-  using Clock = std::chrono::steady_clock;
-
  public:
   explicit Timed(double& sum) : sum_(sum) {}
-  ~Timed() { sum_ += std::chrono::duration<double>(Clock::now() - begun_).count(); }
+  ~Timed() { sum_ += seconds_since(begun_); }
   Timed(const Timed&) = delete;
   Timed& operator=(const Timed&) = delete;
 
  private:
   double& sum_;
-  Clock::time_point begun_ = Clock::now();
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace voussoir

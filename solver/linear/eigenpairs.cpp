@@ -9,6 +9,7 @@
 #include <chrono>
 
 #include "solver/base/error.h"
+#include "solver/base/timed.h"
 #include "solver/linear/dense_eigen.h"
 
 namespace voussoir {
@@ -17,10 +18,6 @@ namespace {
 
 constexpr Eigen::Index dense_below = 400;  // unknowns
 constexpr Eigen::Index dense_most = 6000;  // unknowns: nearly 1 GiB of matrices
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Spectra's operators: x → (K − σ M)⁻¹ x less what lies along the columns of `known`, and x → M x.
 class Inverse {

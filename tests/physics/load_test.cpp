@@ -1,4 +1,5 @@
-// Dead loads of a stage: static and eased, and the ledger's account of their work.
+// Dead loads of a stage: static and eased, and the ledger's account of their work; forces that a caller decides on
+// while time passes (Simulation::push()).
 #include "solver/base/error.h"
 #include "solver/run/simulation.h"
 #include "tests/solver/measured.h"
@@ -103,6 +104,93 @@ TEST(Load, RefusesWhatCannotBeLoaded) {
   refused({"plate", {1, 0, 0}, {}});
   refused({"both", {1, 0, 0}, {}});
   refused({"both", {1, 0, 0}, Vec3(0, 0, 0)});
+}
+
+/// Pulled up by a force, which then stays.
+SolverSettings pulled_and_left(double force, double duration) {
+  StageSettings gravity, free;
+  Loads loads;
+  loads.forces = {{"cube", {0, 0, force}, std::nullopt}};
+  gravity.loads = loads;
+  free.kind = StageSettings::Kind::free;
+  free.duration = duration;
+  SolverSettings settings = undamped();
+  settings.stages = {gravity, free};
+  return settings;
+}
+
+double height(const Simulation& run) {
+  return run.state().pose[pose_width * std::size_t(run.model().body_of_block[1]) + 2];
+}
+double upward_velocity(const Simulation& run) {
+  return run.state().motion[motion_width * std::size_t(run.model().body_of_block[1]) + 2];
+}
+
+/// A force against the velocity is a dashpot: the vibration decays by exp(−ξ ω t), and what it takes out of the cube is
+/// in the ledger as external work.
+TEST(Push, AForceAgainstTheVelocityIsADashpot) {
+  const Assembly assembly = on_springs();
+  const double mass = assembly.blocks[1].mass, omega = std::sqrt(kn / mass), ratio = 0.02;
+  const double dashpot = 2.0 * ratio * std::sqrt(kn * mass), force = 1e5;
+  const int cycles = 5;
+  double last_peak = 0.0;
+  std::int64_t asked = 0;
+  Observers observers;
+  observers.control = [&](Simulation& run) {
+    ++asked;
+    PointLoad push;  // also what takes the pull away, which the stages keep
+    push.body = run.model().body_of_block[1];
+    push.from = push.to = Vec3(0, 0, -force - dashpot * upward_velocity(run));
+    run.push({push});
+  };
+  observers.history = [&](const Simulation& run, const Sample& sample) {
+    const double periods = sample.time * omega / (2.0 * pi);
+    if (periods > cycles - 0.5) last_peak = std::max(last_peak, height(run));
+  };
+  SolverSettings settings = pulled_and_left(force, (cycles + 0.5) * 2.0 * pi / omega);
+  settings.step.time_step = settings.output.history_every = 1e-4;
+  Simulation run(assembly, settings, 1, observers);
+  ASSERT_EQ(run.run(), RunEnd::finished) << run.failure();
+  const double expected = force / kn * std::exp(-ratio * 2.0 * pi * cycles);
+  EXPECT_NEAR(last_peak, expected, 0.01 * expected);
+  EXPECT_EQ(asked, run.state().step());
+  EXPECT_LT(run.worst_balance(), 2e-3);
+  measured("cube on springs, pushed against its velocity, 5 periods: amplitude", last_peak, expected, "m");
+}
+
+/// Whoever only looks changes nothing, however often.
+TEST(Push, LookingChangesNothing) {
+  const Assembly assembly = on_springs();
+  const auto hash = [&](double every, int& looks) {
+    Observers observers;
+    observers.control = [&](Simulation&) { ++looks; };
+    observers.control_every = every;
+    Simulation run(assembly, pulled_and_left(1e5, 0.2), 1, observers);
+    EXPECT_EQ(run.run(), RunEnd::finished);
+    return hash_arrays(run.state().arrays());
+  };
+  int often = 0, seldom = 0;
+  Simulation plain(assembly, pulled_and_left(1e5, 0.2), 1, {});
+  ASSERT_EQ(plain.run(), RunEnd::finished);
+  EXPECT_EQ(hash(0.0, often), hash_arrays(plain.state().arrays()));
+  EXPECT_EQ(hash(0.05, seldom), hash_arrays(plain.state().arrays()));
+  EXPECT_EQ(often, plain.state().step());
+  EXPECT_EQ(seldom, 4);
+}
+
+TEST(Push, AFixedBlockCannotBePushed) {
+  const Assembly assembly = on_springs();
+  Simulation run(assembly, pulled_and_left(1e5, 0.2), 1, {});
+  PointLoad push;
+  push.body = run.model().body_of_block[0];
+  push.from = push.to = Vec3(1, 0, 0);
+  try {
+    run.push({push});
+    FAIL() << "a push on a fixed block was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("block 0"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("fixed"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace VOUSSOIR_FILE

@@ -9,6 +9,7 @@
 #include "geometry/generator.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/base/error.h"
+#include "solver/base/timed.h"
 #include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
 #include "solver/statics/equilibrium.h"
@@ -20,10 +21,6 @@ namespace voussoir {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point t) {
-  return std::chrono::duration<double>(Clock::now() - t).count();
-}
 
 Assembly wall(int length, int courses, double strength, double friction) {
   const Generator& generator = find_generator("wall");
