@@ -15,10 +15,10 @@ SOURCE = pathlib.Path(__file__).parents[2]
 def test_a_block_on_springs_has_the_modes_of_a_block_on_springs(stone_on_base):
     modes = vs.modal(vs.Case({"stage": [{"kind": "gravity"}]}, assembly=stone_on_base), 6)
     vertical = np.sqrt(1e9 * 0.25 / 250.0) / (2 * np.pi)
-    assert np.isclose(modes.frequency, vertical, rtol=1e-6).any()
+    mode, = np.flatnonzero(np.isclose(modes.frequency, vertical, rtol=1e-6))
+    np.testing.assert_allclose(np.abs(modes.shapes[mode, 1]), [0, 0, 1, 0, 0, 0], atol=1e-6)
     assert modes.shapes.shape == (6, 2, 6)
     np.testing.assert_allclose(modes.effective_mass.sum(axis=0)[2], 250.0, rtol=1e-6)
-    np.testing.assert_allclose(np.abs(modes.shapes[:, :, :3]).max(axis=(1, 2)).max(), 1.0, rtol=0.5)
     assert "Hz" in repr(modes) and len(modes) == 6
 
 
@@ -44,7 +44,7 @@ def test_a_diagnosis_names_what_is_missing(tmp_path, program):
     found = vs.diagnose(case, tmp_path / "field" / "measured", directory=tmp_path / "found", effects=1,
                         least_amounts=False, run_seconds=0.0, progress=lines.append)
     assert lines
-    assert found.verdict in ("found", "consistent", "unexplained")
+    assert found.verdict == "found"
     assert found.data == json.loads((tmp_path / "found" / "diagnosis.json").read_text())
     assert vs.Case(tmp_path / "found" / "corrected.toml", geometry=True).path
     assert "abutment_restraint" in found.corrected

@@ -31,7 +31,7 @@ def test_a_block_sinks_by_its_weight_over_the_stiffness(stone_on_base):
     sunk = run.snapshot().displacement[1, 2]
     np.testing.assert_allclose(sunk, -2000.0 * 0.5 * G / 1e9, rtol=1e-4)
     np.testing.assert_allclose(run.snapshot().joints["normal_traction"][0], -2000.0 * 0.5 * G, rtol=1e-4)
-    assert "Newton" in run.equilibrium or run.equilibrium
+    assert "converged" in run.equilibrium
 
 
 def test_bits_are_those_of_the_program_for_any_threads(tmp_path, program):
