@@ -49,15 +49,26 @@ std::map<Edge, int> face_of_edge(const std::vector<Loop>& faces) {
   return owner;
 }
 
+/// A face no wider than the tolerance: its normal is noise. Its length does not matter: the short end of a thin wedge
+/// is a face like any other.
+bool is_sliver(const Polygon& polygon, double tolerance) {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    longest = std::max(longest, (polygon[(i + 1) % polygon.size()] - polygon[i]).norm());
+  return polygon_area(polygon) <= longest * tolerance;
+}
+
 /// Group number of each face: flooded from the largest free face over edges while normals agree with that face.
-std::vector<int> coplanar_groups(const Polyhedron& shape, double angle, double sliver) {
+std::vector<int> coplanar_groups(const Polyhedron& shape, double angle, double tolerance) {
   const int n = static_cast<int>(shape.faces.size());
   std::vector<Vec3> normals;
   std::vector<double> areas;
+  std::vector<char> slivers;
   for (int f = 0; f < n; ++f) {
     const Polygon polygon = face_polygon(shape, f);
     normals.push_back(polygon_normal(polygon));
     areas.push_back(polygon_area(polygon));
+    slivers.push_back(is_sliver(polygon, tolerance));
   }
   std::vector<int> order(n), group(n, -1);
   std::iota(order.begin(), order.end(), 0);
@@ -74,7 +85,7 @@ std::vector<int> coplanar_groups(const Polyhedron& shape, double angle, double s
         if (twin == owner.end() || group[twin->second] >= 0) continue;
         const Vec3 &u = normals[seed], &v = normals[twin->second];
         const bool agrees = std::atan2(u.cross(v).norm(), u.dot(v)) <= angle;
-        if (!agrees && areas[twin->second] > sliver) continue;  // a sliver's normal is noise
+        if (!agrees && !slivers[twin->second]) continue;
         group[twin->second] = seed;
         todo.push_back(twin->second);
       }
@@ -195,7 +206,7 @@ std::string check_convex(const Polyhedron& shape, double tolerance) {
 Polyhedron merge_coplanar_faces(const Polyhedron& triangulated, double angle) {
   const double tolerance = k_relative * size_of(triangulated);
   Polyhedron shape = welded(triangulated, tolerance);
-  const std::vector<int> group = coplanar_groups(shape, angle, tolerance * size_of(shape));
+  const std::vector<int> group = coplanar_groups(shape, angle, tolerance);
   std::map<int, std::vector<Loop>> members;
   for (std::size_t f = 0; f < shape.faces.size(); ++f) members[group[f]].push_back(shape.faces[f]);
   shape.faces.clear();

@@ -58,6 +58,20 @@ TEST(MergeCoplanarFaces, KeepsFacesThatTurnMoreThanTheAngle) {
   EXPECT_NEAR(mass_properties(merged).volume, 20 * std::tan(k_pi / 20), 1e-12);
 }
 
+TEST(MergeCoplanarFaces, KeepsTheEndsOfAThinWedge) {
+  // An end of 0.8 mm2 on a stone of 1.1 m is small, but a face like any other: it is 0.7 mm wide.
+  const std::vector<Vec3> end = {{0, 0, 0}, {2.3e-3, 0, 0.3e-3}, {2.0e-3, 0, -0.4e-3}};
+  Polyhedron wedge;
+  for (const double y : {0.0, 1.1})
+    for (const Vec3& p : end) wedge.vertices.push_back(p + Vec3(0, y, 0));
+  wedge.faces = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+  if (mass_properties(wedge).volume < 0.0)
+    for (auto& face : wedge.faces) std::ranges::reverse(face);
+  const Polyhedron merged = merge_coplanar_faces(wedge, 1e-3);
+  EXPECT_EQ(merged.faces.size(), 5u);
+  EXPECT_EQ(convexity_error(merged), "");
+}
+
 bool says(const Polyhedron& shape, const std::string& words) {
   const std::string error = convexity_error(shape);
   return error.find(words) != std::string::npos;

@@ -157,6 +157,22 @@ TEST(ImportErrors, ExportAndBack) {
   expect_error(run({"export", "none.toml", "-o", "arch.obj"}), 2, {"none.toml"});
 }
 
+/// Among the stones of this bridge is a wedge 0.7 mm wide.
+TEST(ImportErrors, ABridgeComesBackWithItsJoints) {
+  Folder folder;
+  folder.write("case.toml", "[bridge]\ngenerator = \"cs2\"\n");
+  const auto run = [&](const std::vector<std::string>& words) { return voussoir(words, {.folder = folder.path()}); };
+  ASSERT_EQ(run({"export", "case.toml", "-o", "bridge.obj"}).status, 0);
+  const Outcome back = run({"import", "bridge.obj", "--map", "bridge.names.toml", "--gap", "1e-6", "-o", "back.h5"});
+  ASSERT_EQ(back.status, 0) << back.err;
+  const Outcome generated = run({"generate", "case.toml", "-o", "bridge.h5"});
+  const auto inventory = [](const std::string& text) {
+    const std::size_t at = text.find("component      ");
+    return text.substr(at, text.find("surface") - at);
+  };
+  EXPECT_EQ(inventory(back.out), inventory(generated.out));
+}
+
 /// Joints are counted where a run begins, and those of an assembly file are found anew by import.
 TEST(ImportErrors, JointsAreCountedFromImportToRun) {
   Folder folder;
