@@ -81,18 +81,27 @@ std::string influence_chart(const Rating& rating, const RateRequest& request) {
   chart.y_label = "adequacy factor";
   chart.y_low = 0.0;
   double high = 0.0;
+  ChartDots bounds;
+  bounds.marker = Marker::triangle;
   for (std::size_t i = 0; i < rating.places.size(); ++i) {
     const RatedPlace& at = rating.places[i];
     if (i == 0 || !same_sweep(rating.places[i - 1], at)) {
-      ChartCurve curve;
-      curve.name = sweep_name(at, request), curve.dots = true;
-      chart.curves.push_back(curve);
+      chart.curves.push_back({.name = sweep_name(at, request)});
+      chart.dots.emplace_back();
     }
-    chart.curves.back().x.push_back(middle_of(request.vehicles[at.vehicle], at.place));
-    chart.curves.back().y.push_back(at.factor);
+    const auto add = [x = middle_of(request.vehicles[at.vehicle], at.place), y = at.factor](auto& to) {
+      to.x.push_back(x), to.y.push_back(y);
+    };
+    add(chart.curves.back());
+    add(at.found ? chart.dots.back() : bounds);
     high = std::max(high, at.factor);
   }
   number_curves(chart);
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) chart.dots[i].colour = chart.curves[i].colour;
+  if (!bounds.x.empty()) {
+    bounds.name = "lower bound: no limit found up to this factor";
+    chart.dots.push_back(bounds);
+  }
   mark_spans(chart, rating, 1.05 * high);
   return line_chart(chart);
 }

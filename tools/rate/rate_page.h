@@ -18,7 +18,7 @@ struct RatePageWords {
 };
 
 /// Adequacy factor against the position of the middle of the axles: one curve for each vehicle, lane and direction, as
-/// SVG.
+/// SVG. A circle is a limit, a triangle a lower bound (RatedPlace::found is false).
 std::string influence_chart(const Rating& rating, const RateRequest& request);
 
 std::string rate_page(const Rating& rating, const RateRequest& request, const RatePageWords& words);
