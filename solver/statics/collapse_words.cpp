@@ -1,6 +1,7 @@
 // What a collapse stage found, in words for the log, the summary and the page.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "solver/statics/collapse.h"
@@ -31,9 +32,10 @@ double rounded(double x) {
 
 std::string mechanism_text(const Assembly& assembly, const std::vector<MechanismJoint>& mechanism) {
   if (mechanism.empty()) return "no mechanism: no joint moves";
-  std::size_t slides = 0;
-  for (const MechanismJoint& joint : mechanism) slides += joint.slides;
-  std::string text = fmt::format("mechanism: {} joints hinge, {} slide", mechanism.size() - slides, slides);
+  const auto slides = std::size_t(std::ranges::count(mechanism, true, &MechanismJoint::slides));
+  const std::size_t hinges = mechanism.size() - slides;
+  std::string text = fmt::format("mechanism: {} {}, {} {}", hinges, hinges == 1 ? "joint hinges" : "joints hinge",
+                                 slides, slides == 1 ? "slides" : "slide");
   if (mechanism.size() > 12) return text;
   for (const MechanismJoint& joint : mechanism) {
     const std::string edge = edge_name(assembly, joint);
@@ -44,8 +46,17 @@ std::string mechanism_text(const Assembly& assembly, const std::vector<Mechanism
   return text;
 }
 
+namespace {
+
+/// The pronoun for so many things.
+const char* them(std::size_t things) {
+  return things == 1 ? "it" : "them";
+}
+
+}  // namespace
+
 std::string moving_part(const Assembly& assembly, const CollapseLoss& loss) {
-  const std::string fill = loss.fill ? " and the fill around them" : "";
+  const std::string fill = loss.fill ? fmt::format(" and the fill around {}", them(loss.blocks.size())) : "";
   if (loss.blocks.empty()) return loss.fill ? "the fill" : "nothing";
   if (loss.loaded_only)
     return fmt::format("{} loaded {}{}", loss.blocks.size(), loss.blocks.size() == 1 ? "block" : "blocks", fill);
@@ -71,7 +82,8 @@ std::string collapse_headline(const Assembly& assembly, const Collapse& c) {
       "move).",
       c.loss.local ? "Local" : "Global", c.multiplier, moving_part(assembly, c.loss), 100.0 * c.loss.share);
   if (c.loss.rest_stands)
-    text += *c.loss.rest_stands ? " The rest stands without them." : " The rest does not stand without them either.";
+    text += fmt::format(" The rest {} without {}{}.", *c.loss.rest_stands ? "stands" : "does not stand",
+                        them(c.loss.blocks.size() + (c.loss.fill ? 1 : 0)), *c.loss.rest_stands ? "" : " either");
   if (c.stands_below == false) text += " The dynamic run does not stand below it, which contradicts the static solver.";
   return text;
 }

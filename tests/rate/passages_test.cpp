@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/folder.h"
@@ -45,6 +46,8 @@ TEST(Passages, SayUpToWhichFactorAllSettle) {
   EXPECT_NE(text.find("with 0.5 they do not"), std::string::npos) << text;
   const std::string none = passages_text({series(0.3, PassageEnd::collapses, 0), series(0.5, PassageEnd::grows, 9)}, 1);
   EXPECT_EQ(none.find("Over 9 passages, displacements settle with none of the factors; with 0.3"), 0u) << none;
+  const std::string first = passages_text({series(0.3, PassageEnd::collapses, 0)}, 1.0);
+  EXPECT_EQ(first.find("Over 1 passage, displacements settle with none of the factors; with 0.3"), 0u) << first;
 }
 
 Vehicle two_axles() {
@@ -95,6 +98,15 @@ TEST(LoadingTest, IsLeftOutWithItsBeam) {
   const Case strip = strip_case(c, 0.3);
   EXPECT_FALSE(is_loading_test(strip));
   EXPECT_EQ(strip.settings.stages.size(), 1u);
+}
+
+TEST(StripRemarks, CountEffects) {
+  Case c = read_case(std::string(VOUSSOIR_SOURCE_DIR) + "/cases/bridges/prestwood.toml");
+  for (const char* said : {"1 effect is left out", "2 effects are left out"}) {
+    c.effects.emplace_back();
+    const std::vector<std::string> remarks = strip_remarks(c);
+    EXPECT_EQ(std::ranges::count(remarks, said), 1) << said;
+  }
 }
 
 TEST(EffectiveWidth, IsWheelsAndACoverButNoMoreThanTheBridge) {

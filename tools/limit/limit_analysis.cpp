@@ -294,7 +294,9 @@ LimitAnalysis limit_analysis_without_lift(const Assembly& assembly, const LimitP
 std::string mechanism_text(const LimitAnalysis& analysis) {
   std::size_t slide = 0;
   for (const JointRate& r : analysis.mechanism) slide += r.slides();
-  return fmt::format("{} joints hinge, {} slide", analysis.mechanism.size() - slide, slide);
+  const std::size_t hinge = analysis.mechanism.size() - slide;
+  return fmt::format("{} {}, {} {}", hinge, hinge == 1 ? "joint hinges" : "joints hinge", slide,
+                     slide == 1 ? "slides" : "slide");
 }
 
 }  // namespace voussoir::limit

@@ -139,10 +139,11 @@ std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, con
 
 std::string passages_text(const std::vector<PassageSeries>& all, double adequacy) {
   std::size_t count = 0;
-  for (const PassageSeries& series : all) count = std::max(count, series.after.size() - 1);
+  for (const PassageSeries& series : all)  // the passage in which it collapses counts as well
+    count = std::max(count, series.after.size() - (series.end == PassageEnd::collapses ? 0 : 1));
   const auto first =
       std::find_if(all.begin(), all.end(), [](const PassageSeries& s) { return s.end != PassageEnd::settles; });
-  std::string text = fmt::format("Over {} passages, displacements settle with ", count);
+  std::string text = fmt::format("Over {} passage{}, displacements settle with ", count, count == 1 ? "" : "s");
   if (first == all.begin()) {
     text += "none of the factors";
   } else {

@@ -74,7 +74,9 @@ std::vector<std::string> strip_remarks(const Case& c) {
     remarks.push_back(fmt::format("the strip is square: the skew of {:g} degrees is left out", in("skew")));
   if (in.choices.at("backfill") != "deformable") remarks.push_back("the fill is a continuum instead of blocks");
   if (has_word(c, "makeup", "solid")) remarks.push_back("supports are solid");
-  if (!c.effects.empty()) remarks.push_back(fmt::format("{} effects are left out", c.effects.size()));
+  if (!c.effects.empty())
+    remarks.push_back(c.effects.size() == 1 ? "1 effect is left out"
+                                            : fmt::format("{} effects are left out", c.effects.size()));
   for (const StageSettings& stage : c.settings.stages)
     if (stage.construction) remarks.push_back("the whole weight acts at once, without construction steps");
   return remarks;

@@ -94,7 +94,7 @@ std::vector<std::string> vehicle_remarks(const options::variables_map& values, c
                              : std::string("No dynamic factor is applied. --factor NAME applies one")};
   for (const Vehicle& vehicle : vehicles)
     if (!vehicle.not_checked.empty())
-      remarks.push_back(fmt::format("{}: nobody has checked these figures against the source: {}", vehicle.name,
+      remarks.push_back(fmt::format("{}: nobody has checked the following against the source: {}", vehicle.name,
                                     fmt::join(vehicle.not_checked, ", ")));
   return remarks;
 }
