@@ -24,6 +24,7 @@
 #include "tools/run/provenance.h"
 #include "tools/run/run_page.h"
 #include "tools/run/steps_report.h"
+#include "tools/run/stop_request.h"
 #include "tools/run/stress_table.h"
 #include "tools/run/summary.h"
 #include "tools/run/thrust.h"
@@ -34,21 +35,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::atomic<bool> stop_flag{false}, late_flag{false};
-
-void ask_to_stop(int) {
-  stop_flag.store(true);
-}
+std::atomic<bool> late_flag{false};
 
 void time_is_up(int) {
   late_flag.store(true);
-  stop_flag.store(true);
+  stop_request().store(true);
 }
 
 }  // namespace
 
 void RunSession::forget_stop() {
-  stop_flag.store(false), late_flag.store(false);
+  stop_request().store(false), late_flag.store(false);
 }
 
 RunSession::RunSession(const RunRequest& request)
@@ -87,7 +84,7 @@ Observers RunSession::observers() {
     if (request_.progress) request_.progress(p);
   };
   o.log = [this](const std::string& text) { log(text); };
-  o.stop = &stop_flag;
+  o.stop = &stop_request();
   return o;
 }
 
@@ -95,7 +92,7 @@ void RunSession::append_history(const Sample& s) {
   history_.append(history_row(*simulation_, s, deck_));
   if (!fallen_ && has_fallen()) {
     fallen_ = true;
-    stop_flag.store(true);
+    stop_request().store(true);
   }
 }
 
@@ -333,7 +330,7 @@ RunEnd RunSession::simulate() {
     progress_.end();
     if (fallen_) vtk_.write(assembly_, make_snapshot(simulation_->model(), simulation_->state()), request_.threads);
     history_.flush();
-    const bool stopped = end == RunEnd::interrupted && stop_flag.load() && !fallen_;
+    const bool stopped = end == RunEnd::interrupted && stop_request().load() && !fallen_;
     if (end == RunEnd::interrupted && !stopped && !fallen_) write_checkpoint(false);  // --until
     if (!stopped) write_summary(end);
     return end;
@@ -362,8 +359,7 @@ void RunSession::draw_pictures() {
 
 int RunSession::run() {
   log(fmt::format("{} blocks; {}", assembly_.blocks.size(), joints_text(assembly_)));
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  stop_on_signals();
   if (request_.time_limit > 0.0) {
     std::signal(SIGALRM, time_is_up);
     ::alarm(unsigned(std::ceil(request_.time_limit)));
@@ -384,7 +380,7 @@ int RunSession::run() {
     end_ = SessionEnd::fallen;
     log(fmt::format("ended at t = {:.3f} s: {:.0f} % of the mass has moved more than {:g} m", time(),
                     100.0 * fallen_share(), request_.fall_displacement));
-  } else if (end == RunEnd::interrupted && stop_flag.load()) {
+  } else if (end == RunEnd::interrupted && stop_request().load()) {
     end_ = late_flag.load() ? SessionEnd::late : SessionEnd::stopped;
     log(fmt::format("stopped at t = {:.4f} s. Continue with: voussoir resume {}", time(), request_.directory));
     return 1;
