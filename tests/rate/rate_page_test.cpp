@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tools/rate/rate_report.h"
+
 namespace voussoir::test {
 namespace VOUSSOIR_FILE {
 
@@ -44,6 +46,25 @@ TEST(InfluenceChart, TellsLowerBoundsFromLimits) {
   EXPECT_EQ(count(bounds, "<circle"), 1u) << bounds;
   EXPECT_EQ(count(bounds, "lower bound: no limit found"), 1u) << bounds;
   EXPECT_EQ(count(bounds, "<path"), count(limits, "<path") + 3) << "two triangles, and one in the legend";
+}
+
+TEST(RatePage, SaysHowManyPositionsAreMissing) {
+  const RateRequest request = one_axle();
+  Rating rating;
+  rating.spans = {{0, 0.0, 4.0}};
+  rating.worst = {0};
+  rating.places = {rated(1.0, true, 2.0), rated(2.0, true, 3.0)};
+  const std::string missing = "interrupted after 2 of 5 positions";
+  for (const std::size_t planned : {2u, 5u}) {
+    rating.planned = planned;
+    const std::size_t said = planned == 5 ? 1 : 0;
+    EXPECT_EQ(count(rate_page(rating, request, RatePageWords()), missing), said);
+    EXPECT_EQ(count(rating_text(rating, request), missing), said);
+    const nlohmann::json json = rating_json(rating, request);
+    EXPECT_EQ(json["complete"], planned == 2);
+    EXPECT_EQ(json["places_done"], 2);
+    EXPECT_EQ(json["places_planned"], planned);
+  }
 }
 
 }  // namespace VOUSSOIR_FILE

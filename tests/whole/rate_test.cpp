@@ -1,7 +1,10 @@
 // voussoir rate, as a user calls it: a strip of a small bridge under an axle, and what is refused.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "solver/base/json_file.h"
@@ -97,6 +100,49 @@ TEST(Rate, SweepsAStripAndSaysWhereItIsWorst) {
   const std::string page = bytes_of(folder / "rated/report.html");
   EXPECT_NE(page.find("adequacy factor"), std::string::npos);
   EXPECT_NE(page.find("plane strain"), std::string::npos);
+}
+
+TEST(Rate, SaysWhatItComputesAndEachPosition) {
+  const Bridge folder;
+  const std::vector<std::string> few = {"--strip", "0.4", "--step",      "2",   "--refine", "1",
+                                        "--most",  "2",   "--tolerance", "0.5", "--no-runs"};
+  const Outcome outcome = rate(folder, few);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::vector<std::string> lines = lines_of(outcome.err);
+  ASSERT_GE(lines.size(), 5u) << outcome.err;
+  EXPECT_EQ(lines[0], "reading bridge.toml");
+  EXPECT_EQ(lines[1].rfind("3 positions of 1 vehicle", 0), 0u) << lines[1];
+  EXPECT_EQ(lines[lines.size() - 3].rfind("  1 of   3  axle  front at x = 3.00 m", 0), 0u) << outcome.err;
+  EXPECT_EQ(lines.back().rfind("  3 of   3  axle  front at x = ", 0), 0u) << outcome.err;
+  std::vector<std::string> quiet = few;
+  quiet.push_back("-q");
+  const Outcome silent = rate(folder, quiet);
+  EXPECT_EQ(silent.status, 0);
+  EXPECT_EQ(silent.out + silent.err, "");
+}
+
+/// The sweep has more positions than are computed before the signal arrives.
+TEST(Rate, WritesCompletePositionsWhenInterrupted) {
+  const Bridge folder;
+  Program program({"rate", "bridge.toml", "--vehicle", "axle.toml", "-o", "rated", "--strip", "0.4", "--step", "0.05",
+                   "--most", "2", "--tolerance", "0.5", "--threads", "1"},
+                  {.folder = folder.path()});
+  ASSERT_TRUE(wait_until(program, [&] { return program.so_far().err.find("  1 of  6") != std::string::npos; }))
+      << program.so_far().err;
+  program.send(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.signal, 0);
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  const nlohmann::json json = read_json(folder / "rated/rate.json");
+  EXPECT_FALSE(json["complete"].get<bool>());
+  const auto done = json["places_done"].get<std::size_t>();
+  EXPECT_GE(done, 1u);
+  EXPECT_LT(done, json["places_planned"].get<std::size_t>());
+  EXPECT_EQ(lines_of(bytes_of(folder / "rated/rate.csv")).size(), done + 1);
+  const std::string missing = fmt::format("interrupted after {} of {}", done, json["places_planned"].get<int>());
+  EXPECT_NE(outcome.err.find(missing), std::string::npos) << outcome.err;
+  EXPECT_NE(bytes_of(folder / "rated/report.html").find(missing), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "rated/worst")) << "no run where it is not known to be worst";
 }
 
 TEST(Rate, SaysWhatItNeeds) {

@@ -81,6 +81,7 @@ PassageSeries series_of(const Case& c, const Assembly& assembly, const std::vect
   settings.output.fields_every = 0.0;
   Snapshot begun;
   Observers observers;
+  observers.stop = request.stop;
   observers.ended = [&](const Simulation& run, std::int64_t stage) {
     if (std::size_t(stage) + 1 == first) {
       begun = make_snapshot(run.model(), run.state());
@@ -129,11 +130,15 @@ PassageEnd judge(const std::vector<AfterPassage>& after, double settled) {
 std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, const PassageRequest& request,
                                     const std::function<void(const std::string&)>& say) {
   const std::vector<SpanExtent> spans = span_extents(assembly);
+  const auto stopped = [&] { return request.stop && request.stop->load(); };
   std::vector<PassageSeries> all(request.factors.size());
   for_all(all.size(), request.rate.threads, [&](std::size_t i) {
+    if (stopped()) return;
     all[i] = series_of(c, assembly, spans, request, request.factors[i]);
+    if (stopped()) return;
     say(fmt::format("passages with factor {:.3g}: {}", all[i].factor, end_of(all[i])));
   });
+  if (stopped()) all.clear();
   return all;
 }
 

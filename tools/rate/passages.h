@@ -29,12 +29,13 @@ struct PassageRequest {
   int passages = 10;
   int places = 12;  // number of places of the vehicle in a passage, at equal distances
   std::vector<double> factors;
-  double settled = 1e-6;  // m per passage; smaller increments count as none
+  double settled = 1e-6;                    // m per passage; smaller increments count as none
+  const std::atomic<bool>* stop = nullptr;  // set by a signal
 };
 
 /// Drives the vehicle over the bridge repeatedly with each factor. The bridge is brought to equilibrium with the
 /// vehicle at one place after the other, and without the vehicle at the end of each passage. The results are in the
-/// order of the factors.
+/// order of the factors; there are none if it was stopped.
 std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, const PassageRequest& request,
                                     const std::function<void(const std::string&)>& say);
 

@@ -10,7 +10,6 @@
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "solver/base/timed.h"
-#include "solver/run/simulation.h"
 #include "tools/rate/rate_report.h"
 
 namespace voussoir {
@@ -58,12 +57,18 @@ struct AtRest {
   RunPosition position;
 };
 
-AtRest bring_to_rest(const Case& c, const Assembly& assembly, int threads) {
+/// Nothing if it was stopped.
+std::optional<AtRest> bring_to_rest(const Case& c, const Assembly& assembly, int threads,
+                                    const RateObservers& observers) {
   AtRest rest;
   rest.settings = before_vehicles(c).settings;
   rest.settings.output.fields_every = 0.0;
-  Simulation run(assembly, rest.settings, threads, {});
-  if (run.run() != RunEnd::finished) throw RunError("{}: {}", c.path, run.failure());
+  Observers own;
+  own.progress = observers.progress, own.stop = observers.stop;
+  Simulation run(assembly, rest.settings, threads, own);
+  const RunEnd end = run.run();
+  if (end == RunEnd::interrupted) return std::nullopt;
+  if (end == RunEnd::failed) throw RunError("{}: {}", c.path, run.failure());
   rest.state = run.state(), rest.position = run.position();
   return rest;
 }
@@ -100,40 +105,52 @@ std::size_t worst_of(const std::vector<RatedPlace>& places, std::size_t vehicle)
 
 class Sweep {
  public:
-  Sweep(const Case& c, const Assembly& assembly, const RateRequest& request, const AtRest& rest,
-        std::function<void(const RatedPlace&, std::size_t, std::size_t)> progress)
-      : case_(c), assembly_(assembly), request_(request), rest_(rest), progress_(std::move(progress)) {}
+  Sweep(const Case& c, const Assembly& assembly, const RateRequest& request, const RateObservers& observers,
+        const AtRest& rest, std::size_t planned)
+      : case_(c), assembly_(assembly), request_(request), observers_(observers), rest_(rest), planned_(planned) {}
 
-  void run(std::vector<RatedPlace> places) {
-    const std::size_t first = all.size();
-    all.insert(all.end(), places.begin(), places.end());
+  /// False if it was stopped.
+  bool run(std::vector<RatedPlace> places) {
+    std::vector<char> complete(places.size(), 0);
     for_all(places.size(), request_.threads, [&](std::size_t i) {
-      RatedPlace& at = all[first + i];
-      one(at);
+      if (stopped() || !one(places[i])) return;
+      complete[i] = 1;
       const std::lock_guard<std::mutex> lock(heard_);
-      progress_(at, ++done_, all.size());
+      ++done_;
+      if (observers_.rated) observers_.rated(places[i], done_, planned_);
     });
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (complete[i]) all.push_back(std::move(places[i]));
+    return !stopped();
   }
 
-  std::vector<RatedPlace> all;
+  std::vector<RatedPlace> all;  // the complete ones
 
  private:
-  void one(RatedPlace& at) const {
+  bool stopped() const { return observers_.stop && observers_.stop->load(); }
+
+  /// False if it was stopped.
+  bool one(RatedPlace& at) const {
     const Timed timed(at.seconds);
     SolverSettings settings = rest_.settings;
     settings.stages.push_back(collapse_stage(request_, case_, at));
-    Simulation run(assembly_, settings, 1, {});
+    Observers own;
+    own.stop = observers_.stop;
+    Simulation run(assembly_, settings, 1, own);
     run.state() = rest_.state;
     run.restore(rest_.position);
-    if (run.run() != RunEnd::finished) throw RunError("{}", run.failure());
-    note_loss(assembly_, run.collapse(), at);
+    const RunEnd end = run.run();
+    if (end == RunEnd::failed) throw RunError("{}", run.failure());
+    if (end == RunEnd::finished) note_loss(assembly_, run.collapse(), at);
+    return end == RunEnd::finished;
   }
 
   const Case& case_;
   const Assembly& assembly_;
   const RateRequest& request_;
+  const RateObservers& observers_;
   const AtRest& rest_;
-  std::function<void(const RatedPlace&, std::size_t, std::size_t)> progress_;
+  std::size_t planned_;
   std::mutex heard_;
   std::size_t done_ = 0;
 };
@@ -222,10 +239,23 @@ std::vector<RatedPlace> places_of(const RateRequest& request, const std::vector<
   return places;
 }
 
+/// Two places for each vehicle, at this distance on both sides of its worst place.
+std::vector<RatedPlace> about_the_worst(const std::vector<RatedPlace>& places, const RateRequest& request,
+                                        double distance) {
+  std::vector<RatedPlace> nearer;
+  for (std::size_t v = 0; v < request.vehicles.size(); ++v)
+    for (const double side : {-1.0, 1.0}) {
+      RatedPlace at;
+      at.vehicle = v, at.place = places[worst_of(places, v)].place;
+      at.place.x += side * distance;
+      nearer.push_back(at);
+    }
+  return nearer;
+}
+
 }  // namespace
 
-Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
-            const std::function<void(const RatedPlace&, std::size_t, std::size_t)>& progress) {
+Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request, const RateObservers& observers) {
   Rating rating;
   rating.spans = span_extents(assembly);
   double step = request.step;
@@ -234,27 +264,22 @@ Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
     for (const SpanExtent& span : rating.spans) step = std::min(step, 0.1 * (span.x1 - span.x0));
   }
   const std::vector<RatedPlace> places = places_of(request, rating.spans, step);
-  const AtRest rest = bring_to_rest(c, assembly, request.threads);
-  Sweep sweep(c, assembly, request, rest, progress);
-  sweep.run(places);
-  for (int round = 1; round <= request.refinements; ++round) {
-    std::vector<RatedPlace> nearer;
-    for (std::size_t v = 0; v < request.vehicles.size(); ++v)
-      for (const double side : {-1.0, 1.0}) {
-        const RatedPlace& worst = sweep.all[worst_of(sweep.all, v)];
-        RatedPlace at;
-        at.vehicle = v, at.place = worst.place;
-        at.place.x += side * step * std::pow(0.5, round);
-        nearer.push_back(at);
-      }
-    sweep.run(nearer);
-  }
+  rating.planned = places.size() + 2 * request.vehicles.size() * std::size_t(request.refinements);
+  if (observers.begins) observers.begins(rating.planned);
+  const std::optional<AtRest> rest = bring_to_rest(c, assembly, request.threads, observers);
+  if (!rest) return rating;
+  Sweep sweep(c, assembly, request, observers, *rest, rating.planned);
+  bool goes_on = sweep.run(places);
+  for (int round = 1; round <= request.refinements && goes_on; ++round)
+    goes_on = sweep.run(about_the_worst(sweep.all, request, step * std::pow(0.5, round)));
   rating.places = std::move(sweep.all);
   std::stable_sort(rating.places.begin(), rating.places.end(), [](const RatedPlace& a, const RatedPlace& b) {
     return std::tuple(a.vehicle, a.place.y, !a.place.towards_right, a.place.x) <
            std::tuple(b.vehicle, b.place.y, !b.place.towards_right, b.place.x);
   });
-  for (std::size_t v = 0; v < request.vehicles.size(); ++v) rating.worst.push_back(worst_of(rating.places, v));
+  for (std::size_t v = 0; v < request.vehicles.size(); ++v)
+    if (const std::size_t worst = worst_of(rating.places, v); worst < rating.places.size())
+      rating.worst.push_back(worst);
   return rating;
 }
 

@@ -5,6 +5,7 @@
 
 #include "io/case/case.h"
 #include "io/traffic/place_vehicle.h"
+#include "solver/run/simulation.h"
 #include "solver/statics/collapse.h"
 
 namespace voussoir {
@@ -47,7 +48,18 @@ struct RatedPlace {
 struct Rating {
   std::vector<SpanExtent> spans;
   std::vector<RatedPlace> places;  // by vehicle, lane, direction and x
-  std::vector<std::size_t> worst;  // for each vehicle: index into places
+  std::vector<std::size_t> worst;  // for each vehicle with a place: index into places
+  std::size_t planned = 0;         // number of places of a complete rating
+
+  bool complete() const { return places.size() == planned; }
+};
+
+/// Functions that rate() calls, and its stop flag. Each may be empty.
+struct RateObservers {
+  std::function<void(std::size_t planned)> begins;                                      // number of all places
+  std::function<void(const Progress&)> progress;                                        // of the stages of the case
+  std::function<void(const RatedPlace&, std::size_t done, std::size_t planned)> rated;  // after each place
+  const std::atomic<bool>* stop = nullptr;  // set by a signal: the rating ends with the places that are complete
 };
 
 /// The case without the parts that must not act before a vehicle, such as a last collapse stage. Throws InputError if
@@ -67,10 +79,9 @@ std::vector<SpanExtent> span_extents(const Assembly& assembly);
 std::vector<double> fronts(const Vehicle& vehicle, const std::vector<SpanExtent>& spans, bool towards_right,
                            double step);
 
-/// Rates the case. Its stages, without a last collapse stage, run once; each place starts from their end. `progress`
-/// is called after each place. Throws InputError and RunError.
-Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request,
-            const std::function<void(const RatedPlace&, std::size_t done, std::size_t all)>& progress);
+/// Rates the case. Its stages, without a last collapse stage, run once; each place starts from their end. A rating that
+/// was stopped has no refined places, or not all; it may have no place at all. Throws InputError and RunError.
+Rating rate(const Case& c, const Assembly& assembly, const RateRequest& request, const RateObservers& observers);
 
 /// The case with an additional stage: the loads of a vehicle at a place, raised to collapse or applied in full.
 Case with_vehicle(const Case& c, const RateRequest& request, const RatedPlace& at, bool to_collapse);

@@ -107,7 +107,8 @@ std::string influence_chart(const Rating& rating, const RateRequest& request) {
 }
 
 std::string rate_page(const Rating& rating, const RateRequest& request, const RatePageWords& words) {
-  std::string body = paragraph(first_sentence(rating, request));
+  std::string body = rating.complete() ? "" : paragraph(missing_text(rating));
+  body += paragraph(first_sentence(rating, request));
   body += paragraph(
       "The factor multiplies all loads of a vehicle at one place, with the dynamic factors given below. The weight of "
       "the bridge is not multiplied. The adequacy factor is the largest factor at which the program found "

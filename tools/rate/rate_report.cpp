@@ -48,6 +48,14 @@ std::string moving_text(const Rating& rating, const RatedPlace& at) {
 
 }  // namespace
 
+std::string missing_text(const Rating& rating) {
+  if (rating.complete()) return {};
+  return fmt::format(
+      "The rating is incomplete, because it was interrupted after {} of {} positions. The factor at another position "
+      "may be smaller.",
+      rating.places.size(), rating.planned);
+}
+
 std::string rating_text(const Rating& rating, const RateRequest& request) {
   std::string text;
   for (const std::size_t index : rating.worst) {
@@ -58,6 +66,7 @@ std::string rating_text(const Rating& rating, const RateRequest& request) {
                         at.place.towards_right ? "right" : "left", where_on(rating, vehicle, at.place),
                         moving_text(rating, at));
   }
+  if (!rating.complete()) text += missing_text(rating) + "\n";
   return text;
 }
 
@@ -78,6 +87,9 @@ std::string rating_csv(const Rating& rating, const RateRequest& request) {
 nlohmann::json rating_json(const Rating& rating, const RateRequest& request) {
   nlohmann::json json;
   for (const SpanExtent& span : rating.spans) json["spans"].push_back({{"part", span.part}, {"x", {span.x0, span.x1}}});
+  json["complete"] = rating.complete();
+  json["places_done"] = rating.places.size();
+  json["places_planned"] = rating.planned;
   json["looked_for_up_to"] = request.most;
   json["tolerance"] = request.tolerance;
   json["effective_width"] = request.effective_width ? nlohmann::json(*request.effective_width) : nlohmann::json();

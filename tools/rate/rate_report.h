@@ -12,7 +12,10 @@ std::string where_on(const Rating& rating, const Vehicle& vehicle, const Vehicle
 /// "4.31" or "at least 30".
 std::string factor_text(const RatedPlace& at, const RateRequest& request);
 
-/// One line for each vehicle with its worst place.
+/// What is missing in a rating that was stopped; empty for a complete one.
+std::string missing_text(const Rating& rating);
+
+/// One line for each vehicle with its worst place, then missing_text().
 std::string rating_text(const Rating& rating, const RateRequest& request);
 /// One row for each place.
 std::string rating_csv(const Rating& rating, const RateRequest& request);

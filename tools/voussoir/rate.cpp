@@ -16,6 +16,7 @@
 #include "tools/rate/strip.h"
 #include "tools/run/run_directory.h"
 #include "tools/run/run_session.h"
+#include "tools/run/stop_request.h"
 #include "tools/run/thrust.h"
 #include "tools/voussoir/options.h"
 #include "viz/render.h"
@@ -127,9 +128,35 @@ Case loaded_case(const Case& c, const options::variables_map& values, RateReques
   return strip;
 }
 
-std::string now_text(const RatedPlace& at, const RateRequest& request, std::size_t done, std::size_t all) {
-  return fmt::format("{:3} of {:3}  {}  front at x = {:.2f} m, y = {:.2f} m: {}", done, all,
-                     request.vehicles[at.vehicle].name, at.place.x, at.place.y, factor_text(at, request));
+/// Reports on standard error, unless they are not wanted.
+class Reports {
+ public:
+  explicit Reports(bool quiet) : quiet_(quiet), line_(quiet) {}
+  void show(const Progress& progress) { line_.show(progress); }
+  void say(const std::string& text) {
+    line_.end();
+    if (!quiet_) fmt::print(stderr, "{}\n", text);
+  }
+
+ private:
+  bool quiet_;
+  ProgressLine line_;
+};
+
+RateObservers observers_of(const RateRequest& request, Reports& reports) {
+  RateObservers o;
+  o.begins = [&](std::size_t planned) {
+    const std::size_t vehicles = request.vehicles.size();
+    reports.say(fmt::format("{} position{} of {} vehicle{}; first the stages of the case", planned,
+                            planned == 1 ? "" : "s", vehicles, vehicles == 1 ? "" : "s"));
+  };
+  o.progress = [&](const Progress& progress) { reports.show(progress); };
+  o.rated = [&](const RatedPlace& at, std::size_t done, std::size_t planned) {
+    reports.say(fmt::format("{:3} of {:3}  {}  front at x = {:.2f} m, y = {:.2f} m: {}", done, planned,
+                            request.vehicles[at.vehicle].name, at.place.x, at.place.y, factor_text(at, request)));
+  };
+  o.stop = &stop_request();
+  return o;
 }
 
 /// The section along the bridge under the vehicle, from the last stored frame.
@@ -154,9 +181,10 @@ struct WorstRuns {
   std::vector<ThrustLine> thrust;  // under the vehicle with factor 1, then under the largest load found
 };
 
-/// Runs the worst position of all again, to collapse and at factor 1, with pictures and pages.
-WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rating, const std::string& out,
-                    bool quiet) {
+/// Runs the worst position of all again, to collapse and at factor 1, with pictures and pages. Nothing if it was
+/// stopped.
+std::optional<WorstRuns> run_worst(const Case& c, const RateRequest& request, const Rating& rating,
+                                   const std::string& out, Reports& reports) {
   const RatedPlace& at = rating.places[worst_of_all(rating)];
   WorstRuns all;
   for (const bool to_collapse : {true, false}) {
@@ -165,11 +193,11 @@ WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rat
     RunRequest run;
     run.directory = folder, run.threads = request.threads, run.quiet = true;
     const DirectoryLock lock = prepare_directory(more, folder, true);
-    if (!quiet)
-      fmt::print("{}: {}\n", folder,
-                 to_collapse ? "run to collapse at the worst position" : "under the vehicle with factor 1");
+    reports.say(fmt::format("{}: {}", folder,
+                            to_collapse ? "run to collapse at the worst position" : "under the vehicle with factor 1"));
     RunSession session(run);
     session.run();
+    if (session.end() == SessionEnd::stopped) return std::nullopt;
     all.thrust.insert(all.thrust.begin(),
                       {to_collapse ? "largest load found" : "under the vehicle with factor 1", session.bed_joints()});
     const std::string file = to_collapse ? folder + "/images/mechanism_front.png" : draw_working(more, folder);
@@ -188,17 +216,44 @@ WorstRuns run_worst(const Case& c, const RateRequest& request, const Rating& rat
 /// Shares of the adequacy factor with which the vehicle passes; the usual rule takes the half.
 constexpr double passage_shares[] = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
 
+/// Empty if it was stopped.
 std::vector<PassageSeries> pass_repeatedly(const Case& c, const Assembly& assembly, const RateRequest& request,
-                                           const Rating& rating, int count, bool quiet) {
+                                           const Rating& rating, int count, Reports& reports) {
   const RatedPlace& worst = rating.places[rating.worst.front()];
   PassageRequest asked;
   asked.rate = request;
   asked.rate.lanes = {worst.place.y};
   asked.passages = count;
+  asked.stop = &stop_request();
   for (const double share : passage_shares) asked.factors.push_back(share * worst.factor);
-  return passages(c, assembly, asked, [&](const std::string& text) {
-    if (!quiet) fmt::print(stderr, "{}\n", text);
-  });
+  reports.say(fmt::format("{} passages with each of {} factors", count, asked.factors.size()));
+  return passages(c, assembly, asked, [&](const std::string& text) { reports.say(text); });
+}
+
+/// Writes the table and the chart of the repeated passages. False if it was stopped.
+bool add_passages(const std::vector<PassageSeries>& all, double adequacy, const std::string& out, bool quiet,
+                  RatePageWords& words) {
+  if (all.empty()) return false;
+  write_atomically(out + "/passages.csv", passages_csv(all));
+  write_atomically(out + "/images/ratchet.svg", ratchet_chart(all));
+  if (!quiet) fmt::print("{}\n", passages_text(all, adequacy));
+  words.passages = all;
+  return true;
+}
+
+/// Adds the pictures of the two runs, and writes the chart of their thrust lines. False if it was stopped.
+bool add_runs(std::optional<WorstRuns> runs, const std::string& out, RatePageWords& words) {
+  if (!runs) return false;
+  words.pictures = std::move(runs->pictures);
+  words.thrust = thrust_chart(runs->thrust);
+  if (!words.thrust.empty()) write_atomically(out + "/images/thrust.svg", words.thrust);
+  return true;
+}
+
+/// Says how far a rating came that was stopped. Returns the exit status.
+int stopped(const Rating& rating) {
+  fmt::print(stderr, "interrupted after {} of {} positions\n", rating.places.size(), rating.planned);
+  return 1;
 }
 
 int rate_bridge(const std::vector<std::string>& arguments) {
@@ -251,6 +306,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   request.both_ways = values.count("one-way") == 0;
   request.most = values["most"].as<double>(), request.tolerance = values["tolerance"].as<double>();
   request.threads = threads_asked(values);
+  Reports reports(quiet);
+  reports.say(fmt::format("reading {}", file));
   RatePageWords words;
   if (values.count("mexe")) words.beside = mexe_text(mexe(read_mexe(values["mexe"].as<std::string>())));
   const Case given = read_case(file);
@@ -260,30 +317,23 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   const std::string out = values.count("output") ? values["output"].as<std::string>() : "rate-" + name;
   words.title = "Rating: " + name;
   const Assembly assembly = make_assembly(c);
-  const Rating rating = rate(c, assembly, request, [&](const RatedPlace& at, std::size_t done, std::size_t all) {
-    if (!quiet) fmt::print(stderr, "{}\n", now_text(at, request, done, all));
-  });
+  stop_on_signals();
+  const Rating rating = rate(c, assembly, request, observers_of(request, reports));
+  if (rating.places.empty()) return stopped(rating);
   make_folder_of(out + "/rate.json");
   write_json(out + "/rate.json", rating_json(rating, request));
   write_atomically(out + "/rate.csv", rating_csv(rating, request));
   make_folder_of(out + "/images/rate.svg");
   write_atomically(out + "/images/rate.svg", influence_chart(rating, request));
-  if (values.count("passages")) {
-    words.passages = pass_repeatedly(c, assembly, request, rating, values["passages"].as<int>(), quiet);
-    write_atomically(out + "/passages.csv", passages_csv(words.passages));
-    write_atomically(out + "/images/ratchet.svg", ratchet_chart(words.passages));
-    if (!quiet) fmt::print("{}\n", passages_text(words.passages, rating.places[rating.worst.front()].factor));
-  }
-  if (!values.count("no-runs")) {
-    WorstRuns runs = run_worst(c, request, rating, out, quiet);
-    words.pictures = std::move(runs.pictures);
-    words.thrust = thrust_chart(runs.thrust);
-    if (!words.thrust.empty()) write_atomically(out + "/images/thrust.svg", words.thrust);
-  }
+  bool whole = rating.complete();
+  if (whole && values.count("passages"))
+    whole = add_passages(pass_repeatedly(c, assembly, request, rating, values["passages"].as<int>(), reports),
+                         rating.places[rating.worst.front()].factor, out, quiet, words);
+  if (whole && !values.count("no-runs")) whole = add_runs(run_worst(c, request, rating, out, reports), out, words);
   write_atomically(out + "/report.html", rate_page(rating, request, words));
   if (!quiet)
     fmt::print("{}{}\n{}/report.html, rate.csv, rate.json\n", rating_text(rating, request), words.beside, out);
-  return 0;
+  return whole ? 0 : stopped(rating);
 }
 
 }  // namespace

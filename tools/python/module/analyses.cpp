@@ -87,11 +87,12 @@ py::tuple rating(const Case& given, RateRequest request, const std::vector<std::
       for (const Vehicle& v : request.vehicles) widest = std::max(widest, vehicle_width(v));
       request.effective_width = effective_width(widest, cover, c.generator_input("width"));
     }
-    const Rating found =
-        rate(c, make_assembly(c), request, [&](const RatedPlace& at, std::size_t done, std::size_t all) {
-          tell(fmt::format("{:3} of {:3}  {}: {}", done, all, request.vehicles[at.vehicle].name,
-                           factor_text(at, request)));
-        });
+    RateObservers observers;
+    observers.rated = [&](const RatedPlace& at, std::size_t done, std::size_t planned) {
+      tell(fmt::format("{:3} of {:3}  {}: {}", done, planned, request.vehicles[at.vehicle].name,
+                       factor_text(at, request)));
+    };
+    const Rating found = rate(c, make_assembly(c), request, observers);
     json = json_text(rating_json(found, request)), text = rating_text(found, request);
   }
   return py::make_tuple(json, text);
