@@ -145,6 +145,38 @@ TEST(Rate, WritesCompletePositionsWhenInterrupted) {
   EXPECT_FALSE(std::filesystem::exists(folder / "rated/worst")) << "no run where it is not known to be worst";
 }
 
+/// The repeated command finds the positions that are complete: they keep the seconds of the first one.
+TEST(Rate, ContinuesWhereItWasInterrupted) {
+  const Bridge folder;
+  const std::vector<std::string> words = {"rate",        "bridge.toml", "--vehicle", "axle.toml", "--strip",   "0.4",
+                                          "--step",      "0.4",         "--refine",  "0",         "--most",    "2",
+                                          "--tolerance", "0.5",         "--threads", "1",         "--no-runs", "-o"};
+  const auto into = [&](const std::string& name) {
+    std::vector<std::string> all = words;
+    all.push_back(name);
+    return all;
+  };
+  Program program(into("rated"), {.folder = folder.path()});
+  ASSERT_TRUE(wait_until(program, [&] { return program.so_far().err.find("  1 of   7") != std::string::npos; }))
+      << program.so_far().err;
+  program.send(SIGINT);
+  ASSERT_EQ(program.wait().status, 1);
+  const std::vector<std::string> before = lines_of(bytes_of(folder / "rated/rate.csv"));
+  ASSERT_GE(before.size(), 2u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "rated/places"));
+  ASSERT_EQ(voussoir(into("rated"), {.folder = folder.path()}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "rated/places")) << "nothing is left to continue";
+  ASSERT_EQ(voussoir(into("whole"), {.folder = folder.path()}).status, 0);
+  const std::vector<std::string> after = lines_of(bytes_of(folder / "rated/rate.csv")),
+                                 whole = lines_of(bytes_of(folder / "whole/rate.csv"));
+  ASSERT_EQ(after.size(), 8u);
+  ASSERT_EQ(whole.size(), 8u);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i], before[i]);
+  const auto without_seconds = [](const std::string& line) { return line.substr(0, line.rfind(',')); };
+  for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(without_seconds(after[i]), without_seconds(whole[i]));
+  EXPECT_EQ(bytes_of(folder / "rated/rate.json"), bytes_of(folder / "whole/rate.json"));
+}
+
 TEST(Rate, SaysWhatItNeeds) {
   const Bridge folder;
   EXPECT_NE(voussoir({"rate", "bridge.toml"}, {.folder = folder.path()}).err.find("--vehicle"), std::string::npos);

@@ -131,6 +131,7 @@ class Sweep {
 
   /// False if it was stopped.
   bool one(RatedPlace& at) const {
+    if (observers_.recall && observers_.recall(at)) return true;
     const Timed timed(at.seconds);
     SolverSettings settings = rest_.settings;
     settings.stages.push_back(collapse_stage(request_, case_, at));

@@ -59,6 +59,7 @@ struct RateObservers {
   std::function<void(std::size_t planned)> begins;                                      // number of all places
   std::function<void(const Progress&)> progress;                                        // of the stages of the case
   std::function<void(const RatedPlace&, std::size_t done, std::size_t planned)> rated;  // after each place
+  std::function<bool(RatedPlace&)> recall;  // fills in a result that is known already; false if it is not
   const std::atomic<bool>* stop = nullptr;  // set by a signal: the rating ends with the places that are complete
 };
 

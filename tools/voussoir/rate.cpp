@@ -11,6 +11,7 @@
 #include "solver/base/json_file.h"
 #include "tools/rate/mexe_file.h"
 #include "tools/rate/passages.h"
+#include "tools/rate/place_store.h"
 #include "tools/rate/rate_page.h"
 #include "tools/rate/rate_report.h"
 #include "tools/rate/strip.h"
@@ -143,7 +144,7 @@ class Reports {
   ProgressLine line_;
 };
 
-RateObservers observers_of(const RateRequest& request, Reports& reports) {
+RateObservers observers_of(const RateRequest& request, const PlaceStore& store, Reports& reports) {
   RateObservers o;
   o.begins = [&](std::size_t planned) {
     const std::size_t vehicles = request.vehicles.size();
@@ -151,7 +152,9 @@ RateObservers observers_of(const RateRequest& request, Reports& reports) {
                             planned == 1 ? "" : "s", vehicles, vehicles == 1 ? "" : "s"));
   };
   o.progress = [&](const Progress& progress) { reports.show(progress); };
+  o.recall = [&](RatedPlace& at) { return store.recall(at); };
   o.rated = [&](const RatedPlace& at, std::size_t done, std::size_t planned) {
+    store.keep(at);
     reports.say(fmt::format("{:3} of {:3}  {}  front at x = {:.2f} m, y = {:.2f} m: {}", done, planned,
                             request.vehicles[at.vehicle].name, at.place.x, at.place.y, factor_text(at, request)));
   };
@@ -252,7 +255,8 @@ bool add_runs(std::optional<WorstRuns> runs, const std::string& out, RatePageWor
 
 /// Says how far a rating came that was stopped. Returns the exit status.
 int stopped(const Rating& rating) {
-  fmt::print(stderr, "interrupted after {} of {} positions\n", rating.places.size(), rating.planned);
+  fmt::print(stderr, "interrupted after {} of {} positions. The same command continues the rating\n",
+             rating.places.size(), rating.planned);
   return 1;
 }
 
@@ -318,7 +322,8 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   words.title = "Rating: " + name;
   const Assembly assembly = make_assembly(c);
   stop_on_signals();
-  const Rating rating = rate(c, assembly, request, observers_of(request, reports));
+  const PlaceStore store(out + "/places", c, assembly, request);
+  const Rating rating = rate(c, assembly, request, observers_of(request, store, reports));
   if (rating.places.empty()) return stopped(rating);
   make_folder_of(out + "/rate.json");
   write_json(out + "/rate.json", rating_json(rating, request));
@@ -333,7 +338,9 @@ int rate_bridge(const std::vector<std::string>& arguments) {
   write_atomically(out + "/report.html", rate_page(rating, request, words));
   if (!quiet)
     fmt::print("{}{}\n{}/report.html, rate.csv, rate.json\n", rating_text(rating, request), words.beside, out);
-  return whole ? 0 : stopped(rating);
+  if (!whole) return stopped(rating);
+  store.clear();
+  return 0;
 }
 
 }  // namespace
