@@ -90,8 +90,8 @@ void Simulation::report_progress(bool force, const std::string& note) {
   Progress p;
   p.stage = position_.stage < std::int64_t(settings_.stages.size()) ? settings_.stages[position_.stage].label : "end";
   p.end = end_time();
-  p.timed =
-      position_.stage >= std::int64_t(settings_.stages.size()) || settings_.stages[position_.stage].duration > 0.0;
+  p.timed = p.end > 0.0 && (position_.stage >= std::int64_t(settings_.stages.size()) ||
+                            settings_.stages[position_.stage].duration > 0.0);
   const bool steps = position_.stage < std::int64_t(settings_.stages.size()) &&
                      settings_.stages[position_.stage].kind == StageSettings::Kind::quasi_static;
   p.time = steps ? step_time_ : p.timed ? state_.time() : position_.stage_start;  // relaxation is no time

@@ -30,6 +30,14 @@ TEST(Progress, LinesTellStageTimeAndShare) {
     EXPECT_NE(outcome.err.substr(at - 3, 3), "101") << outcome.err;
 }
 
+TEST(Progress, NoTimeWhereNoStageHasTime) {
+  Folder folder;
+  folder.write("arch.toml", "[bridge]\ngenerator = \"arch\"\n[[stage]]\nkind = \"gravity\"\n");
+  const Outcome outcome = voussoir({"run", "arch.toml", "--no-pictures"}, {.folder = folder.path()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("of 0.00 s"), std::string::npos) << outcome.err;
+}
+
 TEST(Progress, LinesKeepComing) {
   Folder folder;
   write_wall(folder, {.shaken = 2000.0, .checkpoints = 1000.0, .fields = 0.0});
