@@ -6,49 +6,153 @@
 #include <array>
 #include <cmath>
 
+#include "viz/offscreen.h"
+
 namespace voussoir {
 namespace {
 
-void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {
-  const double s = sheet.letter, width = std::min(0.36 * sheet.width, 30 * s), height = 0.85 * s;
-  const double left = 0.5 * (sheet.width - width), bottom = 2.0 * s;
+constexpr double kFoot = 5.2, kRow = 1.5, kLegendText = 0.95, kSample = 1.4, kGap = 1.3;  // letters
+constexpr double kScaleFrom = 7.5;                                                        // letters, length scale
+constexpr double kScaleShare = 0.13, kCornerShare = 0.29, kLinesShare = 0.6;              // of the width
+
+/// A height that fonts have; others are rounded, and text becomes wider than its room.
+double font_below(double size) {
+  return std::floor(size * kOversampling) / kOversampling;
+}
+
+/// At most `size`, and so small that the text takes no more than `room`.
+double fitted_size(const std::string& text, double size, double room) {
+  const double width = Overlay::text_width(text, size);
+  return width > room ? font_below(size * room / width) : size;
+}
+
+double right_margin(const Sheet& sheet) {
+  return sheet.width - 1.2 * sheet.letter;
+}
+
+/// The words in the lower right corner, from below, each with its font height in letters.
+std::vector<std::pair<std::string, double>> corner_words(const Words& words) {
+  std::vector<std::pair<std::string, double>> lines;
+  for (const auto& line : {std::pair{words.hidden, 1.0}, {words.deform, 1.0}, {words.time, 1.1}})
+    if (!line.first.empty()) lines.push_back(line);
+  return lines;
+}
+
+/// The free width at the foot between the length scale and the words in the corner, pixels.
+struct Room {
+  double left = 0.0, right = 0.0;
+  double width() const { return right - left; }
+};
+
+Room free_room(const Sheet& sheet, const Words& words) {
+  const double s = sheet.letter;
+  double widest = 0.0;
+  for (const auto& [line, size] : corner_words(words)) widest = std::max(widest, Overlay::text_width(line, size * s));
+  return {kScaleFrom * s + kScaleShare * sheet.width + s,
+          right_margin(sheet) - std::min(widest, kCornerShare * sheet.width) - s};
+}
+
+/// The width of the sheet within its margins.
+Room whole_room(const Sheet& sheet) {
+  return {1.2 * sheet.letter, right_margin(sheet)};
+}
+
+using Legend = std::vector<std::pair<std::string, Colour>>;
+
+double legend_width(const Legend& legend, double size) {
+  double width = -kGap * size;
+  for (const auto& [name, colour] : legend) width += (kSample + kGap) * size + Overlay::text_width(name, size);
+  return width;
+}
+
+/// At most the usual height of the letters, and so small that every entry fits into a row of its own.
+double legend_size(const Sheet& sheet, const Legend& legend) {
+  double size = kLegendText * sheet.letter;
+  for (const auto& entry : legend) {
+    const double width = legend_width({entry}, kLegendText * sheet.letter), room = whole_room(sheet).width();
+    if (width > room) size = std::min(size, font_below(kLegendText * sheet.letter * room / width));
+  }
+  return size;
+}
+
+std::vector<Legend> legend_rows(const Legend& legend, double size, double room) {
+  std::vector<Legend> rows(1);
+  for (const auto& entry : legend) {
+    rows.back().push_back(entry);
+    if (rows.back().size() == 1 || legend_width(rows.back(), size) <= room) continue;
+    rows.back().pop_back();
+    rows.push_back({entry});
+  }
+  return rows;
+}
+
+/// In the middle of the sheet, or as near to it as the room allows.
+void draw_row(Overlay& overlay, const Sheet& sheet, const Legend& row, double size, const Room& room, double y) {
+  const double width = legend_width(row, size), s = size;
+  double x = std::max(std::min(0.5 * (sheet.width - width), room.right - width), room.left);
+  for (const auto& [name, colour] : row) {
+    overlay.rectangle(x - 1, y + 0.1 * s - 1, s + 2, s + 2, kInk);
+    overlay.rectangle(x, y + 0.1 * s, s, s, colour);
+    overlay.text(x + kSample * s, y, name, s);
+    x += (kSample + kGap) * s + Overlay::text_width(name, s);
+  }
+}
+
+void draw_legend(Overlay& overlay, const Sheet& sheet, const Legend& legend, const Words& words) {
+  const double size = legend_size(sheet, legend);
+  if (sheet.raised == 0.0) return draw_row(overlay, sheet, legend, size, free_room(sheet, words), 3.5 * size);
+  double y = kFoot * sheet.letter + sheet.raised;
+  for (const Legend& row : legend_rows(legend, size, whole_room(sheet).width()))
+    draw_row(overlay, sheet, row, size, whole_room(sheet), y -= kRow * sheet.letter);
+}
+
+/// The numbers of a scale, from its lower end.
+std::vector<std::string> scale_numbers(const Colouring& colouring) {
+  const double part = colouring.top / scale_steps(colouring.top);
+  const int below = int(std::lround(-colouring.bottom / part)), last = below + scale_steps(colouring.top);
+  std::vector<std::string> numbers;
+  for (int i = 0; i <= last; ++i) numbers.push_back(fmt::format("{:.4g}", part * (i - below)));
+  if (colouring.exceeded) numbers.back().insert(0, "≥ ");
+  return numbers;
+}
+
+void draw_scale_title(Overlay& overlay, const Sheet& sheet, const std::string& title, const Words& words, double y) {
+  const Room room = sheet.raised > 0.0 ? whole_room(sheet) : free_room(sheet, words);
+  const double size = fitted_size(title, sheet.letter, room.width()), half = 0.5 * Overlay::text_width(title, size);
+  const double x = std::max(std::min(0.5 * sheet.width, room.right - half), room.left + half);
+  overlay.text(x, sheet.raised > 0.0 ? kFoot * sheet.letter : y, title, size, Align::centre);
+}
+
+void draw_colour_scale(Overlay& overlay, const Sheet& sheet, const Colouring& colouring, const Words& words) {
+  const Room room = free_room(sheet, words);
+  const double s = sheet.letter, height = 0.85 * s, bottom = 2.0 * s, aside = 2.0 * s;  // half a number overhangs
+  const double width = std::min({0.36 * sheet.width, 30 * s, room.width() - 2.0 * aside});
+  const double left = std::max(std::min(0.5 * (sheet.width - width), room.right - aside - width), room.left + aside);
   constexpr int steps = 200;
   const auto at = [&](double share) { return colouring.bottom + share * (colouring.top - colouring.bottom); };
   for (int i = 0; i < steps; ++i)  // slightly wider than a step, so that no gaps show
     overlay.rectangle(left + width * i / steps, bottom, width / steps + 0.6, height,
                       colour_on_scale(colouring, at((i + 0.5) / steps)));
-  const double part = colouring.top / scale_steps(colouring.top);
-  const int below = int(std::lround(-colouring.bottom / part)), ticks = below + scale_steps(colouring.top);
-  for (int i = 0; i <= ticks; ++i) {
-    const double x = left + width * i / ticks;
+  const std::vector<std::string> numbers = scale_numbers(colouring);
+  const double apart = width / double(numbers.size() - 1);
+  double size = 0.9 * s;
+  for (const std::string& number : numbers) size = std::min(size, fitted_size(number, 0.9 * s, 0.9 * apart));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double x = left + apart * double(i);
     overlay.line(x, bottom - 0.25 * s, x, bottom, 1.2);
-    const std::string value = fmt::format("{:.4g}", part * (i - below));
-    overlay.text(x, bottom - 1.45 * s, (colouring.exceeded && i == ticks ? "≥ " : "") + value, 0.9 * s, Align::centre);
+    overlay.text(x, bottom - 1.45 * s, numbers[i], size, Align::centre);
   }
   const double right = left + width, top = bottom + height;
   overlay.line(left, bottom, right, bottom, 1.2);
   overlay.line(left, top, right, top, 1.2);
   overlay.line(left, bottom, left, top, 1.2);
   overlay.line(right, bottom, right, top, 1.2);
-  overlay.text(0.5 * sheet.width, top + 0.35 * s, colouring.title, s, Align::centre);
-}
-
-void draw_legend(Overlay& overlay, const Sheet& sheet, const Colouring& colouring) {
-  const double s = 0.95 * sheet.letter, gap = 1.3 * s;
-  double total = -gap;
-  for (const auto& [name, colour] : colouring.legend) total += 1.4 * s + Overlay::text_width(name, s) + gap;
-  double x = 0.5 * (sheet.width - total);
-  for (const auto& [name, colour] : colouring.legend) {
-    overlay.rectangle(x - 1, 3.6 * s - 1, s + 2, s + 2, kInk);
-    overlay.rectangle(x, 3.6 * s, s, s, colour);
-    overlay.text(x + 1.4 * s, 3.5 * s, name, s);
-    x += 1.4 * s + Overlay::text_width(name, s) + gap;
-  }
+  draw_scale_title(overlay, sheet, colouring.title, words, top + 0.35 * s);
 }
 
 void draw_length_scale(Overlay& overlay, const Sheet& sheet, double left) {
   const double s = sheet.letter;
-  const double length = nice_below(0.13 * sheet.width * sheet.metres_per_pixel);
+  const double length = nice_below(kScaleShare * sheet.width * sheet.metres_per_pixel);
   const double pixels = length / sheet.metres_per_pixel, y = 1.1 * s;
   overlay.rectangle(left, y, pixels, 0.3 * s, kInk);
   overlay.rectangle(left + 0.5 * pixels, y + 0.06 * s, 0.5 * pixels - 0.06 * s, 0.18 * s, {1, 1, 1});
@@ -78,25 +182,32 @@ void draw_axes(Overlay& overlay, const Sheet& sheet, const View& view) {
   }
 }
 
-void draw_words(Overlay& overlay, const Sheet& sheet, const Words& words) {
-  const double s = sheet.letter, right = sheet.width - 1.2 * s;
-  const auto fitted = [&](double y, const std::string& text, double size) {  // beside the colour scale
-    const double room = 0.29 * sheet.width, width = Overlay::text_width(text, size);
-    overlay.text(right, y, text, width > room ? size * room / width : size, Align::right);
-  };
-  const double rise = words.hidden.empty() ? 0.0 : 1.4 * s;
-  fitted(2.5 * s + rise, words.time, 1.1 * s);
-  fitted(1.1 * s + rise, words.deform, s);
-  if (!words.hidden.empty()) fitted(1.1 * s, words.hidden, s);
-  const double top = sheet.height - 1.9 * s;
-  overlay.text(1.2 * s, top, words.title, 1.25 * s, Align::left, kInk, true);
-  double end = right;
-  for (const auto& [line, colour] : words.lines) {
-    overlay.text(end, top, line, 0.95 * s, Align::right);
-    const double x = end - Overlay::text_width(line, 0.95 * s) - 1.0 * s;
-    overlay.line(x - 1.8 * s, top + 0.6 * s, x, top + 0.6 * s, 0.16 * s, colour);
-    end = x - 3.3 * s;
+void draw_corner(Overlay& overlay, const Sheet& sheet, const Words& words) {
+  double y = 1.1 * sheet.letter;
+  for (const auto& [line, size] : corner_words(words)) {
+    const double fitted = fitted_size(line, size * sheet.letter, kCornerShare * sheet.width);
+    overlay.text(right_margin(sheet), y, line, fitted, Align::right);
+    y += 1.4 * sheet.letter;
   }
+}
+
+/// The title, and the legend of the lines on its right.
+void draw_head(Overlay& overlay, const Sheet& sheet, const Words& words) {
+  const double s = sheet.letter, top = sheet.height - 1.9 * s, left = 1.2 * s;
+  double wide = 0.0;
+  for (const auto& [line, colour] : words.lines) wide += Overlay::text_width(line, kLegendText * s) + 4.3 * s;
+  const double room = words.title.empty() ? right_margin(sheet) - left : kLinesShare * sheet.width;
+  const double factor = std::min(1.0, room / std::max(wide, 1.0)), small = factor * s;
+  double end = right_margin(sheet);
+  for (const auto& [line, colour] : words.lines) {
+    overlay.text(end, top, line, kLegendText * small, Align::right);
+    const double x = end - Overlay::text_width(line, kLegendText * small) - small;
+    overlay.line(x - 1.8 * small, top + 0.6 * small, x, top + 0.6 * small, 0.16 * small, colour);
+    end = x - 3.3 * small;
+  }
+  constexpr double bold = 1.15;  // of the width of plain letters, at most
+  const double size = fitted_size(words.title, 1.25 * s, (end - left) / bold);
+  overlay.text(left, top, words.title, size, Align::left, kInk, true);
 }
 
 }  // namespace
@@ -108,16 +219,26 @@ double top_strip(const Sheet& sheet) {
   return 2.6 * sheet.letter;
 }
 double bottom_strip(const Sheet& sheet) {
-  return 5.2 * sheet.letter;
+  return kFoot * sheet.letter + sheet.raised;
+}
+
+double raised_height(const Sheet& sheet, const Colouring& colouring, const Words& words) {
+  const double room = free_room(sheet, words).width(), row = kRow * sheet.letter;
+  if (!colouring.title.empty()) return Overlay::text_width(colouring.title, sheet.letter) > room ? row : 0.0;
+  if (colouring.legend.empty()) return 0.0;
+  const double size = legend_size(sheet, colouring.legend);
+  if (legend_width(colouring.legend, size) <= room) return 0.0;
+  return row * double(legend_rows(colouring.legend, size, whole_room(sheet).width()).size());
 }
 
 void draw_annotation(Overlay& overlay, const Sheet& sheet, const View& view, const Colouring& colouring,
                      const Words& words) {
   draw_axes(overlay, sheet, view);
-  if (sheet.metres_per_pixel > 0.0) draw_length_scale(overlay, sheet, 7.5 * sheet.letter);
-  if (!colouring.title.empty()) draw_colour_scale(overlay, sheet, colouring);
-  if (!colouring.legend.empty()) draw_legend(overlay, sheet, colouring);
-  draw_words(overlay, sheet, words);
+  if (sheet.metres_per_pixel > 0.0) draw_length_scale(overlay, sheet, kScaleFrom * sheet.letter);
+  if (!colouring.title.empty()) draw_colour_scale(overlay, sheet, colouring, words);
+  if (!colouring.legend.empty()) draw_legend(overlay, sheet, colouring.legend, words);
+  draw_corner(overlay, sheet, words);
+  draw_head(overlay, sheet, words);
 }
 
 }  // namespace voussoir

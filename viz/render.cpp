@@ -118,8 +118,10 @@ double above(const Sheet& sheet, const RenderOptions& options) {
          (options.resultants.empty() ? 0.0 : resultants_strip(sheet));
 }
 
-Sheet make_sheet(const RenderOptions& options, const View& view, vtkPoints* points) {
-  Sheet sheet{options.width, options.height, letter_size(options.width), 0.0};
+Sheet make_sheet(const RenderOptions& options, const View& view, vtkPoints* points, const Colouring& colouring,
+                 const Words& words) {
+  Sheet sheet{options.width, options.height, letter_size(options.width)};
+  sheet.raised = raised_height(sheet, colouring, words);
   if (sheet.height == 0) {
     const double content = 0.94 * sheet.width / content_aspect(view, points);
     const double needed = content + above(sheet, options) + bottom_strip(sheet) + sheet.letter;
@@ -147,20 +149,21 @@ void add_cracks(vtkRenderer* renderer, vtkPolyData* joints, const Hidden& hidden
   add_lines(renderer, borders(cracks), 2.2, kCrack, lift);
 }
 
-/// Draws joints as faces in front of the lines of the whole. Faces seen edge-on become lines in their colour. Returns
-/// the scale or legend.
-Colouring add_joints(vtkRenderer* renderer, const PictureGrids& grids, const Hidden& hidden,
-                     const std::optional<CutPlane>& cut, const RenderOptions& options, const View& view, double lift) {
+ColouredJoints coloured_joints(const PictureGrids& grids, const Hidden& hidden, const std::optional<CutPlane>& cut,
+                               const RenderOptions& options) {
   if (!grids.joints)
     throw InputError("pictures: the colouring by {} needs joints, but this frame stores none", options.colour);
   const auto shown = [&](vtkIdType i) { return is_shown_as_joint(grids.joints, i); };
   const auto faces = joint_faces(grids.joints, hidden, options.amplification, shown, cut);
-  const ColouredJoints joints = colour_joints(faces, options.colour, options.range);
+  return colour_joints(faces, options.colour, options.range);
+}
+
+/// Draws joints as faces in front of the lines of the whole. Faces seen edge-on become lines in their colour.
+void add_joints(vtkRenderer* renderer, const ColouredJoints& joints, const View& view, double lift) {
   add_faces(renderer, joints.faces, 0.75);  // their orientations differ, and their colours must be readable
   add_edge_on(renderer, joints.faces, view, 2.0 * lift);
   add_lines(renderer, borders(joints.faces), 0.6, kOutline, lift);
   add_lines(renderer, borders(joints.bare), 0.5, kPaleLine, 0.0);
-  return joints.colouring;
 }
 
 /// Thinner lines for more stones, so that a whole bridge does not turn black.
@@ -245,13 +248,17 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   renderer->SetBackground(1, 1, 1);
   const Shapes rest = shapes(grids, hidden, 0.0, cut);
   const Content content = content_of(now, rest, options.outline || options.undeformed);
-  Sheet sheet = make_sheet(options, view, content.points);
+  ColouredJoints joints;
+  if (of_joints) joints = coloured_joints(grids, hidden, cut, options);
+  Colouring colouring =
+      of_joints ? joints.colouring : colour_faces(now.stones, now.fill, options.colour, options.range);
+  if (!options.scale_title.empty()) colouring.title = options.scale_title;
+  const Words words = words_of(grids, options, cut, cracks, content.gone.size());
+  Sheet sheet = make_sheet(options, view, content.points, colouring, words);
   place_camera(renderer, view, content.points, options, sheet);
   add_lights(renderer, view);
   const double lift = 1e-3 * diagonal(content.points);
-  Colouring colouring = of_joints ? add_joints(renderer, grids, hidden, cut, options, view, lift)
-                                  : colour_faces(now.stones, now.fill, options.colour, options.range);
-  if (!options.scale_title.empty()) colouring.title = options.scale_title;
+  if (of_joints) add_joints(renderer, joints, view, lift);
   for (vtkPolyData* faces : {now.stones.Get(), now.fill.Get()}) {
     if (!faces || of_joints) continue;
     add_faces(renderer, faces);
@@ -264,7 +271,7 @@ void render_picture(const PictureGrids& grids, const RenderOptions& options, con
   renderer->ResetCameraClippingRange();
 
   Overlay overlay(renderer);
-  draw_annotation(overlay, sheet, view, colouring, words_of(grids, options, cut, cracks, content.gone.size()));
+  draw_annotation(overlay, sheet, view, colouring, words);
   if (grids.joints) draw_ties(overlay, renderer, sheet, grids.joints, options.amplification);
   draw_marks(overlay, renderer, sheet, options.marks);
   if (!options.arrows.empty()) draw_arrows(overlay, renderer, sheet, view, options.arrows);
