@@ -25,7 +25,7 @@ double bottom_strip(const Sheet& sheet);
 
 struct Words {
   std::string title;                                  // may be empty
-  std::string time;                                   // "t = 12.50 s"
+  std::string time;                                   // "t = 12.50 s"; empty if no time has passed
   std::string deform;                                 // "deformations × 2"
   std::string hidden;                                 // "hidden: backfill"; may be empty
   std::vector<std::pair<std::string, Colour>> lines;  // legend of the lines drawn over the picture

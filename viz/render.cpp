@@ -87,8 +87,8 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
   Words words;
   words.title = options.title;
   vtkUnstructuredGrid* blocks = grids.blocks;
-  if (vtkDataArray* time = blocks->GetFieldData()->GetArray("TimeValue"))
-    words.time = fmt::format("t = {:.2f} s", time->GetComponent(0, 0));
+  vtkDataArray* time = blocks->GetFieldData()->GetArray("TimeValue");
+  if (time && time->GetComponent(0, 0) > 0.0) words.time = fmt::format("t = {:.2f} s", time->GetComponent(0, 0));
   words.deform = options.amplification == 0.0   ? "undeformed"
                  : options.amplification == 1.0 ? "true deformations"
                                                 : fmt::format("deformations × {:g}", options.amplification);

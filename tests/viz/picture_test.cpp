@@ -17,6 +17,7 @@
 #include "solver/step/principal_stress.h"
 #include "tests/folder.h"
 #include "tests/viz/scenes.h"
+#include "viz/annotation.h"
 #include "viz/arrows.h"
 #include "viz/chart_picture.h"
 #include "viz/colouring.h"
@@ -217,6 +218,26 @@ TEST_F(NoDisplay, PictureFromStoredFrameEqualsPictureFromState) {
       PictureFiles{series.blocks().file_at(12.5), series.joints().file_at(12.5), series.fill().file_at(12.5)}, small(),
       folder / "frame.png");
   EXPECT_EQ(test::bytes_of(folder / "state.png"), test::bytes_of(folder / "frame.png"));
+}
+
+/// An assembly and a state under gravity have no time.
+TEST_F(NoDisplay, TheTimeIsSaidOnceSomeHasPassed) {
+  const Assembly assembly = test::arch_and_wall();
+  Snapshot snapshot = test::damaged(assembly);
+  const Display display;
+  const double s = letter_size(small().width);
+  const auto ink = [&](double time) {  // where the time stands: above the line of the deformations
+    snapshot.time = time;
+    render_picture(assembly, snapshot, small(), folder / "time.png");
+    const Picture picture = read_png(folder / "time.png");
+    std::size_t dark = 0;
+    for (int y = int(3.0 * s); y < int(3.8 * s); ++y)
+      for (int x = int(0.72 * picture.width); x < picture.width; ++x)
+        dark += picture.pixels[std::size_t(y * picture.width + x)][1] < 128;
+    return dark;
+  };
+  EXPECT_EQ(ink(0.0), 0u);
+  EXPECT_GT(ink(0.5), 20u);
 }
 
 /// Each axis has its colour; an arrow at the reader is a ring, and names do not lie on one another.
