@@ -185,6 +185,33 @@ const poll = setInterval(() => {
   }
 }
 
+/// Large numbers and a long name of a component: no table of the picked stone is wider than its box.
+TEST_F(ViewOfARun, TheTablesOfAStoneFitTheirBox) {
+  const std::string script = R"(<script>
+const poll = setInterval(() => {
+  const rows = [...document.querySelectorAll("#stone tr")], box = document.getElementById("stone");
+  if (document.body.dataset.ready !== "yes" || !rows.length) return;
+  clearInterval(poll);
+  for (const row of rows)
+    [...row.querySelectorAll("td")].forEach((cell, k) => {
+      if (row.cells.length > 2) cell.textContent = k > 0 ? "−12345" : "12345 restraint";
+      else if (k > 0) cell.textContent = "−0.00123, −12.3, −12.3";
+    });
+  document.getElementById("report").textContent = `${box.scrollWidth - box.clientWidth} of ${rows.length > 8}`;
+}, 50);
+</script>)";
+  const std::string page = bytes_of(*folder / "run/view.html");
+  folder->write("picked.html", page.substr(0, page.rfind("</body>")) + script + "</body>\n</html>\n");
+  const Vec3 c = read_assembly(*folder / "run/assembly.h5").blocks[5].centroid;
+  try {
+    const Looked looked = look_at(*folder / "picked.html",
+                                  fmt::format("view=front&frame=0&click={},{},{}", c.x(), c.y(), c.z()), software);
+    EXPECT_EQ(between(looked.page, "<output id=\"report\" hidden=\"\">", "</output>"), "0 of true");
+  } catch (const RunError& error) {
+    GTEST_SKIP() << error.what();
+  }
+}
+
 TEST_F(ViewOfARun, WithoutWebGLThePageSaysSo) {
   try {
     const Looked looked = look_at(*folder / "run/view.html", "", {"--disable-3d-apis"});
