@@ -147,8 +147,22 @@ TEST(Arrangement, NoTextLiesOnAnother) {
     Noted drawn;
     arrangement.draw(drawn);
     EXPECT_GE(drawn.words.size(), 12u) << name;
+    EXPECT_EQ(drawn.all().find("…"), std::string::npos) << drawn.all();
     expect_readable(arrangement, drawn, name);
   }
+}
+
+TEST(Arrangement, TextsAreWrappedAtWords) {
+  const std::string text = "Dimensions in m, measured from the blocks. Spans along the middle.";
+  const double room = DrawingSheet::width_of("Dimensions in m, measured");
+  std::string joined;
+  for (const std::string& line : DrawingSheet::wrapped(text, room)) {
+    EXPECT_LE(DrawingSheet::width_of(line), room) << line;
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  EXPECT_EQ(joined, text);
+  EXPECT_EQ(DrawingSheet::wrapped(text, room).size(), 3u);
+  EXPECT_EQ(DrawingSheet::wrapped("unbreakable", 1.0), std::vector<std::string>{"unbreakable"});
 }
 
 TEST(Arrangement, StonesApartFromOneAnother) {

@@ -14,7 +14,7 @@ namespace voussoir {
 namespace {
 
 constexpr double kNoteWidth = 104.0, kLine = 4.2, kIndent = 2.5;  // mm
-constexpr double kTitleHeight = 36.5;                             // mm: name, source, counts, scale
+constexpr double kTitleHeight = 40.1, kRemark = 3.6;              // mm: name, source, counts, scale, three remarks
 constexpr std::size_t most_materials = 12;
 constexpr std::size_t most_rows = 12;  // of each table
 
@@ -267,10 +267,13 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
   if (placement.across_scale != placement.scale) scale += ", cross sections " + scale_text(placement.across_scale);
   sheet.text(x, head + 19.4, scale, kPlainText, DrawingSheet::Align::start, true);
   draw_scale_bar(sheet, x + 3.0, head + 22.0, placement.scale);
-  sheet.text(x, head + 30.8, "Dimensions in m, measured from the blocks.", kSmallText);
-  std::string remark;
-  for (const std::string& more : remarks) remark += (remark.empty() ? "" : " ") + more;
-  sheet.text(x, head + 34.4, DrawingSheet::fitting(remark, room, kSmallText));
+  std::string remark = "Dimensions in m, measured from the blocks.";
+  for (const std::string& more : remarks) remark += " " + more;
+  double line = head + 30.8;
+  for (const std::string& words : DrawingSheet::wrapped(remark, room)) {
+    sheet.text(x, line, words);
+    line += kRemark;
+  }
 }
 
 SheetBox schedule_size(const Measures& measures) {

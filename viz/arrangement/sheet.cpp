@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace voussoir {
 
@@ -38,6 +39,18 @@ std::string DrawingSheet::fitting(std::string words, double room, double size) {
   std::size_t most = characters(words);
   while (most > 4 && width_of(shortened(words, most), size) > room) --most;
   return shortened(words, most);
+}
+
+std::vector<std::string> DrawingSheet::wrapped(const std::string& words, double room, double size) {
+  std::vector<std::string> lines;
+  std::istringstream text(words);
+  for (std::string word; text >> word;) {
+    if (!lines.empty() && width_of(lines.back() + " " + word, size) <= room)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
 }
 
 void DrawingSheet::line(double x1, double y1, double x2, double y2, double width, const char* dashes) {

@@ -44,6 +44,8 @@ class DrawingSheet {
   static double width_of(const std::string& words, double size = kSmallText);
   /// The text, shortened at its end to fit the given width, mm.
   static std::string fitting(std::string words, double room, double size = kSmallText);
+  /// The text in lines that are not wider than this, mm; only a single word may be.
+  static std::vector<std::string> wrapped(const std::string& words, double room, double size = kSmallText);
 
   /// Title of the view in a box, underlined and centred at x.
   void title(const SheetBox& box, double middle, const std::string& words);

@@ -46,7 +46,7 @@ void draw_scale(DrawingSheet& sheet, const SheetPlace& place, const CrackView& v
     sheet.text(x, foot + 5.2, tick_text(std::round(value * 1e6) / 1e6), kSmallText, DrawingSheet::Align::middle);
   }
   const double end = view.mirrored ? place.x(-view.u_from) : place.x(view.u_to);
-  sheet.text(end + 2.0, foot + 2.6, view.u_name + " (m)");
+  sheet.text(end + 2.0, foot + 2.6, view.u_name + ", m");
 }
 
 }  // namespace

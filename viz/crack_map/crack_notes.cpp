@@ -12,6 +12,16 @@ namespace {
 
 constexpr double kTitleWidth = 104.0, kTableWidth = 203.0, kRow = 4.2, kInset = 2.5;  // mm
 constexpr const char* kMapInk = "#1f1f24";
+constexpr double kTextWidth = kTitleWidth - 1.0 - 2.0 * kInset;  // mm, in the title
+
+std::vector<std::string> remark_lines(const CrackLegend& legend) {
+  std::vector<std::string> lines;
+  for (const std::string& remark : legend.remarks) {
+    const std::vector<std::string> more = DrawingSheet::wrapped(remark, kTextWidth);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  return lines;
+}
 
 struct ClassRow {
   std::size_t number = 0;  // of width_classes()
@@ -50,7 +60,7 @@ void sample(DrawingSheet& sheet, double x, double y, const WidthClass& c, const 
 
 SheetBox crack_title_size(const CrackLegend& legend) {
   const auto rows = double((class_rows(legend.threshold).size() + 3) / 2);
-  return {0.0, 0.0, kTitleWidth, 41.0 + kRow * (rows + 1.0 + double(legend.remarks.size()))};
+  return {0.0, 0.0, kTitleWidth, 41.0 + kRow * (rows + 1.0 + double(remark_lines(legend).size()))};
 }
 
 void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegend& legend, const SheetPlan& placement) {
@@ -74,7 +84,8 @@ void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegen
     sheet.rectangle({fell_x, fell_y - 2.5, 12.0, 3.0}, "#c8c8cc", "none");
     sheet.text(fell_x + 14.0, fell_y, "fallen stones");
   }
-  y = inner.y + inner.height - 34.0 - kRow * double(legend.remarks.size());
+  const std::vector<std::string> remarks = remark_lines(legend);
+  y = inner.y + inner.height - 34.0 - kRow * double(remarks.size());
   sheet.line(inner.x, y, inner.x + inner.width, y, 0.35);
   sheet.text(x, y + 5.2, DrawingSheet::fitting(legend.notes.name, room - 22.0, kHeadText), kHeadText,
              DrawingSheet::Align::start, true);
@@ -88,8 +99,8 @@ void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegen
   sheet.text(x, y + 19.4, "Scale " + scale_text(placement.scale), kPlainText, DrawingSheet::Align::start, true);
   draw_scale_bar(sheet, x + 3.0, y + 22.0, placement.scale);
   double line = y + 30.8;
-  for (const std::string& remark : legend.remarks) {
-    sheet.text(x, line, DrawingSheet::fitting(remark, room));
+  for (const std::string& remark : remarks) {
+    sheet.text(x, line, remark);
     line += kRow;
   }
   sheet.text(x, line, "Drawn on the undeformed stones. voussoir " VOUSSOIR_VERSION);
