@@ -109,6 +109,27 @@ TEST(Compare, CampaignsMotionByMotion) {
   EXPECT_NE(page.find("0.650"), std::string::npos) << "median of 0.8 and 0.5";
 }
 
+/// The values of a row and their difference have the same decimals, and the unit of all rows stands in the head.
+TEST(Compare, NumbersOfARowHaveTheSameForm) {
+  Folder folder;
+  const std::string head = "run,case,record,event,scale,status,edp.keystone_x\n";
+  folder.write("a/table.csv",
+               head + "r1,c,small,e,1,done,0.0000123456\nr2,c,large,e,1,done,20.5\nr3,c,none,e,1,failed,\n");
+  folder.write("b/table.csv", head + "s1,c,small,e,1,done,0.00001\ns2,c,large,e,1,done,20.4\ns3,c,none,e,1,done,0.5\n");
+  const Outcome outcome = voussoir({"compare", "a", "b"}, {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = bytes_of(folder / "compared/compare.html");
+  const auto row = [](const std::string& what, std::vector<std::string> cells, const std::string& tag) {
+    std::string text = "<tr><" + tag + ">" + what + "</" + tag + ">";
+    for (const std::string& cell : cells) text += "<" + tag + " class=\"number\">" + cell + "</" + tag + ">";
+    return text + "</tr>";
+  };
+  EXPECT_NE(page.find(row("quantity", {"a, mm", "b, mm", "difference, mm", "change, %"}, "th")), std::string::npos);
+  EXPECT_NE(page.find(row("small × 1", {"0.01235", "0.01000", "−0.00235", "−19.0"}, "td")), std::string::npos) << page;
+  EXPECT_NE(page.find(row("large × 1", {"20500", "20400", "−100", "−0.5"}, "td")), std::string::npos) << page;
+  EXPECT_NE(page.find(row("none × 1", {"none", "500", "none", "none"}, "td")), std::string::npos) << page;
+}
+
 TEST(Compare, ErrorsSayWhatToGive) {
   Folder folder;
   folder.write("a.toml", arch_of(0.15));

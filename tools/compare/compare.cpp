@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -91,34 +92,67 @@ std::string csv_of(const Comparison& c) {
   return text;
 }
 
-Cell number(double value) {
-  return formatted_cell(value, "{:.4g}");
+/// Decimals with which the largest value of a row has four significant digits; whole numbers have none.
+int decimals_of(const ComparedRow& row) {
+  double largest = 0.0;
+  bool whole = true;
+  for (const double value : row.values) {
+    if (!std::isfinite(value)) continue;
+    largest = std::max(largest, std::abs(value));
+    whole = whole && value == std::round(value);
+  }
+  return whole ? 0 : std::clamp(3 - int(std::floor(std::log10(largest))), 0, 12);
 }
 
-Cell signed_number(double value, const char* format) {
-  return std::isfinite(value) ? Cell{fmt::format(fmt::runtime(format), value), true} : Cell{"–", true};
+/// `plus`: before a positive value.
+std::string with_decimals(double value, int decimals, const char* plus) {
+  if (!std::isfinite(value)) return "none";
+  const std::string digits = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool zero = digits.find_first_of("123456789") == std::string::npos;
+  return (zero ? "" : value < 0.0 ? "−" : plus) + digits;
+}
+
+/// The unit that all rows have, or nothing.
+std::string common_unit(const std::vector<ComparedRow>& rows) {
+  const auto same = [&](const ComparedRow& row) { return row.unit == rows.front().unit; };
+  return !rows.empty() && std::ranges::all_of(rows, same) ? rows.front().unit : "";
+}
+
+std::vector<Cell> head_cells(const std::vector<std::string>& names, const std::string& unit) {
+  const std::string of = unit.empty() ? "" : ", " + unit;
+  std::vector<Cell> head = {words_cell("quantity")};
+  if (unit.empty()) head.push_back(words_cell("unit"));
+  for (const std::string& name : names) head.push_back({words_cell(name + of).html, true});
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    const std::string against = names.size() == 2 ? "" : names[i] + " − " + names[0];
+    head.push_back({words_cell((against.empty() ? "difference" : against) + of).html, true});
+    head.push_back({words_cell(names.size() == 2 ? "change, %" : "change of " + names[i] + ", %").html, true});
+  }
+  return head;
 }
 
 }  // namespace
 
+std::string compared_text(const ComparedRow& row, double value) {
+  return with_decimals(value, decimals_of(row), "");
+}
+
 std::string difference_table(const std::vector<std::string>& names, const std::vector<ComparedRow>& rows) {
-  std::vector<Cell> head = {words_cell("quantity"), words_cell("unit")};
-  for (const std::string& name : names) head.push_back({words_cell(name).html, true});
-  for (std::size_t i = 1; i < names.size(); ++i)
-    head.push_back({words_cell(names.size() == 2 ? "difference" : names[i] + " − " + names[0]).html, true}),
-        head.push_back({"%", true});
-  std::string text = table_row(head, "th"), same;
+  const std::string unit = common_unit(rows);
+  std::string text = table_row(head_cells(names, unit), "th"), same;
   for (const ComparedRow& row : rows) {
     if (all_equal(row)) {
-      same += fmt::format("{}{} ({:.4g}{}{})", same.empty() ? "" : ", ", row.what, row.values.front(),
+      same += fmt::format("{}{} ({}{}{})", same.empty() ? "" : ", ", row.what, compared_text(row, row.values.front()),
                           row.unit.empty() ? "" : " ", row.unit);
       continue;
     }
-    std::vector<Cell> cells = {words_cell(row.what), words_cell(row.unit)};
-    for (const double value : row.values) cells.push_back(number(value));
-    for (std::size_t i = 1; i < names.size(); ++i)
-      cells.push_back(signed_number(difference(row, i), "{:+.4g}")),
-          cells.push_back(signed_number(change(row, i), "{:+.1f}"));
+    std::vector<Cell> cells = {words_cell(row.what)};
+    if (unit.empty()) cells.push_back(words_cell(row.unit));
+    for (const double value : row.values) cells.push_back({compared_text(row, value), true});
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      cells.push_back({with_decimals(difference(row, i), decimals_of(row), "+"), true});
+      cells.push_back({with_decimals(change(row, i), 1, "+"), true});
+    }
     text += table_row(cells, "td");
   }
   return "<div class=\"wide\"><table>\n" + text + "</table></div>\n" +

@@ -34,8 +34,12 @@ Comparison compare_runs(const CompareRequest& request, const std::vector<std::st
 Comparison compare_modes(const CompareRequest& request, const std::vector<std::string>& names);
 Comparison compare_campaigns(const CompareRequest& request, const std::vector<std::string>& names);
 
+/// A value with as many decimals as all values of its row have: four significant digits of the largest one.
+std::string compared_text(const ComparedRow& row, double value);
+
 /// An HTML table of the rows: the values, and for all results but the first the difference from the first, also in per
-/// cent. Quantities that are the same in all results are named below the table.
+/// cent. The unit stands in the heads of the columns if all rows have the same one. Quantities that are the same in all
+/// results are named below the table.
 std::string difference_table(const std::vector<std::string>& names, const std::vector<ComparedRow>& rows);
 
 }  // namespace voussoir

@@ -53,7 +53,8 @@ std::string scatter(const std::vector<std::string>& names, const std::vector<Com
     for (const ComparedRow& row : rows)
       if (std::isfinite(row.values[0]) && std::isfinite(row.values[i])) {
         dots.x.push_back(row.values[0]), dots.y.push_back(row.values[i]);
-        dots.hints.push_back(fmt::format("{}: {:.3g} and {:.3g} mm", row.what, row.values[0], row.values[i]));
+        dots.hints.push_back(fmt::format("{}: {} and {} mm", row.what, compared_text(row, row.values[0]),
+                                         compared_text(row, row.values[i])));
         least = std::min({least, row.values[0], row.values[i]}), most = std::max({most, row.values[0], row.values[i]});
       }
     if (!dots.x.empty()) chart.dots.push_back(dots);
