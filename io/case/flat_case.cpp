@@ -13,6 +13,19 @@ namespace {
 
 using Flat = std::map<std::string, std::string>;
 
+/// Numbers with the fewest digits that give them back: 7.2, not 7.2000000000000002.
+std::string value_text(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  std::string text;
+  if (const toml::array* list = node.as_array()) {
+    for (const toml::node& item : *list) text += (text.empty() ? "" : ", ") + value_text(item);
+    return "[" + text + "]";
+  }
+  std::ostringstream stream;
+  node.visit([&](const auto& value) { stream << value; });
+  return stream.str();
+}
+
 void add_flat(const toml::node& node, const std::string& key, Flat& flat) {
   if (const toml::table* table = node.as_table()) {
     for (const auto& [name, inner] : *table)
@@ -20,9 +33,7 @@ void add_flat(const toml::node& node, const std::string& key, Flat& flat) {
   } else if (const toml::array* list = node.as_array(); list && list->is_array_of_tables()) {
     for (std::size_t i = 0; i < list->size(); ++i) add_flat((*list)[i], fmt::format("{}[{}]", key, i + 1), flat);
   } else {
-    std::ostringstream text;
-    node.visit([&](const auto& value) { text << value; });
-    flat[key] = text.str();
+    flat[key] = value_text(node);
   }
 }
 
