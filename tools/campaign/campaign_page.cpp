@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The value of a column in a row; NaN if the table has no such column.
-double value_at(const CampaignTable& table, const char* column, std::size_t run) {
+double value_at(const CampaignTable& table, const std::string& column, std::size_t run) {
   const NumberColumn* found = table.find(column);
   return found ? found->values[run] : NAN;
 }
@@ -53,24 +53,52 @@ std::string facts(const CampaignTable& table) {
   return failures.empty() ? text : text + heading("Runs that failed") + list(failures);
 }
 
+/// A demand that the page shows.
+struct Demand {
+  std::string column, file, title, label;  // file: name of the picture of the chart; label: of its axis
+  std::string residual() const { return column + ".residual"; }
+};
+
+/// The means over the keystones and over the spandrel walls. A table without them has other demands, of sensors and
+/// places, and the page shows the first ones of these.
+std::vector<Demand> demands_of(const CampaignTable& table) {
+  constexpr std::size_t most = 4;
+  const std::string mean = "largest relative displacement, mean over the places, mm";
+  std::vector<Demand> demands = {{"edp.keystone_x", "keystones", "Keystones, longitudinal", mean},
+                                 {"edp.spandrel_y", "spandrels", "Spandrel walls, transverse", mean}};
+  std::erase_if(demands, [&](const Demand& demand) { return !table.find(demand.column); });
+  if (!demands.empty()) return demands;
+  for (const std::string& column : table.names("edp."))
+    if (!column.ends_with(".residual") && demands.size() < most)
+      demands.push_back({column, fmt::format("demand_{}", demands.size() + 1), column,
+                         fmt::format("{}, largest relative displacement, mm", column)});
+  return demands;
+}
+
+/// "short × 0.5", "short × 0.5, sample 2".
+std::string motion_words(const CampaignRun& run) {
+  return fmt::format("{} × {:g}{}{}", run.record, run.scale, run.sample.empty() ? "" : ", sample ", run.sample);
+}
+
 /// One demand against the peak ground acceleration, one series for each case.
-std::string demand_chart(const CampaignTable& table, const char* column, const std::string& title) {
-  if (!table.find(column) || !table.find("im.pga")) return "";
+std::string demand_chart(const CampaignTable& table, const Demand& shown) {
+  if (!table.find("im.pga")) return "";
   const Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   LineChart chart;
-  chart.title = title;
+  chart.title = shown.title;
   chart.x_label = "PGA of the scaled motion, geometric mean of the horizontal components, g";
-  chart.y_label = "largest relative displacement, mean over the places, mm";
+  chart.y_label = shown.label;
   chart.width = 820.0, chart.height = 420.0, chart.x_low = 0.0;
   const std::vector<std::string> cases = table.cases();
   for (std::size_t c = 0; c < cases.size(); ++c) {
     ChartDots dots{cases[c], {}, {}, {}, colour_code(line_colour(c)), markers[c % 4]};
     for (std::size_t r = 0; r < table.runs.size(); ++r) {
-      const double pga = value_at(table, "im.pga", r) / standard_gravity, demand = 1e3 * value_at(table, column, r);
+      const double pga = value_at(table, "im.pga", r) / standard_gravity,
+                   demand = 1e3 * value_at(table, shown.column, r);
       if (table.runs[r].case_name != cases[c] || !has_result(table.runs[r]) || !std::isfinite(pga + demand)) continue;
       dots.x.push_back(pga), dots.y.push_back(demand);
-      dots.hints.push_back(fmt::format("{}, {} × {:g}: {:.1f} mm at {:.3f} g", cases[c], table.runs[r].record,
-                                       table.runs[r].scale, demand, pga));
+      dots.hints.push_back(
+          fmt::format("{}, {}: {:.1f} mm at {:.3f} g", cases[c], motion_words(table.runs[r]), demand, pga));
     }
     if (!dots.x.empty()) chart.dots.push_back(dots);
   }
@@ -80,17 +108,23 @@ std::string demand_chart(const CampaignTable& table, const char* column, const s
   chart.log_y = least > 0.0 && most > 30.0 * least;  // so that a bridge that falls and one that stands are both
                                                      // readable
   if (!chart.log_y) chart.y_low = 0.0;
-  return line_chart(chart);
+  return chart.dots.empty() ? "" : line_chart(chart);
+}
+
+/// The first demand of a run that has a value, spandrel walls before keystones; NaN without any.
+double main_demand(const CampaignTable& table, std::size_t run) {
+  std::vector<Demand> demands = demands_of(table);
+  std::ranges::stable_sort(demands, {}, [](const Demand& one) { return one.column != "edp.spandrel_y"; });
+  for (const Demand& one : demands)
+    if (const double value = value_at(table, one.column, run); std::isfinite(value)) return value;
+  return NAN;
 }
 
 /// The record and scale with the largest demands, as the mean over the cases of the share of the largest demand of
 /// each case.
 std::pair<std::string, double> worst_shaking(const CampaignTable& table) {
   std::map<std::string, double> largest;  // by case
-  const auto demand = [&](std::size_t r) {
-    const double y = value_at(table, "edp.spandrel_y", r), x = value_at(table, "edp.keystone_x", r);
-    return std::isfinite(y) ? y : x;
-  };
+  const auto demand = [&](std::size_t r) { return main_demand(table, r); };
   for (std::size_t r = 0; r < table.runs.size(); ++r)
     if (has_result(table.runs[r]) && std::isfinite(demand(r)))
       largest[table.runs[r].case_name] = std::max(largest[table.runs[r].case_name], demand(r));
@@ -109,9 +143,8 @@ double common_range(const CampaignTable& table, const std::vector<std::size_t>& 
   int count = 0;
   for (const std::size_t r : runs) {
     double most = 0.0;
-    for (const char* component : {"arch", "spandrel", "pier"})
-      if (const double o = value_at(table, fmt::format("damage.{}.largest_opening", component).c_str(), r); o > most)
-        most = o;
+    for (const char* component : {"arch", "spandrel", "pier", "wall", "block"})
+      if (const double o = value_at(table, fmt::format("damage.{}.largest_opening", component), r); o > most) most = o;
     if (most > 0.0) sum += std::log(1e3 * most), ++count;
   }
   if (count == 0) return 10.0;
@@ -120,12 +153,25 @@ double common_range(const CampaignTable& table, const std::vector<std::size_t>& 
   return decade * (mean < 1.5 * decade ? 1.0 : mean < 3.5 * decade ? 2.0 : mean < 7.5 * decade ? 5.0 : 10.0);
 }
 
+/// The run of each case, of one sample, with the largest demand under this record and scale.
+std::vector<std::size_t> worst_runs(const CampaignTable& table, const std::string& record, double scale) {
+  std::map<std::string, std::size_t> worst;  // by case
+  for (std::size_t r = 0; r < table.runs.size(); ++r) {
+    const CampaignRun& run = table.runs[r];
+    if (run.record != record || run.scale != scale || !has_result(run)) continue;
+    const auto [at, first] = worst.try_emplace(run.case_name, r);
+    if (!first && main_demand(table, r) > main_demand(table, at->second)) at->second = r;
+  }
+  std::vector<std::size_t> runs;
+  for (const std::string& name : table.cases())
+    if (const auto found = worst.find(name); found != worst.end()) runs.push_back(found->second);
+  return runs;
+}
+
 /// Pictures of the last frame of the worst run of each case, all with the same scale.
 std::string damage_pictures(const CampaignTable& table, const std::string& directory) {
   const auto [record, scale] = worst_shaking(table);
-  std::vector<std::size_t> runs;
-  for (std::size_t r = 0; r < table.runs.size(); ++r)
-    if (table.runs[r].record == record && table.runs[r].scale == scale && has_result(table.runs[r])) runs.push_back(r);
+  const std::vector<std::size_t> runs = worst_runs(table, record, scale);
   RenderOptions o;
   o.range = common_range(table, runs);
   std::vector<PagePicture> pictures;
@@ -141,7 +187,7 @@ std::string damage_pictures(const CampaignTable& table, const std::string& direc
       render_picture(PictureFiles{series.blocks().file_path(frames.back()), series.joints().file_at(frames.back().time),
                                   series.fill().file_at(frames.back().time)},
                      o, png);
-      pictures.push_back({run.case_name,
+      pictures.push_back({run.case_name + (run.sample.empty() ? "" : ", sample " + run.sample),
                           fmt::format("{}colours: largest opening of joints; deformations are doubled",
                                       run.status == RunStatus::collapsed ? "bridge fell; " : ""),
                           png});
@@ -156,30 +202,53 @@ std::string number_text(double value, double factor, int digits) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", factor * value, digits) : "–";
 }
 
+/// A column of numbers in the table of the runs.
+struct RunsColumn {
+  std::string head, column;
+  double factor = 1.0;
+  int decimals = 3;
+};
+
+/// The intensity, the demands, and the values that were drawn for a sample, in the unit of the case.
+std::vector<RunsColumn> runs_columns(const CampaignTable& table) {
+  std::vector<RunsColumn> columns = {{"PGA, g", "im.pga", 1.0 / standard_gravity, 3}};
+  for (const Demand& demand : demands_of(table)) {
+    const std::string name = demand.file == "keystones"   ? "keystones x"
+                             : demand.file == "spandrels" ? "spandrels y"
+                                                          : demand.column;
+    columns.push_back({name + ", mm", demand.column, 1e3, 1});
+    if (table.find(demand.residual())) columns.push_back({"at the end, mm", demand.residual(), 1e3, 1});
+  }
+  return columns;
+}
+
 std::string runs_section(const CampaignTable& table) {
-  std::string text = heading("Runs") + "<table>\n";
-  text += table_row({words_cell("case"),
-                     words_cell("record"),
-                     {"scale", true},
-                     {"PGA, g", true},
-                     {"keystones x, mm", true},
-                     {"at the end", true},
-                     {"spandrels y, mm", true},
-                     {"at the end", true},
-                     words_cell("status")},
-                    "th");
+  constexpr std::string_view prefix = "material.";
+  const std::vector<RunsColumn> columns = runs_columns(table);
+  const std::vector<std::string> sampled = table.names(prefix);
+  const bool samples = std::ranges::any_of(table.runs, [](const CampaignRun& run) { return !run.sample.empty(); });
+  std::vector<Cell> head = {words_cell("case"), words_cell("record"), {"scale", true}};
+  if (samples) head.push_back({"sample", true});
+  for (const std::string& name : sampled) head.push_back({words_cell(name.substr(prefix.size())).html, true});
+  for (const RunsColumn& column : columns) head.push_back({words_cell(column.head).html, true});
+  head.push_back(words_cell("status"));
+  std::string text = table_row(head, "th");
   for (std::size_t r = 0; r < table.runs.size(); ++r) {
     const CampaignRun& run = table.runs[r];
-    const auto number = [&](const char* column, double factor, int digits) {
-      return Cell{number_text(value_at(table, column, r), factor, digits), true};
-    };
-    text += table_row({words_cell(run.case_name), words_cell(run.record), Cell{number_text(run.scale, 1.0, 3), true},
-                       number("im.pga", 1.0 / standard_gravity, 3), number("edp.keystone_x", 1e3, 1),
-                       number("edp.keystone_x.residual", 1e3, 1), number("edp.spandrel_y", 1e3, 1),
-                       number("edp.spandrel_y.residual", 1e3, 1), words_cell(run_status_name(run.status))},
-                      "td");
+    std::vector<Cell> cells = {
+        words_cell(run.case_name), words_cell(run.record), {number_text(run.scale, 1.0, 3), true}};
+    if (samples) cells.push_back({words_cell(run.sample).html, true});
+    for (const std::string& name : sampled) {
+      const double value = value_at(table, name, r);
+      cells.push_back({std::isfinite(value) ? fmt::format("{:.4g}", value) : "–", true});
+    }
+    for (const RunsColumn& column : columns)
+      cells.push_back({number_text(value_at(table, column.column, r), column.factor, column.decimals), true});
+    cells.push_back(words_cell(run_status_name(run.status)));
+    text += table_row(cells, "td");
   }
-  return text + "</table>\n";
+  return heading("Runs") + "<div class=\"wide\"><table>\n" + text + "</table></div>\n" +
+         (sampled.empty() ? "" : note("Values that were drawn for a sample are in the unit of the case."));
 }
 
 /// "18 mm, severe".
@@ -209,8 +278,8 @@ std::string damage_section(const CampaignTable& table) {
       int runs = 0;
       for (std::size_t r = 0; r < table.runs.size(); ++r) {
         if (table.runs[r].case_name != name || !has_result(table.runs[r])) continue;
-        const double s = value_at(table, ("damage." + component + ".broken_share").c_str(), r),
-                     o = value_at(table, ("damage." + component + ".largest_opening").c_str(), r);
+        const double s = value_at(table, "damage." + component + ".broken_share", r),
+                     o = value_at(table, "damage." + component + ".largest_opening", r);
         if (std::isfinite(s)) share += s, openings.push_back(std::isfinite(o) ? o : 0.0), ++runs;
       }
       row.push_back(
@@ -231,11 +300,10 @@ void write_campaign_page(const std::string& directory) {
   std::string body = facts(table);
   std::error_code ignored;  // the error occurs again when the page is written
   fs::create_directories(directory + "/images", ignored);
-  for (const auto& [column, name, title] : {std::tuple{"edp.keystone_x", "keystones", "Keystones, longitudinal"},
-                                            std::tuple{"edp.spandrel_y", "spandrels", "Spandrel walls, transverse"}})
-    if (const std::string svg = demand_chart(table, column, title); !svg.empty()) {
+  for (const Demand& demand : demands_of(table))
+    if (const std::string svg = demand_chart(table, demand); !svg.empty()) {
       body += figure(svg);
-      write_atomically(fmt::format("{}/images/{}.svg", directory, name), svg);
+      write_atomically(fmt::format("{}/images/{}.svg", directory, demand.file), svg);
     }
   body += damage_pictures(table, directory) + damage_section(table) + runs_section(table);
   write_atomically(directory + "/report.html",
