@@ -7,6 +7,7 @@
 
 #include "solver/base/error.h"
 #include "tests/campaign/synthetic.h"
+#include "tools/fragility/fragility_words.h"
 
 namespace voussoir {
 namespace VOUSSOIR_FILE {
@@ -98,6 +99,42 @@ TEST(Ranking, CollapsesAndOtherCasesAreLeftOut) {
   EXPECT_EQ(rank_intensities(table, "bridge", "edp.x")[0].line.count, 60u);
   EXPECT_EQ(rank_intensities(table, "another", "edp.x")[0].line.count, 20u);
   EXPECT_TRUE(rank_intensities(table, "nobody", "edp.x").empty());
+}
+
+/// An intensity that half of the runs do not have would predict these the best by construction.
+TEST(Ranking, AnIntensityThatSomeRunsLackIsNotChosen) {
+  CampaignTable table = campaign(5, false);
+  NumberColumn upwards = named("im.pga_z");
+  for (std::size_t i = 0; i < table.runs.size(); ++i)
+    upwards.values.push_back(i % 2 == 0 ? table.column("edp.x").values[i] : i % 4 == 1 ? 0.0 : test::none);
+  table.columns.push_back(upwards);
+  EXPECT_EQ(best_intensity(table, {"bridge"}, "edp.x", 0.02), "im.sa_0.30");
+  EXPECT_NE(best_intensity(table, {"bridge"}, "collapse", 0.0), "im.pga_z");
+  const std::vector<MeasurePair> ranked = rank_intensities(table, "bridge", "edp.x");
+  ASSERT_EQ(ranked.size(), 4u);
+  EXPECT_EQ(ranked[0].im, "im.sa_0.30");
+  EXPECT_EQ(ranked[3].im, "im.pga_z");
+  EXPECT_LT(ranked[3].proficiency(), ranked[0].proficiency());
+  const Coverage c = coverage(table, {"bridge"}, "im.pga_z");
+  EXPECT_EQ(c.with, 60u);
+  EXPECT_EQ(c.runs, 120u);
+  for (std::size_t i = 1; i < table.runs.size(); i += 2) table.runs[i].status = RunStatus::failed;
+  EXPECT_EQ(best_intensity(table, {"bridge"}, "edp.x", 0.02), "im.pga_z") << "all runs with a result have it";
+  // Nothing else is left: the runs that have it.
+  for (std::size_t i = 1; i < table.runs.size(); i += 2) table.runs[i].status = RunStatus::done;
+  std::erase_if(table.columns,
+                [](const NumberColumn& column) { return column.name.starts_with("im.") && column.name != "im.pga_z"; });
+  EXPECT_EQ(best_intensity(table, {"bridge"}, "edp.x", 0.02), "im.pga_z");
+}
+
+TEST(Ranking, IntensitiesHaveNamesAndUnits) {
+  EXPECT_EQ(measure_label("im.pga"), "PGA, m/s²");
+  EXPECT_EQ(measure_label("im.pga_z"), "PGA along z, m/s²");
+  EXPECT_EQ(measure_label("im.pgv"), "PGV, m/s");
+  EXPECT_EQ(measure_label("im.arias"), "Arias intensity, m/s");
+  EXPECT_EQ(measure_label("im.cav"), "CAV, m/s");
+  EXPECT_EQ(measure_label("im.d575"), "D5–75, s");
+  EXPECT_EQ(measure_label("im.sa_0.30"), "Sa(0.30 s), m/s²");
 }
 
 /// Of a collapse there is no size: the intensity by which the counts are most probable.

@@ -160,6 +160,29 @@ TEST(Fragility, ALimitMayHaveAThresholdABridge) {
             (std::vector<std::string>{"fragility_damage.svg", "fragility_damage_2.svg"}));
 }
 
+/// Half of the motions have no vertical part. Over the others the vertical peak predicts the demand exactly.
+TEST(Fragility, AnIntensityThatSomeRunsLackIsUsedOnlyIfAskedFor) {
+  RandomStream random(3);
+  std::string table = "run,case,record,event,scale,sample,status,reason,seconds,im.pga,im.pga_z,edp.spandrel_y\n";
+  for (int i = 0; i < 60; ++i) {
+    const double pga = 0.4 * std::pow(20.0, random.uniform()), y = 0.01 * pga * std::exp(0.4 * random.normal());
+    table += fmt::format("r{0},a,record {0},,1,,done,,60,{1},{2},{3}\n", i, pga, i % 2 ? 0.0 : 30.0 * y, y);
+  }
+  const Campaign folder(table);
+  const Outcome chosen = fragility(folder, {"--limit", "damage:spandrel_y:0.02", "-o", "chosen", "--bootstrap", "0"});
+  ASSERT_EQ(chosen.status, 0) << chosen.err;
+  EXPECT_EQ(fragility_json(folder / "chosen")["curves"][0]["im"], "im.pga");
+  const std::string page = bytes_of(folder / "chosen/fragility.html");
+  EXPECT_NE(page.find("im.pga_z (PGA along z) is zero or missing in 30 of 60 runs with a result"), std::string::npos);
+  EXPECT_NE(page.find("PGA along z (not in all runs)"), std::string::npos);
+  const Outcome asked =
+      fragility(folder, {"--limit", "damage:spandrel_y:0.02", "--im", "pga_z", "-o", "asked", "--bootstrap", "0"});
+  ASSERT_EQ(asked.status, 0) << asked.err;
+  EXPECT_EQ(fragility_json(folder / "asked")["curves"][0]["im"], "im.pga_z");
+  EXPECT_NE(bytes_of(folder / "asked/images/fragility_damage.svg").find(">PGA along z, m/s²<"), std::string::npos);
+  EXPECT_EQ(bytes_of(folder / "asked/fragility.html").find("so the program does not choose it"), std::string::npos);
+}
+
 TEST(Fragility, WithoutALimitItRanksAndSaysHowToGiveOne) {
   const Campaign folder(cloud_table());
   const Outcome outcome = fragility(folder, {});

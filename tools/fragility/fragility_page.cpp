@@ -98,7 +98,7 @@ std::string ranking_table(const IntensityRanking& ranking) {
                     "th");
   for (std::size_t i = 0; i < std::min(intensities_on_page, ranking.pairings.size()); ++i) {
     const MeasurePair& p = ranking.pairings[i];
-    text += table_row({words_cell(measure_name(p.im)),
+    text += table_row({words_cell(measure_name(p.im) + (p.complete ? "" : " (not in all runs)")),
                        {fmt::format("{}", p.line.count), true},
                        number(p.line.scatter, "{:.3f}"),
                        number(p.line.slope, "{:.2f}"),

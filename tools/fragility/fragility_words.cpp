@@ -96,7 +96,7 @@ void remark_on_data(const Fragility& f, std::vector<std::string>& remarks) {
 }  // namespace
 
 std::string measure_unit(const std::string& column) {
-  if (column == "im.pga" || column.starts_with("im.sa_")) return "m/s²";
+  if (column == "im.pga" || column.starts_with("im.pga_") || column.starts_with("im.sa_")) return "m/s²";
   if (column == "im.pgv" || column == "im.arias" || column == "im.cav") return "m/s";
   if (column == "im.d595" || column == "im.d575") return "s";
   if (column.starts_with("edp.") || column.ends_with(".largest_opening") || column.ends_with(".largest_slip"))
@@ -106,10 +106,12 @@ std::string measure_unit(const std::string& column) {
 
 std::string measure_name(const std::string& column) {
   static const std::vector<std::pair<std::string, std::string>> names = {
-      {"im.pga", "PGA"}, {"im.pgv", "PGV"}, {"im.arias", "Arias intensity"}, {"im.cav", "CAV"}, {"im.d595", "D5–95"}};
+      {"im.pga", "PGA"}, {"im.pgv", "PGV"},    {"im.arias", "Arias intensity"},
+      {"im.cav", "CAV"}, {"im.d595", "D5–95"}, {"im.d575", "D5–75"}};
   for (const auto& [name, words] : names)
     if (column == name) return words;
   if (column.starts_with("im.sa_")) return fmt::format("Sa({} s)", column.substr(6));
+  if (column.starts_with("im.pga_")) return "PGA along " + column.substr(7);
   for (const char* prefix : {"im.", "edp.", "damage."})
     if (column.starts_with(prefix)) return spaced(column.substr(std::string_view(prefix).size()));
   return column;

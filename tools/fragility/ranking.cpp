@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "solver/base/csv.h"
 #include "solver/base/error.h"
@@ -15,6 +17,10 @@ namespace {
 
 /// Characteristics of a ground motion other than its intensity.
 constexpr std::array<const char*, 4> characteristics = {"im.d595", "im.d575", "im.magnitude", "im.distance"};
+
+bool has_result(const CampaignRun& run) {
+  return run.status == RunStatus::done || run.status == RunStatus::collapsed;
+}
 
 bool is_characteristic(const std::string& name) {
   return std::find(characteristics.begin(), characteristics.end(), name) != characteristics.end();
@@ -46,6 +52,7 @@ MeasurePair pairing_of(const CampaignTable& table, const std::string& case_name,
                        const std::string& demand) {
   MeasurePair p;
   p.im = im, p.demand = demand;
+  p.complete = coverage(table, {case_name}, im).complete();
   std::vector<double> size = table.column(demand).values;
   for (double& v : size) v = std::abs(v);
   const std::vector<std::size_t> rows = rows_with(table, case_name, table.column(im).values, size);
@@ -111,8 +118,7 @@ Compared compared(const CampaignTable& table, const std::string& case_name,
   std::vector<std::size_t> record_of;
   for (std::size_t i = 0; i < table.runs.size(); ++i) {
     const CampaignRun& run = table.runs[i];
-    const bool has_result = run.status == RunStatus::done || run.status == RunStatus::collapsed;
-    if (!has_result || run.case_name != case_name) continue;
+    if (!has_result(run) || run.case_name != case_name) continue;
     if (std::any_of(columns.begin(), columns.end(), [&](const auto* v) { return std::isnan((*v)[i]); })) continue;
     const std::string& name = run.record.empty() ? run.run : run.record;
     auto at = std::find(records.begin(), records.end(), name);
@@ -182,6 +188,17 @@ double MeasurePair::least_p() const {
   return least;
 }
 
+Coverage coverage(const CampaignTable& table, const std::vector<std::string>& cases, const std::string& im) {
+  const std::vector<double>& values = table.column(im).values;
+  Coverage c;
+  for (std::size_t i = 0; i < table.runs.size(); ++i) {
+    if (!has_result(table.runs[i]) || std::ranges::find(cases, table.runs[i].case_name) == cases.end()) continue;
+    ++c.runs;
+    c.with += values[i] > 0.0;
+  }
+  return c;
+}
+
 std::vector<std::string> main_demands(const CampaignTable& table) {
   std::vector<std::string> found;
   for (const std::string& name : table.names("edp."))
@@ -202,17 +219,18 @@ std::vector<MeasurePair> rank_intensities(const CampaignTable& table, const std:
     MeasurePair p = pairing_of(table, case_name, im, demand);
     if (p.line.known() && p.line.count >= least_demands) pairings.push_back(std::move(p));
   }
-  std::stable_sort(pairings.begin(), pairings.end(),
-                   [](const MeasurePair& a, const MeasurePair& b) { return a.proficiency() < b.proficiency(); });
+  std::ranges::stable_sort(pairings, {}, [](const MeasurePair& p) { return std::pair(!p.complete, p.proficiency()); });
   return pairings;
 }
 
 std::string best_intensity(const CampaignTable& table, const std::vector<std::string>& cases, const std::string& demand,
                            double threshold) {
-  const std::vector<std::string> candidates = intensities(table);
+  std::vector<std::string> candidates = intensities(table);
   if (candidates.empty())
     throw InputError("{}: there is no intensity measure. The table needs columns such as im.pga or im.sa_0.30",
                      table.path);
+  const auto complete = [&](const std::string& im) { return coverage(table, cases, im).complete(); };
+  if (std::ranges::any_of(candidates, complete)) std::erase_if(candidates, std::not_fn(complete));
   std::string best;
   double least = INFINITY;
   for (const std::string& im : candidates) {

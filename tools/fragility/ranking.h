@@ -18,7 +18,8 @@ struct Sufficiency {
 /// An intensity measure and a demand: ln demand = a + b ln im + scatter, over the runs without collapse.
 struct MeasurePair {
   std::string im, demand;
-  Line line;  // efficiency: its scatter (Shome & Cornell 1999); practicality: its slope
+  bool complete = true;  // every run of the case with a result has the intensity, above 0
+  Line line;             // efficiency: its scatter (Shome & Cornell 1999); practicality: its slope
   std::vector<Sufficiency> sufficiency;
   /// Scatter divided by slope (Padgett, Nielson & DesRoches 2008): the contribution of the scatter to the β of a
   /// fragility. Infinite if the demand does not increase.
@@ -28,17 +29,25 @@ struct MeasurePair {
   bool sufficient() const { return !(least_p() < 0.05); }
 };
 
-/// Intensity measures of a case for one demand in the order of their proficiency, the best first. Columns of
-/// characteristics (duration, magnitude, distance) are not used as intensities. Measures with fewer than five runs are
-/// left out.
+/// Intensity measures of a case for one demand in the order of their proficiency, the best first; those that are zero
+/// or missing in some runs come last. Columns of characteristics (duration, magnitude, distance) are not used as
+/// intensities. Measures with fewer than five runs are left out.
 std::vector<MeasurePair> rank_intensities(const CampaignTable& table, const std::string& case_name,
                                           const std::string& demand);
 
 /// The best measure for a demand over these cases: the smallest product of proficiencies among the measures that all
 /// cases have. For collapse_demand, or if no line is possible, the measure with the largest likelihood of the counts.
-/// Throws InputError if the table has no intensity.
+/// A measure that is zero or missing in some runs with a result is chosen only if all are. Throws InputError if the
+/// table has no intensity.
 std::string best_intensity(const CampaignTable& table, const std::vector<std::string>& cases, const std::string& demand,
                            double threshold);
+
+/// Number of runs of these cases with a result in which the measure is above 0, and of all of them.
+struct Coverage {
+  std::size_t with = 0, runs = 0;
+  bool complete() const { return with == runs; }
+};
+Coverage coverage(const CampaignTable& table, const std::vector<std::string>& cases, const std::string& im);
 
 /// Association of a demand with a damage, by ranks, so that no form of the relation is assumed.
 struct Association {

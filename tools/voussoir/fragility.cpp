@@ -13,6 +13,7 @@
 #include "solver/base/json_file.h"
 #include "tools/fragility/fragility_charts.h"
 #include "tools/fragility/fragility_page.h"
+#include "tools/fragility/fragility_words.h"
 #include "tools/voussoir/options.h"
 
 namespace voussoir {
@@ -131,6 +132,16 @@ std::string levels_remark(const CampaignTable& table, const std::string& im) {
   return "";
 }
 
+/// A remark for each intensity that some of the runs with a result have and others do not.
+void remark_on_coverage(const CampaignTable& table, FragilityReport& report) {
+  for (const std::string& im : intensities(table))
+    if (const Coverage c = coverage(table, table.cases(), im); c.with > 0 && !c.complete())
+      report.remarks.push_back(
+          fmt::format("{0} ({1}) is zero or missing in {2} of {3} runs with a result, so the program does not choose "
+                      "it. Give --im {0} to use it.",
+                      im, measure_name(im), c.runs - c.with, c.runs));
+}
+
 void add_curves(const CampaignTable& table, const std::vector<LimitState>& limits, const std::string& im,
                 FragilityReport& report) {
   for (const LimitState& limit : limits) {
@@ -142,6 +153,7 @@ void add_curves(const CampaignTable& table, const std::vector<LimitState>& limit
     if (!remark.empty() && std::find(report.remarks.begin(), report.remarks.end(), remark) == report.remarks.end())
       report.remarks.push_back(remark);
   }
+  if (im.empty()) remark_on_coverage(table, report);
   if (limits.empty())
     report.remarks.push_back(
         "No limit state is given, so there are no curves. Give --limit NAME:DEMAND:THRESHOLD, such as "
@@ -194,7 +206,7 @@ int fragility(const std::vector<std::string>& arguments) {
       "limit state NAME:DEMAND:THRESHOLD in SI units, or NAME:collapse; may be repeated; added to those of "
       "campaign.json, replaces one with the same name")(
       "im", options::value<std::string>()->value_name("NAME"),
-      "measure of intensity: a column im.NAME of the table (default: the most proficient)")(
+      "measure of intensity: a column im.NAME of the table (default: the most proficient that all runs have)")(
       "bootstrap", whole_option("bootstrap", 0, 1'000'000)->value_name("N")->default_value(1000),
       "number of resamples of the records for the bands; 0: no bands")(
       "seed", options::value<std::uint64_t>()->value_name("S")->default_value(1), "seed of the resamples");
