@@ -43,7 +43,7 @@ Ring make_ring(const HalfRing& half, int n) {
 }
 
 /// Puts the left end at x = 0 and the lowest point of the springing joints at z = 0; returns the shift.
-void place(Ring& ring, std::vector<Vec3*> more) {
+void place(Ring& ring, const std::vector<Vec3*>& more) {
   const Vec3 &in = ring.intrados.front(), &out = ring.extrados.front();
   const Vec3 shift(-std::min(in.x(), out.x()), 0.0, -std::min(in.z(), out.z()));
   for (Polygon* points : {&ring.intrados, &ring.extrados}) {

@@ -172,7 +172,7 @@ Assembly build_cs(const std::vector<Material>& defaults, const GeneratorInput& i
 }
 
 Generator cs_generator(const std::string& name, const std::string& help, std::vector<Parameter> parameters,
-                       std::vector<Choice> choices, std::vector<Material> materials) {
+                       std::vector<Choice> choices, const std::vector<Material>& materials) {
   Generator generator;
   generator.name = name;
   generator.help = help;

@@ -56,7 +56,7 @@ void lay_leaf_and_infill(Layout& layout, const Bridge& bridge, const Vec3& low, 
 }
 
 void lay_solid(Layout& layout, const Solid& solid, const Unit& unit) {
-  const auto face = [&](double slope, Vec3 outward, double at_top) {
+  const auto face = [&](double slope, const Vec3& outward, double at_top) {
     // Points (d, z) on the face: d = at_top + slope (z1 - z), with d measured along `outward`.
     const Vec3 normal = (outward + Vec3(0.0, 0.0, slope)).normalized();
     return Plane{normal, (at_top + slope * solid.z1) / std::sqrt(1.0 + slope * slope)};

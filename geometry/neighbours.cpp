@@ -38,7 +38,7 @@ class Strips {
     from_ = low;
     size_ = (high - low) / count_;
   }
-  int count() const { return count_; }
+  std::size_t count() const { return std::size_t(count_); }
   int at(double x) const {
     const double strip = (x - from_) / size_;
     return strip > 0.0 && size_ > 0.0 ? int(std::min(strip, count_ - 1.0)) : 0;
@@ -56,7 +56,7 @@ class Strips {
 class Columns {
  public:
   Columns(const std::vector<Box>& boxes, int y, int z, double distance)
-      : y_(boxes, y, distance), z_(boxes, z, distance), first_(std::size_t(y_.count() * z_.count()) + 1, 0) {
+      : y_(boxes, y, distance), z_(boxes, z, distance), first_(y_.count() * z_.count() + 1, 0) {
     for (const Box& box : boxes) each(box, [&](std::size_t column) { ++first_[column + 1]; });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     members_.resize(first_.back());
@@ -68,13 +68,13 @@ class Columns {
   std::span<const int> members(std::size_t column) const {
     return std::span(members_).subspan(first_[column], first_[column + 1] - first_[column]);
   }
-  std::size_t at(double y, double z) const { return std::size_t(y_.at(y) * z_.count() + z_.at(z)); }
+  std::size_t at(double y, double z) const { return std::size_t(y_.at(y)) * z_.count() + std::size_t(z_.at(z)); }
 
   /// All columns of a box.
   template <class F>
   void each(const Box& box, F f) const {
     for (int i = y_.first(box); i <= y_.last(box); ++i)
-      for (int j = z_.first(box); j <= z_.last(box); ++j) f(std::size_t(i * z_.count() + j));
+      for (int j = z_.first(box); j <= z_.last(box); ++j) f(std::size_t(i) * z_.count() + std::size_t(j));
   }
 
  private:

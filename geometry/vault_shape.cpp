@@ -117,7 +117,8 @@ Curve surveyed(const Polygon& points) {
     const auto above = std::upper_bound(s.begin() + 1, s.end() - 1, at) - s.begin();
     const auto i = std::size_t(above) - 1;
     const double h = s[i + 1] - s[i], t = (at - s[i]) / h;
-    const Vec3 p = points[i], q = points[i + 1], v = h * slopes[i], w = h * slopes[i + 1];
+    const Vec3 &p = points[i], &q = points[i + 1];
+    const Vec3 v = h * slopes[i], w = h * slopes[i + 1];
     if (derivative) return (6.0 * t * (t - 1.0)) * (p - q) + (1.0 - t) * (1.0 - 3.0 * t) * v + t * (3.0 * t - 2.0) * w;
     return (1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t) * p + t * (1.0 - t) * (1.0 - t) * v + t * t * (3.0 - 2.0 * t) * q -
            t * t * (1.0 - t) * w;

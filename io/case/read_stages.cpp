@@ -150,7 +150,7 @@ void add_road_load(TableReader& sub, StageSettings& stage, Loads& loads, const R
   stage.moving.push_back({load, speed});
 }
 
-constexpr Limits speeds = {-100.0, 100.0, "m/s"};
+const Limits speeds = {-100.0, 100.0, "m/s"};
 
 /// Vehicles of the library or of a file in the folder of the case, with the place of their front.
 void read_vehicles(TableReader& table, const std::string& beside, StageSettings& stage, Loads& loads) {

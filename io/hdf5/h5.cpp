@@ -200,8 +200,8 @@ void File::write_raw(const std::string& name, const void* data, std::size_t size
 }
 
 template <Element T>
-void File::write(const std::string& name, std::span<const T> values, Shape shape, const std::string& unit) {
-  write_raw(name, values.data(), values.size(), memory_type<T>(), sizeof(T), std::move(shape), unit);
+void File::write(const std::string& name, std::span<const T> values, const Shape& shape, const std::string& unit) {
+  write_raw(name, values.data(), values.size(), memory_type<T>(), sizeof(T), shape, unit);
 }
 
 PaddedTexts::PaddedTexts(const std::vector<std::string>& values) : type(H5Tcopy(H5T_C_S1), H5Tclose) {
@@ -330,9 +330,9 @@ void File::make_group(const std::string& name) {
   if (!group.valid()) throw RunError("cannot write {}: {}: {}", path_, name, last_reason());
 }
 
-#define VOUSSOIR_H5_INSTANTIATE(T)                                                                 \
-  template void File::write<T>(const std::string&, std::span<const T>, Shape, const std::string&); \
-  template std::vector<T> File::read<T>(const std::string&, const Shape&) const;                   \
+#define VOUSSOIR_H5_INSTANTIATE(T)                                                                        \
+  template void File::write<T>(const std::string&, std::span<const T>, const Shape&, const std::string&); \
+  template std::vector<T> File::read<T>(const std::string&, const Shape&) const;                          \
   template void File::read_to<T>(const std::string&, std::span<T>) const;
 VOUSSOIR_H5_INSTANTIATE(double)
 VOUSSOIR_H5_INSTANTIATE(float)

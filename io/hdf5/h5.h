@@ -65,10 +65,11 @@ class File {
 
   /// Row-major; an empty shape means one-dimensional. Chunked with Fletcher32 checksums; attribute `unit` unless empty.
   template <Element T>
-  void write(const std::string& name, std::span<const T> values, Shape shape = {}, const std::string& unit = "");
+  void write(const std::string& name, std::span<const T> values, const Shape& shape = {}, const std::string& unit = "");
   template <Element T>
-  void write(const std::string& name, const std::vector<T>& values, Shape shape = {}, const std::string& unit = "") {
-    write(name, std::span<const T>(values), std::move(shape), unit);
+  void write(const std::string& name, const std::vector<T>& values, const Shape& shape = {},
+             const std::string& unit = "") {
+    write(name, std::span<const T>(values), shape, unit);
   }
   /// One dimension of fixed-length UTF-8 texts, padded with nulls to the longest.
   void write_texts(const std::string& name, const std::vector<std::string>& values);

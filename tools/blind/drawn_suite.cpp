@@ -25,7 +25,7 @@ class Draw {
   }
   /// In low … high.
   int whole(const std::string& purpose, int low, int high) const {
-    return low + int(stream(purpose).below(std::size_t(high - low + 1)));
+    return low + int(stream(purpose).below(std::size_t(high) - std::size_t(low) + 1));
   }
   bool happens(const std::string& purpose, double probability) const {
     return stream(purpose).uniform() <= probability;
