@@ -15,7 +15,7 @@ install(DIRECTORY cases DESTINATION ${shipped_folder} COMPONENT runtime)
 # README, docs and cases keep their relative positions of the source tree, so that the links between them work.
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime
-        PATTERN draw-house EXCLUDE PATTERN draw-gallery EXCLUDE PATTERN example-project EXCLUDE)
+        PATTERN draw-house EXCLUDE PATTERN draw-pictures EXCLUDE PATTERN example-project EXCLUDE)
 cmake_path(RELATIVE_PATH shipped_folder BASE_DIRECTORY ${CMAKE_INSTALL_DOCDIR} OUTPUT_VARIABLE from_docs)
 install(CODE "file(CREATE_LINK ${from_docs}/cases \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/cases\" SYMBOLIC)" COMPONENT runtime)
 
