@@ -86,6 +86,13 @@ TEST(Convergence, TimeStepIsOfSecondOrder) {
   }
 }
 
+/// The clock of the study must not start at a sample before the block is raised.
+TEST(Convergence, ABlockRocksInTheTimeOfARigidOne) {
+  const double exact = exact_rocking_quarter(), quarter = rocking_quarter(1e10, true);
+  measured("rocking block: quarter of a cycle", exact, quarter, "s");
+  EXPECT_NEAR(quarter, exact, 1e-4 * exact);
+}
+
 /// A block that uplifts and lands: the balance still falls with the square, the motion at the coarse steps too.
 TEST(Convergence, EnergyBalanceFallsWithTheStep) {
   const PulseResponse coarse = rocking_response(0.8), fine = rocking_response(0.2);

@@ -268,12 +268,12 @@ double rocking_quarter(double kn, bool reclip) {
                        Vec3(0.5 * rocking_width, 0, 0)}};
   settings.stages = {StageSettings{}, swing};
   std::atomic<bool> stop = false;
-  double before = 1.0, crossing = 0.0;
+  double before = 0.0, crossing = 0.0;
   Observers observers;
   observers.stop = &stop;
   observers.history = [&](const Simulation& run, const Sample& s) {
     const double now = pose_of(run, "top")[5];
-    if (now < 0.0 && crossing == 0.0) crossing = s.time - step * now / (now - before), stop = true;
+    if (before > 0.0 && now < 0.0 && crossing == 0.0) crossing = s.time - step * now / (now - before), stop = true;
     before = now;
   };
   const Assembly assembly = rocking_block(kn);
