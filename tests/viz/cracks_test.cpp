@@ -261,6 +261,7 @@ TEST(CrackMaps, SayWhatTheyShow) {
       << text;
   EXPECT_NE(text.find("\nx, m\n"), std::string::npos) << text;
   EXPECT_NE(text.find("30 mm and more"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nx, m\n"), std::string::npos) << text;
   EXPECT_NE(said(5e-3).find("5 to 10 mm"), std::string::npos);
 }
 
