@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -21,8 +22,8 @@ void check_cell(const Assembly& assembly, std::int64_t block, std::size_t cell) 
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const auto& face = shape.faces[f];
     if (face.size() < 3)
-      throw InputError("{}: face {} has {} corners. It must have at least 3. Remove the face or complete it.", at(), f,
-                       face.size());
+      throw InputError("{}: face {} has {}. It must have at least 3. Remove the face or complete it.", at(), f,
+                       counted(face.size(), "corner"));
     for (int v : face)
       if (v < 0 || v >= count)
         throw InputError("{}: face {} uses vertex {}. It must be from 0 to {}. Correct the index.", at(), f, v,

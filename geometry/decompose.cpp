@@ -11,6 +11,7 @@
 #include "geometry/cgal/cut_shape.h"
 #include "geometry/hull.h"
 #include "geometry/repair.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shipped.h"
 
@@ -267,8 +268,8 @@ std::vector<Polyhedron> cut_along(const Polyhedron& shape, const Mat3& axes) {
     out.push_back(std::move(piece.shape));
   }
   if (out.empty() || std::abs(sum - volume) > k_volume * volume || std::abs(kept - volume) > k_volume * volume)
-    throw InputError("its {} pieces have a volume of {:.9g} m3 instead of {:.9g} m3: its surface may intersect itself",
-                     cut.size(), kept, volume);
+    throw InputError("its {} a volume of {:.9g} m3 instead of {:.9g} m3: its surface may intersect itself",
+                     counted(cut.size(), "piece has", "pieces have"), kept, volume);
   return out;
 }
 

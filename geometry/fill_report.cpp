@@ -7,6 +7,7 @@
 
 #include "geometry/fill_mesh.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 
 namespace voussoir {
 
@@ -64,7 +65,8 @@ std::vector<std::string> fill_lines(const Assembly& assembly, const FillAim& aim
   const std::vector<std::int32_t> parts = fill_parts(fill);
   const Areas areas = fill_areas(assembly);
   const std::int32_t count = *std::max_element(parts.begin(), parts.end()) + 1;
-  add("deformable fill", fmt::format("{} nodes, {} tetrahedra, in {}", fill.nodes.size(), fill.tets.size(),
+  add("deformable fill", fmt::format("{}, {}, in {}", counted(fill.nodes.size(), "node"),
+                                     counted(fill.tets.size(), "tetrahedron", "tetrahedra"),
                                      count == 1 ? "one part" : fmt::format("{} parts", count)));
   add("  patches",
       fmt::format("{}, which cover {:.3f} of {:.3f} m2", assembly.fill_joints.size(), areas.covered, areas.surface));

@@ -7,6 +7,7 @@
 #include "geometry/generate_bridge.h"
 #include "geometry/masonry_build.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -97,8 +98,8 @@ VaultShape read_shape(const GeneratorInput& in, std::size_t i, double x, double 
     throw InputError("{}: shape = \"surveyed\" needs intrados = [[x, z], …], from springing to springing",
                      span_heading(i));
   if (given && line->second.size() < 3)
-    throw InputError("{}: intrados has {} points. It must have at least 3, from springing to springing.",
-                     span_heading(i), line->second.size());
+    throw InputError("{}: intrados has {}. It must have at least 3, from springing to springing.", span_heading(i),
+                     counted(line->second.size(), "point"));
   if (given && (in(key + "rise") != 0.0 || in(key + "springing_right") != 0.0))
     throw InputError(
         "{}: rise = {:g} m and springing_right = {:g} m are given, but follow from intrados. Leave them out.",
@@ -350,9 +351,9 @@ void read_internal_walls(Bridge& bridge, const GeneratorInput& in) {
   const double room = 2.0 * (bridge.half_width() - std::max(bridge.spandrel_bottom, bridge.spandrel_top));
   if (walls.number * walls.thickness > 0.8 * room)
     throw InputError(
-        "[bridge.internal] {} walls of {:g} m leave too little of the {:g} m between the spandrel walls. Use fewer or "
+        "[bridge.internal] {} of {:g} m {} too little of the {:g} m between the spandrel walls. Use fewer or "
         "thinner walls.",
-        walls.number, walls.thickness, room);
+        counted(walls.number, "wall"), walls.thickness, walls.number == 1 ? "leaves" : "leave", room);
   const double lowest = std::min(bridge.deck_at(0.0), bridge.deck_at(bridge.length()));
   walls.slab_thickness = in("internal.slab_thickness");
   walls.slab_top = lowest - in("internal.fill_over_slabs");
@@ -398,7 +399,7 @@ void read_load_beam(Bridge& bridge, const GeneratorInput& in) {
   if (beam.length <= 0.0) return;
   const auto span = std::size_t(in("beam.span"));
   if (span > bridge.vaults.size())
-    throw InputError("[bridge.beam] span = {}, but the bridge has {} spans", span, bridge.vaults.size());
+    throw InputError("[bridge.beam] span = {}, but the bridge has {}", span, counted(bridge.vaults.size(), "span"));
   const Vault& vault = bridge.vaults[span - 1];
   beam.middle = vault.left() + in("beam.at") * (vault.right() - vault.left());
   const double room = 2.0 * std::min(beam.middle, bridge.length() - beam.middle);

@@ -5,6 +5,7 @@
 
 #include "geometry/generate.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 
@@ -83,8 +84,8 @@ void check_entries(const Generator& generator, const GeneratorInput& input) {
     const auto found = input.entries.find(table.name);
     const std::size_t count = found == input.entries.end() ? 0 : found->second;
     if (count < table.least || count > table.most)
-      throw InputError("[[bridge.{}]] is given {} times. For generator \"{}\" it must be given {} to {} times.",
-                       table.name, count, generator.name, table.least, table.most);
+      throw InputError("[[bridge.{}]] is given {}. For generator \"{}\" it must be given {} to {} times.", table.name,
+                       counted(count, "time"), generator.name, table.least, table.most);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/base/counted.h"
+
 namespace voussoir {
 
 JointCounts count_joints(const Assembly& assembly) {
@@ -21,9 +23,9 @@ JointCounts count_joints(const Assembly& assembly) {
 
 std::string joints_text(const Assembly& assembly) {
   const JointCounts n = count_joints(assembly);
-  std::string text = fmt::format("{} joints: {} bonded, {} dry", n.bonded + n.dry, n.bonded, n.dry);
-  if (n.ties > 0) text += fmt::format(", {} ties", n.ties);
-  if (n.fill > 0) text += fmt::format(", {} patches with the fill", n.fill);
+  std::string text = fmt::format("{}: {} bonded, {} dry", counted(n.bonded + n.dry, "joint"), n.bonded, n.dry);
+  if (n.ties > 0) text += fmt::format(", {}", counted(n.ties, "tie"));
+  if (n.fill > 0) text += fmt::format(", {} with the fill", counted(n.fill, "patch", "patches"));
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "geometry/convex.h"
 #include "geometry/neighbours.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -197,8 +198,10 @@ class OverlapCheck {
 
 [[noreturn]] void complain(const Assembly& assembly, const std::vector<Overlap>& overlaps, double gap) {
   const Overlap& worst = overlaps.front();
-  const std::string more =
-      overlaps.size() == 1 ? "" : fmt::format(" {} more pairs of blocks overlap.", overlaps.size() - 1);
+  const std::string more = overlaps.size() == 1
+                               ? ""
+                               : fmt::format(" {}.", counted(overlaps.size() - 1, "more pair of blocks overlaps",
+                                                             "more pairs of blocks overlap"));
   throw InputError(
       "{} and {} overlap by {:.3g} m. The overlap must be at most the gap tolerance, {:g} m. Move or trim one of them, "
       "join them as cells of one block, or raise gap_tolerance if the drawing is not more accurate.{}",

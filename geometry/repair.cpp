@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "solver/base/counted.h"
+
 namespace voussoir {
 namespace {
 
@@ -140,7 +142,8 @@ void drop_loose_vertices(Polyhedron& shape, double tolerance) {
 std::string check_indices(const Polyhedron& shape) {
   for (std::size_t v = 0; v < shape.vertices.size(); ++v)
     if (!shape.vertices[v].allFinite()) return fmt::format("vertex {} is not finite", v);
-  if (shape.faces.size() < 4) return fmt::format("it has {} faces; a closed solid has at least 4", shape.faces.size());
+  if (shape.faces.size() < 4)
+    return fmt::format("it has {}; a closed solid has at least 4", counted(shape.faces.size(), "face"));
   const int count = static_cast<int>(shape.vertices.size());
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     if (shape.faces[f].size() < 3) return fmt::format("face {} has fewer than 3 corners", f);

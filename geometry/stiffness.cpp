@@ -6,6 +6,7 @@
 #include "geometry/fill_mesh.h"
 #include "geometry/rings.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -248,9 +249,10 @@ void check_moduli(const Assembly& assembly) {
   }
   if (count > 0)
     throw InputError(
-        "{} blocks have no moduli, so their joints have no stiffness. Give kn and ks, or materials with youngs_modulus "
-        "and shear_modulus above 0. The blocks are: {}{}",
-        count, fmt::join(without, "; "), count > without.size() ? "; …" : "");
+        "{} joints have no stiffness. Give kn and ks, or materials with youngs_modulus and shear_modulus above 0. The "
+        "blocks are: {}{}",
+        counted(count, "block has no moduli, so its", "blocks have no moduli, so their"), fmt::join(without, "; "),
+        count > without.size() ? "; …" : "");
 }
 
 }  // namespace

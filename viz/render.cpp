@@ -15,6 +15,7 @@
 
 #include "io/vtk/files.h"
 #include "io/vtk/grid.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "viz/actors.h"
 #include "viz/annotation.h"
@@ -99,9 +100,7 @@ Words words_of(const PictureGrids& grids, const RenderOptions& options, const st
       if (has_component(component, name) || (grids.fill && name == kFillName)) left_out.push_back(name);
   if (!left_out.empty()) words.hidden = fmt::format("hidden: {}", fmt::join(left_out, ", "));
   if (cut) words.hidden += (words.hidden.empty() ? "" : "; ") + cut->words();
-  if (gone > 0)
-    words.hidden +=
-        fmt::format("{}{} {} far away", words.hidden.empty() ? "" : "; ", gone, gone == 1 ? "stone" : "stones");
+  if (gone > 0) words.hidden += fmt::format("{}{} far away", words.hidden.empty() ? "" : "; ", counted(gone, "stone"));
   if (options.outline) words.lines.emplace_back("outline: undeformed", kInk);
   if (cracks)
     words.lines.emplace_back(options.crack_mm > 0.0 ? fmt::format("opened or slipped > {:.3g} mm", options.crack_mm)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/vtk/grid.h"
+#include "solver/base/counted.h"
 
 namespace voussoir {
 
@@ -12,8 +13,7 @@ void draw_sensors(const Assembly& assembly, const std::vector<Sensor>& sensors, 
   options.amplification = 0.0;
   options.cracks = false;
   for (const Sensor& s : sensors) options.arrows.push_back({s.position, s.direction, s.id});
-  options.notes = {fmt::format("{} channel{}", sensors.size(), sensors.size() == 1 ? "" : "s"),
-                   "arrows point in the direction of positive readings"};
+  options.notes = {counted(sensors.size(), "channel"), "arrows point in the direction of positive readings"};
   render_picture(assembly, rest_snapshot(assembly), options, png);
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/generator.h"
 #include "io/case/degrees.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/base/suggestion.h"
@@ -64,7 +65,7 @@ void check_length(const char* option, double value, const Parameter& p) {
 
 void check(const CaseTemplate& wanted, const Generator& bridge, const KeyTable& span) {
   if (wanted.clear_spans.size() < span.least || wanted.clear_spans.size() > span.most)
-    throw InputError("--spans has {} spans. Give {} to {} spans, such as 8,10,8.", wanted.clear_spans.size(),
+    throw InputError("--spans has {}. Give {} to {} spans, such as 8,10,8.", counted(wanted.clear_spans.size(), "span"),
                      span.least, span.most);
   for (const double clear : wanted.clear_spans)
     check_length("spans", clear, parameter_of(span.parameters, "clear_span"));
@@ -126,12 +127,12 @@ std::string case_template(const CaseTemplate& wanted) {
   Given given;
   if (wanted.width != 0.0) given["width"] = number_text(wanted.width);
   std::string text = fmt::format(
-      "# A bridge of {} span{} for the generator \"bridge\". Every key is listed with its default, in SI units;\n"
+      "# A bridge of {} for the generator \"bridge\". Every key is listed with its default, in SI units;\n"
       "# a key that is left out has its default, too. In the folder of this file:\n"
       "#   voussoir generate NAME.toml --picture     draws it with its dimensions\n"
       "#   voussoir run NAME.toml -o NAME            finds its equilibrium under its weight\n\n"
       "[bridge]\ngenerator = \"bridge\"\n",
-      spans, spans == 1 ? "" : "s");
+      counted(spans, "span"));
   text += key_lines(dimensions, bridge.choices, {}, given);
   text += "\n# Sizes of the blocks, and stiffness of the joints.\n" + key_lines(others, {}, {}, {});
   text += fmt::format("\n# {}.\n", span.help) + span_tables(wanted, span);

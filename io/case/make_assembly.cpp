@@ -8,6 +8,7 @@
 #include "io/case/case.h"
 #include "io/case/composite_joints.h"
 #include "io/hdf5/assembly_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -62,9 +63,10 @@ void check_overlaps(const Assembly& assembly, const Case& c) {
     return fmt::format("{} ({})", i, component_names()[std::size_t(assembly.blocks[std::size_t(i)].component)]);
   };
   throw InputError(
-      "{}: {} pairs of blocks overlap. The first pair, {} and {}, overlaps by {:.3g} m. Move the blocks apart, or "
-      "raise [contact] gap_tolerance ({} m).",
-      c.assembly_file, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
+      "{}: {}. The first pair, {} and {}, overlaps by {:.3g} m. Move the blocks apart, or raise [contact] "
+      "gap_tolerance ({} m).",
+      c.assembly_file, counted(overlaps.size(), "pair of blocks overlaps", "pairs of blocks overlap"),
+      name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
 }
 
 /// Puts the path of the case before its own messages.

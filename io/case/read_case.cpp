@@ -9,6 +9,7 @@
 #include "io/case/sections.h"
 #include "solver/base/arrays.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/model/laws.h"
@@ -57,8 +58,8 @@ void read_entries(TableReader& bridge, const KeyTable& table, GeneratorInput& in
     entry.finish();
   }
   if (entries < table.least || entries > table.most)
-    bridge.fail(table.name,
-                fmt::format("is given {} times. It must be given {} to {} times.", entries, table.least, table.most));
+    bridge.fail(table.name, fmt::format("is given {}. It must be given {} to {} times.", counted(entries, "time"),
+                                        table.least, table.most));
   input.entries[table.name] = entries;
 }
 

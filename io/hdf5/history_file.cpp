@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/hdf5/h5.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -37,7 +38,8 @@ History History::load(const std::string& path) {
 
 void History::append(std::span<const double> row) {
   if (row.size() != channels_.size())
-    throw RunError("{}: a row has {} values for {} channels", path_, row.size(), channels_.size());
+    throw RunError("{}: a row has {} for {}", path_, counted(row.size(), "value"),
+                   counted(channels_.size(), "channel"));
   for (std::size_t i = 0; i < row.size(); ++i) columns_[i].push_back(row[i]);
 }
 

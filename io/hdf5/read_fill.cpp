@@ -8,6 +8,7 @@
 #include "geometry/fill_mesh.h"
 #include "io/hdf5/check_patch.h"
 #include "io/hdf5/shape_arrays.h"
+#include "solver/base/counted.h"
 
 namespace voussoir {
 
@@ -47,8 +48,8 @@ void check_triangles(const h5::File& file, const FillMesh& fill) {
       file.fail("fill/triangles", fmt::format("row {}: this triangle is listed twice", i));
   }
   if (fill.triangles.size() != own.triangles.size())
-    file.fail("fill/triangles",
-              fmt::format("{} triangles, but the surface has {}", fill.triangles.size(), own.triangles.size()));
+    file.fail("fill/triangles", fmt::format("{}, but the surface has {}", counted(fill.triangles.size(), "triangle"),
+                                            own.triangles.size()));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/extent.h"
+#include "solver/base/counted.h"
 
 namespace voussoir {
 
@@ -78,7 +79,8 @@ ShapeArrays read_shapes(const h5::File& file, const std::string& group, const st
     for (std::int64_t f = arrays.shape_face_offset[i]; f < arrays.shape_face_offset[i + 1]; ++f) {
       const std::int64_t begin = arrays.face_offset[std::size_t(f)], end = arrays.face_offset[std::size_t(f) + 1];
       if (end - begin < 3)
-        file.fail(path("face_offset"), fmt::format("row {}: face of {} vertices, expected at least 3", f, end - begin));
+        file.fail(path("face_offset"), fmt::format("row {}: face of {}, expected at least 3", f,
+                                                   counted(end - begin, "vertex", "vertices")));
       for (std::int64_t k = begin; k < end; ++k)
         if (const std::int64_t v = arrays.face_vertices[std::size_t(k)]; v < 0 || v >= count)
           file.fail(path("face_vertices"),
@@ -90,7 +92,7 @@ ShapeArrays read_shapes(const h5::File& file, const std::string& group, const st
 }
 
 std::string find_fault(const Polyhedron& cell) {
-  if (cell.faces.size() < 4) return fmt::format("{} faces, expected at least 4", cell.faces.size());
+  if (cell.faces.size() < 4) return fmt::format("{}, expected at least 4", counted(cell.faces.size(), "face"));
   Vec3 open = Vec3::Zero();
   double surface = 0.0, deepest = 0.0;
   const Box box = bounding_box(cell);

@@ -18,6 +18,7 @@
 #include "io/records/format.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/motion/baseline.h"
 #include "solver/motion/intensity.h"
@@ -65,7 +66,7 @@ std::string describe_case(const std::string& path) {
   if (c.generator.empty())
     out.add("  bridge: assembly file {}", c.assembly_file);
   else
-    out.add("  bridge: generator \"{}\", {} materials", c.generator, c.generator_input.materials.size());
+    out.add("  bridge: generator \"{}\", {}", c.generator, counted(c.generator_input.materials.size(), "material"));
   const DampingSettings& damping = c.settings.damping;
   out.add("  damping: {}, ratio {}, {} to {} Hz", damping_kinds()[std::size_t(damping.kind)], damping.ratio,
           damping.band[0], damping.band[1]);
@@ -78,7 +79,7 @@ std::string describe_case(const std::string& path) {
     for (const Drive& d : stage.drives) out.text += fmt::format("; drives \"{}\"", d.group);
   }
   if (c.settings.stages.empty()) out.add("  no stages: the case can be used for generate and modal, but not for run");
-  out.add("  {} sensors", c.sensors.size());
+  out.add("  {}", counted(c.sensors.size(), "sensor"));
   for (const std::string& remark : remarks(c)) out.add("  remark: {}", remark);
   return out.text;
 }
@@ -127,15 +128,16 @@ std::string describe_assembly(const std::string& path) {
   const auto [small, large] = std::minmax_element(volumes.begin(), volumes.end());
   Lines out;
   out.add("{}: block assembly, generator \"{}\"", path, assembly.generator);
-  out.add("  {} blocks ({} fixed), {:.1f} kg, of which {:.1f} kg free", assembly.blocks.size(), fixed, mass, free_mass);
+  out.add("  {} ({} fixed), {:.1f} kg, of which {:.1f} kg free", counted(assembly.blocks.size(), "block"), fixed, mass,
+          free_mass);
   describe_components(out, assembly);
   if (!volumes.empty())
     out.add("  smallest block {} ({:.4g} m3), largest block {} ({:.4g} m3)", small - volumes.begin(), *small,
             large - volumes.begin(), *large);
   out.add("  {:.3f} x {:.3f} x {:.3f} m, from ({:.3f}, {:.3f}, {:.3f})", size.x(), size.y(), size.z(), box.low.x(),
           box.low.y(), box.low.z());
-  out.add("  {} joints, {:.2f} m2, {} laws, {} materials", assembly.joints.size(), area, assembly.laws.size(),
-          assembly.materials.size());
+  out.add("  {}, {:.2f} m2, {}, {}", counted(assembly.joints.size(), "joint"), area,
+          counted(assembly.laws.size(), "law"), counted(assembly.materials.size(), "material"));
   out.add("  {}", joints_text(assembly));
   for (const JointLaw& law : assembly.laws)
     if (law.kind == JointLaw::Kind::composite) out.add("  {}", composite_text(law));
@@ -147,7 +149,7 @@ std::string describe_assembly(const std::string& path) {
   constexpr std::size_t most = 20;  // an imported bridge may have thousands
   for (const auto& [name, members] : assembly.groups)
     if (objects <= most || !name.starts_with(object_group_prefix))
-      out.add("  group \"{}\": {} blocks", name, members.size());
+      out.add("  group \"{}\": {}", name, counted(members.size(), "block"));
   if (objects > most)
     out.add("  {} groups \"{}NAME\", one for each object of the drawing", objects, object_group_prefix);
   for (const Sensor& sensor : assembly.sensors) out.add("  sensor \"{}\" on block {}", sensor.id, sensor.block);
@@ -185,7 +187,7 @@ std::string describe_checkpoint(const std::string& path) {
 std::string describe_history(const std::string& path) {
   const History history = History::load(path);
   Lines out;
-  out.add("{}: history, {} rows of {} channels", path, history.rows(), history.channels().size());
+  out.add("{}: history, {} of {}", path, counted(history.rows(), "row"), counted(history.channels().size(), "channel"));
   if (history.rows() == 0) return out.text;
   out.add("  time {:.6g} to {:.6g} s", history.time().front(), history.time().back());
   for (const Channel& channel : history.channels())
@@ -197,10 +199,11 @@ std::string describe_history(const std::string& path) {
 std::string describe_modes(const std::string& path) {
   const ModesFile modes = read_modes(path);
   Lines out;
-  out.add("{}: {} modes of {}", path, modes.modes.size(), modes.about);
-  const std::string nodes = modes.nodes.empty() ? "" : fmt::format(", {} nodes of a fill", modes.nodes.size());
-  out.add("  {} blocks{}, movable mass {:.1f} kg, assembly {:016x}", modes.places.mass.size(), nodes, modes.mass,
-          modes.assembly_hash);
+  out.add("{}: {} of {}", path, counted(modes.modes.size(), "mode"), modes.about);
+  const std::string nodes =
+      modes.nodes.empty() ? "" : fmt::format(", {} of a fill", counted(modes.nodes.size(), "node"));
+  out.add("  {}{}, movable mass {:.1f} kg, assembly {:016x}", counted(modes.places.mass.size(), "block"), nodes,
+          modes.mass, modes.assembly_hash);
   for (std::size_t i = 0; i < modes.modes.size(); ++i)
     out.add("  mode {}: {:.6g} Hz, {}", i + 1, modes.modes[i].frequency, modes.modes[i].words.text());
   return out.text;
@@ -227,9 +230,9 @@ std::string describe_record(const std::string& path) {
   const std::vector<RecordFile> channels = parse_channels(read_text(path), path);
   const RecordFile& first = channels.front();
   Lines out;
-  out.add("{}: {}record of {}{} samples, {:.6g} s at {:.6g} s", path, first.unit > 0.0 ? first.format + " " : "",
-          channels.size() > 1 ? fmt::format("{} channels of ", channels.size()) : "", first.record.values.size(),
-          first.record.duration(), first.record.dt);
+  out.add("{}: {}record of {}{}, {:.6g} s at {:.6g} s", path, first.unit > 0.0 ? first.format + " " : "",
+          channels.size() > 1 ? fmt::format("{} channels of ", channels.size()) : "",
+          counted(first.record.values.size(), "sample"), first.record.duration(), first.record.dt);
   for (const RecordFile& channel : channels) describe_channel(channel, out);
   out.add("  values in the unit of the file; velocities in this unit times s");
   return out.text;

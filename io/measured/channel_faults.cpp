@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/measured/parts.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/identify/prepare.h"
 
@@ -71,10 +72,9 @@ Fault limits(const Eigen::VectorXd& x, const std::vector<int>& rows) {
   const auto at_limit =
       std::count_if(x.begin(), x.end(), [&](double v) { return (above && v == high) || (below && v == low); });
   const double share = double(at_limit) / double(x.size());
-  return {
-      fmt::format("is cut off at {} from row {} on, {} times, for {:.2g} % of its samples: the limit of the instrument",
-                  x[runs.first], rows[std::size_t(runs.first)], runs.count, 100.0 * share),
-      share > most_at_limit};
+  return {fmt::format("is cut off at {} from row {} on, {}, for {:.2g} % of its samples: the limit of the instrument",
+                      x[runs.first], rows[std::size_t(runs.first)], counted(runs.count, "time"), 100.0 * share),
+          share > most_at_limit};
 }
 
 /// Another channel of the recording with the same values; −1: none.

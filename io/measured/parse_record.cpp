@@ -8,6 +8,7 @@
 #include "io/measured/parts.h"
 #include "io/measured/time_grid.h"
 #include "io/measured/units.h"
+#include "solver/base/counted.h"
 
 namespace voussoir {
 
@@ -206,9 +207,8 @@ void parse_record(const TextFile& file, Measured& measured) {
   if (samples.times.size() < fewest_samples)
     csv.fail(
         std::max(csv.row(), 1),
-        fmt::format(
-            "the recording ends after {} samples. At least {} are needed. Give a longer recording, or remove the file.",
-            samples.times.size(), fewest_samples));
+        fmt::format("the recording ends after {}. At least {} are needed. Give a longer recording, or remove the file.",
+                    counted(samples.times.size(), "sample"), fewest_samples));
   record.dt = time_step(csv, samples);
   record.values = std::move(samples.values);
   const std::string place = fmt::format("{}:{}", file.name, csv.heading_row());
@@ -218,9 +218,9 @@ void parse_record(const TextFile& file, Measured& measured) {
   convert_units(record, measured.sensors);
   if (std::size_t(record.values.rows()) < fewest_samples)
     csv.fail(std::max(csv.row(), 1),
-             fmt::format("{} samples are left once velocities and displacements are made accelerations, expected at "
-                         "least {}: give a longer recording",
-                         record.values.rows(), fewest_samples));
+             fmt::format("{} left once velocities and displacements are made accelerations, expected at least {}: give "
+                         "a longer recording",
+                         counted(record.values.rows(), "sample is", "samples are"), fewest_samples));
   for (const Recording& other : measured.records)
     if (same_samples(other, record))
       return measured.set_aside.push_back({place, fmt::format("the same samples as {}", other.name)});

@@ -10,6 +10,7 @@
 #include "io/msh/element_kinds.h"
 #include "io/msh/msh_values.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 
@@ -137,9 +138,9 @@ class MshReader {
           fmt::format("elements have the kind {}, which is not known. Mesh it with Mesh.ElementOrder = 1.", number));
     if (kind->dimension == 3 && number != tetrahedron_kind)
       throw InputError(
-          "{}: it has elements \"{} {}\" of {} nodes, but a fill must have tetrahedra of 4 nodes only. Mesh it with "
+          "{}: it has elements \"{} {}\" of {}, but a fill must have tetrahedra of 4 nodes only. Mesh it with "
           "Mesh.ElementOrder = 1 and without recombination.",
-          path_, kind->name, kind->nodes, kind->nodes);
+          path_, kind->name, kind->nodes, counted(kind->nodes, "node"));
     return *kind;
   }
 
@@ -164,7 +165,8 @@ class MshReader {
       if (values_.binary()) {
         alike = values_.count(values_.integer(4, "the number of elements of a kind"), 8, 8, "elements");
         if (alike == 0 || alike > count - done)
-          values_.fail(fmt::format("{} elements of one kind are stated, but only {} are left", alike, count - done));
+          values_.fail(fmt::format("{} stated, but only {} are left",
+                                   counted(alike, "element of one kind is", "elements of one kind are"), count - done));
       }
       const std::size_t tags = values_.count(values_.integer(4, "the number of tags"), 2, 4, "tags of an element");
       for (std::size_t i = 0; i < alike; ++i) {

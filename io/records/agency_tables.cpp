@@ -3,6 +3,7 @@
 #include "io/records/format.h"
 #include "io/records/rows.h"
 #include "io/records/table.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/words.h"
 
@@ -43,10 +44,11 @@ std::vector<RecordFile> read_afad(const std::string& text, const std::string& na
   const double told = checked_step(first_number(step), name, step_line);
   const TextTable table = parse_table(text, name);
   if (table.columns.size() != 3)
-    throw InputError("{}:{}: {} columns, expected three: N-S, E-W, U-D", name, table.first_row, table.columns.size());
+    throw InputError("{}:{}: {}, expected three: N-S, E-W, U-D", name, table.first_row,
+                     counted(table.columns.size(), "column"));
   if (table.columns[0].size() != samples)
-    throw InputError("{}: {} samples, but line {} says {}: the file is incomplete; download it again", name,
-                     table.columns[0].size(), count_line, samples);
+    throw InputError("{}: {}, but line {} says {}: the file is incomplete; download it again", name,
+                     counted(table.columns[0].size(), "sample"), count_line, samples);
   std::vector<RecordFile> channels;
   std::vector<std::string> roles = {"y", "x", "z"};
   for (std::size_t k = 0; k < table.names.size(); ++k) roles[k] = column_role(table.names[k]);

@@ -6,6 +6,7 @@
 #include "io/records/format.h"
 #include "io/records/rows.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -56,8 +57,8 @@ RecordFile read_at2(const std::string& text, const std::string& name, double dt)
     append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after four lines of heading",
                    file.record.values);
   if (double(file.record.values.size()) != samples)
-    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is incomplete; download it again", name,
-                     file.record.values.size(), heading, samples);
+    throw InputError("{}: {}, but line {} says {:.0f}: the file is incomplete; download it again", name,
+                     counted(file.record.values.size(), "sample"), heading, samples);
   // "Imperial Valley-06, 10/15/1979, Agrarias, 3"
   const std::string_view about = lines[1];
   std::vector<std::string> parts;

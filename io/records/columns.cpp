@@ -6,6 +6,7 @@
 #include "io/records/not_read.h"
 #include "io/records/rows.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -62,12 +63,12 @@ Record parse_columns(const std::string& text, const std::string& name, double dt
     break;
   }
   const std::vector<Row> rows = parse_rows(text, name);
-  if (rows.size() < 2) throw InputError("{}: {} rows of numbers. At least 2 are needed.", name, rows.size());
+  if (rows.size() < 2) throw InputError("{}: {} of numbers. At least 2 are needed.", name, counted(rows.size(), "row"));
   const std::size_t columns = dt > 0.0 ? 1 : 2;
   for (const Row& row : rows)
     if (row.values.size() != columns)
       throw InputError(
-          "{}:{}: {} columns, expected {}", name, row.number, row.values.size(),
+          "{}:{}: {}, expected {}", name, row.number, counted(row.values.size(), "column"),
           columns == 1
               ? "1 (acceleration) because 'dt' is given"
               : "2 (time in s, acceleration); for a single column give the key 'dt' in s, for several name them: "

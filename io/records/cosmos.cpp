@@ -5,6 +5,7 @@
 #include "io/records/format.h"
 #include "io/records/rows.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -106,7 +107,8 @@ RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& a
 
 std::vector<RecordFile> read_cosmos(const std::string& text, const std::string& name, double dt) {
   const std::vector<std::string_view> lines = lines_of(text);
-  if (lines.size() < 5) throw InputError("{}: {} lines: the file is incomplete; download it again", name, lines.size());
+  if (lines.size() < 5)
+    throw InputError("{}: {}: the file is incomplete; download it again", name, counted(lines.size(), "line"));
   if (upper(lines[0]).find("ACCELERATION") == std::string::npos)
     throw InputError("{}:1: '{}': use the file with the accelerations", name, excerpt(lines[0]));
   std::vector<RecordFile> channels;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/records/rows.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -44,7 +45,8 @@ Curve parse_curve(const std::string& text, const std::string& name) {
     }
   }
   if (curve.x.size() < 2)
-    throw InputError("{}: {} lines begin with two numbers. At least 2 are needed.", name, curve.x.size());
+    throw InputError("{}: {} with two numbers. At least 2 are needed.", name,
+                     counted(curve.x.size(), "line begins", "lines begin"));
   return curve;
 }
 

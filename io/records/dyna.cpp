@@ -4,6 +4,7 @@
 
 #include "io/records/format.h"
 #include "io/records/rows.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -60,8 +61,8 @@ RecordFile read_dyna(const std::string& text, const std::string& name, double dt
   for (std::size_t i = header.lines; i < lines.size(); ++i)
     append_numbers(lines[i], " \t", name, i + 1, "accelerations are expected after the heading", file.record.values);
   if (double(file.record.values.size()) != samples)
-    throw InputError("{}: {} samples, but NDATA is {:.0f}: the file is incomplete; download it again", name,
-                     file.record.values.size(), samples);
+    throw InputError("{}: {}, but NDATA is {:.0f}: the file is incomplete; download it again", name,
+                     counted(file.record.values.size(), "sample"), samples);
   file.event = text_of(header, "EVENT_NAME");
   file.station = text_of(header, "STATION_CODE");
   file.component = text_of(header, "COMPONENT");

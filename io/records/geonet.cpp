@@ -5,6 +5,7 @@
 
 #include "io/records/format.h"
 #include "io/records/rows.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/words.h"
 
@@ -59,9 +60,8 @@ std::string component_of(const std::vector<std::string_view>& lines, std::size_t
 RecordFile channel_of(const std::vector<std::string_view>& lines, std::size_t& at, double dt, const std::string& name) {
   const std::size_t head = at;
   if (head + heading_lines > lines.size())
-    throw InputError(
-        "{}:{}: {} lines are left, but a heading of GeoNet has {}: the file is incomplete; download it again", name,
-        head + 1, lines.size() - head, heading_lines);
+    throw InputError("{}:{}: {} left, but a heading of GeoNet has {}: the file is incomplete; download it again", name,
+                     head + 1, counted(lines.size() - head, "line is", "lines are"), heading_lines);
   at = head + geonet_text_lines;
   const std::vector<double> numbers = fixed_numbers(lines, at, 100, rows, name);
   const bool corrected = upper(lines[head]).find("UNCORRECTED") == std::string::npos;

@@ -4,6 +4,7 @@
 
 #include "io/records/format.h"
 #include "io/records/rows.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -83,8 +84,8 @@ RecordFile read_knet(const std::string& text, const std::string& name, double dt
   for (std::size_t i = heading.lines; i < lines.size(); ++i)
     append_numbers(lines[i], " \t", name, i + 1, "counts are expected after the heading", values);
   if (std::abs(double(values.size()) - expected) > 1.0)
-    throw InputError("{}: {} samples, but line {} says {:.0f}: the file is incomplete; download it again", name,
-                     values.size(), duration_line, expected);
+    throw InputError("{}: {}, but line {} says {:.0f}: the file is incomplete; download it again", name,
+                     counted(values.size(), "sample"), duration_line, expected);
   double mean = 0.0;
   for (const double count : values) mean += count / double(values.size());
   for (double& value : values) value = (value - mean) * scale;

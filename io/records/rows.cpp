@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/words.h"
 
@@ -125,8 +126,8 @@ std::vector<double> fixed_numbers(const std::vector<std::string_view>& lines, st
                      fmt::format("rows must be {} numbers of {} columns each", rows.per_row, rows.width), row);
     if (row.size() < wanted)
       throw InputError(
-          "{}:{}: after {} of {} samples a row has fewer than {} numbers: the file is incomplete; download it again",
-          name, at + 1, values.size() + row.size(), count, rows.per_row);
+          "{}:{}: after {} of {} a row has fewer than {} numbers: the file is incomplete; download it again", name,
+          at + 1, values.size() + row.size(), counted(count, "sample"), rows.per_row);
     values.insert(values.end(), row.begin(), row.begin() + std::ptrdiff_t(wanted));
   }
   return values;
@@ -148,7 +149,8 @@ std::size_t checked_samples(double samples, const std::string& name, std::size_t
 }
 
 void not_whole(const std::string& name, std::size_t samples, std::size_t expected) {
-  throw InputError("{}: only {} of {} samples: the file is incomplete; download it again", name, samples, expected);
+  throw InputError("{}: only {} of {}: the file is incomplete; download it again", name, samples,
+                   counted(expected, "sample"));
 }
 
 }  // namespace voussoir

@@ -11,6 +11,7 @@
 #include "io/records/left_out.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/motion/filter.h"
 
@@ -141,8 +142,8 @@ std::string without_digits(const std::string& name) {
   return rest;
 }
 
-std::string counted(const std::vector<const RecordComponent*>& members) {
-  return members.size() == 1 || members.front()->alone ? "one file" : fmt::format("{} files", members.size());
+std::string files_text(const std::vector<const RecordComponent*>& members) {
+  return members.size() == 1 || members.front()->alone ? "one file" : counted(members.size(), "file");
 }
 
 /// A hint at another incomplete recording whose name differs by digits only.
@@ -290,12 +291,12 @@ RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning&
   for (const auto& [name, members] : groups) try {
       found.sets.push_back(set_of(name, along_axes(members, true), meaning));
     } catch (const std::exception& error) {
-      left_out.push_back({fmt::format("{} ({} of {})", name, component_words(members), counted(members)),
+      left_out.push_back({fmt::format("{} ({} of {})", name, component_words(members), files_text(members)),
                           error.what() + near_namesake(name, groups), ""});
     }
   found.left_out = said_once(left_out);
   if (found.sets.empty())
-    throw InputError("{}: no record with two horizontal components among {} files{}{}", folder, paths.size(),
+    throw InputError("{}: no record with two horizontal components among {}{}{}", folder, counted(paths.size(), "file"),
                      found.left_out.empty() ? "" : "; the first file that was left out: ",
                      found.left_out.empty() ? "" : found.left_out.front());
   return found;

@@ -2,6 +2,7 @@
 // of fifteen columns), comments that begin with "|", then accelerations in cm/s2, eight a row of ten columns.
 #include "io/records/format.h"
 #include "io/records/rows.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -29,8 +30,8 @@ RecordFile read_smc(const std::string& text, const std::string& name, double dt)
   if (const std::string first = upper(trimmed(lines[0])); first.find("ACCELEROGRAM") == std::string::npos)
     throw InputError("{}:1: '{}': use the file with the accelerations", name, excerpt(lines[0]));
   if (lines.size() < smc_text_lines + whole_lines + number_lines)
-    throw InputError("{}: {} lines, but the heading of SMC has {}: the file is incomplete; download it again", name,
-                     lines.size(), smc_text_lines + whole_lines + number_lines);
+    throw InputError("{}: {}, but the heading of SMC has {}: the file is incomplete; download it again", name,
+                     counted(lines.size(), "line"), smc_text_lines + whole_lines + number_lines);
   std::size_t at = smc_text_lines;
   const std::vector<double> whole = fixed_numbers(lines, at, whole_lines * whole_rows.per_row, whole_rows, name);
   const std::vector<double> numbers = fixed_numbers(lines, at, number_lines * number_rows.per_row, number_rows, name);

@@ -8,6 +8,7 @@
 #include "io/records/rows.h"
 #include "io/records/sets.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/words.h"
 
@@ -129,12 +130,13 @@ TextTable parse_table(std::string_view text, const std::string& name) {
     append_numbers(line, between, name, i + 1, "rows of a table must be numbers", row);
     if (table.columns.empty()) table.columns.resize(row.size()), table.first_row = i + 1;
     if (row.size() != table.columns.size())
-      throw InputError("{}:{}: {} columns, but {} in the rows before", name, i + 1, row.size(), table.columns.size());
+      throw InputError("{}:{}: {}, but {} in the rows before", name, i + 1, counted(row.size(), "column"),
+                       table.columns.size());
     for (std::size_t k = 0; k < row.size(); ++k) table.columns[k].push_back(row[k]);
   }
   if (table.columns.empty() || table.columns[0].size() < 2)
-    throw InputError("{}: {} rows of numbers. At least 2 are needed.", name,
-                     table.columns.empty() ? 0 : table.columns[0].size());
+    throw InputError("{}: {} of numbers. At least 2 are needed.", name,
+                     counted(table.columns.empty() ? 0 : table.columns[0].size(), "row"));
   table.names = names_in(table.heading, table.columns.size());
   return table;
 }
@@ -184,8 +186,8 @@ double column_unit(const std::string& name) {
 std::vector<RecordFile> channels_of(const TextTable& table, const std::vector<std::string>& roles,
                                     const std::string& name, double dt) {
   if (roles.size() != table.columns.size())
-    throw InputError("{}:{}: {} columns, but 'columns' names {}. Name each column; \"\" skips one.", name,
-                     table.first_row, table.columns.size(), roles.size());
+    throw InputError("{}:{}: {}, but 'columns' names {}. Name each column; \"\" skips one.", name, table.first_row,
+                     counted(table.columns.size(), "column"), roles.size());
   std::vector<RecordFile> channels;
   double step = dt;
   for (std::size_t k = 0; k < roles.size(); ++k) {

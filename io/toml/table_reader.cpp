@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/extent.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 
@@ -195,9 +196,10 @@ std::vector<double> TableReader::list(const std::string& key, const Limits& limi
 }
 
 std::vector<double> TableReader::numbers(const std::string& key, std::size_t count, const Limits& limits) {
-  need(key, fmt::format("a list of {} numbers", count));
+  need(key, fmt::format("a list of {}", counted(count, "number")));
   const std::vector<double> values = list(key, limits);
-  if (values.size() != count) fail(key, fmt::format("has {} numbers. It must have {}.", values.size(), count));
+  if (values.size() != count)
+    fail(key, fmt::format("has {}. It must have {}.", counted(values.size(), "number"), count));
   return values;
 }
 

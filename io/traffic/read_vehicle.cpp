@@ -7,6 +7,7 @@
 #include "io/traffic/vehicle.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shipped.h"
 #include "solver/base/shown.h"
@@ -122,9 +123,8 @@ std::optional<Track> read_track(TableReader& root, Vehicle::Kind kind) {
   if (table->has("shares")) track.shares = table->number_list("shares", {0.0, 1.0, ""});
   if (track.shares.size() % 2 == 0)
     table->fail("shares",
-                fmt::format("has {} numbers. It must have an odd number of them; the middle one is the sleeper under "
-                            "the axle.",
-                            track.shares.size()));
+                fmt::format("has {}. It must have an odd number of them; the middle one is the sleeper under the axle.",
+                            counted(track.shares.size(), "number")));
   const double sum = std::accumulate(track.shares.begin(), track.shares.end(), 0.0);
   if (std::abs(sum - 1.0) > 1e-6)
     table->fail("shares",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/base/suggestion.h"
@@ -133,8 +134,8 @@ Vehicle amplified(const Vehicle& vehicle, double factor) {
 
 Vehicle amplified(const Vehicle& vehicle, double factor, std::size_t axle) {
   if (axle >= vehicle.axles.size())
-    throw InputError("vehicle '{}' has {} axles; there is no axle {} (axles count from 0)", vehicle.name,
-                     vehicle.axles.size(), axle);
+    throw InputError("vehicle '{}' has {}; there is no axle {} (axles count from 0)", vehicle.name,
+                     counted(vehicle.axles.size(), "axle"), axle);
   Vehicle other = vehicle;
   multiply_axle(other, axle, factor);
   return other;

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "io/vtk/surface_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "solver/base/shown.h"
@@ -106,8 +107,8 @@ class CompasReader {
   void read_model(const Json& model, const Json& elements, const Json* nodes) {
     const Affine whole = transformation(model, "the model");
     if (const Json* materials = member(model, "materials"); materials && !materials->empty())
-      surface_.notes.push_back(fmt::format("{}: its {} materials were ignored; set materials with options or --map",
-                                           path_, materials->size()));
+      surface_.notes.push_back(fmt::format("{}: its {} ignored; set materials with options or --map", path_,
+                                           counted(materials->size(), "material was", "materials were")));
     std::vector<std::pair<std::string, const Json*>> list;
     if (elements.is_array())
       for (std::size_t i = 0; i < elements.size(); ++i) list.push_back({fmt::format("{}", i), &elements[i]});
@@ -217,7 +218,7 @@ class CompasReader {
 
   void add_face(std::vector<int> loop, const std::string& where) {
     if (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-    if (loop.size() < 3) fail(where, fmt::format("a face has {} corners; it needs at least 3", loop.size()));
+    if (loop.size() < 3) fail(where, fmt::format("a face has {}; it needs at least 3", counted(loop.size(), "corner")));
     surface_.objects.back().faces.push_back(int(surface_.faces.size()));
     surface_.faces.push_back(std::move(loop));
     surface_.face_lines.push_back(0);

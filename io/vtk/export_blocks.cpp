@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "solver/base/counted.h"
 #include "solver/base/json_file.h"
 
 namespace voussoir {
@@ -91,11 +92,13 @@ std::vector<std::string> left_out(const Assembly& assembly) {
       "(joints of generated bridges may have other values, from tables)"};
   const auto is_bar = [&](const Joint& j) { return assembly.laws[std::size_t(j.law)].kind == JointLaw::Kind::tie; };
   if (const auto ties = std::count_if(assembly.joints.begin(), assembly.joints.end(), is_bar); ties > 0)
-    notes.push_back(fmt::format("{} ties are not written", ties));
+    notes.push_back(fmt::format("{} not written", counted(ties, "tie is", "ties are")));
   if (!assembly.fill.empty())
-    notes.push_back(fmt::format("the deformable fill is not written: {} tetrahedra on {} nodes",
-                                assembly.fill.tets.size(), assembly.fill.nodes.size()));
-  if (!assembly.sensors.empty()) notes.push_back(fmt::format("{} sensors are not written", assembly.sensors.size()));
+    notes.push_back(fmt::format("the deformable fill is not written: {} on {}",
+                                counted(assembly.fill.tets.size(), "tetrahedron", "tetrahedra"),
+                                counted(assembly.fill.nodes.size(), "node")));
+  if (!assembly.sensors.empty())
+    notes.push_back(fmt::format("{} not written", counted(assembly.sensors.size(), "sensor is", "sensors are")));
   if (!assembly.effects.empty())
     notes.push_back(fmt::format("of the effects ({}) only the changes of shapes and materials are written",
                                 fmt::join(assembly.effects, "; ")));
@@ -172,9 +175,8 @@ ExportedBlocks export_compas(const Assembly& assembly) {
                                             {"density", block_density(assembly, block)}};
   }
   if (several > 0)
-    out.notes.push_back(fmt::format(
-        "{} blocks of several cells are written as one node for each cell: in COMPAS each cell is a separate block",
-        several));
+    out.notes.push_back(fmt::format("{} written as one node for each cell: in COMPAS each cell is a separate block",
+                                    counted(several, "block of several cells is", "blocks of several cells are")));
   const nlohmann::json graph = {{"dtype", "compas.datastructures/Graph"},
                                 {"data",
                                  {{"attributes", none},

@@ -7,6 +7,7 @@
 
 #include "io/vtk/grid.h"
 #include "io/vtk/grid_arrays.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/model/fill_memory.h"
 
@@ -17,9 +18,10 @@ void check(const FillMesh& mesh, const FillSnapshot& fill) {
   if (fill.displacement.size() != mesh.nodes.size() || fill.velocity.size() != mesh.nodes.size() ||
       fill.tets.size() != mesh.tets.size())
     throw InputError(
-        "pictures: the fill of the state has {} nodes and {} tetrahedra, but that of the assembly has {} and {}. Use "
-        "state and assembly of the same run.",
-        fill.displacement.size(), fill.tets.size(), mesh.nodes.size(), mesh.tets.size());
+        "pictures: the fill of the state has {} and {}, but that of the assembly has {} and {}. Use state "
+        "and assembly of the same run.",
+        counted(fill.displacement.size(), "node"), counted(fill.tets.size(), "tetrahedron", "tetrahedra"),
+        mesh.nodes.size(), mesh.tets.size());
 }
 
 void add_points(vtkUnstructuredGrid* grid, const FillMesh& mesh, const Snapshot& snapshot) {

@@ -9,6 +9,7 @@
 
 #include "io/vtk/surface_file.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "solver/base/shown.h"
@@ -97,7 +98,9 @@ class GltfReader {
     seen_.assign(nodes.size(), false);
     for (const std::size_t root : roots) walk(root);
     if (passed_over_ > 0)
-      surface_.notes.push_back(fmt::format("{}: {} primitives of points and lines were ignored", path_, passed_over_));
+      surface_.notes.push_back(fmt::format(
+          "{}: {} ignored", path_,
+          counted(passed_over_, "primitive of points or lines was", "primitives of points and lines were")));
     surface_.up = "y";
     return std::move(surface_);
   }

@@ -12,6 +12,7 @@
 
 #include "io/vtk/block_shape.h"
 #include "io/vtk/grid_arrays.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -21,15 +22,14 @@ void check(const Assembly& assembly, const Snapshot& snapshot) {
   const std::size_t blocks = assembly.blocks.size();
   if (snapshot.displacement.size() != blocks || snapshot.rotation.size() != blocks ||
       snapshot.velocity.size() != blocks)
-    throw InputError(
-        "pictures: the state has {} blocks, but the assembly has {}. Use state and assembly of the same run.",
-        snapshot.displacement.size(), blocks);
+    throw InputError("pictures: the state has {}, but the assembly has {}. Use state and assembly of the same run.",
+                     counted(snapshot.displacement.size(), "block"), blocks);
   for (const auto& patch : snapshot.patches)
     if (patch.a < 0 || patch.a >= std::int64_t(blocks) || patch.b >= std::int64_t(blocks))
       throw InputError(
-          "pictures: a joint patch of the state names blocks {} and {}, but the assembly has {} blocks. Use state and "
+          "pictures: a joint patch of the state names blocks {} and {}, but the assembly has {}. Use state and "
           "assembly of the same run.",
-          patch.a, patch.b, blocks);
+          patch.a, patch.b, counted(blocks, "block"));
 }
 
 Vec3 moved_point(const Block& block, const Snapshot& snapshot, std::size_t i, const Vec3& x) {

@@ -14,6 +14,7 @@
 #include "io/vtk/import_steps.h"
 #include "io/vtk/shells.h"
 #include "io/vtk/surface_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -132,16 +133,17 @@ JointSearch widened(JointSearch search, const Repairs& repairs) {
 void note_repairs(Import& import, const Repairs& repairs, const std::string& path, const ImportOptions& options) {
   if (repairs.hulls > 0)
     import.notes.push_back(fmt::format(
-        "{}: {} shapes were replaced by their convex hulls; the volume grows by up to {:.3g} %, most for {}", path,
-        repairs.hulls, 100.0 * repairs.growth, repairs.grown));
+        "{}: {}; the volume grows by up to {:.3g} %, most for {}", path,
+        counted(repairs.hulls, "shape was replaced by its convex hull", "shapes were replaced by their convex hulls"),
+        100.0 * repairs.growth, repairs.grown));
   if (repairs.cut > 0)
-    import.notes.push_back(
-        fmt::format("{}: {} shapes were cut into {} convex cells", path, repairs.cut, repairs.cells));
+    import.notes.push_back(fmt::format("{}: {} cut into {}", path, counted(repairs.cut, "shape was", "shapes were"),
+                                       counted(repairs.cells, "convex cell")));
   if (repairs.stones == 0) return;
   std::string note = fmt::format(
-      "{}: {} stones had faces that were not plane; the program has made them plane and moved corners by up to {:.3g} "
-      "m, most for {}",
-      path, repairs.stones, repairs.moved, repairs.where);
+      "{}: {} had faces that were not plane; the program has made them plane and moved corners by up to {:.3g} m, most "
+      "for {}",
+      path, counted(repairs.stones, "stone"), repairs.moved, repairs.where);
   if (2.0 * repairs.moved > options.search.gap)
     note += fmt::format("; faces up to {:.3g} m apart therefore count as in contact", 2.0 * repairs.moved);
   import.notes.push_back(note);
@@ -166,9 +168,9 @@ void check_overlaps(const Import& import, const std::string& path, double gap) {
     return import.names[i].empty() ? fmt::format("stone {}", i) : fmt::format("'{}' (stone {})", import.names[i], i);
   };
   throw InputError(
-      "{}: {} pairs of stones overlap. The first pair, {} and {}, overlaps by {:g} m. Move them apart, or raise the "
-      "gap tolerance ({:g} m).",
-      path, overlaps.size(), name(overlaps[0].a), name(overlaps[0].b), overlaps[0].depth, gap);
+      "{}: {}. The first pair, {} and {}, overlaps by {:g} m. Move them apart, or raise the gap tolerance ({:g} m).",
+      path, counted(overlaps.size(), "pair of stones overlaps", "pairs of stones overlap"), name(overlaps[0].a),
+      name(overlaps[0].b), overlaps[0].depth, gap);
 }
 
 void check(const ImportOptions& options) {

@@ -4,6 +4,7 @@
 #include "geometry/stiffness.h"
 #include "io/hdf5/assembly_file.h"
 #include "io/vtk/import_steps.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -96,8 +97,8 @@ Import import_assembly(const std::string& path, const ImportOptions& options) {
     throw InputError("{}: {}", path, error.what());
   }
   if (stated > 0)
-    import.notes.push_back(fmt::format("{}: the program has ignored its {} joints and has found {} joints", path,
-                                       stated, assembly.joints.size()));
+    import.notes.push_back(fmt::format("{}: the program has ignored its {} and has found {}", path,
+                                       counted(stated, "joint"), counted(assembly.joints.size(), "joint")));
   ImportOptions meant = options;
   if (options.keep_fixed) meant.fixed = "as stated";
   note_what_surprises(import, meant, path);

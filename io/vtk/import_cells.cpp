@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "io/vtk/import_steps.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -126,7 +127,8 @@ void join_cells(Import& import, CellRule rule, const JointSearch& search, const 
   import.notes.push_back(
       of_several == 0
           ? path + ": no stone is made of several cells: --cells and --map found no pieces that belong together"
-          : fmt::format("{}: {} stones consist of several cells, {} cells in all", path, of_several, cells));
+          : fmt::format("{}: {} of several cells, {} cells in all", path,
+                        counted(of_several, "stone consists", "stones consist"), cells));
   import.assembly = std::move(joined);
   import.names = std::move(names);
   import.objects = std::move(objects);

@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/base/suggestion.h"
@@ -246,7 +247,9 @@ bool fix_stones(Import& import, const ImportOptions& options, const std::string&
   const auto supports = std::count(import.supports.begin(), import.supports.end(), true);
   if (options.keep_fixed && supports > 0) {
     for (std::size_t i = 0; i < import.supports.size(); ++i) import.assembly.blocks[i].fixed = import.supports[i];
-    import.notes.push_back(fmt::format("{}: {} stones are supports in this file and are fixed", path, supports));
+    import.notes.push_back(fmt::format(
+        "{}: {} fixed", path,
+        counted(supports, "stone is a support in this file and is", "stones are supports in this file and are")));
   } else if (!(options.keep_fixed && mapped)) {
     asked = true;
     fix_asked(import, options);

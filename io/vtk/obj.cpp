@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/vtk/surface_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "solver/base/words.h"
@@ -93,7 +94,7 @@ class ObjReader {
       loop.push_back(int(vertex));
     }
     if (loop.size() < 3)
-      throw InputError("{}:{}: a face has {} corners; it needs at least 3", path_, line, loop.size());
+      throw InputError("{}:{}: a face has {}; it needs at least 3", path_, line, counted(loop.size(), "corner"));
     surface_.faces.push_back(loop);
     surface_.face_lines.push_back(line);
     face_owner_.push_back({object_, group_, layer_, part_, part_of_group_});

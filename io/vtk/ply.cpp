@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "io/vtk/surface_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 
@@ -169,7 +170,7 @@ class PlyReader {
                          surface_.vertices.size()));
       loop.push_back(int(corner));
     }
-    if (loop.size() < 3) fail(fmt::format("face {} has {} corners; it needs at least 3", row, loop.size()));
+    if (loop.size() < 3) fail(fmt::format("face {} has {}; it needs at least 3", row, counted(loop.size(), "corner")));
     surface_.objects[0].faces.push_back(int(surface_.faces.size()));
     surface_.faces.push_back(std::move(loop));
     surface_.face_lines.push_back(form_ == Form::text ? line_ : 0);

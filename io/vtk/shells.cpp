@@ -7,6 +7,7 @@
 #include <set>
 
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/disjoint_sets.h"
 #include "solver/base/error.h"
 
@@ -149,9 +150,9 @@ std::vector<Part> split_by_edges(const Part& part, const std::string& where) {
     }
   if (open > 0)
     throw InputError(
-        "{} is not closed: {} edges have a face on one side only, the first near ({:g}, {:g}, {:g}). Close the holes, "
-        "or give all faces of a stone the same orientation.",
-        where, open, open_at.x(), open_at.y(), open_at.z());
+        "{} is not closed: {} a face on one side only, the first near ({:g}, {:g}, {:g}). Close the holes, or give all "
+        "faces of a stone the same orientation.",
+        where, counted(open, "edge has", "edges have"), open_at.x(), open_at.y(), open_at.z());
   std::vector<int> key(part.loops.size());
   std::iota(key.begin(), key.end(), 0);
   return grouped(part, sets, key);
@@ -191,7 +192,8 @@ std::vector<Part> split_loose(Part loose, double tolerance, const std::string& w
     part.faces.push_back(loose.faces[f]);
   }
   if (const int dropped = drop_repeated(part))
-    notes.push_back(fmt::format("{}: {} faces occur twice; each was used once", where, dropped));
+    notes.push_back(fmt::format("{}: {} was used once", where,
+                                counted(dropped, "face occurs twice; it", "faces occur twice; each")));
   const bool inside_out = mass_properties(polyhedron(part)).volume < 0.0;
   const auto turn = [](Part& p) {
     for (auto& loop : p.loops) std::reverse(loop.begin(), loop.end());

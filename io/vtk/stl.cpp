@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/vtk/surface_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/words.h"
 
@@ -78,7 +79,7 @@ Surface read_binary(const std::string& path, const std::string& bytes) {
   Surface surface = facets.finish();
   if (const std::size_t end = head_size + count * facet_size; end < bytes.size())
     surface.notes.push_back(
-        fmt::format("{}: the {} bytes after its {} facets were ignored", path, bytes.size() - end, count));
+        fmt::format("{}: the {} bytes after its {} were ignored", path, bytes.size() - end, counted(count, "facet")));
   return surface;
 }
 

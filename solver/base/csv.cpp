@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 
@@ -214,9 +215,9 @@ void CsvReader::end_row() {
 
 void CsvReader::wrong_count(std::size_t count) const {
   fail(
-      fmt::format("the row has {} {}, the heading has {}. Write numbers with a decimal point, and put text that "
+      fmt::format("the row has {}, the heading has {}. Write numbers with a decimal point, and put text that "
                   "contains '{}' in quotes.",
-                  count, count == 1 ? "cell" : "cells", columns_.size(), separator_));
+                  counted(count, "cell"), columns_.size(), separator_));
 }
 
 CsvTable::CsvTable(const TextFile& file, const std::vector<std::string>& required,

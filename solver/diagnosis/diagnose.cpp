@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/diagnosis/exchange.h"
 #include "solver/diagnosis/misfit.h"
@@ -157,8 +158,8 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
       d.plain.gap, problem.scale.shapes));
   d.calibrated = fit(problem, none, d.calibrated.best.x, settings.iterations, origin, shared);
   d.alarms = alarms_of(d.calibrated);
-  say(fmt::format("materials fitted: gap {:.2f}, {} alarm{}; {}", d.calibrated.gap, d.alarms.size(),
-                  d.alarms.size() == 1 ? "" : "s", misfit_text(tail(problem, d.calibrated))));
+  say(fmt::format("materials fitted: gap {:.2f}, {}; {}", d.calibrated.gap, counted(d.alarms.size(), "alarm"),
+                  misfit_text(tail(problem, d.calibrated))));
   CandidateChoice choice;
   choice.without = settings.without;
   choice.driven = problem.features.driven();
@@ -199,7 +200,7 @@ Diagnosis diagnose(const DiagnosisProblem& asked, const DiagnosisSettings& setti
     const DetectionSettings asked_for = {margin_beside(judged.fit.hypothesis, settings), settings.further_measurements,
                                          settings.threads};
     d.detection = detection(by, judged.fit, *judged.origin, judged.shared, all, asked_for);
-    say(fmt::format("computed the least detectable amounts of {} effects", d.detection.least.size()));
+    say(fmt::format("computed the least detectable amounts of {}", counted(d.detection.least.size(), "effect")));
   }
   d.judged = by;
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

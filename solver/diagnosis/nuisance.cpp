@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/effects/parts.h"
 
@@ -183,7 +184,7 @@ double outline_of(const Polygon& polygon) {
 /// `share` of the whole joint area may appear or disappear.
 std::string other_cut(const Assembly& a, const Assembly& b, double amount, double share) {
   if (a.blocks.size() != b.blocks.size())
-    return fmt::format("{} blocks instead of {}", b.blocks.size(), a.blocks.size());
+    return fmt::format("{} instead of {}", counted(b.blocks.size(), "block"), a.blocks.size());
   for (std::size_t i = 0; i < a.blocks.size(); ++i)
     if (a.blocks[i].fixed != b.blocks[i].fixed || a.blocks[i].component != b.blocks[i].component)
       return "blocks that belong to other parts";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "solver/base/parallel.h"
 
 namespace voussoir {
@@ -114,7 +115,7 @@ Round run_round(const DiagnosisProblem& problem, const DiagnosisSettings& settin
   for (const Signature& s : shortlist(all, all.size()))
     round.screened.emplace_back(candidates[s.candidate].full_text(), s.explained);
   const std::vector<Signature> chosen = shortlist(all, std::size_t(settings.fits));
-  say(fmt::format("screened {} candidates; fitting {}", round.screened.size(), chosen.size()));
+  say(fmt::format("screened {}; fitting {}", counted(round.screened.size(), "candidate"), chosen.size()));
   std::vector<std::optional<Trial>> trials(chosen.size());
   std::vector<std::string> failures(chosen.size());
   for_all(chosen.size(), settings.threads, [&](std::size_t i) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/random.h"
 #include "solver/identify/picking.h"
@@ -158,7 +159,8 @@ std::string doubt(const ModelSource& source, const IdentifiedMode& mode, const S
                        100.0 * mode.damping, 100.0 * s.least_damping);
   if (!(mode.damping > 0.0 && mode.damping < s.largest_damping))
     return fmt::format("its damping ratio is {:.4f}", mode.damping);
-  if (mode.hits < s.least_hits * orders) return fmt::format("it is stable at only {} of {} orders", mode.hits, orders);
+  if (mode.hits < s.least_hits * orders)
+    return fmt::format("it is stable at only {} of {}", mode.hits, counted(orders, "order"));
   if (mode.mean_phase < s.least_mean_phase)
     return fmt::format("its points do not move in phase: collinearity {:.2f}", mode.mean_phase);
   if (source.segments >= parts && spread.found < least_found * replicates)
@@ -167,11 +169,11 @@ std::string doubt(const ModelSource& source, const IdentifiedMode& mode, const S
   // What noise makes is never as stable as that, and never as sure of its frequency and damping.
   if (mode.hits >= sure_hits * orders) return {};
   if (mode.frequency_std > largest_spread * mode.frequency)
-    return fmt::format("it is stable at only {} of {} orders, and its frequency is uncertain by {:.1f} %", mode.hits,
-                       orders, 100.0 * mode.frequency_std / mode.frequency);
+    return fmt::format("it is stable at only {} of {}, and its frequency is uncertain by {:.1f} %", mode.hits,
+                       counted(orders, "order"), 100.0 * mode.frequency_std / mode.frequency);
   if (mode.damping_std > sure_damping * mode.damping)
-    return fmt::format("it is stable at only {} of {} orders, and its damping ratio of {:.4f} is uncertain by {:.4f}",
-                       mode.hits, orders, mode.damping, mode.damping_std);
+    return fmt::format("it is stable at only {} of {}, and its damping ratio of {:.4f} is uncertain by {:.4f}",
+                       mode.hits, counted(orders, "order"), mode.damping, mode.damping_std);
   return {};
 }
 

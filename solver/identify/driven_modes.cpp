@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/identify/spectra.h"
 #include "solver/identify/ssi.h"
@@ -47,9 +48,9 @@ std::vector<Eigen::Index> finite_lines(const TransferFunctions& t) {
     if (t.values[k].allFinite() && t.magnitude_std[k].allFinite()) lines.push_back(Eigen::Index(k));
   if (Eigen::Index(lines.size()) < least_lines)
     throw InputError(
-        "driven modes: {} lines of the transfer functions are finite, but {} are needed. Choose a longer window or a "
-        "higher highest frequency, or give longer recordings.",
-        lines.size(), least_lines);
+        "driven modes: {} finite, but {} are needed. Choose a longer window or a higher highest frequency, or give "
+        "longer recordings.",
+        counted(lines.size(), "line of the transfer functions is", "lines of the transfer functions are"), least_lines);
   return lines;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/identify/spectra.h"
 
@@ -23,11 +24,11 @@ void check_recording(const Recording& r) {
     throw InputError("recording '{}': the time step is {} s. It must be above 0. Check the header of the file.", r.name,
                      r.dt);
   if (r.values.rows() < 2 || r.values.cols() < 1)
-    throw InputError("recording '{}' has {} samples of {} channels. At least 2 samples of 1 channel are needed.",
-                     r.name, r.values.rows(), r.values.cols());
+    throw InputError("recording '{}' has {} of {}. At least 2 samples of 1 channel are needed.", r.name,
+                     counted(r.values.rows(), "sample"), counted(r.values.cols(), "channel"));
   if (Eigen::Index(r.channels.size()) != r.values.cols())
-    throw InputError("recording '{}' has {} columns but {} channel names. Give one name for each column.", r.name,
-                     r.values.cols(), r.channels.size());
+    throw InputError("recording '{}' has {} but {}. Give one name for each column.", r.name,
+                     counted(r.values.cols(), "column"), counted(r.channels.size(), "channel name"));
   for (std::size_t c = 0; c < r.channels.size(); ++c) {
     if (std::count(r.channels.begin(), r.channels.end(), r.channels[c]) > 1)
       throw InputError("recording '{}': two channels have the name '{}'. Give each channel a different name.", r.name,

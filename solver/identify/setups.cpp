@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -309,8 +310,8 @@ std::string doubt(const Track& track, const std::vector<Setup>& setups, const st
   std::size_t components = 0;
   for (const std::complex<double>& value : track.mode.shape) components += known(value);
   if (double(components) < least_known * double(usable))
-    return fmt::format("it is found in {} of {} setups, and only {} of {} channels measured it", track.setups,
-                       results.size(), components, usable);
+    return fmt::format("it is found in {} of {} setups, and only {} of {} measured it", track.setups, results.size(),
+                       components, counted(usable, "channel"));
   return {};
 }
 

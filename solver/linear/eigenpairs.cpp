@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <chrono>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/timed.h"
 #include "solver/linear/dense_eigen.h"
@@ -165,7 +166,8 @@ bool is_small(const SparseMatrix& m, int count) {
   // Lanczos needs room for a basis; and what is small is done sooner, and whole, by reduction to tridiagonal form.
   const bool small = m.rows() <= dense_below || 3 * count > m.rows();
   if (small && m.rows() > dense_most)
-    throw InputError("{} modes are too many for {} unknowns. Choose at most {}.", count, m.rows(), m.rows() / 3);
+    throw InputError("{} too many for {} unknowns. Choose at most {}.", counted(count, "mode is", "modes are"),
+                     m.rows(), m.rows() / 3);
   return small;
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
 
@@ -82,7 +83,8 @@ Eigen::MatrixXd Factor::solve(const Eigen::MatrixXd& x) const {
   if (solved) result = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(found->x), x.rows(), x.cols());
   cholmod_free_dense(&found, &own);
   cholmod_finish(&own);
-  if (!solved && result.size() > 0) throw RunError("there is not enough memory to solve for {} unknowns", x.rows());
+  if (!solved && result.size() > 0)
+    throw RunError("there is not enough memory to solve for {}", counted(x.rows(), "unknown"));
   return result;
 }
 

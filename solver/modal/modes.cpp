@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <chrono>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/linear/loose.h"
 
@@ -80,11 +81,11 @@ void check_count(int count, std::int32_t unknowns, std::size_t adrift, int held)
   if (count <= unknowns) return;
   const std::string left =
       adrift > 0 || held > 0
-          ? fmt::format(" (without {} blocks and {} degrees of freedom of other blocks that nothing holds)", adrift,
-                        held)
+          ? fmt::format(" (without {} and {} of other blocks that nothing holds)", counted(adrift, "block"),
+                        counted(held, "degree of freedom", "degrees of freedom"))
           : "";
-  throw InputError("the number of modes is {}, but the model has {} unknowns{}. Choose at most {}.", count, unknowns,
-                   left, unknowns);
+  throw InputError("the number of modes is {}, but the model has {}{}. Choose at most {}.", count,
+                   counted(unknowns, "unknown"), left, unknowns);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "geometry/fill_mesh.h"
+#include "solver/base/counted.h"
 #include "solver/base/disjoint_sets.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
@@ -115,7 +116,7 @@ class Planner {
     std::vector<std::string> words;
     for (const auto& [name, count] : left) words.push_back(fmt::format("{} of {}", count, name));
     const auto tets = std::count(plan_.tet.begin(), plan_.tet.end(), never);
-    if (tets > 0) words.push_back(fmt::format("{} elements of the fill", tets));
+    if (tets > 0) words.push_back(fmt::format("{} of the fill", counted(tets, "element")));
     if (!words.empty())
       throw InputError(
           "construction: no step adds {}. Name them in the 'add' of a step, or add a last step without 'below'.",

@@ -6,6 +6,7 @@
 
 #include "geometry/curve.h"
 #include "solver/base/buckets.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/model/interface.h"
 
@@ -102,9 +103,8 @@ PatchShape joint_shape(const Joint& joint, std::size_t index, const Model& model
                      joint.a, joint.b, joint.kn, joint.ks);
   if (model.laws[std::size_t(joint.law)].kind == JointLaw::Kind::tie && joint.polygon.size() != 4)
     throw InputError(
-        "joint {} between blocks {} and {} is a tie with a polygon of {} corners. It must have 4 corners, two at each "
-        "anchor.",
-        index, joint.a, joint.b, joint.polygon.size());
+        "joint {} between blocks {} and {} is a tie with a polygon of {}. It must have 4 corners, two at each anchor.",
+        index, joint.a, joint.b, counted(joint.polygon.size(), "corner"));
   return patch_shape(joint.polygon, joint.normal, model.contact.points_per_side);
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/random.h"
 
@@ -209,7 +210,8 @@ Eigen::VectorXd best_within_all(const Quadratic& q, const Bounds& bounds, double
 
 void check(const SelectionProblem& p) {
   const std::size_t n = p.events.size();
-  if (p.count < 1 || n < p.count) throw InputError("{} records are required, but {} are available", p.count, n);
+  if (p.count < 1 || n < p.count)
+    throw InputError("{} required, but {} are available", counted(p.count, "record is", "records are"), n);
   if (!(p.low > 0.0 && p.low <= 1.0 && p.high >= 1.0))
     throw InputError(
         "the bounds of the mean over the target are {} and {}. The first must be above 0 and at most 1, the second at "
@@ -221,7 +223,8 @@ void check(const SelectionProblem& p) {
   if (p.per_event < 1 || count_sets(p) < 1.0)
     throw InputError(
         "{} records with at most {} of one event are required, but there are not enough events. Allow more records of "
-        "one event.",
+        "one "
+        "event.",
         p.count, p.per_event);
 }
 

@@ -2,6 +2,7 @@
 // (docs/theory/steps.md).
 #include <algorithm>
 
+#include "solver/base/counted.h"
 #include "solver/contact/search.h"
 #include "solver/run/simulation.h"
 #include "solver/statics/motion_watch.h"
@@ -170,8 +171,8 @@ Stop Simulation::approach(const StageSettings& stage, Stop from, const Stop& to)
     }
     log(fmt::format("share {:.5g}: {:.5g} kN at {:.5g} mm ({})", wanted.share, 1e-3 * step_row_.force,
                     1e3 * step_row_.displacement,
-                    equilibrium_.relaxed ? fmt::format("{} relaxation steps", equilibrium_.steps)
-                                         : fmt::format("{} Newton iterations", equilibrium_.iterations)));
+                    equilibrium_.relaxed ? counted(equilibrium_.steps, "relaxation step")
+                                         : counted(equilibrium_.iterations, "Newton iteration")));
     if (halved == 0) return to;
     from = wanted;
     --halved;

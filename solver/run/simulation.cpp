@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "solver/base/timed.h"
@@ -135,13 +136,14 @@ void Simulation::scale_and_say() {
   stepper_.prepare();
   if (!observers_.log) return;
   if (!scaling_.at_work()) return log("mass scaling is not needed");
-  log(fmt::format(
-      "mass scaling: the critical time step is {:.4g} s instead of {:.4g} s; the inertia of {} blocks is increased (at "
-      "most × {:.3g}), and the mass of {} of them{} (at most × {:.3g}); the added mass is {:.4f} %, and the weights "
-      "are unchanged",
-      critical_step(model_, reference).step, before, scaling_.bodies, scaling_.largest_rotary, scaling_.heavier,
-      scaling_.nodes > 0 ? fmt::format(" and of {} nodes of the fill", scaling_.nodes) : "", scaling_.largest,
-      100 * scaling_.share));
+  log(
+      fmt::format("mass scaling: the critical time step is {:.4g} s instead of {:.4g} s; the inertia of {} is "
+                  "increased (at most × {:.3g}), and the mass of {} of them{} (at most × {:.3g}); the added mass is "
+                  "{:.4f} %, and the weights are unchanged",
+                  critical_step(model_, reference).step, before, counted(scaling_.bodies, "block"),
+                  scaling_.largest_rotary, scaling_.heavier,
+                  scaling_.nodes > 0 ? fmt::format(" and of {} of the fill", counted(scaling_.nodes, "node")) : "",
+                  scaling_.largest, 100 * scaling_.share));
   const std::vector<double> shifts = frequency_shifts(model_, reference, scaling_, frequencies_compared);
   if (shifts.empty()) return;
   log(fmt::format("mass scaling: the first {} frequencies decrease by at most {:.3g} %, the lowest by at most {:.3g} %",

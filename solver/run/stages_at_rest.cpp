@@ -1,6 +1,7 @@
 // The stages of a run that take no time: equilibrium and collapse.
 #include <algorithm>
 
+#include "solver/base/counted.h"
 #include "solver/base/process.h"
 #include "solver/base/timed.h"
 #include "solver/contact/search.h"
@@ -124,7 +125,7 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
   const std::size_t count = moved.size();
   moved.resize(std::min(count, named));
   const std::string words =
-      fmt::format("{} stone{} moved away from where {} joints held {} ({}):{}", count, count == 1 ? "" : "s",
+      fmt::format("{} moved away from where {} joints held {} ({}):{}", counted(count, "stone"),
                   count == 1 ? "its" : "their", count == 1 ? "it" : "them",
                   "against a neighbour by more than 5 % of the smaller one's size, or turned by more than 3°",
                   moved_text(*assembly_, model_, moved, before, before.pose, state_));

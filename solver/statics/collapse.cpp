@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/statics/motion_watch.h"
 
@@ -203,8 +204,8 @@ Collapse find_collapse(Stepper& stepper, const CollapseSettings& settings, doubl
       result.loss.rest_stands = rest_stands(stepper, good, result.loss, tolerance, limits, distance, stop);
   }
   result.account = result.found
-                       ? fmt::format("equilibrium is lost between multipliers {:.5g} and {:.5g}, after {} tries",
-                                     result.multiplier, result.above, result.tries.size())
+                       ? fmt::format("equilibrium is lost between multipliers {:.5g} and {:.5g}, after {}",
+                                     result.multiplier, result.above, counted(result.tries.size(), "try", "tries"))
                        : fmt::format("the assembly still stands at a multiplier of {:.5g}", result.multiplier);
   return result;
 }

@@ -1,9 +1,9 @@
 // What a collapse stage found, in words for the log, the summary and the page.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
+#include "solver/base/counted.h"
 #include "solver/statics/collapse.h"
 
 namespace voussoir {
@@ -32,10 +32,11 @@ double rounded(double x) {
 
 std::string mechanism_text(const Assembly& assembly, const std::vector<MechanismJoint>& mechanism) {
   if (mechanism.empty()) return "no mechanism: no joint moves";
-  const auto slides = std::size_t(std::ranges::count(mechanism, true, &MechanismJoint::slides));
-  const std::size_t hinges = mechanism.size() - slides;
-  std::string text = fmt::format("mechanism: {} {}, {} {}", hinges, hinges == 1 ? "joint hinges" : "joints hinge",
-                                 slides, slides == 1 ? "slides" : "slide");
+  std::size_t slides = 0;
+  for (const MechanismJoint& joint : mechanism) slides += joint.slides;
+  std::string text =
+      fmt::format("mechanism: {}, {}", counted(mechanism.size() - slides, "joint hinges", "joints hinge"),
+                  counted(slides, "slides", "slide"));
   if (mechanism.size() > 12) return text;
   for (const MechanismJoint& joint : mechanism) {
     const std::string edge = edge_name(assembly, joint);
@@ -58,15 +59,13 @@ const char* them(std::size_t things) {
 std::string moving_part(const Assembly& assembly, const CollapseLoss& loss) {
   const std::string fill = loss.fill ? fmt::format(" and the fill around {}", them(loss.blocks.size())) : "";
   if (loss.blocks.empty()) return loss.fill ? "the fill" : "nothing";
-  if (loss.loaded_only)
-    return fmt::format("{} loaded {}{}", loss.blocks.size(), loss.blocks.size() == 1 ? "block" : "blocks", fill);
+  if (loss.loaded_only) return counted(loss.blocks.size(), "loaded block") + fill;
   std::map<std::string, std::size_t> counts;
   for (std::int64_t block : loss.blocks)
     ++counts[component_names()[std::size_t(assembly.blocks[std::size_t(block)].component)]];
   std::string text;
   for (const auto& [name, count] : counts)
-    text +=
-        fmt::format("{}{} {} of component {}", text.empty() ? "" : ", ", count, count == 1 ? "block" : "blocks", name);
+    text += fmt::format("{}{} of component {}", text.empty() ? "" : ", ", counted(count, "block"), name);
   return text + fill;
 }
 

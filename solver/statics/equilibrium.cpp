@@ -4,6 +4,7 @@
 
 #include <new>
 
+#include "solver/base/counted.h"
 #include "solver/linear/factor.h"
 #include "solver/linear/krylov.h"
 #include "solver/linear/multigrid.h"
@@ -314,9 +315,9 @@ Equilibrium newton_equilibrium(Stepper& stepper, double tolerance, const std::at
   }
   stop_motion(state);
   result.account =
-      fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight{}",
-                  result.converged ? "converged" : "did not converge", result.iterations, result.residual,
-                  result.converged ? "" : inverse.remark());
+      fmt::format("Newton {} after {}: out-of-balance force {:.2e} of an average block's weight{}",
+                  result.converged ? "converged" : "did not converge", counted(result.iterations, "iteration"),
+                  result.residual, result.converged ? "" : inverse.remark());
   return result;
 }
 
@@ -404,9 +405,9 @@ Equilibrium newton_step(Stepper& stepper, double tolerance, Machine* machine, co
     machine->multiplier = multiplier;
   }
   stop_motion(state);
-  result.account =
-      fmt::format("Newton {} after {} iterations: out-of-balance force {:.2e} of an average block's weight",
-                  result.converged ? "converged" : "did not converge", result.iterations, result.residual);
+  result.account = fmt::format("Newton {} after {}: out-of-balance force {:.2e} of an average block's weight",
+                               result.converged ? "converged" : "did not converge",
+                               counted(result.iterations, "iteration"), result.residual);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include <Eigen/Dense>
 #include <utility>
 
+#include "solver/base/counted.h"
 #include "solver/contact/search.h"
 #include "solver/linear/dense_eigen.h"
 #include "solver/linear/stiffness.h"
@@ -252,8 +253,8 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   stop_motion(state);
   stepper.prepare();
   result.account =
-      fmt::format("dynamic relaxation {} after {} steps: out-of-balance force {:.2e} of an average block's weight",
-                  result.converged ? "converged" : "did not converge", result.steps, result.residual);
+      fmt::format("dynamic relaxation {} after {}: out-of-balance force {:.2e} of an average block's weight",
+                  result.converged ? "converged" : "did not converge", counted(result.steps, "step"), result.residual);
   return result;
 }
 

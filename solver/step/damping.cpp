@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -103,7 +104,7 @@ DampingAtWork maxwell_at_work(const DampingSettings& settings, double step) {
   Branches& b = work.branches;
   b.count = settings.branches;
   double total = 0.0;
-  work.account = fmt::format("Maxwell damping, {} branches:", b.count);
+  work.account = fmt::format("Maxwell damping, {}:", counted(b.count, "branch", "branches"));
   for (int j = 0; j < b.count; ++j) {
     const double omega = two_pi * fit.frequency[j];
     b.e[j] = std::exp(-omega * step);

@@ -110,7 +110,7 @@ TEST(LayJoints, TakesModuliOrWhatIsGiven) {
   EXPECT_EQ(pile.laws.size(), 1u);
   pile.materials[0].youngs_modulus = 0.0;
   const std::string message = error_of([&] { lay_joints(pile, {}); });
-  EXPECT_NE(message.find("1 blocks have no moduli, so their joints have no stiffness. Give kn and ks, or materials"),
+  EXPECT_NE(message.find("1 block has no moduli, so its joints have no stiffness. Give kn and ks, or materials"),
             std::string::npos);
   EXPECT_NE(message.find("The blocks are: block 1 (block, part 0), material \"stone\""), std::string::npos) << message;
   EXPECT_NE(error_of([&] { lay_joints(pile, {}, {5e9, 0.0}); }).find("Give both"), std::string::npos);

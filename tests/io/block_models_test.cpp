@@ -70,7 +70,7 @@ TEST(BlockModels, AnAssemblyOfCompas) {
   EXPECT_EQ(import.names[10], "block 10");
   EXPECT_NEAR(import.assembly.blocks[10].centroid.z(), 10.5, 1e-12);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(import.assembly.blocks[i].fixed, i == 0);
-  EXPECT_NE(import.notes.at(0).find("1 stones are supports in this file"), std::string::npos);
+  EXPECT_NE(import.notes.at(0).find("1 stone is a support in this file"), std::string::npos);
 }
 
 /// compas_dem: elements by GUIDs in the order of the graph, moved by their transformations; other shapes than meshes.

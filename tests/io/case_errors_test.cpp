@@ -168,7 +168,7 @@ const std::vector<Wrong> table = {
     {"Band",
      head + "[damping]\nband = [12, 0.5]\n",
      {"c.toml:4: 'band'", "[12, 0.5]", "first frequency must be the lower"}},
-    {"BandLength", head + "[damping]\nband = [12]\n", {"c.toml:4: 'band'", "has 1 numbers. It must have 2."}},
+    {"BandLength", head + "[damping]\nband = [12]\n", {"c.toml:4: 'band'", "has 1 number. It must have 2."}},
     {"Syntax", head + "[damping\nratio = 1\n", {"c.toml:3: not valid TOML: "}},
     {"Twice", head + "generator = \"wall\"\n", {"c.toml:3: not valid TOML: "}},
     {"UnknownGenerator",

@@ -120,7 +120,8 @@ TEST(Export, WhatIsLeftOutIsSaid) {
   arch.groups["nobody"] = {};
   std::string all;
   for (const std::string& note : export_obj(arch).notes) all += note + "\n";
-  for (const char* piece : {"joints are not written", "1 ties", "1 tetrahedra", "1 sensors", "added_mass", "nobody"})
+  for (const char* piece :
+       {"joints are not written", "1 tie is", "1 tetrahedron", "1 sensor is", "added_mass", "nobody"})
     EXPECT_NE(all.find(piece), std::string::npos) << piece << "\n" << all;
 }
 

@@ -143,7 +143,7 @@ TEST(ImportNames, AShapeThatIsNotConvexIsCutOrItsHullTaken) {
     EXPECT_EQ(cut.assembly.blocks[1].cells.size(), 2u);
     EXPECT_NEAR(cut.assembly.blocks[1].mass, stone, 1e-9);
     EXPECT_EQ(cut.assembly.joints.size(), 1u);
-    EXPECT_NE(cut.notes.at(0).find("1 shapes were cut into 2 convex cells"), std::string::npos) << cut.notes[0];
+    EXPECT_NE(cut.notes.at(0).find("1 shape was cut into 2 convex cells"), std::string::npos) << cut.notes[0];
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("libcgal-dev"), std::string::npos) << error.what();
   }

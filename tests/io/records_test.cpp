@@ -39,7 +39,7 @@ TEST(Columns, MessagesNameFileAndRow) {
   EXPECT_NE(problem("0 0 3\n0.1 1 3\n").find("r.txt:1: 3 columns, expected 2"), std::string::npos);
   EXPECT_NE(problem("0\n1\n").find("give the key 'dt'"), std::string::npos);
   EXPECT_NE(problem("0 1\n1 2\n", 0.1).find("expected 1 (acceleration) because 'dt' is given"), std::string::npos);
-  EXPECT_NE(problem("0 0\n").find("1 rows of numbers. At least 2 are needed"), std::string::npos);
+  EXPECT_NE(problem("0 0\n").find("1 row of numbers. At least 2 are needed"), std::string::npos);
   EXPECT_NE(problem("").find("0 rows"), std::string::npos);
 }
 

@@ -160,7 +160,7 @@ TEST(BlockGrid, RefusesAStateOfAnotherAssembly) {
   const Assembly two = test::two_cubes();
   Snapshot snapshot = rest_snapshot(two);
   snapshot.displacement.pop_back();
-  EXPECT_NE(message_of<InputError>([&] { block_grid(two, snapshot); }).find("1 blocks, but the assembly has 2"),
+  EXPECT_NE(message_of<InputError>([&] { block_grid(two, snapshot); }).find("1 block, but the assembly has 2"),
             std::string::npos);
   snapshot = rest_snapshot(two);
   snapshot.patches[0].b = 7;

@@ -175,7 +175,7 @@ TEST(Import, PiecesBecomeCellsOfOneStone) {
     EXPECT_EQ(import.assembly.blocks[1].cells.size(), 2u);
     EXPECT_NEAR(import.assembly.blocks[1].mass, 2000.0 * 0.5 * (0.5 * 1.2 + 1.2 * 0.3), 1e-9);
     EXPECT_EQ(import.assembly.groups.at("object corbel"), std::vector<std::int64_t>{1});
-    EXPECT_TRUE(has_note(import, "1 stones consist of several cells, 2 cells in all"));
+    EXPECT_TRUE(has_note(import, "1 stone consists of several cells, 2 cells in all"));
   };
   ImportOptions options;
   // Two closed shapes of one object.
@@ -253,7 +253,7 @@ TEST(Import, AnAssemblyFile) {
   options.given = {&Material::cohesion};
   const Import again = import_blocks(folder / "own.h5", options);
   EXPECT_EQ(again.assembly.joints.size(), 2u);
-  EXPECT_TRUE(has_note(again, "has ignored its 1 joints and has found 2 joints"));
+  EXPECT_TRUE(has_note(again, "has ignored its 1 joint and has found 2 joints"));
   EXPECT_EQ(again.assembly.materials[0].youngs_modulus, 3e9);
   EXPECT_EQ(again.assembly.materials[0].friction_angle, 0.4);
   EXPECT_EQ(again.assembly.laws.at(0).cohesion, 7e4);

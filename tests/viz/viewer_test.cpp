@@ -198,7 +198,7 @@ TEST(ViewerScene, OfARunHasAsManyFramesAsAskedFor) {
   series.write(one, other);
   EXPECT_NE(message_of<InputError>([&] {
               run_scene(folder.path(), 9);
-            }).find("blocks_000007.000.vtu: this frame has 1 blocks"),
+            }).find("blocks_000007.000.vtu: this frame has 1 block "),
             std::string::npos);
 }
 
@@ -232,7 +232,7 @@ TEST(ViewerScene, OfShapesMayHaveMoreStonesInOneSeries) {
   both[0].labels.push_back("another");
   EXPECT_NE(message_of<InputError>([&] {
               shape_scene(both);
-            }).find("before.pvd has 1 mode shapes, but the list of modes has 2"),
+            }).find("before.pvd has 1 mode shape, but the list of modes has 2"),
             std::string::npos);
 }
 

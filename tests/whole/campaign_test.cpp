@@ -158,7 +158,7 @@ TEST(Campaign, AKilledRunDoesNotStopTheOthers) {
   for (const int process : processes_with("wall__r1__x1"))
     if (std::ranges::find(ours, process) != ours.end()) ::kill(process, SIGKILL);
   expect_error(program.wait(), 1,
-               {"wall__r1__x1 has not ended: the system killed it", "3 of 4 runs done", "1 runs have not"});
+               {"wall__r1__x1 has not ended: the system killed it", "3 of 4 runs done", "1 run has not"});
   EXPECT_EQ(table_of(out).at("wall__r1__x1").at("status"), "missing");
   EXPECT_EQ(campaign(folder, {out}).status, 0);
   EXPECT_EQ(table_of(out).at("wall__r1__x1").at("status"), "done");

@@ -125,7 +125,7 @@ TEST(CaseErrors, RecordsThatAreWrong) {
     EXPECT_FALSE(exists(folder / "run"));
   };
   refused("", {"0 rows"});
-  refused("0 0\n", {"1 rows"});
+  refused("0 0\n", {"1 row"});
   refused("0 0\n0.1 nan\n0.2 0\n", {"record.txt:2:", "finite"});
   refused("0 0\n0.1 1e999\n0.2 0\n", {"record.txt:2:"});
   refused("my words\n0 0\n0.1 1\n", {"record.txt:1:", "'my words'", "K-NET", "line of names"});

@@ -31,7 +31,7 @@ TEST(Check, PassesAndMisses) {
   folder.write("bad.toml", tipping("0.6"));
   const Outcome good = voussoir({"check", "good.toml"}, there);
   EXPECT_EQ(good.status, 0) << good.err;
-  EXPECT_NE(good.out.find("1 of 1 quantities"), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("1 of 1 quantity"), std::string::npos) << good.out;
   const Outcome both = voussoir({"check", "good.toml", "bad.toml", "-o", "runs"}, there);
   EXPECT_EQ(both.status, 1);
   EXPECT_NE(both.out.find("MISS"), std::string::npos) << both.out;
@@ -80,7 +80,7 @@ TEST(Check, AKnownMissIsSaidAndDoesNotFail) {
   const Outcome known = voussoir({"check", "known.toml", "-o", "runs"}, there);
   EXPECT_EQ(known.status, 0) << known.err;
   EXPECT_NE(known.out.find("known: the block is too tall"), std::string::npos) << known.out;
-  EXPECT_NE(known.out.find("0 of 1 quantities within their tolerance, 1 known miss\n"), std::string::npos) << known.out;
+  EXPECT_NE(known.out.find("0 of 1 quantity within their tolerance, 1 known miss\n"), std::string::npos) << known.out;
   EXPECT_EQ(known.out.find("MISS"), std::string::npos) << known.out;
   const nlohmann::json rows = read_json(folder / "runs/check.json");
   EXPECT_EQ(rows.at(0).at("known_miss"), "the block is too tall");

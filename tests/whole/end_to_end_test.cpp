@@ -127,7 +127,7 @@ TEST(EndToEnd, ImportedStonesRun) {
   const Surroundings there{.folder = folder.path()};
   const Outcome imported = voussoir({"import", "stones.obj", "-o", "stones.h5", "--friction", "35"}, there);
   ASSERT_EQ(imported.status, 0) << imported.err;
-  EXPECT_TRUE(has(imported.out, "2 blocks, 1 joints")) << imported.out;
+  EXPECT_TRUE(has(imported.out, "2 blocks, 1 joint")) << imported.out;
   folder.write("stones.toml", R"([bridge]
 assembly = "stones.h5"
 [[stage]]

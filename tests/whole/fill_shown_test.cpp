@@ -105,7 +105,7 @@ TEST_F(FillShown, ModesMoveItInFilesAndPictures) {
   const Outcome modal =
       voussoir({"modal", "c.toml", "-n", "2", "-o", "modes", "--width", "320", "--height", "240"}, there);
   ASSERT_EQ(modal.status, 0) << modal.err;
-  EXPECT_NE(modal.out.find("1 blocks, a fill of 5 nodes and 2 tetrahedra, "), std::string::npos) << modal.out;
+  EXPECT_NE(modal.out.find("1 block, a fill of 5 nodes and 2 tetrahedra, "), std::string::npos) << modal.out;
   for (const char* file : {"modes/vtk/modes_fill.pvd", "modes/vtk/mode_fill_02.vtu", "modes/images/mode_02.png"})
     EXPECT_TRUE(exists(folder / file)) << file;
   EXPECT_NE(voussoir({"info", "modes/modes.h5"}, there).out.find("5 nodes of a fill"), std::string::npos);

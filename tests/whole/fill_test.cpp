@@ -93,8 +93,8 @@ TEST(Fill, ImportPutsItIntoAnAssembly) {
   const Outcome outcome = voussoir({"import", "heap.msh", "--into", "stone.h5", "-o", "both.h5"}, there);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   expect_holds(outcome.out,
-               {"the fill's material \"backfill\" is new", "4 nodes, 1 tetrahedra", "1, which cover 0.180 of"});
-  expect_holds(voussoir({"info", "both.h5"}, there).out, {"1 blocks", "deformable fill"});
+               {"the fill's material \"backfill\" is new", "4 nodes, 1 tetrahedron", "1, which cover 0.180 of"});
+  expect_holds(voussoir({"info", "both.h5"}, there).out, {"1 block (", "deformable fill"});
   // A material of the assembly, and only what fits together.
   EXPECT_EQ(voussoir({"import", "heap.msh", "--into", "stone.h5", "-o", "b.h5", "--material", "stone"}, there).status,
             0);
@@ -114,7 +114,7 @@ TEST(Fill, ImportAlone) {
   const Surroundings there = {.folder = folder.path()};
   const Outcome outcome = voussoir({"import", "heap.msh", "-o", "heap.h5"}, there);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  expect_holds(outcome.out, {"holds only the fill", "4 nodes, 1 tetrahedra"});
+  expect_holds(outcome.out, {"holds only the fill", "4 nodes, 1 tetrahedron"});
   const Outcome seen = voussoir({"info", "heap.h5"}, there);
   EXPECT_EQ(seen.status, 0) << seen.err;
   expect_holds(seen.out, {"0 blocks", "deformable fill"});

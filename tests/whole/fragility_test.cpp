@@ -221,7 +221,7 @@ TEST(Fragility, SaysWhatIsWrong) {
 
 TEST(Fragility, ACampaignWithoutResultsIsRefused) {
   const Campaign folder(heading + "a,c,r,,1,,failed,energy,3,1,1,1,,,\nb,c,r,,1,,missing,,,,,,,,\n");
-  expect_error(fragility(folder, {}), 2, {"none of the 2 runs is done (1 failed, 1 not yet run)"});
+  expect_error(fragility(folder, {}), 2, {"none of 2 runs is done (1 failed, 1 not yet run)"});
 }
 
 }  // namespace VOUSSOIR_FILE

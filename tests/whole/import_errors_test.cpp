@@ -31,7 +31,7 @@ TEST(ImportErrors, TheGoodOnesAreTaken) {
   folder.write("stones.obj", lower + cube("upper", 0, 0, 1, 9));
   const Outcome outcome = import(folder, "stones.obj");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("2 blocks, 1 joints"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("2 blocks, 1 joint,"), std::string::npos) << outcome.out;
   EXPECT_EQ(import(folder, "stones.obj", {"-q"}).out, "");
 }
 
@@ -178,15 +178,15 @@ TEST(ImportErrors, JointsAreCountedFromImportToRun) {
   Folder folder;
   folder.write("stones.obj", lower + cube("upper", 0, 0, 1, 9));
   const Outcome outcome = import(folder, "stones.obj", {"--cohesion", "1e5"});
-  EXPECT_NE(outcome.out.find("1 joints: 1 bonded, 0 dry"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("1 joint: 1 bonded, 0 dry"), std::string::npos) << outcome.out;
   const Outcome again = voussoir({"import", "out.h5", "-o", "dry.h5", "--cohesion", "0"}, {.folder = folder.path()});
-  EXPECT_NE(again.out.find("1 joints: 0 bonded, 1 dry"), std::string::npos) << again.out << again.err;
+  EXPECT_NE(again.out.find("1 joint: 0 bonded, 1 dry"), std::string::npos) << again.out << again.err;
   const Outcome generated = voussoir({"generate", "dry.h5", "-o", "same.h5"}, {.folder = folder.path()});
   EXPECT_NE(generated.out.find("the joints are those of the file"), std::string::npos) << generated.err;
   folder.write("case.toml", "[bridge]\nassembly = \"out.h5\"\n\n[[stage]]\nkind = \"gravity\"\n");
   const Outcome run = voussoir({"run", "case.toml", "-o", "run", "--no-pictures"}, {.folder = folder.path()});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.err.find("2 blocks; 1 joints: 1 bonded, 0 dry"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("2 blocks; 1 joint: 1 bonded, 0 dry"), std::string::npos) << run.err;
   EXPECT_EQ(summary(folder / "run")["joint_kinds"],
             (nlohmann::json{{"bonded", 1}, {"dry", 0}, {"ties", 0}, {"fill", 0}}));
 }

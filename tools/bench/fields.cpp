@@ -13,6 +13,7 @@
 #include "io/hdf5/checkpoint_file.h"
 #include "io/vtk/files.h"
 #include "io/vtk/grid.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/program.h"
 #include "solver/contact/grouping.h"
@@ -53,9 +54,10 @@ Stored read_stored(const std::string& directory) {
   read_checkpoint(files.front(), header, s.state.arrays());
   s.state.unpack(s.model);
   take_joint_order(s.model, s.state);
-  fmt::print("{}: t = {:.3f} s, {} blocks, {} joints, {} contacts, {} tetrahedra; medians of {}\n", files.front(),
-             s.state.time(), s.assembly.blocks.size(), s.assembly.joints.size(), s.state.contact_count(),
-             s.assembly.fill.tets.size(), repeats);
+  fmt::print("{}: t = {:.3f} s, {}, {}, {}, {}; medians of {}\n", files.front(), s.state.time(),
+             counted(s.assembly.blocks.size(), "block"), counted(s.assembly.joints.size(), "joint"),
+             counted(s.state.contact_count(), "contact"),
+             counted(s.assembly.fill.tets.size(), "tetrahedron", "tetrahedra"), repeats);
   return s;
 }
 

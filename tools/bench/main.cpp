@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "solver/base/program.h"
@@ -112,12 +113,12 @@ nlohmann::json run_scene(const Scene& scene, const Options& o, double peak) {
   const double limit = least_time(work, bandwidth, peak * o.threads) / m.step;
   if (!o.quiet) {
     fmt::print(
-        "\n{}: {:.0f} blocks, {:.0f} joints, {} contacts, {} thread(s), {} time steps of {:.3g} s\n  {:.3f} µs per "
-        "block and time step ({:.3f} of processor time), {:.1f} ns per joint; {:.1f} % intact; {:.0f} % of the limit; "
-        "{:.4f} simulated s per wall-clock s\n",
-        scene.name, movable, joints, r.state.contact_count(), o.threads, m.all.steps, r.stepper.dt,
-        1e6 * m.step / movable, 1e6 * m.processor / movable, 1e9 * m.step / joints, 100 * intact, 100 * limit,
-        r.stepper.dt / m.step);
+        "\n{}: {:.0f} blocks, {:.0f} joints, {}, {}, {} of {:.3g} s\n  {:.3f} µs per block and time step ({:.3f} of "
+        "processor time), {:.1f} ns per joint; {:.1f} % intact; {:.0f} % of the limit; {:.4f} simulated s per "
+        "wall-clock s\n",
+        scene.name, movable, joints, counted(r.state.contact_count(), "contact"), counted(o.threads, "thread"),
+        counted(m.all.steps, "time step"), r.stepper.dt, 1e6 * m.step / movable, 1e6 * m.processor / movable,
+        1e9 * m.step / joints, 100 * intact, 100 * limit, r.stepper.dt / m.step);
     if (m.all.searches > 0)
       fmt::print(
           "  contact searches: one in {:.1f} time steps, {:.3g} ms each, {:.0f} pairs examined; {:.0f} % change "
@@ -170,10 +171,11 @@ nlohmann::json run_search(const SearchScene& scene, const Options& o) {
   const SearchCost c = time_search(scene, o.threads);
   if (!o.quiet)
     fmt::print(
-        "\n{}: {} unknowns, {} sensors, {} modes, {} thread(s); {} candidates screened, {} fitted in {} round(s): {}\n "
-        " input {:.1f} s ({:.1f} s of processor time), search {:.1f} s ({:.1f}); largest memory {:.2f} GB\n",
-        scene.name, c.unknowns, c.sensors, c.modes, o.threads, c.screened, c.fitted, c.rounds, c.verdict, c.input.wall,
-        c.input.processor, c.search.wall, c.search.processor, 1e-9 * peak_memory());
+        "\n{}: {}, {}, {}, {}; {} screened, {} fitted in {}: {}\n  input {:.1f} s ({:.1f} s of processor time), search "
+        "{:.1f} s ({:.1f}); largest memory {:.2f} GB\n",
+        scene.name, counted(c.unknowns, "unknown"), counted(c.sensors, "sensor"), counted(c.modes, "mode"),
+        counted(o.threads, "thread"), counted(c.screened, "candidate"), c.fitted, counted(c.rounds, "round"), c.verdict,
+        c.input.wall, c.input.processor, c.search.wall, c.search.processor, 1e-9 * peak_memory());
   return {{"unknowns", c.unknowns},
           {"sensors", c.sensors},
           {"modes", c.modes},
@@ -253,8 +255,8 @@ int run(int argc, char** argv) {
   reserve_memory(1e9 * o.reserve);
   const double peak = stepped ? multiply_add_peak(1) : 0.0;
   if (stepped && !o.quiet)
-    fmt::print("multiply–add peak {:.1f} Gop/s on one thread, copy bandwidth in memory {:.1f} GB/s on {} thread(s)\n",
-               1e-9 * peak, 1e-9 * copy_bandwidth(512e6, o.threads), o.threads);
+    fmt::print("multiply–add peak {:.1f} Gop/s on one thread, copy bandwidth in memory {:.1f} GB/s on {}\n",
+               1e-9 * peak, 1e-9 * copy_bandwidth(512e6, o.threads), counted(o.threads, "thread"));
   nlohmann::json all = nlohmann::json::object();
   for (const std::string& name : o.scenes) {
     const std::optional<SearchScene> scene = find_search(name);

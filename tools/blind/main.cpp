@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/program.h"
 #include "tools/blind/invariance.h"
@@ -130,8 +131,8 @@ int run(int argc, char** argv) {
   Runner runner(suite, request);
   runner.run();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const std::string report =
-      fmt::format("{}\n{:.0f} s of wall-clock time, {} trials at a time\n", runner.report(), seconds, request.jobs);
+  const std::string report = fmt::format("{}\n{:.0f} s of wall-clock time, {} at a time\n", runner.report(), seconds,
+                                         counted(request.jobs, "trial"));
   fs::create_directories(request.directory);
   std::ofstream(request.directory + "/blind.md") << report;
   fmt::print("\n{}", report);

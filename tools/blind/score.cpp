@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "solver/base/counted.h"
+
 namespace voussoir {
 
 namespace {
@@ -189,8 +191,8 @@ std::string scores_table(const std::vector<Outcome>& all, const Suite& suite) {
   text += fmt::format("| out of the library: the place right, of {} | {} | |\n", s.outside, share(s.placed, s.outside));
   text += fmt::format("| gap on held-back data below 1.5, of {} in the library | {} | all |\n", s.named,
                       share(s.low, s.named));
-  if (s.failed > 0) text += fmt::format("\n{} trials failed\n", s.failed);
-  return text + fmt::format("\n{} trials, {:.0f} s of work\n", all.size(), s.seconds);
+  if (s.failed > 0) text += fmt::format("\n{} failed\n", counted(s.failed, "trial"));
+  return text + fmt::format("\n{}, {:.0f} s of work\n", counted(all.size(), "trial"), s.seconds);
 }
 
 std::string confusion_table(const std::vector<Outcome>& all) {

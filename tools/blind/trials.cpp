@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -38,7 +39,7 @@ std::string truth_text(const BlindTrial& t) {
   if (t.noise_said != 1.0) text += fmt::format(", noise said {:g}", t.noise_said);
   if (t.fill != "rigid") text += fmt::format(", case with backfill={}", t.fill);
   for (const std::string& key : t.truth) text += ", " + key;
-  if (t.parapet_gaps > 0) text += fmt::format(", {} parapet gaps", t.parapet_gaps);
+  if (t.parapet_gaps > 0) text += fmt::format(", {}", counted(t.parapet_gaps, "parapet gap"));
   return text;
 }
 

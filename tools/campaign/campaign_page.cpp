@@ -10,6 +10,7 @@
 #include "io/vtk/series.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/campaign/table.h"
 #include "tools/run/damage_words.h"
@@ -41,7 +42,7 @@ std::string facts(const CampaignTable& table) {
     ++count[run.status];
     if (std::isfinite(run.seconds)) seconds += run.seconds;
   }
-  std::string text = fmt::format("{} runs: {} done", table.runs.size(), count[RunStatus::done]);
+  std::string text = fmt::format("{}: {} done", counted(table.runs.size(), "run"), count[RunStatus::done]);
   for (const auto& [status, words] :
        {std::pair{RunStatus::collapsed, "ended because the bridge fell"}, std::pair{RunStatus::failed, "failed"},
         std::pair{RunStatus::missing, "not run yet"}})

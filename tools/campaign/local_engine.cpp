@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "solver/base/child.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/campaign/engine.h"
 #include "tools/campaign/sharing.h"
@@ -38,8 +39,8 @@ class Local {
   }
 
   WorkEnd run() {
-    work_.say(fmt::format("{} at a time with {} each, on {} cores of this machine", counted(sharing_.runs, "run"),
-                          counted(sharing_.threads, "thread"), work_.cores));
+    work_.say(fmt::format("{} at a time with {} each, on {} of this machine", counted(sharing_.runs, "run"),
+                          counted(sharing_.threads, "thread"), counted(work_.cores, "core")));
     std::size_t next = 0;
     bool stopping = false;
     while (!children_.empty() || (next < work_.todo.size() && !stopping)) {
@@ -60,10 +61,6 @@ class Local {
   }
 
  private:
-  static std::string counted(std::size_t n, const char* what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-  }
-
   void begin(std::size_t number) {
     const PlannedRun& run = plan_.runs[number];
     const std::string folder = folder_of(work_.directory, run);

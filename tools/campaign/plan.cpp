@@ -10,6 +10,7 @@
 #include "io/case/motion_source.h"
 #include "solver/base/arrays.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/campaign/measures.h"
 #include "tools/campaign/sample.h"
@@ -168,9 +169,9 @@ void plan_runs(const Settings& s, Draft& draft) {
   Plan& plan = draft.plan;
   const std::size_t samples = std::size_t(std::max(1, s.samples));
   if (const std::size_t all = s.cases.size() * s.records.size() * s.scales.size() * samples; all > most_runs)
-    throw InputError(
-        "{}: {} cases × {} records × {} scales × {} samples are {} runs. At most {} are allowed: split the campaign",
-        s.path, s.cases.size(), s.records.size(), s.scales.size(), samples, all, most_runs);
+    throw InputError("{}: {} × {} × {} × {} are {} runs. At most {} are allowed: split the campaign", s.path,
+                     counted(s.cases.size(), "case"), counted(s.records.size(), "record"),
+                     counted(s.scales.size(), "scale"), counted(samples, "sample"), all, most_runs);
   for (std::size_t c = 0; c < s.cases.size(); ++c) {
     check_set(s, draft.cases[c]);
     const std::vector<std::vector<double>> values = draw_samples(s, draft.cases[c]);

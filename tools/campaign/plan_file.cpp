@@ -6,6 +6,7 @@
 
 #include "io/case/motion_source.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/json_file.h"
 #include "tools/campaign/json.h"
 #include "tools/campaign/measures.h"
@@ -160,8 +161,8 @@ void read_records(const json& j, const std::string& path, Plan& plan) {
     for (const json& value : need<json>(r, "measures", place))
       record.measures.push_back(value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN());
     if (record.measures.size() != measures(plan.periods).size())
-      throw InputError("{}: record \"{}\" has {} measures, expected {}", path, record.name, record.measures.size(),
-                       measures(plan.periods).size());
+      throw InputError("{}: record \"{}\" has {}, expected {}", path, record.name,
+                       counted(record.measures.size(), "measure"), measures(plan.periods).size());
     plan.records.push_back(record);
   }
 }

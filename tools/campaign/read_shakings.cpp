@@ -5,6 +5,7 @@
 #include "io/case/sections.h"
 #include "io/records/sets.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "tools/campaign/settings.h"
@@ -49,7 +50,7 @@ Shaking read_entry(const json& entry, const std::string& path, const std::string
   if (s.event.empty()) s.event = s.name;
   const auto names = value_of<std::vector<std::string>>(entry, "files", {}, place, "a list of texts");
   if (names.empty() || names.size() > 3)
-    throw InputError("{} names {} files. It must name one, or up to three for x, y, z", place, names.size());
+    throw InputError("{} names {}. It must name one, or up to three for x, y, z", place, counted(names.size(), "file"));
   std::array<std::string, 3> files;
   for (std::size_t axis = 0; axis < names.size(); ++axis)
     if (!names[axis].empty()) files[axis] = relative_to(path, names[axis]);

@@ -10,6 +10,7 @@
 
 #include "solver/base/atomic_file.h"
 #include "solver/base/child.h"
+#include "solver/base/counted.h"
 #include "solver/base/json_file.h"
 #include "tools/campaign/engine.h"
 #include "tools/campaign/json.h"
@@ -80,10 +81,11 @@ class Slurm {
       work_.progress(tally_, tally_.all() - tally_.missing - settled_before());
       if (!alive) {
         if (tally_.missing > 0)
-          work_.say(
-              fmt::format("{} runs left Slurm without a result. They were cancelled, or their node could not run them. "
-                          "Their output is in {}/slurm",
-                          tally_.missing, work_.directory));
+          work_.say(fmt::format(
+              "{}. The output is in {}/slurm",
+              counted(tally_.missing, "run left Slurm without a result. It was cancelled, or its node could not run it",
+                      "runs left Slurm without a result. They were cancelled, or their node could not run them"),
+              work_.directory));
         return WorkEnd::ended;
       }
       if (stop_signal() != 0) {
@@ -160,7 +162,7 @@ class Slurm {
         there.insert(runs.begin(), runs.end());
         live_.insert(batch.name);
       }
-    if (!there.empty()) work_.say(fmt::format("Slurm still has {} runs of this campaign", there.size()));
+    if (!there.empty()) work_.say(fmt::format("Slurm still has {} of this campaign", counted(there.size(), "run")));
     std::vector<std::string> runs;
     for (const std::size_t i : work_.todo)
       if (!there.contains(plan_.runs[i].id)) runs.push_back(plan_.runs[i].id);
@@ -202,7 +204,7 @@ class Slurm {
     }
     batch.job = first_line(answer.out).substr(0, answer.out.find_first_of(";\n"));
     write_batch(work_.directory, batch);
-    work_.say(fmt::format("{} runs submitted to Slurm as job {}", batch.runs.size(), batch.job));
+    work_.say(fmt::format("{} submitted to Slurm as job {}", counted(batch.runs.size(), "run"), batch.job));
     live_.insert(batch.name);
     batches_.push_back(batch);
   }

@@ -5,6 +5,7 @@
 
 #include "geometry/generator.h"
 #include "io/case/sections.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir::campaign {
@@ -104,7 +105,9 @@ void set_number(toml::table& table, const std::string& key, double value) {
     here->insert_or_assign(parts.back(), value);
   } else if (toml::array* list = node->as_array()) {
     const std::ptrdiff_t place = place_in(*list, parts.back());
-    if (place < 0) throw InputError("'{}' does not exist: the list has {} entries, counted from 1", key, list->size());
+    if (place < 0)
+      throw InputError("'{}' does not exist: the list has {}, counted from 1", key,
+                       counted(list->size(), "entry", "entries"));
     list->replace(list->begin() + place, value);
   } else {
     throw InputError("'{}' does not exist", key);
@@ -123,9 +126,8 @@ std::size_t motion_stage(const Case& c) {
   for (std::size_t i = 0; i < c.settings.stages.size(); ++i)
     if (c.settings.stages[i].kind == StageSettings::Kind::motion) found = i, ++count;
   if (count != 1)
-    throw InputError(
-        "{} has {} motion stages. A campaign needs exactly one: it receives the records, and its own motion is ignored",
-        c.path, count);
+    throw InputError("{} has {}. A campaign needs exactly one: it receives the records, and its own motion is ignored",
+                     c.path, counted(count, "motion stage"));
   return found;
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/case/flat_case.h"
 #include "io/vtk/series.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/compare/compare.h"
 #include "tools/run/part_damage.h"
@@ -153,7 +154,9 @@ std::string part_table(const Runs& runs, const std::vector<std::string>& names) 
   const std::size_t left_out = rows.size() > most ? rows.size() - most : 0;
   rows.resize(std::min(rows.size(), most));
   return heading("Largest openings by parts of the bridge") + difference_table(names, rows) +
-         (left_out ? note(fmt::format("{} more parts have smaller openings.", left_out)) : std::string());
+         (left_out ? note(fmt::format("{}.", counted(left_out, "more part has a smaller opening",
+                                                     "more parts have smaller openings")))
+                   : std::string());
 }
 
 LineChart history_chart(const std::string& title, const std::string& x, const std::string& y) {

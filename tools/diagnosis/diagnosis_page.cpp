@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "solver/base/counted.h"
 #include "solver/effects/effect.h"
 #include "tools/diagnosis/detection_report.h"
 #include "tools/diagnosis/diagnosis_charts.h"
@@ -40,10 +41,6 @@ std::string verdict_box(const DiagnosisResult& result) {
   return fmt::format("<div class=\"verdict {}\">\n{}</div>\n", verdict_name(verdict), text);
 }
 
-std::string count_text(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string facts(const DiagnosisInput& input, const DiagnosisResult& result) {
   std::string text = "<dl>\n";
   const auto fact = [&](const char* name, const std::string& words) {
@@ -58,7 +55,7 @@ std::string facts(const DiagnosisInput& input, const DiagnosisResult& result) {
   fact("folder", m.directory);
   const auto held = std::size_t(
       std::count_if(result.modes.begin(), result.modes.end(), [](const auto& mode) { return mode.held_back; }));
-  fact("data", fmt::format("{} at {}{}", count_text(result.modes.size(), "mode"), sensors_used(input.problem.features),
+  fact("data", fmt::format("{} at {}{}", counted(result.modes.size(), "mode"), sensors_used(input.problem.features),
                            held ? fmt::format("; {} held back, to be predicted", held) : std::string()));
   return text + "</dl>\n";
 }
@@ -202,7 +199,7 @@ std::string screening_table(const Round& round) {
   if (round.screened.empty()) return "";
   std::string text = fmt::format(
       "<details><summary>All {} screened, with the share of the misfit that each could remove</summary>\n<table>\n",
-      count_text(round.screened.size(), "candidate"));
+      counted(round.screened.size(), "candidate"));
   text += table_row({{"candidate"}, {"explains", true}}, "th");
   for (const auto& [name, explained] : round.screened)
     text += table_row({words_cell(name), {fmt::format("{:.0f} %", 100.0 * explained), true}}, "td");

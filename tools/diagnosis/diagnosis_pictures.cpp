@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/vtk/grid.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/diagnosis/diagnosis_shapes.h"
 #include "viz/mode_picture.h"
@@ -70,7 +71,8 @@ PagePicture sensor_picture(const Assembly& assembly, const std::vector<Sensor>& 
   RenderOptions options = plain_options();
   options.title = "Positions of the sensors";
   draw_sensors(assembly, sensors, options, png);
-  return {options.title, fmt::format("{} channels; arrows point in the direction of positive readings", sensors.size()),
+  return {options.title,
+          fmt::format("{}; arrows point in the direction of positive readings", counted(sensors.size(), "channel")),
           png};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/diagnosis/response.h"
 #include "solver/identify/driven_modes.h"
@@ -137,7 +138,7 @@ Identification identify_ambient(Measured& measured, const Case& c) {
     measured.set_aside.push_back({hertz(aside.mode.frequency), aside.reason});
   for (const ShortRecording& r : found.too_short) measured.set_aside.push_back({r.name, r.reason});
   if (found.setups > 1)
-    measured.remarks.push_back(fmt::format("{} setups, combined {} through {}", found.setups,
+    measured.remarks.push_back(fmt::format("{}, combined {} through {}", counted(found.setups, "setup"),
                                            found.joint ? "in one model (PreGER)" : "mode by mode (PoSER)",
                                            reference_words(found)));
   else
@@ -148,8 +149,8 @@ Identification identify_ambient(Measured& measured, const Case& c) {
     add_shape(found.channels, turned(m.shape), m.shape_std, measured.sensors, mode);
     const FddPeak peak = peak_near(spectra, m.frequency, at_channels(m.shape, found.channels, spectra.channels));
     measured.remarks.push_back(fmt::format(
-        "mode {}: {} ± {:.3f} Hz, damping {:.2f} % ± {:.2f}, stable at {} orders; {}", mode.name, hertz(m.frequency),
-        m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, m.hits,
+        "mode {}: {} ± {:.3f} Hz, damping {:.2f} % ± {:.2f}, stable at {}; {}", mode.name, hertz(m.frequency),
+        m.frequency_std, 100.0 * m.damping, 100.0 * m.damping_std, counted(m.hits, "order"),
         peak.found
             ? fmt::format("frequency-domain decomposition: {}, MAC {:.2f}", hertz(peak.frequency), peak.assurance)
             : std::string("no peak of the frequency-domain decomposition")));

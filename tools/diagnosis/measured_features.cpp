@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
+
 namespace voussoir {
 
 namespace {
@@ -79,7 +81,8 @@ std::string sensors_used(const Features& features) {
     for (Eigen::Index s = 0; s < mode.shape.size(); ++s)
       if (std::isfinite(mode.shape[s])) used[std::size_t(s)] = true;
   const auto count = std::size_t(std::count(used.begin(), used.end(), true)), all = used.size();
-  return count == all ? fmt::format("{} sensors", all) : fmt::format("{} of {} sensors", count, all);
+  const std::string sensors = counted(all, "sensor");
+  return count == all ? sensors : fmt::format("{} of {}", count, sensors);
 }
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "solver/base/counted.h"
 #include "tools/diagnosis/detection_report.h"
 
 namespace voussoir {
@@ -50,7 +51,7 @@ PlanResult look_at_plan(const DiagnosisRequest& request, const MeasurementPlan& 
 std::string plan_text(const PlanResult& result) {
   const Features& features = result.input.problem.features;
   std::string text =
-      fmt::format("{} sensors; the plan assumes that these modes are measured:\n", features.sensors.size());
+      fmt::format("{}; the plan assumes that these modes are measured:\n", counted(features.sensors.size(), "sensor"));
   for (const MeasuredFeature& mode : features.modes)
     text += fmt::format("  {:>2} {:>12} {:8.4f} s {:7.3f} Hz ± {:.2g} %\n", mode.name, mode.direction,
                         1.0 / mode.frequency, mode.frequency, 100.0 * mode.frequency_std);
@@ -78,11 +79,12 @@ json plan_json(const PlanResult& result) {
 
 std::string plan_page(const PlanResult& result, const std::vector<PagePicture>& pictures) {
   const std::string name = std::filesystem::path(result.input.c.path).stem().string();
-  std::string page = paragraph(
-      fmt::format("The effects that {} would show on {}, computed before anything is measured: {} channels in {} "
-                  "modes. The program assumes that periods and shapes will have the stated uncertainties.",
-                  std::filesystem::path(result.input.measured.directory).filename().string(), name,
-                  result.input.problem.features.sensors.size(), result.input.problem.features.modes.size()));
+  std::string page = paragraph(fmt::format(
+      "The effects that {} would show on {}, computed before anything is measured: {} in {}. The program assumes "
+      "that periods and shapes will have the stated uncertainties.",
+      std::filesystem::path(result.input.measured.directory).filename().string(), name,
+      counted(result.input.problem.features.sensors.size(), "channel"),
+      counted(result.input.problem.features.modes.size(), "mode")));
   page += pictures_section(pictures, "The plan") + modes_table(result.input.problem.features) +
           detection_section(result.detection, "Effects that they would show");
   return html_page(fmt::format("Measurement plan of {}", name), page);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "tools/fragility/fragility_words.h"
 #include "viz/page/svg.h"
 
@@ -58,8 +59,8 @@ std::string entry_words(const Fragility& f) {
   if (f.chosen.identified != Identified::yes)
     return shortened(f.case_name + ": no curve, " + unknown_words(f.chosen, f.im), 96);
   std::string text = fmt::format("{}: θ = {}, β = {:.2f}", f.case_name, with_unit(f.chosen.theta, f.im), f.chosen.beta);
-  return text + fmt::format(" ({}; {} of {} runs exceed the limit)", method_words(f), f.selection.beyond,
-                            f.selection.trials.size());
+  return text + fmt::format(" ({}; {} of {} the limit)", method_words(f), f.selection.beyond,
+                            counted(f.selection.trials.size(), "run exceeds", "runs exceed"));
 }
 
 void draw_curve(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {
@@ -77,9 +78,9 @@ void draw_curve(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::
 /// The share at each level, with the number of its runs.
 void draw_levels(SvgDrawing& drawing, const Plot& plot, const Fragility& f, std::size_t index) {
   for (const Count& c : f.counts)
-    drawing.marker(
-        case_marker(index), plot.x.at(c.im), plot.y.at(c.beyond / c.runs), case_colour(index),
-        fmt::format("{}: {:.0f} of {:.0f} runs at {}", f.case_name, c.beyond, c.runs, with_unit(c.im, f.im)));
+    drawing.marker(case_marker(index), plot.x.at(c.im), plot.y.at(c.beyond / c.runs), case_colour(index),
+                   fmt::format("{}: {:.0f} of {} at {}", f.case_name, c.beyond, counted(std::int64_t(c.runs), "run"),
+                               with_unit(c.im, f.im)));
 }
 
 /// A mark for each run, in a row for each case: above the plot if it exceeds the limit, below if not.

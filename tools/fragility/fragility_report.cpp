@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "solver/base/csv.h"
 #include "tools/fragility/fragility_words.h"
 
@@ -183,7 +184,7 @@ std::vector<std::vector<const Fragility*>> by_limit(const std::vector<Fragility>
 }
 
 std::string runs_words(const FragilityReport& r) {
-  std::string text = fmt::format("{} runs: {} done", r.done + r.collapsed + r.failed + r.missing, r.done);
+  std::string text = fmt::format("{}: {} done", counted(r.done + r.collapsed + r.failed + r.missing, "run"), r.done);
   if (r.collapsed) text += fmt::format(", {} collapsed", r.collapsed);
   if (r.failed) text += fmt::format(", {} failed", r.failed);
   if (r.missing) text += fmt::format(", {} not run yet", r.missing);
@@ -196,7 +197,7 @@ std::string damage_words(const DamageRanking& r) {
                                  measure_name(first.demand), first.correlation);
   for (std::size_t i = 1; i < std::min<std::size_t>(r.demands.size(), 4); ++i)
     text += fmt::format("; {} {:.2f}", measure_name(r.demands[i].demand), r.demands[i].correlation);
-  text += fmt::format(", {} runs)", first.count);
+  text += fmt::format(", {})", counted(first.count, "run"));
   if (std::isnan(r.ahead)) return text + ".";
   return text + fmt::format(". It remains first in {:.0f} % of the resamples{}.", 100.0 * r.ahead,
                             r.ahead < 0.95 ? ", so the order is not certain" : "");

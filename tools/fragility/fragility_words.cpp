@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
+
 namespace voussoir {
 
 namespace {
@@ -81,8 +83,7 @@ void remark_on_data(const Fragility& f, std::vector<std::string>& remarks) {
         "Records were used more than once. Use the bands, because standard errors assume that all runs are "
         "independent.");
   if (s.records.size() < few_records)
-    remarks.push_back(fmt::format("{} record{}: the bands are rough{}.", s.records.size(),
-                                  s.records.size() == 1 ? "" : "s",
+    remarks.push_back(fmt::format("{}: the bands are rough{}.", counted(s.records.size(), "record"),
                                   s.records.size() == 1 ? ", or there is no band" : ""));
   if (20 * f.bootstrap.unidentified > f.bootstrap.replicates)
     remarks.push_back(
@@ -90,7 +91,8 @@ void remark_on_data(const Fragility& f, std::vector<std::string>& remarks) {
                     f.bootstrap.unidentified, f.bootstrap.replicates));
   if (s.zero_demands > 0)
     remarks.push_back(
-        fmt::format("{} runs have a demand of 0. They are counted, but the line does not use them.", s.zero_demands));
+        fmt::format("{}.", counted(s.zero_demands, "run has a demand of 0. It is counted, but the line does not use it",
+                                   "runs have a demand of 0. They are counted, but the line does not use them")));
 }
 
 }  // namespace
@@ -139,7 +141,8 @@ std::string method_name(const Estimate& e) {
 
 std::string method_words(const Fragility& f) {
   if (f.chosen.method == Method::counts)
-    return f.levels.empty() ? std::string("counts, run by run") : fmt::format("counts at {} levels", f.levels.size());
+    return f.levels.empty() ? std::string("counts, run by run")
+                            : fmt::format("counts at {}", counted(f.levels.size(), "level"));
   return std::isnan(f.chosen.curve.collapse_theta) ? "line through demands"
                                                    : "line through demands, collapses separately";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/nearest_block.h"
+#include "solver/base/counted.h"
 #include "solver/base/csv.h"
 #include "solver/base/error.h"
 
@@ -88,8 +89,8 @@ std::vector<MeasuredSensor> drawn(const Assembly& assembly, int channels, const 
   std::vector<MeasuredSensor> pool = planned(assembly, Plan::rich);
   if (int(pool.size()) < channels) pool = planned(assembly, Plan::dense);
   if (int(pool.size()) < channels)
-    throw InputError("--sensors {}: the largest plan has {} channels on this bridge. Give a smaller number or a file",
-                     channels, pool.size());
+    throw InputError("--sensors {}: the largest plan has {} on this bridge. Give a smaller number or a file", channels,
+                     counted(pool.size(), "channel"));
   std::vector<std::size_t> order;
   RandomStream random = stream_of(request, "sensors");
   for (std::size_t i = 0; i < pool.size(); ++i) {  // Fisher and Yates (1938), as Durstenfeld (1964) has it

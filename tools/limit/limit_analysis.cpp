@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/limit/linear_program.h"
 
@@ -227,8 +228,8 @@ void check_problem(const Assembly& assembly, const LimitProblem& problem) {
   if (assembly.joints.empty()) throw InputError("limit analysis: the assembly has no joints");
   for (const BlockLoad& load : problem.loads)
     if (load.block < 0 || load.block >= std::int64_t(assembly.blocks.size()))
-      throw InputError("limit analysis: a load acts on block {}, but there are only {} blocks", load.block,
-                       assembly.blocks.size());
+      throw InputError("limit analysis: a load acts on block {}, but there are only {}", load.block,
+                       counted(assembly.blocks.size(), "block"));
 }
 
 void find_excess(LimitAnalysis& a) {
@@ -294,9 +295,8 @@ LimitAnalysis limit_analysis_without_lift(const Assembly& assembly, const LimitP
 std::string mechanism_text(const LimitAnalysis& analysis) {
   std::size_t slide = 0;
   for (const JointRate& r : analysis.mechanism) slide += r.slides();
-  const std::size_t hinge = analysis.mechanism.size() - slide;
-  return fmt::format("{} {}, {} {}", hinge, hinge == 1 ? "joint hinges" : "joints hinge", slide,
-                     slide == 1 ? "slides" : "slide");
+  return fmt::format("{}, {}", counted(analysis.mechanism.size() - slide, "joint hinges", "joints hinge"),
+                     counted(slide, "slides", "slide"));
 }
 
 }  // namespace voussoir::limit

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -20,10 +21,6 @@ std::string named(const Assembly& assembly, const std::vector<std::int64_t>& blo
     text += (i ? ", " : "") + block_label(assembly, blocks[i]);
   if (blocks.size() > most) text += fmt::format(" and {} more", blocks.size() - most);
   return text;
-}
-
-const char* plural(std::size_t count) {
-  return count == 1 ? "" : "s";
 }
 
 /// Hz and s.
@@ -65,23 +62,22 @@ std::string modes_table(const ModesFile& file) {
 std::string effort_text(const ModesReport& report) {
   const Eigenpairs& s = report.solution;
   if (s.factor_entries == 0.0)
-    return fmt::format("{} unknowns, dense solver: assembly {:.2f} s, modes {:.2f} s", report.unknowns,
+    return fmt::format("{}, dense solver: assembly {:.2f} s, modes {:.2f} s", counted(report.unknowns, "unknown"),
                        report.assembly_seconds, s.iteration_seconds);
   return fmt::format(
-      "{} unknowns: assembly {:.2f} s, factorization {:.2f} s ({:.1f} million entries, {:.2f} GiB), iteration {:.2f} s "
-      "({} solves)",
-      report.unknowns, report.assembly_seconds, s.factor_seconds, 1e-6 * s.factor_entries,
-      s.factor_bytes / (1024.0 * 1024.0 * 1024.0), s.iteration_seconds, s.solves);
+      "{}: assembly {:.2f} s, factorization {:.2f} s ({:.1f} million entries, {:.2f} GiB), iteration {:.2f} s ({})",
+      counted(report.unknowns, "unknown"), report.assembly_seconds, s.factor_seconds, 1e-6 * s.factor_entries,
+      s.factor_bytes / (1024.0 * 1024.0 * 1024.0), s.iteration_seconds, counted(s.solves, "solve"));
 }
 
 std::string loose_text(const Assembly& assembly, const Modes& modes) {
   std::string text;
   if (!modes.adrift.empty())
-    text += fmt::format("{} block{} that no joint holds, left out of the modes: {}\n", modes.adrift.size(),
-                        plural(modes.adrift.size()), named(assembly, modes.adrift));
+    text += fmt::format("{} that no joint holds, left out of the modes: {}\n", counted(modes.adrift.size(), "block"),
+                        named(assembly, modes.adrift));
   if (!modes.partly.empty())
-    text += fmt::format("{} block{} that can turn or slide freely, held in that direction: {}\n", modes.partly.size(),
-                        plural(modes.partly.size()), named(assembly, modes.partly));
+    text += fmt::format("{} that can turn or slide freely, held in that direction: {}\n",
+                        counted(modes.partly.size(), "block"), named(assembly, modes.partly));
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "io/hdf5/h5.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/contact/grouping.h"
 #include "solver/contact/search.h"
@@ -57,9 +58,9 @@ void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
         "the state does not come to rest under gravity, because the bridge is still collapsing ({}). Give --as-stored "
         "to take the state as it is",
         settled.equilibrium.account);
-  source.about += fmt::format(", at rest after {} steps", settled.equilibrium.steps);
+  source.about += fmt::format(", at rest after {}", counted(settled.equilibrium.steps, "step"));
   if (const std::size_t n = settled.falling.size())
-    source.about += fmt::format(" ({} block{} in the air)", n, n == 1 ? "" : "s");
+    source.about += fmt::format(" ({} in the air)", counted(n, "block"));
 }
 
 void load_checkpoint(ModalSource& source, const std::string& file) {

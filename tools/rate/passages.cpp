@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "solver/run/simulation.h"
@@ -148,7 +149,7 @@ std::string passages_text(const std::vector<PassageSeries>& all, double adequacy
     count = std::max(count, series.after.size() - (series.end == PassageEnd::collapses ? 0 : 1));
   const auto first =
       std::find_if(all.begin(), all.end(), [](const PassageSeries& s) { return s.end != PassageEnd::settles; });
-  std::string text = fmt::format("Over {} passage{}, displacements settle with ", count, count == 1 ? "" : "s");
+  std::string text = fmt::format("Over {}, displacements settle with ", counted(count, "passage"));
   if (first == all.begin()) {
     text += "none of the factors";
   } else {

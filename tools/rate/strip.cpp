@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -75,8 +76,7 @@ std::vector<std::string> strip_remarks(const Case& c) {
   if (in.choices.at("backfill") != "deformable") remarks.push_back("the fill is a continuum instead of blocks");
   if (has_word(c, "makeup", "solid")) remarks.push_back("supports are solid");
   if (!c.effects.empty())
-    remarks.push_back(c.effects.size() == 1 ? "1 effect is left out"
-                                            : fmt::format("{} effects are left out", c.effects.size()));
+    remarks.push_back(fmt::format("{} left out", counted(c.effects.size(), "effect is", "effects are")));
   for (const StageSettings& stage : c.settings.stages)
     if (stage.construction) remarks.push_back("the whole weight acts at once, without construction steps");
   return remarks;

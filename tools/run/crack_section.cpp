@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "solver/base/csv.h"
 #include "tools/run/bridge_damage.h"
 #include "tools/run/run_files.h"
@@ -76,7 +77,8 @@ std::string findings_table(const nlohmann::json& damage) {
         text +=
             table_row({words_cell(f.value("class", std::string())), words_cell(f.value("words", std::string()))}, "td");
     text += "</table>\n";
-    if (rows > kRows) text += note(fmt::format("{} more findings are in summary.json.", rows - kRows));
+    if (rows > kRows)
+      text += note(fmt::format("{} in summary.json.", counted(rows - kRows, "more finding is", "more findings are")));
   }
   return text + note(
                     "The classes are defined by this program. They follow from the width of cracks and from their "

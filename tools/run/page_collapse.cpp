@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "tools/run/page_sections.h"
 #include "viz/page/html.h"
 #include "viz/page/line_chart.h"
@@ -35,7 +36,8 @@ std::string factor_table(const json& c) {
                             c.value("force_over_weight", NAN)));
   if (c.value("acceleration_over_gravity", 0.0) > 0.0)
     text += row("acceleration of the pattern", fmt::format("{:.4g} g", c.value("acceleration_over_gravity", NAN)));
-  text += row("found by", fmt::format("relaxation to equilibrium at {} multipliers (static)", c.value("tries", 0)));
+  text += row("found by",
+              fmt::format("relaxation to equilibrium at {} (static)", counted(c.value("tries", 0), "multiplier")));
   text +=
       row("a dynamic run just below the multiplier",
           answer(c.value("stands_below", json()), "stands", "falls, which contradicts the static result", "not made"));

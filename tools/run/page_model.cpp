@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "tools/run/page_sections.h"
 #include "viz/page/html.h"
 #include "viz/page/svg.h"
@@ -123,8 +124,7 @@ std::string supports_list(const RunFiles& run, const json& inventory) {
     for (const StageSettings& stage : run.stages())
       for (const Drive& drive : stage.drives)
         if (drive.group == group) how += fmt::format("; driven in the stage '{}'", stage.label);
-    const auto blocks = s.value("blocks", 0);
-    items.push_back(fmt::format("{} ({} {}): {}", group, blocks, blocks == 1 ? "block" : "blocks", how));
+    items.push_back(fmt::format("{} ({}): {}", group, counted(s.value("blocks", 0), "block"), how));
   }
   return "<h3>Supports: blocks that cannot move freely</h3>\n" + list(items);
 }
@@ -134,9 +134,9 @@ std::string damping_words(const DampingSettings& d) {
     case DampingSettings::Kind::none:
       return "none";
     case DampingSettings::Kind::maxwell:
-      return fmt::format(
-          "{} Maxwell branches parallel to joints and fill, {:g} % of critical damping from {:g} to {:g} Hz",
-          d.branches, 100.0 * d.ratio, d.band[0], d.band[1]);
+      return fmt::format("{} parallel to joints and fill, {:g} % of critical damping from {:g} to {:g} Hz",
+                         counted(d.branches, "Maxwell branch", "Maxwell branches"), 100.0 * d.ratio, d.band[0],
+                         d.band[1]);
     case DampingSettings::Kind::rayleigh:
       return fmt::format("Rayleigh, {:g} % of critical damping at {:g} and {:g} Hz", 100.0 * d.ratio, d.band[0],
                          d.band[1]);
@@ -153,13 +153,13 @@ std::string assumptions(const RunFiles& run) {
   std::vector<std::string> items = {
       "Stones are rigid. They meet in joints without thickness, which carry compression, bond and friction. All "
       "deformation of the masonry is in the joints."};
-  items.push_back(fmt::format(
-      "Contact is computed at {} points along each side of a quadrilateral joint; {}.", s.contact.points_per_side,
-      s.contact.search ? "the program finds contacts between stones that touch later"
-                       : "the program does not search for contacts between stones that touch later"));
-  items.push_back(fill ? fmt::format("The fill is a continuum of {} tetrahedra, elastic and perfectly plastic "
-                                     "(Mohr–Coulomb).",
-                                     run.of("fill").value("tetrahedra", 0))
+  items.push_back(fmt::format("Contact is computed at {} along each side of a quadrilateral joint; {}.",
+                              counted(s.contact.points_per_side, "point"),
+                              s.contact.search
+                                  ? "the program finds contacts between stones that touch later"
+                                  : "the program does not search for contacts between stones that touch later"));
+  items.push_back(fill ? fmt::format("The fill is a continuum of {}, elastic and perfectly plastic (Mohr–Coulomb).",
+                                     counted(run.of("fill").value("tetrahedra", 0), "tetrahedron", "tetrahedra"))
                        : "There is no deformable fill. Any fill consists of rigid blocks.");
   items.push_back(fmt::format("Gravity is ({:g}, {:g}, {:g}) m/s².", s.gravity.x(), s.gravity.y(), s.gravity.z()));
   if (!s.stages.empty() && s.stages.front().kind == StageSettings::Kind::gravity)
@@ -187,10 +187,11 @@ std::string provenance_section(const RunFiles& run) {
   const json p = run.of("provenance");
   std::string text = heading("Origin of these results");
   if (!p.empty()) {
-    text += paragraph(fmt::format("Computed on {} by voussoir {} (commit {}, {}, kernels for {}), {} thread(s).",
+    text += paragraph(fmt::format("Computed on {} by voussoir {} (commit {}, {}, kernels for {}), {}.",
                                   p.value("date", std::string("?")), p.value("version", std::string("?")),
                                   p.value("commit", std::string("?")), p.value("compiler", std::string("?")),
-                                  p.value("kernels", std::string("?")), run.summary.value("threads", 1)));
+                                  p.value("kernels", std::string("?")),
+                                  counted(run.summary.value("threads", 1), "thread")));
     text += "<table class=\"small\">\n" + table_row({words_cell("file"), {"bytes", true}, words_cell("SHA-256")}, "th");
     for (const json& file : p.value("files", json::array()))
       text += table_row({words_cell(file.value("name", std::string())),

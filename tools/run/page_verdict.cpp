@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "tools/run/damage_words.h"
 #include "tools/run/page_sections.h"
 #include "tools/run/part_damage.h"
@@ -141,9 +142,10 @@ std::string bridge_sentence(const RunFiles& run) {
   const json damage = run.of("bridge_damage");
   const json findings = damage.value("findings", json::array());
   if (findings.empty()) return "";
-  return sentence(fmt::format("Class of the bridge: {}.", damage.value("class", std::string())),
-                  fmt::format("{}{}.", findings.front().value("words", std::string()),
-                              findings.size() > 1 ? fmt::format(", and {} more findings", findings.size() - 1) : ""));
+  return sentence(
+      fmt::format("Class of the bridge: {}.", damage.value("class", std::string())),
+      fmt::format("{}{}.", findings.front().value("words", std::string()),
+                  findings.size() > 1 ? fmt::format(", and {}", counted(findings.size() - 1, "more finding")) : ""));
 }
 
 std::string ties_sentence(const RunFiles& run) {

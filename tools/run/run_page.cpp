@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "tools/run/crack_section.h"
@@ -45,10 +46,10 @@ std::string facts(const RunFiles& run) {
   text += row_of("stages", stages_text(run.c));
   for (const EffectSetting& effect : run.c.effects) text += row_of("effect", effect.text());
   if (s.value("steps", 0) > 0)
-    text += row_of("simulated", fmt::format("{:.3f} s in {} time steps of {:.3g} s", s.value("end_time", 0.0),
-                                            s.value("steps", 0), s.value("time_step", 0.0)));
-  text += row_of("wall-clock time",
-                 fmt::format("{:.0f} s with {} thread(s)", s.value("wall_seconds", 0.0), s.value("threads", 1)));
+    text += row_of("simulated", fmt::format("{:.3f} s in {} of {:.3g} s", s.value("end_time", 0.0),
+                                            counted(s.value("steps", 0), "time step"), s.value("time_step", 0.0)));
+  text += row_of("wall-clock time", fmt::format("{:.0f} s with {}", s.value("wall_seconds", 0.0),
+                                                counted(s.value("threads", 1), "thread")));
   if (s.value("energy_error", 0.0) > 0.0)
     text += row_of("largest energy error", fmt::format("{:.2e} times the work done", s.value("energy_error", NAN)));
   if (s.contains("equilibrium"))

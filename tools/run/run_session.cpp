@@ -14,6 +14,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/checkpoint_file.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
@@ -192,8 +193,8 @@ void RunSession::resume() {
     log(fmt::format("resuming at t = {:.4f} s from {}", header.time, file));
     return;
   }
-  throw InputError("none of the {} checkpoints in {} can be read. Start again with voussoir run and --overwrite",
-                   files.size(), path("checkpoints"));
+  throw InputError("none of the {} in {} can be read. Start again with voussoir run and --overwrite",
+                   counted(files.size(), "checkpoint"), path("checkpoints"));
 }
 
 void RunSession::begin_where(const std::string& other) {
@@ -358,7 +359,7 @@ void RunSession::draw_pictures() {
 }
 
 int RunSession::run() {
-  log(fmt::format("{} blocks; {}", assembly_.blocks.size(), joints_text(assembly_)));
+  log(fmt::format("{}; {}", counted(assembly_.blocks.size(), "block"), joints_text(assembly_)));
   stop_on_signals();
   if (request_.time_limit > 0.0) {
     std::signal(SIGALRM, time_is_up);
@@ -387,8 +388,9 @@ int RunSession::run() {
   } else {
     end_ = end == RunEnd::finished ? SessionEnd::done : SessionEnd::paused;
     const std::string done = end == RunEnd::finished ? "done" : "paused";
-    log(time() > 0.0 ? fmt::format("{} at t = {:.3f} s: {} time steps in {}, largest energy error {:.2e}", done, time(),
-                                   simulation_->state().step(), duration_text(wall), simulation_->worst_balance())
+    log(time() > 0.0 ? fmt::format("{} at t = {:.3f} s: {} in {}, largest energy error {:.2e}", done, time(),
+                                   counted(simulation_->state().step(), "time step"), duration_text(wall),
+                                   simulation_->worst_balance())
                      : fmt::format("{} in {}", done, duration_text(wall)));
   }
   if (request_.pictures && end_ != SessionEnd::paused) draw_pictures();

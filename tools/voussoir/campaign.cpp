@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "solver/base/child.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/suggestion.h"
 #include "tools/campaign/campaign_page.h"
@@ -54,7 +55,7 @@ Draft draft_of(const Request& wanted) {
 }
 
 std::string counts_text(const Tally& t) {
-  std::string text = fmt::format("{} of {} runs done", t.done + t.collapsed, t.all());
+  std::string text = fmt::format("{} of {} done", t.done + t.collapsed, counted(t.all(), "run"));
   if (t.collapsed > 0) text += fmt::format(", {} of them collapsed", t.collapsed);
   if (t.running > 0) text += fmt::format(", {} running", t.running);
   if (t.failed > 0) text += fmt::format(", {} failed", t.failed);
@@ -69,7 +70,8 @@ void print_plan(const Plan& plan) {
     fmt::print("{:<60} {:>8g} {:>8.2f} {:>10.3g}\n", run.id, run.scale, record.duration,
                record.measures.empty() ? 0.0 : run.scale * record.measures[0]);
   }
-  fmt::print("{} runs: {} cases, {} records\n", plan.runs.size(), plan.cases.size(), plan.records.size());
+  fmt::print("{}: {}, {}\n", counted(plan.runs.size(), "run"), counted(plan.cases.size(), "case"),
+             counted(plan.records.size(), "record"));
   for (const std::string& text : plan.left_out) fmt::print("left out: {}\n", text);
 }
 
@@ -157,7 +159,8 @@ WorkEnd compute(const Plan& plan, const Request& wanted, const options::variable
   work.say = [&](const std::string& text) { watch.say(text); };
   work.progress = [&](const Tally& t, std::size_t ended) { watch.show(t, ended); };
   if (work.todo.size() < plan.runs.size())
-    watch.say(fmt::format("{} of {} runs have already ended", plan.runs.size() - work.todo.size(), plan.runs.size()));
+    watch.say(fmt::format("{} of {} already ended", plan.runs.size() - work.todo.size(),
+                          counted(plan.runs.size(), "run has", "runs have")));
   watch_signals();
   const WorkEnd end = engine.run(work);
   watch.end();
@@ -179,8 +182,8 @@ int finish(const Plan& plan, const Request& wanted, WorkEnd end) {
     }
   if (end == WorkEnd::left) return 0;
   if (end == WorkEnd::stopped || t.missing > 0)
-    fmt::print(stderr, "{} runs have not ended. Continue with: voussoir campaign {}\n", t.missing,
-               for_shell(directory));
+    fmt::print(stderr, "{} not ended. Continue with: voussoir campaign {}\n",
+               counted(t.missing, "run has", "runs have"), for_shell(directory));
   return t.failed + t.missing > 0 || end == WorkEnd::stopped ? 1 : 0;
 }
 
@@ -224,7 +227,7 @@ int run_campaign(const std::vector<std::string>& arguments) {
   if (!wanted.from_folder) write_draft(draft, directory);
   if (values.count("retry-failed"))
     if (const std::size_t n = forget_failures(directory, plan); n > 0 && !wanted.quiet)
-      fmt::print(stderr, "{} failed runs are tried again\n", n);
+      fmt::print(stderr, "{} tried again\n", counted(n, "failed run is", "failed runs are"));
   return finish(plan, wanted, compute(plan, wanted, values));
 }
 

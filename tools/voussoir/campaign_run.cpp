@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "solver/base/child.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "tools/campaign/json.h"
@@ -204,7 +205,7 @@ std::string run_of_batch(const std::string& directory, const std::string& batch,
   const std::string file = directory + "/slurm/" + fs::path(batch).filename().string();
   const auto runs = need<std::vector<std::string>>(read_json(file), "runs", file);
   if (task < 0 || std::size_t(task) >= runs.size())
-    throw InputError("{} has {} runs, counted from 0, but no run {}", file, runs.size(), task);
+    throw InputError("{} has {}, counted from 0, but no run {}", file, counted(runs.size(), "run"), task);
   return runs[std::size_t(task)];
 }
 

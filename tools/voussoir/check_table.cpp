@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <ctime>
 
+#include "solver/base/counted.h"
+
 namespace voussoir {
 
 namespace {
@@ -92,8 +94,9 @@ void print_check_row(const CheckRow& row) {
 std::string check_count(const std::vector<CheckRow>& rows) {
   const auto good = std::count_if(rows.begin(), rows.end(), [](const CheckRow& row) { return row.pass(); });
   const auto known = std::count_if(rows.begin(), rows.end(), [](const CheckRow& row) { return row.known_miss(); });
-  std::string text = fmt::format("{} of {} quantities within their tolerance", good, rows.size());
-  if (known > 0) text += fmt::format(", {} known {}", known, known == 1 ? "miss" : "misses");
+  std::string text =
+      fmt::format("{} of {} within their tolerance", good, counted(rows.size(), "quantity", "quantities"));
+  if (known > 0) text += ", " + counted(known, "known miss", "known misses");
   return text;
 }
 

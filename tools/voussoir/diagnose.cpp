@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/json_file.h"
 #include "tools/diagnosis/diagnose_case.h"
 #include "tools/diagnosis/diagnosis_page.h"
@@ -34,8 +35,8 @@ int diagnose_and_write(const DiagnosisRequest& request) {
     if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
   };
   const DiagnosisInput input = diagnosis_input(request);
-  say(fmt::format("{} measured modes at {}; model error {:.1f} % of frequencies, {:.1f} % of shapes",
-                  input.problem.features.modes.size(), sensors_used(input.problem.features),
+  say(fmt::format("{} at {}; model error {:.1f} % of frequencies, {:.1f} % of shapes",
+                  counted(input.problem.features.modes.size(), "measured mode"), sensors_used(input.problem.features),
                   100.0 * input.problem.error.frequency, 100.0 * input.problem.error.shape));
   const DiagnosisResult result = diagnose_case(input, request, say);
   fs::create_directories(request.directory);

@@ -8,6 +8,7 @@
 #include "io/hdf5/h5.h"
 #include "io/vtk/export_blocks.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "tools/voussoir/options.h"
@@ -41,8 +42,8 @@ int export_shapes(const std::vector<std::string>& arguments) {
   std::size_t cells = 0;
   for (const Block& block : assembly.blocks) cells += block.cells.size();
   for (const std::string& note : out.notes) fmt::print("{}\n", note);
-  fmt::print("{} blocks of {} cells written to {}, the map of their names to {}\n", assembly.blocks.size(), cells, to,
-             names);
+  fmt::print("{} of {} written to {}, the map of their names to {}\n", counted(assembly.blocks.size(), "block"),
+             counted(cells, "cell"), to, names);
   fmt::print("To import them again: voussoir import {} --map {} --gap 1e-6 -o ASSEMBLY.h5\n", to, names);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/csv.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
@@ -110,9 +111,9 @@ void count_runs(const CampaignTable& table, FragilityReport& report) {
   }
   if (report.done + report.collapsed == 0)
     throw InputError(
-        "{}: none of the {} runs is done ({} failed, {} not yet run), so there are no curves. Run the "
+        "{}: none of {} is done ({} failed, {} not yet run), so there are no curves. Run the "
         "campaign first",
-        table.path, table.runs.size(), report.failed, report.missing);
+        table.path, counted(table.runs.size(), "run"), report.failed, report.missing);
 }
 
 /// A remark if the records were scaled to levels of another intensity than the one in use; otherwise empty.

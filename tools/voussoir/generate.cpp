@@ -13,6 +13,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "io/hdf5/h5.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "tools/voussoir/assembly_table.h"
@@ -46,8 +47,8 @@ void print_assembly_table(const Assembly& assembly, const FillAim& aim) {
   fmt::print("{:<12} {:>8} {:>8} {:>12}\n", "component", "blocks", "fixed", "mass (t)");
   for (const auto& [name, row] : rows)
     fmt::print("{:<12} {:>8} {:>8} {:>12.2f}\n", name, row.blocks, row.fixed, row.mass / 1000.0);
-  fmt::print("{} blocks, {} joints, {:.2f} t that can move\n", assembly.blocks.size(), assembly.joints.size(),
-             mass / 1000.0);
+  fmt::print("{}, {}, {:.2f} t that can move\n", counted(assembly.blocks.size(), "block"),
+             counted(assembly.joints.size(), "joint"), mass / 1000.0);
   fmt::print("{}\n", joints_text(assembly));
   for (const auto& [word, i] : {std::pair{"smallest", smallest}, std::pair{"largest", largest}})
     if (i >= 0) {

@@ -8,6 +8,7 @@
 
 #include "io/case/case.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/options.h"
 
@@ -59,11 +60,11 @@ void write(const HideRequest& request, const HiddenBridge& hidden) {
   std::filesystem::create_directories(request.directory);
   write_measured(hidden.measured, request.directory + "/measured");
   write_atomically(request.directory + "/answer.toml", hidden.answer);
-  fmt::print("{} at {} sensors in {}/measured; what was hidden is in {}/answer.toml\n",
+  fmt::print("{} at {} in {}/measured; what was hidden is in {}/answer.toml\n",
              request.shaken > 0.0    ? fmt::format("{:g} s of an earthquake", request.shaken)
              : request.minutes > 0.0 ? fmt::format("{:g} min of ambient vibration", request.minutes)
-                                     : fmt::format("{} modes", hidden.measured.modes.size()),
-             hidden.measured.sensors.size(), request.directory, request.directory);
+                                     : counted(hidden.measured.modes.size(), "mode"),
+             counted(hidden.measured.sensors.size(), "sensor"), request.directory, request.directory);
 }
 
 int hide_run(const std::vector<std::string>& arguments) {

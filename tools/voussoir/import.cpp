@@ -7,6 +7,7 @@
 
 #include "io/case/material_table.h"
 #include "io/hdf5/assembly_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/voussoir/assembly_table.h"
 #include "tools/voussoir/import_fill.h"
@@ -132,8 +133,9 @@ int import(const std::vector<std::string>& arguments) {
   write_assembly(values["output"].as<std::string>(), imported.assembly);
   if (values.count("quiet")) return 0;
   for (const std::string& note : imported.notes) fmt::print("{}\n", note);
-  fmt::print("gaps closed: {} joints, the largest {:.3g} m; gaps left open: {}\n", imported.joints.closed_gaps,
-             imported.joints.largest_closed_gap, imported.joints.open_gaps);
+  fmt::print("gaps closed: {}, the largest {:.3g} m; gaps left open: {}\n",
+             counted(imported.joints.closed_gaps, "joint"), imported.joints.largest_closed_gap,
+             imported.joints.open_gaps);
   print_assembly_table(imported.assembly);
   fmt::print("written to {}\n", values["output"].as<std::string>());
   return 0;

@@ -9,6 +9,7 @@
 #include "io/hdf5/assembly_file.h"
 #include "io/msh/msh_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/shown.h"
 #include "tools/voussoir/assembly_table.h"
@@ -115,7 +116,8 @@ int import_fill(const options::variables_map& values) {
                assembly.materials.back().density, assembly.materials.back().youngs_modulus,
                assembly.materials.back().shear_modulus);
   if (into)
-    fmt::print("gaps closed: {} patches, the largest {:.3g} m\n", report.closed_gaps, report.largest_closed_gap);
+    fmt::print("gaps closed: {}, the largest {:.3g} m\n", counted(report.closed_gaps, "patch", "patches"),
+               report.largest_closed_gap);
   else
     fmt::print("The assembly holds only the fill. Give --into ASSEMBLY to put it between stones\n");
   print_assembly_table(assembly);

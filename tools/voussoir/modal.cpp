@@ -10,6 +10,7 @@
 #include "io/vtk/grid.h"
 #include "io/vtk/series.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
@@ -155,10 +156,10 @@ void keep_lowest(Findings& f, std::size_t count) {
 }
 
 std::string counts_text(const Assembly& assembly) {
-  const std::string blocks = fmt::format("{} blocks", assembly.blocks.size());
+  const std::string blocks = counted(assembly.blocks.size(), "block");
   if (assembly.fill.empty()) return blocks;
-  return fmt::format("{}, a fill of {} nodes and {} tetrahedra", blocks, assembly.fill.nodes.size(),
-                     assembly.fill.tets.size());
+  return fmt::format("{}, a fill of {} and {}", blocks, counted(assembly.fill.nodes.size(), "node"),
+                     counted(assembly.fill.tets.size(), "tetrahedron", "tetrahedra"));
 }
 
 /// The modes of the source. For a damaged one, also the modes of the intact assembly. Local modes of loosened stones

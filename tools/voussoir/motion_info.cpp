@@ -6,6 +6,7 @@
 
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
@@ -164,7 +165,7 @@ int motion_spectrum(const std::vector<std::string>& arguments) {
   write_atomically(out + "/spectra.csv", spectra_csv(sets, periods, spectra, target));
   write_atomically(out + "/spectra.html", html_page("Response spectra", body));
   if (!quiet && !remark.empty()) fmt::print(stderr, "{}\n", remark);
-  if (!quiet) fmt::print("{} records; {}/spectra.csv, {}/spectra.html\n", sets.size(), out, out);
+  if (!quiet) fmt::print("{}; {}/spectra.csv, {}/spectra.html\n", counted(sets.size(), "record"), out, out);
   return 0;
 }
 
@@ -187,7 +188,8 @@ int motion_process(const std::vector<std::string>& arguments) {
   asked.baseline = values.count("baseline") > 0, asked.dt = values["step"].as<double>();
   if (values.count("band")) {
     const auto band = values["band"].as<std::vector<double>>();
-    if (band.size() != 2) throw InputError("--band has {} numbers. Give two corner frequencies in Hz", band.size());
+    if (band.size() != 2)
+      throw InputError("--band has {}. Give two corner frequencies in Hz", counted(band.size(), "number"));
     asked.low = band[0], asked.high = band[1];
     for (const double corner : band)
       if (!(corner >= 0.0 && corner <= 1e5)) throw InputError("--band has {} Hz. Give 0 (no limit) or more", corner);

@@ -8,6 +8,7 @@
 
 #include "solver/base/atomic_file.h"
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
@@ -33,7 +34,8 @@ struct SelectRequest {
 
 std::array<double, 2> pair_of(const options::variables_map& values, const char* key) {
   const auto list = values[key].as<std::vector<double>>();
-  if (list.size() != 2) throw InputError("--{} has {} numbers. Give two, the least and the largest", key, list.size());
+  if (list.size() != 2)
+    throw InputError("--{} has {}. Give two, the least and the largest", key, counted(list.size(), "number"));
   for (const double value : list)
     if (!std::isfinite(value)) throw InputError("--{} has {}. Give finite numbers", key, value);
   return {list[0], list[1]};
@@ -191,11 +193,11 @@ std::string selection_page(const Selected& s, const std::string& spectra) {
   const auto [low, high] = std::ranges::minmax(s.selection.mean);
   std::string body = paragraph("Target: " + target_text(s.request.target) + ".");
   body += paragraph(fmt::format(
-      "{} of {} records are selected, at most {} of one event, with factors from {:g} to {:g}. The ratio of their mean "
-      "to the target is {:.3f} to {:.3f} at periods from {:g} to {:g} s ({:g} to {:g} is allowed). {} sets were "
-      "tried{}.",
-      p.count, s.sets.size(), p.per_event, p.least, p.most, low, high, s.request.range[0], s.request.range[1], p.low,
-      p.high, s.selection.tried, s.selection.all_tried ? " (all possible sets)" : ""));
+      "{} of {} selected, at most {} of one event, with factors from {:g} to {:g}. The ratio of their mean to the "
+      "target is {:.3f} to {:.3f} at periods from {:g} to {:g} s ({:g} to {:g} is allowed). {} {} tried{}.",
+      p.count, counted(s.sets.size(), "record is", "records are"), p.per_event, p.least, p.most, low, high,
+      s.request.range[0], s.request.range[1], p.low, p.high, s.selection.tried,
+      s.selection.tried == 1.0 ? "set was" : "sets were", s.selection.all_tried ? " (all possible sets)" : ""));
   if (!s.selection.found) body += paragraph("No set keeps all bounds. This is the closest one.");
   body += figure(spectra) + ratio_figure(s) + heading("Measures, multiplied by the factors") + measures_figure(s);
   body += measures_table(s.names, s.measures, s.selection.factors) + heading("Histories, as recorded");
@@ -259,7 +261,9 @@ int select(SelectRequest& request) {
   for (std::size_t k = 0; k < periods.size(); ++k) request.problem.ratios.row(Eigen::Index(k)) /= target[k];
   const std::string remark = short_period_remark(sets, request.range[0]);
   if (!request.quiet && !remark.empty()) fmt::print(stderr, "{}\n", remark);
-  if (!request.quiet) fmt::print(stderr, "{} records of {} events in {}\n", sets.size(), events.size(), request.folder);
+  if (!request.quiet)
+    fmt::print(stderr, "{} of {} in {}\n", counted(sets.size(), "record"), counted(events.size(), "event"),
+               request.folder);
   const Selection selection = select_records(request.problem);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
@@ -278,12 +282,11 @@ int select(SelectRequest& request) {
   if (selection.found) return 0;
   const auto [low, high] = std::ranges::minmax(selection.mean);
   throw RunError(
-      "no set of {} records keeps its mean spectrum within {:g} to {:g} times the target at periods from {:g} to {:g} "
-      "s{}. The closest set is written to {}/selection.json with \"found\": false; its ratio is {:.3f} to {:.3f}. "
-      "Widen --bounds or --factors, narrow --range, allow more records of one event with --per-event, or give more "
-      "records",
-      request.problem.count, request.problem.low, request.problem.high, request.range[0], request.range[1],
-      selection.all_tried ? "" : " among those tried", request.out, low, high);
+      "no set of {} keeps its mean spectrum within {:g} to {:g} times the target at periods from {:g} to {:g} s{}. The "
+      "closest set is written to {}/selection.json with \"found\": false; its ratio is {:.3f} to {:.3f}. Widen "
+      "--bounds or --factors, narrow --range, allow more records of one event with --per-event, or give more records",
+      counted(request.problem.count, "record"), request.problem.low, request.problem.high, request.range[0],
+      request.range[1], selection.all_tried ? "" : " among those tried", request.out, low, high);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "io/vtk/grid.h"
 #include "io/vtk/series.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
@@ -48,8 +49,8 @@ ViewerScene modes_scene(const fs::path& folder) {
 std::string diagnosed_label(const nlohmann::json& modes, const PvdSeries::Frame& frame, const std::string& when) {
   const auto number = std::size_t(frame.time);
   if (number < 1 || number > modes.size())
-    throw InputError("diagnosis.json has {} modes, but there is a shape of mode {}. Run voussoir diagnose again",
-                     modes.size(), number);
+    throw InputError("diagnosis.json has {}, but there is a shape of mode {}. Run voussoir diagnose again",
+                     counted(modes.size(), "mode"), number);
   const nlohmann::json& mode = modes[number - 1];
   return fmt::format("mode {} {}: {:.3f} s, {} (measured {:.3f} s)", mode.value("mode", std::to_string(number)), when,
                      mode.value(when, 0.0), mode.value("computed_" + when, std::string()), mode.value("measured", 0.0));
@@ -85,8 +86,9 @@ ViewerScene folder_scene(const std::string& directory, std::size_t most) {
   if (fs::exists(folder / "vtk/blocks.pvd", ignored)) {
     ViewerScene scene = run_scene(directory, most);
     const std::size_t stored = VtkSeries(directory).blocks().frames().size();
-    scene.what = stored == scene.frames.size() ? fmt::format("run, {} frames", stored)
-                                               : fmt::format("run, {} of {} frames", scene.frames.size(), stored);
+    scene.what = stored == scene.frames.size()
+                     ? fmt::format("run, {}", counted(stored, "frame"))
+                     : fmt::format("run, {} of {}", scene.frames.size(), counted(stored, "frame"));
     return scene;
   }
   if (fs::exists(folder / "diagnosis.json", ignored)) return diagnosis_scene(folder);
@@ -115,7 +117,7 @@ ViewerScene file_scene(const std::string& file) {
     return modes_scene(fs::path(file).parent_path());
   const Assembly assembly = read_assembly(file);
   ViewerScene scene = snapshot_scene(assembly, rest_snapshot(assembly));
-  scene.what = fmt::format("assembly of {} blocks, as built", assembly.blocks.size());
+  scene.what = fmt::format("assembly of {}, as built", counted(assembly.blocks.size(), "block"));
   return scene;
 }
 
@@ -163,8 +165,8 @@ int view(const std::vector<std::string>& arguments) {
   write_atomically(html, page);
   if (directory) link_from_report(from, html);
   if (!values.count("quiet"))
-    fmt::print("{}: {} blocks, {} frames, {:.1f} MB\n", html, scene.stones.size(), scene.frames.size(),
-               1e-6 * double(page.size()));
+    fmt::print("{}: {}, {}, {:.1f} MB\n", html, counted(scene.stones.size(), "block"),
+               counted(scene.frames.size(), "frame"), 1e-6 * double(page.size()));
   return 0;
 }
 

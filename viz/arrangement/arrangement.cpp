@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/counted.h"
 #include "viz/arrangement/arrangement_parts.h"
 #include "viz/arrangement/notes.h"
 #include "viz/page/svg.h"
@@ -118,7 +119,8 @@ void Arrangement::draw(Drawing& drawing) const {
   if (!p.left_out.empty()) remarks.push_back("Elevation without the fixed blocks at its faces.");
   if (std::abs(p.m.skew) > 0.002) remarks.push_back("Spans and supports along the middle.");
   if (sheet.left_out() > 0)
-    remarks.push_back(fmt::format("{} dimensions are left out for lack of space.", sheet.left_out()));
+    remarks.push_back(
+        fmt::format("{} left out for lack of space.", counted(sheet.left_out(), "dimension is", "dimensions are")));
   draw_title_block(sheet, p.placement.notes.back(), p.assembly, p.notes, p.placement, remarks);
 }
 

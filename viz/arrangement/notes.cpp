@@ -7,6 +7,7 @@
 #include <map>
 
 #include "solver/base/constants.h"
+#include "solver/base/counted.h"
 #include "viz/arrangement/paint_view.h"
 
 namespace voussoir {
@@ -73,7 +74,7 @@ std::string legend_text(const Assembly& assembly, const LegendRow& row) {
     if (material_name(assembly, m) != text) names.push_back(material_name(assembly, m));
   if (!names.empty()) text += fmt::format(", {}", fmt::join(names, ", "));
   if (row.component == Component::backfill && !assembly.fill.empty())
-    return text + fmt::format(" ({} tetrahedra)", assembly.fill.tets.size());
+    return text + fmt::format(" ({})", counted(assembly.fill.tets.size(), "tetrahedron", "tetrahedra"));
   return text + fmt::format(" ({})", row.blocks);
 }
 
@@ -91,8 +92,10 @@ double moving_tonnes(const Assembly& assembly) {
 }
 
 std::string counts_text(const Assembly& assembly) {
-  std::string text = fmt::format("{} blocks, {} joints", assembly.blocks.size(), assembly.joints.size());
-  if (!assembly.fill.empty()) text += fmt::format(", {} tetrahedra", assembly.fill.tets.size());
+  std::string text =
+      fmt::format("{}, {}", counted(assembly.blocks.size(), "block"), counted(assembly.joints.size(), "joint"));
+  if (!assembly.fill.empty())
+    text += fmt::format(", {}", counted(assembly.fill.tets.size(), "tetrahedron", "tetrahedra"));
   const double mass = moving_tonnes(assembly);
   return text + fmt::format("; movable mass {:.{}f} t", mass, mass < 1.0 ? 3 : mass < 1000.0 ? 1 : 0);
 }
@@ -151,7 +154,7 @@ void cap(std::vector<Row>& rows, const char* what) {
   if (rows.size() <= most_rows) return;
   const std::size_t more = rows.size() - most_rows + 1;
   rows.resize(most_rows - 1);
-  rows.push_back({fmt::format("and {} more types of {}", more, what)});
+  rows.push_back({fmt::format("and {} of {}", counted(more, "more type"), what)});
 }
 
 struct Table {

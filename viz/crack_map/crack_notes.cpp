@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/base/counted.h"
 #include "viz/arrangement/notes.h"
 
 namespace voussoir {
@@ -48,8 +49,8 @@ std::string count_words(const std::vector<Crack>& cracks, double threshold, bool
   std::size_t joints = 0;
   for (const Crack& c : cracks) joints += c.joints.size();
   if (cracks.empty()) return fmt::format("No joint has opened or slid by {:g} mm or more.", 1e3 * threshold);
-  return fmt::format("{}{} crack{} of {} joint{}, at least {:g} mm wide", ever ? "" : "present width of ",
-                     cracks.size(), cracks.size() == 1 ? "" : "s", joints, joints == 1 ? "" : "s", 1e3 * threshold);
+  return fmt::format("{}{} of {}, at least {:g} mm wide", ever ? "" : "present width of ",
+                     counted(cracks.size(), "crack"), counted(joints, "joint"), 1e3 * threshold);
 }
 
 void sample(DrawingSheet& sheet, double x, double y, const WidthClass& c, const char* dashes) {

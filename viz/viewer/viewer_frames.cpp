@@ -14,6 +14,7 @@
 #include "io/vtk/files.h"
 #include "io/vtk/grid.h"
 #include "io/vtk/series.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 
 namespace voussoir {
@@ -146,9 +147,10 @@ class SceneBuilder {
     const bool fewer = scene.modes && blocks->GetNumberOfCells() <= vtkIdType(scene.stones.size());
     if ((blocks->GetNumberOfCells() != vtkIdType(scene.stones.size()) && !fewer) || points != fill_points_)
       throw InputError(
-          "{}: this frame has {} blocks and {} fill nodes, but the previous frame has {} and {}. Remove the files of "
-          "the other run",
-          name, blocks->GetNumberOfCells(), points, scene.stones.size(), fill_points_);
+          "{}: this frame has {} and {}, but the previous frame has {} and {}. Remove the files of the "
+          "other run",
+          name, counted(blocks->GetNumberOfCells(), "block"), counted(points, "fill node"), scene.stones.size(),
+          fill_points_);
   }
 
   void read_motion(ViewerFrame& frame, vtkCellData* cells, const char* displacement, const char* rotation,
@@ -181,8 +183,8 @@ class SceneBuilder {
       const std::array<int, 2> ends = {int(a->GetComponent(j, 0)), int(b->GetComponent(j, 0))};
       for (const int end : ends) {
         if (end >= int(scene.stones.size()))
-          throw InputError("{}: a joint refers to block {}, but there are only {} blocks", name, end,
-                           scene.stones.size());
+          throw InputError("{}: a joint refers to block {}, but there are only {}", name, end,
+                           counted(scene.stones.size(), "block"));
         if (end < 0 || (tie && tie->GetComponent(j, 0) != 0.0)) continue;  // the fill; bars carry no stress of stones
         ViewerValues& values = frame.values[std::size_t(end)];
         values[compression_value] = std::max(values[compression_value], -tension);
@@ -256,8 +258,8 @@ ViewerScene shape_scene(const std::vector<ShapeSeries>& series) {
       if (i >= s.labels.size()) continue;
       const PvdSeries blocks(s.blocks), fill(s.fill);
       if (i >= blocks.frames().size())
-        throw InputError("{} has {} mode shapes, but the list of modes has {}. Write both files again", s.blocks,
-                         blocks.frames().size(), s.labels.size());
+        throw InputError("{} has {}, but the list of modes has {}. Write both files again", s.blocks,
+                         counted(blocks.frames().size(), "mode shape"), s.labels.size());
       const std::string file = blocks.file_path(blocks.frames()[i]), of_fill = fill.file_at(blocks.frames()[i].time);
       const auto shape = read_vtu(file), nodes = of_fill.empty() ? nullptr : read_vtu(of_fill);
       builder.add_shape(shape, nodes, s.labels[i], file);

@@ -10,6 +10,7 @@
 #include "io/vtk/import.h"
 #include "io/vtk/shells.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "tools/python/module/arrays.h"
 #include "tools/python/module/module.h"
@@ -196,7 +197,8 @@ std::vector<std::string> block_materials(const Assembly& a) {
 }
 
 py::array_t<double> polygon_of_joint(const Assembly& a, std::size_t i) {
-  if (i >= a.joints.size()) throw py::index_error(fmt::format("joint {}: there are {} joints", i, a.joints.size()));
+  if (i >= a.joints.size())
+    throw py::index_error(fmt::format("joint {}: there are {}", i, counted(a.joints.size(), "joint")));
   return vectors(a.joints[i].polygon);
 }
 
