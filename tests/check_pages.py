@@ -38,7 +38,7 @@ ELLIPSIS = "…"
 DURATIONS = re.compile(r"\(\d+(\.\d+)? s\)$"            # gap: … (46.2 s)
                        r"|\bin \d+(\.\d+)? (s|min)\b"   # done in 12 s
                        r"|\b(assembly|factorization|iteration|modes) \d+\.\d+ s\b")  # cost of voussoir modal
-PROGRESS = re.compile(r"^\S.*  (t = .* %|Newton iteration |relaxation step |multiplier .*, relaxation step )"
+PROGRESS = re.compile(r"^\S.*  (t = .* %|(share .*, |multiplier .*, )?(Newton iteration|iteration) \d)"
                       r"|\d (s|min) left\b|^(gravity|end)$")
 ANY_NUMBER = r"[+-]?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(r"(?<![\w.])" + ANY_NUMBER + r"(?!\w|\.\d)")  # no part of a name such as cs1-62m

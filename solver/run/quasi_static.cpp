@@ -89,8 +89,9 @@ void Simulation::step_by_relaxation(const StageSettings& stage, double share) {
   equilibrium_ = relax(
       stepper_, settings_.step.equilibrium_tolerance, limits, observers_.stop,
       [&](std::int64_t step, double r) {
-        report_progress(false,
-                        fmt::format("share {:.4g}, relaxation step {}: out-of-balance force {:.1e}", share, step, r));
+        report_progress(
+            false, fmt::format("share {:.4g}, iteration {} of dynamic relaxation: out-of-balance force {:.1e}", share,
+                               step, r));
       },
       stage.quasi_static.push ? &machine : nullptr);
   if (equilibrium_.converged) take_multiplier(machine);
@@ -171,7 +172,7 @@ Stop Simulation::approach(const StageSettings& stage, Stop from, const Stop& to)
     }
     log(fmt::format("share {:.5g}: {:.5g} kN at {:.5g} mm ({})", wanted.share, 1e-3 * step_row_.force,
                     1e3 * step_row_.displacement,
-                    equilibrium_.relaxed ? counted(equilibrium_.steps, "relaxation step")
+                    equilibrium_.relaxed ? counted(equilibrium_.steps, "iteration") + " of dynamic relaxation"
                                          : counted(equilibrium_.iterations, "Newton iteration")));
     if (halved == 0) return to;
     from = wanted;

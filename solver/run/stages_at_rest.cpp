@@ -66,7 +66,7 @@ void Simulation::find_equilibrium(const StageSettings& stage, bool from_unloaded
     limits.displacement = extent(model_);  // parts that have moved this far fall without end
     limits.from_unloaded = from_unloaded;
     equilibrium_ = relax(stepper_, tolerance, limits, observers_.stop, [&](std::int64_t step, double r) {
-      report_progress(false, fmt::format("relaxation step {}: out-of-balance force {:.1e}", step, r));
+      report_progress(false, fmt::format("iteration {} of dynamic relaxation: out-of-balance force {:.1e}", step, r));
     });
     log(equilibrium_.account);
   }
@@ -115,9 +115,10 @@ bool Simulation::stayed(const StageSettings& stage, const Standing& before) {
   if (!equilibrium_.converged) {
     const Array<double>& from = equilibrium_.earlier.empty() ? before.pose : equilibrium_.earlier;
     moving_ = farthest_moved(model_, from, state_, named);
-    failure_ = fmt::format("no equilibrium under gravity{}: {}{}{}", construction_failed_, equilibrium_.account,
-                           moving_.empty() ? "" : "\nThese stones still moved in the last relaxation steps:",
-                           moved_text(*assembly_, model_, moving_, before, from, state_));
+    failure_ =
+        fmt::format("no equilibrium under gravity{}: {}{}{}", construction_failed_, equilibrium_.account,
+                    moving_.empty() ? "" : "\nThese stones still moved in the last iterations of the relaxation:",
+                    moved_text(*assembly_, model_, moving_, before, from, state_));
     return false;
   }
   std::vector<std::int32_t> moved = moved_away(*assembly_, model_, before, state_);
@@ -150,8 +151,9 @@ bool Simulation::collapse(const StageSettings& stage) {
       stepper_, stage.collapse, settings_.step.equilibrium_tolerance,
       [&](double multiplier) { return places_.at_work({}, loads(multiplier)); }, observers_.stop,
       [&](const CollapseTry& one, double residual) {
-        report_progress(false, fmt::format("multiplier {:.5g}, relaxation step {}: out-of-balance force {:.1e}",
-                                           one.multiplier, one.steps, residual));
+        report_progress(
+            false, fmt::format("multiplier {:.5g}, iteration {} of dynamic relaxation: out-of-balance force {:.1e}",
+                               one.multiplier, one.steps, residual));
       });
   if (stopped()) return false;
   log(collapse_.account);

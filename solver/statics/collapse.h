@@ -19,7 +19,7 @@ struct MechanismJoint {
 struct CollapseTry {
   double multiplier = 0.0;
   bool stands = false;
-  std::int64_t steps = 0;  // of relaxation
+  std::int64_t steps = 0;  // iterations of the relaxation
 };
 
 /// An equilibrium on the load path. Displacements (m) count from the equilibrium without the pattern.

@@ -94,7 +94,7 @@ BlockMatrix slightly_held(BlockMatrix k, const Unknowns& unknowns, PatchTangent 
 
 /// The inverse of a tangent. A large assembly of blocks without fill uses multigrid as long as it converges; other
 /// assemblies use a direct factorisation. A large assembly uses the factorisation only if it takes no longer than some
-/// thousand relaxation steps.
+/// thousand iterations of dynamic relaxation.
 class TangentInverse {
  public:
   TangentInverse(const Model& model, const Unknowns& unknowns) : model_(model), unknowns_(unknowns) {}

@@ -16,7 +16,7 @@ struct Equilibrium {
   bool relaxed = false;    // dynamic relaxation was needed
   bool lost = false;       // the limit of displacement was exceeded
   int iterations = 0;      // Newton
-  std::int64_t steps = 0;  // relaxation
+  std::int64_t steps = 0;  // iterations of the relaxation
   double residual = 0.0;   // largest out-of-balance force over the weight of an average block
   double first_residual = 0.0;
   std::string account;    // one line for the log

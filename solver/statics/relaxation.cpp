@@ -1,12 +1,12 @@
-// Dynamic relaxation: explicit steps in a fictitious time, so that inertia and damping can be chosen for fast
-// convergence.
+// Dynamic relaxation: explicit time steps in a fictitious time (iterations), so that inertia and damping can be chosen
+// for fast convergence.
 //
 // Inertia: with M_i at least the body's own block of K, λ(M⁻¹ K) ≤ 2 for any assembly, because the stiffness of a pair
 // is at most twice its two blocks; the critical step is then at least √2 and a stiff sliver does not slow down the
-// rest. Damping: viscous, 1.2 ω with ω the circular frequency that the last steps show, ω² = −Δx·ΔF / Δx·M Δx (after
-// Underwood 1983). That lies above the lowest frequency, so that the slowest motion is damped at 0.6 of critical or
-// more: it hardly overshoots, so that few joints slip or open that would not do so at rest. A gentle relaxation is
-// damped at 3 ω, and in its first steps with the largest stable damping.
+// rest. Damping: viscous, 1.2 ω with ω the circular frequency that the last iterations show, ω² = −Δx·ΔF / Δx·M Δx
+// (after Underwood 1983). That lies above the lowest frequency, so that the slowest motion is damped at 0.6 of critical
+// or more: it hardly overshoots, so that few joints slip or open that would not do so at rest. A gentle relaxation is
+// damped at 3 ω, and in its first iterations with the largest stable damping.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -252,9 +252,9 @@ Equilibrium relax(Stepper& stepper, double tolerance, const RelaxationLimits& li
   state.look_at() = state.grouped_at() = first;  // nor are its looks: who has moved is asked at the next step
   stop_motion(state);
   stepper.prepare();
-  result.account =
-      fmt::format("dynamic relaxation {} after {}: out-of-balance force {:.2e} of an average block's weight",
-                  result.converged ? "converged" : "did not converge", counted(result.steps, "step"), result.residual);
+  result.account = fmt::format(
+      "dynamic relaxation {} after {}: out-of-balance force {:.2e} of an average block's weight",
+      result.converged ? "converged" : "did not converge", counted(result.steps, "iteration"), result.residual);
   return result;
 }
 

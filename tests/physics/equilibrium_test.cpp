@@ -72,6 +72,8 @@ TEST(Equilibrium, RelaxationWorksWithEveryDampingOfTheRun) {
     EXPECT_EQ(simulation.run(), RunEnd::finished) << int(kind) << ": " << simulation.failure();
     const double z = simulation.state().pose[pose_width * std::size_t(simulation.model().body_of_block[9]) + 2];
     EXPECT_NEAR(z, hand_solution(9), 1e-4 * std::abs(hand_solution(9))) << int(kind);
+    EXPECT_NE(simulation.equilibrium().account.find(" iterations: out-of-balance force"), std::string::npos)
+        << simulation.equilibrium().account;
   }
 }
 

@@ -77,6 +77,7 @@ TEST(Modal, AfterDamageSaysTheFrequencyDrop) {
   const Outcome outcome = voussoir({"modal", "run", "-n", "3", "--no-pictures"}, {.folder = folder.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("at rest after"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" iterations of dynamic relaxation"), std::string::npos) << outcome.out;
   const nlohmann::json json = modes_of(folder / "run/modes");
   double least = 0.0;
   for (const nlohmann::json& pair : json["intact"]["pairs"]) {

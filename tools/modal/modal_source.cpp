@@ -49,7 +49,7 @@ void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
     Progress progress;
     progress.stage = "coming to rest";
     progress.timed = false;
-    progress.note = fmt::format("relaxation step {}: out-of-balance force {:.1e}", step, residual);
+    progress.note = fmt::format("iteration {} of dynamic relaxation: out-of-balance force {:.1e}", step, residual);
     line.show(progress);
   });
   line.end();
@@ -58,7 +58,8 @@ void settle_down(ModalSource& source, Stepper& stepper, bool quiet) {
         "the state does not come to rest under gravity, because the bridge is still collapsing ({}). Give --as-stored "
         "to take the state as it is",
         settled.equilibrium.account);
-  source.about += fmt::format(", at rest after {}", counted(settled.equilibrium.steps, "step"));
+  source.about +=
+      fmt::format(", at rest after {} of dynamic relaxation", counted(settled.equilibrium.steps, "iteration"));
   if (const std::size_t n = settled.falling.size())
     source.about += fmt::format(" ({} in the air)", counted(n, "block"));
 }
