@@ -1,5 +1,5 @@
 // cs1 and cs2: one layout of a multi-span masonry arch bridge with two sets of defaults. Dimensions and materials are
-// those of the seed paper "From Monitoring to Modeling: 3D-DEM Application to Masonry Arch Bridge Case Studies" where
+// those of the paper "From Monitoring to Modeling: 3D-DEM Application to Masonry Arch Bridge Case Studies" where
 // it gives them; the rest is fitted to its periods (see the documentation of the bridges).
 #include "geometry/generate_cs.h"
 

@@ -7,7 +7,8 @@ namespace voussoir {
 
 namespace {
 
-/// One row: both defaults side by side. A * in the help marks a value that the seed paper does not give.
+/// One row: both defaults side by side. A * in the help marks a value that the paper of the two bridges
+/// (generate_cs.cpp) does not give.
 struct Row {
   const char* name;
   double cs1, cs2, low, high;

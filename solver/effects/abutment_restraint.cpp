@@ -1,5 +1,6 @@
 // The ground behind an abutment: a fixed block over the whole end face, from the base to the deck, whose joints have a
-// share of the stiffness of the adjacent material in all three directions (seed paper: 50 %, calibrated on monitoring).
+// share of the stiffness of the adjacent material in all three directions (50 % in "From Monitoring to Modeling",
+// calibrated on monitoring; docs/case-studies.md).
 #include "solver/effects/effect.h"
 #include "solver/effects/parts.h"
 

@@ -1,4 +1,4 @@
-// The two bridges of the seed as sets of values of the generator "bridge": the assemblies of "cs1" and "cs2".
+// The two bridges cs1 and cs2 as sets of values of the generator "bridge": the assemblies of "cs1" and "cs2".
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
