@@ -25,7 +25,7 @@ std::string balance_note(const RunFiles& run, double vertical) {
                   "{:.4g} kN (stones {:.4g} kN, deformable fill {:.4g} kN). The difference, {:.3g} kN ({:.2g} % of the "
                   "weight), comes from other loads.",
                   1e-3 * vertical, 1e-3 * all, 1e-3 * weight.value("stones", 0.0), 1e-3 * weight.value("fill", 0.0),
-                  1e-3 * other, 100.0 * other / all, run.ends_at_rest() ? "" : ", and what still moves"));
+                  1e-3 * other, 100.0 * other / all));
 }
 
 }  // namespace
