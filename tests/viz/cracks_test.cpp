@@ -128,6 +128,15 @@ TEST(Cracks, AnAngleIsNoNetwork) {
   EXPECT_NEAR(cracks[0].length, std::hypot(0.5, 0.6), 1e-9);
 }
 
+TEST(Cracks, NamePartsAsEffectsDo) {
+  EXPECT_EQ(part_words({Component::spandrel, 0}), "spandrel y-");
+  EXPECT_EQ(part_words({Component::spandrel, 1}), "spandrel y+");
+  EXPECT_EQ(part_words({Component::spandrel, 2}), "spandrel internal");
+  EXPECT_EQ(part_words({Component::parapet, 0}), "parapet y-");
+  EXPECT_EQ(part_words({Component::arch, 2}), "arch 2");
+  EXPECT_EQ(part_words({Component::abutment, 0}), "abutment left");
+}
+
 TEST(Cracks, ManyJointsOfOnePartAreANetwork) {
   for (const Component component : {Component::wall, Component::block}) {
     Assembly assembly = wall();

@@ -133,11 +133,11 @@ bool is_wall(Component c) {
 }
 
 std::string part_words(const CrackedPart& part) {
-  static const char* const sides[] = {" y−", " y+", " inside"};
+  static const char* const sides[] = {" y-", " y+", " internal"};
   const std::string name = component_names()[std::size_t(part.component)];
   const bool sided = part.part >= 0 && part.part < 3;
-  if (part.component == Component::spandrel) return std::string("spandrel wall") + (sided ? sides[part.part] : "");
-  if (part.component == Component::parapet) return name + (sided ? sides[part.part] : "");
+  if (part.component == Component::spandrel || part.component == Component::parapet)
+    return name + (sided ? sides[part.part] : "");
   if (part.component == Component::arch || part.component == Component::pier)
     return fmt::format("{} {}", name, part.part);
   if (part.component == Component::abutment) return part.part == 0 ? "abutment left" : "abutment right";

@@ -33,7 +33,7 @@ std::vector<JointGaps> joint_gaps(const Assembly& assembly, const Snapshot& snap
 /// Displacement of block b relative to block a at a point that both had as built, m.
 Vec3 moved_apart(const Assembly& assembly, const Snapshot& snapshot, const Joint& joint, const Vec3& at);
 
-/// The part of a stone: "arch 0", "spandrel wall y−".
+/// The part of a stone: "arch 0", "spandrel y-".
 struct CrackedPart {
   Component component = Component::block;
   std::int32_t part = 0;
