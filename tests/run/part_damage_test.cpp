@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tools/run/damage_words.h"
+
 namespace voussoir {
 namespace VOUSSOIR_FILE {
 
@@ -31,6 +33,27 @@ struct Row {
     snapshot.patches.push_back(patch);
   }
 };
+
+TEST(DamageWords, ALengthThatRoundsToZeroIsLessThanTheLastDecimal) {
+  EXPECT_EQ(mm_text(3.2e-3, 1), "3.2 mm");
+  EXPECT_EQ(mm_text(6e-5, 1), "0.1 mm");
+  EXPECT_EQ(mm_text(4e-5, 1), "less than 0.1 mm");
+  EXPECT_EQ(mm_text(-4e-6, 2), "less than 0.01 mm");
+  EXPECT_EQ(bound_text(3.2e-3, 1), "up to 3.2 mm");
+  EXPECT_EQ(bound_text(0.0, 1), "less than 0.1 mm");
+}
+
+TEST(DamageWords, NoSentenceSpeaksOfZeroMillimetres) {
+  const nlohmann::json opened = {{"largest_opening", 3e-3}, {"residual_opening", 1e-6}, {"largest_slip", 0.0}};
+  EXPECT_EQ(
+      damage_sentence(opened),
+      "slight: joints opened by up to 3.0 mm (less than 0.01 mm still open), slid by less than 0.01 mm; nothing of "
+      "the bonded joint area broken");
+  const nlohmann::json slid = {{"largest_opening", 1e-6}, {"residual_opening", 0.0}, {"largest_slip", 0.02}};
+  EXPECT_EQ(
+      damage_sentence(slid),
+      "negligible: joints opened by less than 0.01 mm, slid by up to 20 mm; nothing of the bonded joint area broken");
+}
 
 TEST(PartDamage, NamesThePartAndThePlaceAsBuilt) {
   Row row;

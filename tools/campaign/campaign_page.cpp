@@ -99,7 +99,7 @@ std::string demand_chart(const CampaignTable& table, const Demand& shown) {
       if (table.runs[r].case_name != cases[c] || !has_result(table.runs[r]) || !std::isfinite(pga + demand)) continue;
       dots.x.push_back(pga), dots.y.push_back(demand);
       dots.hints.push_back(
-          fmt::format("{}, {}: {:.1f} mm at {:.3f} g", cases[c], motion_words(table.runs[r]), demand, pga));
+          fmt::format("{}, {}: {} at {:.3f} g", cases[c], motion_words(table.runs[r]), mm_text(1e-3 * demand, 1), pga));
     }
     if (!dots.x.empty()) chart.dots.push_back(dots);
   }
@@ -257,7 +257,7 @@ std::string median_text(std::vector<double> openings) {
   std::ranges::sort(openings);
   const double median = 0.5 * (openings[(openings.size() - 1) / 2] + openings[openings.size() / 2]);
   return median >= 1.0 ? fmt::format("more than 1 m, {}", damage_word(median))
-                       : fmt::format("{:.1f} mm, {}", 1e3 * median, damage_word(median));
+                       : fmt::format("{}, {}", mm_text(median, 1), damage_word(median));
 }
 
 /// Means over the runs of a case; empty cells if a case has no such component.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "geometry/rings.h"
+#include "solver/base/counted.h"
 #include "solver/statics/hinges.h"
 #include "viz/crack_map/cracks.h"
 
@@ -247,14 +248,14 @@ std::string BridgeFinding::sentence() const {
   if (what == all[seating_share].what)
     return fmt::format("{}: a joint has slipped by {:.0f} % of a stone's depth", where, 100.0 * measure);
   if (what == all[hinge_count].what)
-    return fmt::format("{}: {:.0f} hinge{}", where, measure, measure > 1.5 ? "s that alternate" : "");
+    return fmt::format("{}: {}", where, counted(std::lround(measure), "hinge", "hinges that alternate"));
   if (what == all[ring_share].what)
     return fmt::format("{}: the rings have separated over {:.0f} % of their area", where, 100.0 * measure);
   if (what == all[spandrel_share].what)
     return fmt::format("{}: separated from the vaults over {:.0f} % of the area between them", where, 100.0 * measure);
   if (what == all[lean_share].what)
     return fmt::format("{}: moved out by {:.0f} % of its thickness", where, 100.0 * measure);
-  return fmt::format("{}: {:.0f} stone{} fell", where, measure, measure > 1.5 ? "s" : "");
+  return fmt::format("{}: {} fell", where, counted(std::lround(measure), "stone"));
 }
 
 std::vector<BridgeFinding> bridge_findings(const Assembly& assembly, const Snapshot& snapshot) {

@@ -10,6 +10,7 @@
 #include "solver/effects/parts.h"
 #include "solver/modal/modes.h"
 #include "solver/step/damage.h"
+#include "tools/run/damage_words.h"
 #include "viz/page/html.h"
 #include "viz/page/svg.h"
 
@@ -148,11 +149,11 @@ std::string warning_of(const json& joints, bool at_once) {
   if (!worst) return "";
   const json& at = (*worst)[(*worst)["opening"] > (*worst)["slip"] ? "opening_at" : "slip_at"];
   return fmt::format(
-      "gravity alone has damaged the bridge: {:.0f} % of the bond of the joints {} is lost, with openings up to {:.1f} "
-      "mm and slips up to {:.1f} mm. The worst place is at ({:.2f}, {:.2f}, {:.2f}) m{}",
+      "gravity alone has damaged the bridge: {:.0f} % of the bond of the joints {} is lost, with openings of {} and "
+      "slips of {}. The worst place is at ({:.2f}, {:.2f}, {:.2f}) m{}",
       100.0 * (*worst)["lost"].get<double>(), (*worst)["joints"].get<std::string>(),
-      1e3 * (*worst)["opening"].get<double>(), 1e3 * (*worst)["slip"].get<double>(), at[0].get<double>(),
-      at[1].get<double>(), at[2].get<double>(),
+      bound_text((*worst)["opening"].get<double>(), 1), bound_text((*worst)["slip"].get<double>(), 1),
+      at[0].get<double>(), at[1].get<double>(), at[2].get<double>(),
       at_once ? ". Use construction = \"staged\" in the gravity stage to build the bridge in construction steps" : "");
 }
 

@@ -56,7 +56,7 @@ std::string gravity_sentence(const RunFiles& run) {
     if (!pressed || family["compression"] > (*pressed)["compression"]) pressed = &family;
   std::string words = "The bridge stands.";
   if (sunk)
-    words += fmt::format(" Its largest settlement is {:.2f} mm ({}).", 1e3 * (*sunk)["settlement"].get<double>(),
+    words += fmt::format(" Its largest settlement is {} ({}).", mm_text((*sunk)["settlement"].get<double>(), 2),
                          (*sunk)["part"].get<std::string>());
   if (pressed)
     words += fmt::format(" The largest mean compression of a joint is {:.3f} MPa ({}).",
@@ -90,9 +90,9 @@ std::string damage_sentences(const RunFiles& run) {
   if (fill.contains("yielded_in_shear"))
     text += sentence(
         "Fill.", fmt::format("{:.1f} % of its volume has yielded in shear and {:.1f} % in tension. The largest "
-                             "displacement is {:.1f} mm.",
+                             "displacement is {}.",
                              100.0 * fill.value("yielded_in_shear", 0.0), 100.0 * fill.value("yielded_in_tension", 0.0),
-                             1e3 * fill.value("largest_displacement", 0.0)));
+                             mm_text(fill.value("largest_displacement", 0.0), 1)));
   return text;
 }
 
