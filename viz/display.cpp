@@ -58,8 +58,8 @@ pid_t start_xvfb(const Pipe& number) {
                   .signal_at_our_end = SIGTERM});
   } catch (const RunError& error) {
     throw InputError(
-        "pictures: there is no display, and Xvfb, which replaces a display, did not start ({}). Install the package "
-        "xvfb",
+        "pictures: there is no display, and Xvfb, which replaces a display, did not start: {} Install the package "
+        "xvfb.",
         error.what());
   }
 }

@@ -51,7 +51,7 @@ auto with_gmsh(const std::string& before, const std::string& after, Work&& work)
   } catch (...) {
     reason = "Gmsh gives no reason";
   }
-  throw RunError("{}: {}; {}", before, reason.empty() ? "Gmsh gives no reason" : reason, after);
+  throw RunError("{}: {} {}", before, with_full_stop(reason.empty() ? "Gmsh gives no reason" : reason), after);
 }
 
 /// Level of the lower foot of the extrados.
@@ -261,7 +261,7 @@ FillMesh mesh(const FillSpace& space, const FillMeshing& meshing) {
   const double bound = section_bound(ends, meshing.edge, layer);
   FillSection section;
   with_gmsh("the fill could not be meshed by Gmsh",
-            "try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
+            "Try another fill_edge or other dimensions, or backfill = \"rigid\"", [&] {
               const std::vector<Part> parts = add_section(space);
               add_lattice(parts, bound);
               divide_lines(bound);

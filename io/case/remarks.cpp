@@ -71,7 +71,7 @@ class Values {
     const Usual* usual = usual_of(section, key);
     if (!usual) return;
     if (const std::string text = unusual(*usual, value); !text.empty())
-      out_.push_back(fmt::format("{}:{}: {} = {:g} {} in [{}]: {}", case_.path, source.begin.line, key, value,
+      out_.push_back(fmt::format("{}:{}: {} = {:g} {} in [{}]: {}.", case_.path, source.begin.line, key, value,
                                  usual->unit, path, text));
   }
 
@@ -106,7 +106,7 @@ void remark_motion(const Case& c, std::size_t i, const toml::table& table, std::
     if (const std::string text = unusual(usual("peak"), peak); !text.empty())
       out.push_back(
           fmt::format("{}the motion of stage {} has a peak of {:.4g} m/s2 ({:.3g} g): {}; set it with 'units' "
-                      "or 'scale'",
+                      "or 'scale'.",
                       place_of(c, table, "record"), i + 1, peak, peak / standard_gravity, text));
   const std::string place = place_of(c, table, "duration");
   if (stage.duration - duration > std::max(ringing, duration))
@@ -117,7 +117,7 @@ void remark_motion(const Case& c, std::size_t i, const toml::table& table, std::
   if (when > stage.duration)
     out.push_back(
         fmt::format("{}stage {} ends after {:g} s, before the peak of its motion, which is {:.3g} m/s2 at {:.4g} s "
-                    "of {:.4g} s",
+                    "of {:.4g} s.",
                     place, i + 1, stage.duration, peak, when, duration));
 }
 
@@ -138,7 +138,7 @@ std::vector<std::string> remarks(const Assembly& assembly, const std::string& na
   const auto judge = [&](const std::string& what, const char* quantity, double value) {
     const Usual& u = usual(quantity);
     if (const std::string text = unusual(u, value); !text.empty())
-      out.push_back(fmt::format("{}: {} {:.4g} {}: {}", name, what, value, u.unit, text));
+      out.push_back(fmt::format("{}: {} {:.4g} {}: {}.", name, what, value, u.unit, text));
   };
   if (!assembly.blocks.empty()) {
     Box box = block_box(assembly.blocks.front());

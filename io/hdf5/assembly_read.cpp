@@ -438,8 +438,8 @@ void AssemblyReader::find_joints(const JointSearch& search) {
     lay_joints(assembly_, search);
   } catch (const InputError& error) {
     file_.fail("joints/blocks",
-               fmt::format("the dataset is missing, so the program looks for joints: {} (voussoir import FILE -o OTHER "
-                           "finds them with moduli, strengths and gap of its options)",
+               fmt::format("the dataset is missing, so the program looks for joints: {} The command voussoir import "
+                           "FILE -o OTHER finds them with moduli, strengths and gap of its options.",
                            error.what()));
   }
 }

@@ -60,7 +60,7 @@ auto with_checkpoint(const std::string& path, Work&& work) {
   } catch (const h5::ForeignFile&) {
     throw;
   } catch (const InputError& error) {
-    throw RunError("checkpoint {} is damaged ({}): use the previous one", path, error.what());
+    throw RunError("checkpoint {} is damaged: {} Use the previous one.", path, error.what());
   }
 }
 

@@ -151,7 +151,7 @@ std::string near_namesake(const std::string& name, const Groups& groups) {
   for (const auto& [other, members] : groups)
     if (other != name && without_digits(other) == without_digits(name) && !makes_a_set(members))
       return fmt::format(
-          "; the name '{} ({})' differs by digits only: if both are one recording, give the files the same name", other,
+          " The name '{} ({})' differs by digits only: if both are one recording, give the files the same name.", other,
           component_words(members));
   return "";
 }
@@ -297,7 +297,7 @@ RecordFolder read_record_folder(const std::string& folder, const ColumnsMeaning&
   found.left_out = said_once(left_out);
   if (found.sets.empty())
     throw InputError("{}: no record with two horizontal components among {}{}{}", folder, counted(paths.size(), "file"),
-                     found.left_out.empty() ? "" : "; the first file that was left out: ",
+                     found.left_out.empty() ? "" : ". The first file that was left out: ",
                      found.left_out.empty() ? "" : found.left_out.front());
   return found;
 }

@@ -34,7 +34,7 @@ void WrongKeys::add(const std::string& where, int line, const std::string& key, 
   const std::string near = nearest_word(key, names);
   Key wrong{line, fmt::format("{}unknown key '{}' in {}", where, shown(key), place), {}, {}};
   if (near.empty()) {
-    wrong.text += ": no key of this table has a similar name";
+    wrong.text += ": no key of this table has a similar name.";
     wrong.place = place;
     wrong.known = known;
   } else {

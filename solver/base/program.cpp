@@ -38,7 +38,7 @@ int run_program(const char* name, int (*run)(int argc, char** argv), int argc, c
   survive_closed_pipes();
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is reported like a full disk
   const auto failed = [&](const std::string& why) {
-    fmt::print(stderr, "{}: failed: {}\n", name, without_long_words(why));
+    fmt::print(stderr, "{}: failed: {}\n", name, without_long_words(with_full_stop(why)));
     return 1;
   };
   try {

@@ -90,10 +90,10 @@ TEST(CampaignTable, IsWrittenAsItWas) {
 
 TEST(CampaignTable, SaysWhatIsWrong) {
   EXPECT_EQ(error_of("").substr(0, 37), "DIR/table.csv:1: the file is empty. I");
-  EXPECT_EQ(error_of(heading), "DIR/table.csv:1: there are no runs below the heading. Run the campaign first");
+  EXPECT_EQ(error_of(heading), "DIR/table.csv:1: there are no runs below the heading. Run the campaign first.");
   EXPECT_EQ(error_of("run,case,record\na,b,c\n"),
             "DIR/table.csv:1: the column 'status' is missing. A table of a campaign has the columns run, case, record "
-            "and status");
+            "and status.");
   EXPECT_EQ(error_of("run,case,record,staus\na,b,c,done\n").substr(0, 66),
             "DIR/table.csv:1: unknown column 'staus': did you mean 'status'?; c");
   EXPECT_EQ(error_of("run,case,record,status,im.\na,b,c,done,1\n").substr(0, 37),

@@ -96,7 +96,7 @@ bool accepted(const std::string& path, std::uint64_t hash, double time) {
   try {
     read_checkpoint(path, header, state.arrays());
   } catch (const RunError& error) {
-    EXPECT_NE(std::string(error.what()).find("checkpoint " + path + " is damaged ("), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("checkpoint " + path + " is damaged: "), std::string::npos)
         << error.what();
     return false;
   } catch (const h5::ForeignFile&) {

@@ -31,7 +31,7 @@ TEST(Columns, MessagesNameFileAndRow) {
           .find(
               "r.txt:1: the format of this file is not known. It begins with 'time acc'. The known formats are: PEER"),
       std::string::npos);
-  EXPECT_EQ(problem("0 0\n0.1 one\n"), "r.txt:2: 'one' is not a number: rows must be numbers, headings begin with #");
+  EXPECT_EQ(problem("0 0\n0.1 one\n"), "r.txt:2: 'one' is not a number: rows must be numbers, headings begin with #.");
   EXPECT_NE(problem("0 0\n0.1 nan\n").find("r.txt:2: nan is not a finite number"), std::string::npos);
   EXPECT_NE(problem("0 0\n0.1 1\n0.1 1\n0.3 0\n").find("r.txt:3: the time 0.1 s follows 0.1 s"), std::string::npos);
   EXPECT_NE(problem("0 0\n0.1 1\n0.25 1\n0.3 0\n").find("r.txt:3: the time step is 0.15 s here and 0.1 s elsewhere"),

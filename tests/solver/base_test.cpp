@@ -100,7 +100,7 @@ TEST(Team, ThrowsAgainWhatAThreadThrew) {
       run_team(threads, work);
       ADD_FAILURE() << "nothing thrown";
     } catch (const RunError& e) {
-      EXPECT_EQ(e.what(), std::string(threads == 1 ? "thread 0" : "thread 1"));
+      EXPECT_EQ(e.what(), std::string(threads == 1 ? "thread 0." : "thread 1."));
     }
     EXPECT_EQ(ran.load(), threads);
   }

@@ -140,7 +140,7 @@ void check_samples(const Settings& s, const Plan& plan, const Case& c,
     } catch (const InputError& error) {
       if (s.samples == 0) throw InputError("{}: with the changes by the campaign, {}", s.path, error.what());
       throw InputError(
-          "{}: sample {} is not possible: {}. Give its [[campaign.sample]] a narrower spread, or 'low' and 'high'",
+          "{}: sample {} is not possible: {} Give its [[campaign.sample]] a narrower spread, or 'low' and 'high'",
           s.path, i + 1, error.what());
     }
 }

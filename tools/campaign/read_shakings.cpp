@@ -68,7 +68,7 @@ std::vector<Shaking> read_selection(const std::string& path, bool correct) {
   try {
     file = read_json(path);
   } catch (const InputError& error) {
-    throw InputError("{}: give a selection written by voussoir motion select, or a folder", error.what());
+    throw InputError("{} Give a selection written by voussoir motion select, or a folder.", error.what());
   }
   if (!file.is_object() || !file.contains("records") || !file["records"].is_array())
     throw InputError("{} has no list 'records'. Give a selection written by voussoir motion select", path);

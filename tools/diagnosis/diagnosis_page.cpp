@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "solver/base/counted.h"
+#include "solver/base/error.h"
 #include "solver/effects/effect.h"
 #include "tools/diagnosis/detection_report.h"
 #include "tools/diagnosis/diagnosis_charts.h"
@@ -208,7 +209,8 @@ std::string screening_table(const Round& round) {
 
 std::string not_fitted(const Round& round) {
   std::string text;
-  for (const auto& [name, why] : round.not_fitted) text += note(fmt::format("{} could not be fitted: {}.", name, why));
+  for (const auto& [name, why] : round.not_fitted)
+    text += note(fmt::format("{} could not be fitted: {}", name, with_full_stop(why)));
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "solver/base/error.h"
 #include "solver/effects/parts.h"
 #include "solver/modal/modes.h"
 #include "solver/step/damage.h"
@@ -126,7 +127,7 @@ void add_periods(const Simulation& run, int wanted, json& report) {
   try {
     report["periods"] = periods_json(run, wanted);
   } catch (const std::bad_alloc&) {
-    report["no_periods"] = "there was not enough memory for the modes";
+    report["no_periods"] = "there was not enough memory for the modes.";
   } catch (const std::exception& error) {
     report["no_periods"] = error.what();
   }
@@ -150,11 +151,11 @@ std::string warning_of(const json& joints, bool at_once) {
   const json& at = (*worst)[(*worst)["opening"] > (*worst)["slip"] ? "opening_at" : "slip_at"];
   return fmt::format(
       "gravity alone has damaged the bridge: {:.0f} % of the bond of the joints {} is lost, with openings of {} and "
-      "slips of {}. The worst place is at ({:.2f}, {:.2f}, {:.2f}) m{}",
+      "slips of {}. The worst place is at ({:.2f}, {:.2f}, {:.2f}) m.{}",
       100.0 * (*worst)["lost"].get<double>(), (*worst)["joints"].get<std::string>(),
       bound_text((*worst)["opening"].get<double>(), 1), bound_text((*worst)["slip"].get<double>(), 1),
       at[0].get<double>(), at[1].get<double>(), at[2].get<double>(),
-      at_once ? ". Use construction = \"staged\" in the gravity stage to build the bridge in construction steps" : "");
+      at_once ? " Use construction = \"staged\" in the gravity stage to build the bridge in construction steps." : "");
 }
 
 std::string mm(const json& metres) {
@@ -212,8 +213,8 @@ std::string gravity_section(const json& reports) {
     html += heading(fmt::format("Effects of gravity: stage {}, built {}", report["stage"].get<int>(),
                                 report["construction"].get<std::string>()));
     if (const std::string warning = report["warning"]; !warning.empty())
-      html += fmt::format("<div class=\"verdict unexplained\">\n<p><strong>Warning:</strong> {}.</p>\n</div>\n",
-                          escaped(warning));
+      html += fmt::format("<div class=\"verdict unexplained\">\n<p><strong>Warning:</strong> {}</p>\n</div>\n",
+                          escaped(with_full_stop(warning)));
     const auto words = [](const json& text) { return words_cell(text.get<std::string>()); };
     const auto number = [](std::string text) { return Cell{std::move(text), true}; };
     html +=
@@ -241,7 +242,7 @@ std::string gravity_section(const json& reports) {
                                "The rows are the joints within a component or between two components. Opening and slip "
                                "are the largest of any joint; compression is the largest mean compression of a joint.");
     if (report.contains("no_periods"))
-      html += note("No periods were computed: " + escaped(report["no_periods"].get<std::string>()) + ".");
+      html += note("No periods were computed: " + escaped(with_full_stop(report["no_periods"].get<std::string>())));
     if (report["periods"].empty()) continue;
     html += "<table>\n" + table_row({{"mode"}, {"intact, s"}, {"now, s"}, {"MAC"}}, "th");
     for (const json& mode : report["periods"])

@@ -180,7 +180,7 @@ void RunSession::resume() {
       read_checkpoint(file, header, state.arrays());
       state.unpack(simulation_->model());
     } catch (const RunError& e) {
-      log(fmt::format("{}. Trying the checkpoint before it", e.what()));
+      log(fmt::format("{} The program tries the checkpoint before it.", e.what()));
       continue;
     }
     if (header.assembly_hash != assembly_hash_)

@@ -104,7 +104,7 @@ void list_failures(const Plan& plan, const std::string& directory) {
   }
   if (t.failed > most_listed) fmt::print(stderr, "… and {} more; --status lists all\n", t.failed - most_listed);
   if (t.failed > 0)
-    fmt::print(stderr, "The files of the failed runs are in {}/runs/…. Give --retry-failed to run them once more\n",
+    fmt::print(stderr, "The files of the failed runs are in {}/runs/…. Give --retry-failed to run them once more.\n",
                directory);
 }
 

@@ -113,7 +113,7 @@ void begin(const Job& job, Held& held) {
       held.session->resume();
       return;
     } catch (const InputError& error) {
-      fmt::print(stderr, "{}. The run starts again from its beginning\n", error.what());
+      fmt::print(stderr, "{} The run starts again from its beginning.\n", error.what());
       held.session.reset();
       held.lock.reset();
     }
@@ -190,7 +190,7 @@ int work(const Job& job) {
   } catch (const Stopped&) {
     return 1;
   } catch (const std::bad_alloc&) {
-    fail("out of memory. Run fewer runs at once, or use fewer blocks");
+    fail("out of memory. Run fewer runs at once, or use fewer blocks.");
   } catch (const std::exception& error) {
     fail(error.what());
   }

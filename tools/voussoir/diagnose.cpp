@@ -5,6 +5,7 @@
 
 #include "solver/base/atomic_file.h"
 #include "solver/base/counted.h"
+#include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "tools/diagnosis/diagnose_case.h"
 #include "tools/diagnosis/diagnosis_page.h"

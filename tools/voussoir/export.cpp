@@ -41,7 +41,7 @@ int export_shapes(const std::vector<std::string>& arguments) {
   if (values.count("quiet")) return 0;
   std::size_t cells = 0;
   for (const Block& block : assembly.blocks) cells += block.cells.size();
-  for (const std::string& note : out.notes) fmt::print("{}\n", note);
+  for (const std::string& note : out.notes) fmt::print("{}\n", with_full_stop(note));
   fmt::print("{} of {} written to {}, the map of their names to {}\n", counted(assembly.blocks.size(), "block"),
              counted(cells, "cell"), to, names);
   fmt::print("To import them again: voussoir import {} --map {} --gap 1e-6 -o ASSEMBLY.h5\n", to, names);

@@ -132,7 +132,7 @@ int import(const std::vector<std::string>& arguments) {
   const Import imported = import_blocks(values["FILE"].as<std::string>(), import_options(values));
   write_assembly(values["output"].as<std::string>(), imported.assembly);
   if (values.count("quiet")) return 0;
-  for (const std::string& note : imported.notes) fmt::print("{}\n", note);
+  for (const std::string& note : imported.notes) fmt::print("{}\n", with_full_stop(note));
   fmt::print("gaps closed: {}, the largest {:.3g} m; gaps left open: {}\n",
              counted(imported.joints.closed_gaps, "joint"), imported.joints.largest_closed_gap,
              imported.joints.open_gaps);

@@ -159,7 +159,7 @@ std::vector<RecordSet> records_asked(const std::vector<std::string>& paths, cons
   }
   const auto told = [](const RecordSet& set) { return set.dt > 0.0; };
   if (!quiet && std::ranges::any_of(sets, [](const RecordSet& set) { return !set.units.empty(); }))
-    fmt::print(stderr, "Files of plain columns are taken to be in {}{}\n", meaning.units,
+    fmt::print(stderr, "Files of plain columns are taken to be in {}{}.\n", meaning.units,
                std::ranges::any_of(sets, told)
                    ? fmt::format(". Files with one column have a time step of {:g} s", meaning.dt)
                    : "");

@@ -57,7 +57,7 @@ int run(const std::vector<std::string>& arguments) {
   say_begun(wanted, file);
   const Case c = read_case(file);
   if (!wanted.quiet && c.generator.empty() && !states_joints(c.assembly_file))
-    fmt::print(stderr, "{} states no joints. The program finds them where faces meet\n", c.assembly_file);
+    fmt::print(stderr, "{} states no joints. The program finds them where faces meet.\n", c.assembly_file);
   const DirectoryLock lock = prepare_directory(c, directory, values.count("overwrite") > 0, remarks_to(wanted.quiet));
   return RunSession(wanted).run();
 }

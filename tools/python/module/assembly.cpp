@@ -137,7 +137,7 @@ Made from_arrays(const py::sequence& blocks, const BlockWords& words, const std:
   for (const auto& [name, members] : groups) {
     for (const std::int64_t block : members)
       if (block < 0 || block >= std::ssize(import.assembly.blocks))
-        throw InputError("the group '{}' names block {}, and there are blocks 0 to {}", name, block,
+        throw InputError("the group '{}' names block {}, and there are blocks 0 to {}.", name, block,
                          import.assembly.blocks.size() - 1);
     import.assembly.groups[name] = members;
   }
@@ -172,7 +172,7 @@ py::dict joints_of(const Assembly& a) {
 
 const Block& block_at(const Assembly& a, std::int64_t i) {
   if (i < 0 || i >= std::ssize(a.blocks))
-    throw py::index_error(fmt::format("block {}: there are blocks 0 to {}", i, std::ssize(a.blocks) - 1));
+    throw py::index_error(fmt::format("block {}: there are blocks 0 to {}.", i, std::ssize(a.blocks) - 1));
   return a.blocks[std::size_t(i)];
 }
 
@@ -198,7 +198,7 @@ std::vector<std::string> block_materials(const Assembly& a) {
 
 py::array_t<double> polygon_of_joint(const Assembly& a, std::size_t i) {
   if (i >= a.joints.size())
-    throw py::index_error(fmt::format("joint {}: there are {}", i, counted(a.joints.size(), "joint")));
+    throw py::index_error(fmt::format("joint {}: there are {}.", i, counted(a.joints.size(), "joint")));
   return vectors(a.joints[i].polygon);
 }
 

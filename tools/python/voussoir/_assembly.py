@@ -58,7 +58,7 @@ def assembly_from_blocks(blocks, *, fixed=None, components=None, parts=None, mat
             numbers = {int(f) for f in fixed}
             unknown = sorted(f for f in numbers if not 0 <= f < count)
             if unknown:
-                raise InputError(f"'fixed' names block {unknown[0]}, and there are blocks 0 to {count - 1}")
+                raise InputError(f"'fixed' names block {unknown[0]}, and there are blocks 0 to {count - 1}.")
             flags = [i in numbers for i in range(count)]
     return _said(_voussoir._from_arrays(
         blocks, list(components or []), [int(p) for p in _first(parts, [])], list(block_materials or []), flags,

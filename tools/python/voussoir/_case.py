@@ -28,7 +28,7 @@ class Case:
         if isinstance(source, dict):
             self._case = self._of_dictionary(source, assembly, folder, geometry)
         elif assembly is not None:
-            raise TypeError("a case that is a file names its own bridge: give 'assembly' with a dictionary")
+            raise TypeError("a case that is a file names its own bridge: give 'assembly' with a dictionary.")
         else:
             self._case = _voussoir.Case._read(os.fspath(source), geometry)
 
@@ -40,7 +40,7 @@ class Case:
     def _of_dictionary(self, tables, assembly, folder, geometry):
         if assembly is not None:
             if "bridge" in tables:
-                raise TypeError("the dictionary has a 'bridge' and there is an 'assembly' as well: leave one out")
+                raise TypeError("the dictionary has a 'bridge' and there is an 'assembly' as well: leave one out.")
             self._assembly_file = tempfile.TemporaryDirectory(prefix="voussoir-")
             path = os.path.join(self._assembly_file.name, "assembly.h5")
             assembly.write(path)

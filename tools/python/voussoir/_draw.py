@@ -25,7 +25,7 @@ def draw(assembly, snapshot=None, *, axes=None, view="front", amplification=1.0,
     import numpy as np
     from matplotlib.collections import PolyCollection
     if view not in _views:
-        raise ValueError(f"view is {view!r}: give 'front', 'side' or 'top'")
+        raise ValueError(f"view is {view!r}: give 'front', 'side' or 'top'.")
     right, up, away = (np.array(axis, dtype=float) for axis in _views[view])
     faces = []
     for block, component in enumerate(assembly.components):

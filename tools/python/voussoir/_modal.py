@@ -58,12 +58,12 @@ def modal(source, modes=None, *, state=None, geometric=False, as_stored=False, t
     threads = _first(threads, _voussoir.available_threads())
     count = _first(modes, 0)
     if state not in (None, "intact", "gravity"):
-        raise ValueError(f"state is {state!r}: give 'intact' or 'gravity'")
+        raise ValueError(f"state is {state!r}: give 'intact' or 'gravity'.")
     if isinstance(source, Run):
         source = source.directory
     if isinstance(source, (str, os.PathLike)) and not os.fspath(source).endswith(".toml"):
         if state is not None:
-            raise ValueError("state is for a case, and a run has its own")
+            raise ValueError("state is for a case, and a run has its own.")
         return Modes(_voussoir._modal_of_state(os.fspath(source), count, geometric, as_stored, threads))
     case = source if isinstance(source, Case) else Case(source, geometry=True)
     return Modes(_voussoir._modal_of_case(case._case, count, state or "", geometric, threads))

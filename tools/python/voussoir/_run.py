@@ -31,7 +31,7 @@ class History:
         try:
             return self._values[channel]
         except KeyError:
-            raise KeyError(f"{channel}: the channels are {', '.join(self._values)}") from None
+            raise KeyError(f"{channel}: the channels are {', '.join(self._values)}.") from None
 
     def __contains__(self, channel):
         return channel in self._values

@@ -71,7 +71,7 @@ class Simulation:
         first = [v[0] if v.shape == (2, 3) else v for v in values]
         for block, force in zip(blocks, first):
             if np.shape(force) != (3,):
-                raise ValueError(f"the force on block {block} must be three numbers, in N")
+                raise ValueError(f"the force on block {block} must be three numbers, in N.")
         self._run._push(blocks, np.array(first, dtype=float).reshape(-1, 3), np.array(at, dtype=float).reshape(-1, 3))
 
     # Views of the state, one row a body: writing into them is refused, and they show what the state is at any time.

@@ -42,7 +42,7 @@ def _value(value, place):
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(k)} = {_value(v, f'{place}.{k}')}" for k, v in value.items()) + "}"
     raise TypeError(f"{place} is a {type(value).__name__}: a case holds numbers, texts, truth values, lists and "
-                    "dictionaries of these")
+                    "dictionaries of these.")
 
 
 def _is_tables(value):
