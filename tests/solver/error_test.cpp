@@ -21,8 +21,8 @@ TEST(Errors, EndWithOneFullStop) {
 TEST(Errors, AListOfLinesHasNoFullStop) {
   EXPECT_STREQ(RunError("no equilibrium. These stones moved:\n  block 1\n  block 2").what(),
                "no equilibrium. These stones moved:\n  block 1\n  block 2");
-  EXPECT_STREQ(RunError("the disk is full\nContinue with: voussoir resume demo").what(),
-               "the disk is full\nContinue with: voussoir resume demo.");
+  EXPECT_STREQ(RunError("the disk is full\nContinue with 'voussoir resume demo'").what(),
+               "the disk is full\nContinue with 'voussoir resume demo'.");
 }
 
 TEST(Errors, OfATableAreSentences) {

@@ -16,7 +16,7 @@ RunFiles read_run(const std::string& directory) {
     throw InputError("{} is not a run directory: it has no case.toml. Give the folder that voussoir run wrote",
                      directory);
   if (!fs::exists(directory + "/summary.json", ignored))
-    throw InputError("{} has no summary.json, because the run has not ended. Continue with: voussoir resume {}",
+    throw InputError("{} has no summary.json, because the run has not ended. Continue it with 'voussoir resume {}'.",
                      directory, directory);
   RunFiles files;
   files.directory = directory;

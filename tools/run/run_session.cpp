@@ -337,7 +337,7 @@ RunEnd RunSession::simulate() {
     return end;
   } catch (const RunError& error) {
     progress_.end();
-    throw RunError("{}\nThe files that were written before are complete. Continue with: voussoir resume {}",
+    throw RunError("{}\nThe files that were written before are complete. Continue with 'voussoir resume {}'.",
                    error.what(), request_.directory);
   }
 }
