@@ -21,7 +21,7 @@ bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c));
 }
 
-std::string without_ends(std::string text) {
+std::string without_ends(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(name_separators);
   if (begin == std::string::npos) return "";
   return text.substr(begin, text.find_last_not_of(name_separators) - begin + 1);

@@ -147,10 +147,10 @@ void put_wheels(const ReadAxle& axle, std::size_t index, Vehicle& vehicle) {
 
 /// The sleepers under an axle of a train; one is taken to lie right under it.
 void put_sleepers(const VehicleAxle& axle, const Track& track, std::size_t index, Vehicle& vehicle) {
-  const double middle = double(track.shares.size() / 2);
+  const std::size_t middle = track.shares.size() / 2;
   for (std::size_t i = 0; i < track.shares.size(); ++i)
     if (track.shares[i] > 0.0)
-      vehicle.patches.push_back({axle.x + (double(i) - middle) * track.spacing, 0.0, track.width, track.length,
+      vehicle.patches.push_back({axle.x + (double(i) - double(middle)) * track.spacing, 0.0, track.width, track.length,
                                  track.shares[i] * axle.load, index});
 }
 

@@ -60,11 +60,13 @@ void drive_wall(Bench& bench, double share, int steps) {
 
 /// Over ½ γ H² of the slice, mean of so many steps.
 double thrust(Bench& bench, int steps) {
+  constexpr int every = 10;
+  const int samples = steps / every;
   double sum = 0.0;
   const auto sample = [&](const BodyPass& bodies) {
-    sum -= bodies.update(std::size_t(bench.body(wall))).force.x / (steps / 10);
+    sum -= bodies.update(std::size_t(bench.body(wall))).force.x / samples;
   };
-  if (!bench.run(steps, 10, sample)) throw RunError("the motion of the fill behind the wall grows without limit");
+  if (!bench.run(steps, every, sample)) throw RunError("the motion of the fill behind the wall grows without limit");
   return sum / (0.5 * rankine_weight * height * height * cell);
 }
 

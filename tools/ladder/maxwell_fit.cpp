@@ -10,8 +10,10 @@ constexpr const char* independent_fit = "independent least-squares fit";
 
 /// The ratio over the band, by a fine scan.
 std::vector<Finding> ripple(const MaxwellFit& fit) {
+  constexpr int points = 6400;
   double lowest = 1.0, highest = 0.0;
-  for (double f = 0.5; f <= 12.0; f *= 1.0005) {
+  for (int i = 0; i <= points; ++i) {
+    const double f = 0.5 * std::pow(12.0 / 0.5, double(i) / points);
     lowest = std::min(lowest, maxwell_ratio(fit, f));
     highest = std::max(highest, maxwell_ratio(fit, f));
   }

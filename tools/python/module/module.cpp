@@ -30,20 +30,21 @@ void translate_errors(py::module_& m) {
   static Errors errors;
   m.def("_set_errors", [](py::object input, py::object run) { errors = {std::move(input), std::move(run)}; });
   m.def("_forget_errors", [] { errors = {}; });
-  py::register_exception_translator([](std::exception_ptr thrown) {
-    const auto raise = [](const py::object& type, PyObject* otherwise, const char* text) {
-      PyErr_SetString(type ? type.ptr() : otherwise, text);
-    };
-    try {
-      if (thrown) std::rethrow_exception(thrown);
-    } catch (const InputError& error) {
-      raise(errors.input, PyExc_ValueError, error.what());
-    } catch (const RunError& error) {
-      raise(errors.run, PyExc_RuntimeError, error.what());
-    } catch (const std::filesystem::filesystem_error& error) {
-      raise({}, PyExc_OSError, error.what());
-    }
-  });
+  py::register_exception_translator(
+      [](std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): as pybind11 declares it
+        const auto raise = [](const py::object& type, PyObject* otherwise, const char* text) {
+          PyErr_SetString(type ? type.ptr() : otherwise, text);
+        };
+        try {
+          if (thrown) std::rethrow_exception(thrown);
+        } catch (const InputError& error) {
+          raise(errors.input, PyExc_ValueError, error.what());
+        } catch (const RunError& error) {
+          raise(errors.run, PyExc_RuntimeError, error.what());
+        } catch (const std::filesystem::filesystem_error& error) {
+          raise({}, PyExc_OSError, error.what());
+        }
+      });
 }
 
 }  // namespace

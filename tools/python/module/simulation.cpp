@@ -182,19 +182,19 @@ void bind_simulation(py::module_& m) {
                                                            [](std::int32_t body) { return body; });
                              })
       .def_property_readonly("pose",
-                             [](py::object self) {
+                             [](const py::object& self) {
                                auto& run = self.cast<PythonRun&>();
                                return seen(run.state().pose.data(), run.state().pose.size() / pose_width, 7, pose_width,
                                            self);
                              })
       .def_property_readonly("velocity",
-                             [](py::object self) {
+                             [](const py::object& self) {
                                auto& run = self.cast<PythonRun&>();
                                return seen(run.state().motion.data(), run.state().motion.size() / motion_width, 3,
                                            motion_width, self);
                              })
       .def_property_readonly("angular_momentum",
-                             [](py::object self) {
+                             [](const py::object& self) {
                                auto& run = self.cast<PythonRun&>();
                                return seen(run.state().motion.data() + 3, run.state().motion.size() / motion_width, 3,
                                            motion_width, self);
