@@ -22,10 +22,9 @@ bool is_void(const Bridge& bridge, const Band& band) {
 /// Boxes over a backing that is not level.
 void add_over_line(std::vector<FillRegion>& regions, const Bridge& bridge, const Band& band, int course) {
   int lane = 0;
-  for (const auto& [from_y, to_y] : lanes(bridge, bridge.half_width() - band.thickness)) {
-    const double y0 = from_y, y1 = to_y;  // Clang before 16 cannot capture the names of a structured binding
+  for (const auto& [y0, y1] : lanes(bridge, bridge.half_width() - band.thickness)) {
     for (const auto& [x0, x1] : between_transverse_walls(bridge))
-      along_backing(bridge, x0, x1, [&](double from, double to, const Plane& under) {
+      along_backing(bridge, x0, x1, [&, y0 = y0, y1 = y1](double from, double to, const Plane& under) {
         regions.push_back({{from, y0, band.z0}, {to, y1, band.z1}, -1, course, {opposite(under)}, lane});
       });
     ++lane;

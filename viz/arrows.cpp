@@ -36,7 +36,8 @@ class Names {
     Rectangle found = around(first);
     constexpr int rings = 8, angles = 12;
     for (int i = 0; i < rings * angles && !is_free(found); ++i) {
-      const double angle = 2.0 * pi * (i % angles) / angles, away = 0.9 * s * (1 + i / angles);
+      const int ring = 1 + i / angles;
+      const double angle = 2.0 * pi * (i % angles) / angles, away = 0.9 * s * ring;
       found = around(first + away * (Eigen::Rotation2Dd(angle) * towards));
     }
     const Spot centre = 0.5 * (found.low + found.high);

@@ -24,7 +24,7 @@ Vec3 base_displacement(vtkDataObject* data) {
 /// Twice the area, along the normal.
 Vec3 area_vector(const Loop& polygon, const Places& places) {
   Vec3 sum = Vec3::Zero();
-  const Vec3 from = places.reference(polygon[0]);
+  const Vec3& from = places.reference(polygon[0]);
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
     sum += (places.reference(polygon[i]) - from).cross(places.reference(polygon[i + 1]) - from);
   return sum;

@@ -54,7 +54,7 @@ void add_answers(Rows& rows, std::size_t i, const RunFiles& run) {
     rows.set(i, of + "displacement at its end", "mm", 1e3 * one.value("displacement", NAN));
   }
   if (run.summary.contains("fallen")) rows.set(i, "time of the fall", "s", run.of("fallen").value("time", NAN));
-  const json demand = run.of("demand");
+  const json& demand = run.of("demand");
   for (const auto& [kind, words] :
        {std::pair{"keystone_x", "keystones along"}, std::pair{"spandrel_y", "spandrel walls across"}})
     if (demand.contains(kind)) {
@@ -74,24 +74,24 @@ void add_damage(Rows& rows, std::size_t i, const RunFiles& run) {
   rows.set(i, "largest opening of masonry", "mm", opening[0]);
   rows.set(i, "largest slip of masonry", "mm", slip[0]);
   rows.set(i, "largest opening of joints with soil or infill", "mm", opening[1]);
-  const json damage = run.of("damage");
+  const json& damage = run.of("damage");
   for (const auto& [family, entry] : damage.items())
     if (entry.value("bonded", false))
       rows.set(i, "bond lost: " + family, "%", 100.0 * entry.value("broken_share", NAN));
-  const json fill = run.of("fill");
+  const json& fill = run.of("fill");
   if (fill.empty()) return;
   rows.set(i, "fill: yielded in shear", "%", 100.0 * fill.value("yielded_in_shear", NAN));
   rows.set(i, "fill: largest displacement", "mm", 1e3 * fill.value("largest_displacement", NAN));
 }
 
 void add_rest(Rows& rows, std::size_t i, const RunFiles& run) {
-  const json ties = run.of("ties");
+  const json& ties = run.of("ties");
   if (ties.contains("count")) {
     rows.set(i, "ties that have yielded", "", ties.value("have_yielded", 0));
     rows.set(i, "largest force of a tie", "kN", 1e-3 * ties.value("largest_force", NAN));
   }
   if (run.ends_at_rest()) {
-    const json places = run.of("places"), reactions = run.of("reactions");
+    const json &places = run.of("places"), &reactions = run.of("reactions");
     for (const auto& [name, place] : places.items()) rows.set(i, name + ", down", "mm", -1e3 * place.value("z", NAN));
     for (const auto& [group, axes] : reactions.items())
       rows.set(i, "vertical reaction of " + group, "kN", 1e-3 * axes.value("z", json::object()).value("last", NAN));
@@ -122,7 +122,7 @@ std::string case_differences(const Runs& runs, const std::vector<std::string>& n
       values.try_emplace(key, runs.size()).first->second[i] = value;
   std::string text;
   for (const auto& [key, of] : values) {
-    if (std::ranges::all_of(of, [&](const std::string& v) { return v == of.front(); })) continue;
+    if (std::ranges::all_of(of, [&of = of](const std::string& v) { return v == of.front(); })) continue;
     std::vector<Cell> cells = {words_cell(key)};
     for (const std::string& value : of) cells.push_back(words_cell(value.empty() ? "–" : shortened(value, 60)));
     text += table_row(cells, "td");

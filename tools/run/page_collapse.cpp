@@ -109,7 +109,7 @@ std::string curve(const json& c) {
 
 std::string collapse_section(const RunFiles& run) {
   if (!run.summary.contains("collapse")) return "";
-  const json c = run.of("collapse");
+  const json& c = run.of("collapse");
   return heading("Collapse") + factor_table(c) + hinge_table(c) + curve(c);
 }
 

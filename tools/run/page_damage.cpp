@@ -88,7 +88,7 @@ std::string damage_section(const RunFiles& run) {
 }
 
 std::string demand_section(const RunFiles& run) {
-  const json demand = run.of("demand");
+  const json& demand = run.of("demand");
   if (run.ends_at_rest()) return "";  // places_section() reports the displacements
   std::string text;
   const json places = demand.value("places", json::object());

@@ -178,13 +178,13 @@ std::string assumptions(const RunFiles& run) {
 }  // namespace
 
 std::string model_section(const RunFiles& run) {
-  const json inventory = run.of("inventory");
+  const json& inventory = run.of("inventory");
   return heading("The model") + drawing(run) + assumptions(run) + materials_table(inventory) + joints_table(inventory) +
          supports_list(run, inventory);
 }
 
 std::string provenance_section(const RunFiles& run) {
-  const json p = run.of("provenance");
+  const json& p = run.of("provenance");
   std::string text = heading("Origin of these results");
   if (!p.empty()) {
     text += paragraph(fmt::format("Computed on {} by voussoir {} (commit {}, {}, kernels for {}), {}.",

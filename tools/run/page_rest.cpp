@@ -14,7 +14,7 @@ using nlohmann::json;
 
 /// A note that compares the vertical reactions with the weight.
 std::string balance_note(const RunFiles& run, double vertical) {
-  const json inventory = run.of("inventory");
+  const json& inventory = run.of("inventory");
   if (!inventory.value("supports_each_once", false)) return "";
   const json weight = inventory.value("weight", json::object());
   const double all = weight.value("stones", 0.0) + weight.value("fill", 0.0);
@@ -31,7 +31,7 @@ std::string balance_note(const RunFiles& run, double vertical) {
 }  // namespace
 
 std::string reactions_section(const RunFiles& run) {
-  const json reactions = run.of("reactions");
+  const json& reactions = run.of("reactions");
   if (reactions.empty()) return "";
   const bool rest = run.ends_at_rest();
   std::string text = heading(rest ? "Reactions at the end" : "Reactions") + "<table>\n";
@@ -64,13 +64,15 @@ std::string reactions_section(const RunFiles& run) {
 }
 
 std::string places_section(const RunFiles& run) {
-  const json places = run.of("places");
+  const json& places = run.of("places");
   std::string rows;
   for (const auto& [name, place] : places.items()) {
     double most = 0.0;
     for (const char* axis : {"x", "y", "z"}) most = std::max(most, std::abs(place.value(axis, 0.0)));
     if (most < unmoved) continue;
-    const auto turn = [&](const char* axis) { return formatted_cell(1e3 * place.value(axis, NAN), "{:.2f}"); };
+    const auto turn = [&place = place](const char* axis) {
+      return formatted_cell(1e3 * place.value(axis, NAN), "{:.2f}");
+    };
     rows += table_row(
         {words_cell(name), formatted_cell(1e3 * place.value("x", NAN), "{:.2f}"),
          formatted_cell(1e3 * place.value("y", NAN), "{:.2f}"), formatted_cell(1e3 * place.value("z", NAN), "{:.2f}"),
@@ -94,7 +96,7 @@ std::string places_section(const RunFiles& run) {
 }
 
 std::string ties_section(const RunFiles& run) {
-  const json ties = run.of("ties");
+  const json& ties = run.of("ties");
   if (!ties.contains("each")) return "";
   std::string text = heading("Ties") + "<table>\n";
   text += table_row({words_cell("tie"),

@@ -86,7 +86,7 @@ std::string damage_sentences(const RunFiles& run) {
   };
   add(masonry, "Masonry.");
   add(loose, "Joints with infill or soil.");
-  const json fill = run.of("fill");
+  const json& fill = run.of("fill");
   if (fill.contains("yielded_in_shear"))
     text += sentence(
         "Fill.", fmt::format("{:.1f} % of its volume has yielded in shear and {:.1f} % in tension. The largest "
@@ -99,7 +99,7 @@ std::string damage_sentences(const RunFiles& run) {
 /// For summaries of earlier versions, which have no damage by parts.
 std::string family_sentence(const RunFiles& run) {
   if (run.summary.contains("part_damage")) return "";
-  const json damage = run.of("damage");
+  const json& damage = run.of("damage");
   std::string worst;
   double most = -1.0;
   for (const auto& [name, entry] : damage.items())
@@ -131,7 +131,7 @@ std::string motion_sentence(const RunFiles& run) {
 
 std::string fallen_sentence(const RunFiles& run) {
   if (!run.summary.contains("fallen")) return "";
-  const json fallen = run.of("fallen");
+  const json& fallen = run.of("fallen");
   return sentence("The bridge fell",
                   fmt::format("at {:.2f} s. Then {:.0f} % of the mass that can move had moved farther than the limit.",
                               fallen.value("time", NAN), 100.0 * fallen.value("share_of_mass", NAN)));
@@ -139,7 +139,7 @@ std::string fallen_sentence(const RunFiles& run) {
 
 /// The damage class of the bridge, and the worst finding.
 std::string bridge_sentence(const RunFiles& run) {
-  const json damage = run.of("bridge_damage");
+  const json& damage = run.of("bridge_damage");
   const json findings = damage.value("findings", json::array());
   if (findings.empty()) return "";
   return sentence(
@@ -149,7 +149,7 @@ std::string bridge_sentence(const RunFiles& run) {
 }
 
 std::string ties_sentence(const RunFiles& run) {
-  const json ties = run.of("ties");
+  const json& ties = run.of("ties");
   if (!ties.contains("count")) return "";
   return sentence("Ties.",
                   fmt::format("{} of {} have yielded. The largest force is {:.1f} kN.", ties.value("have_yielded", 0),

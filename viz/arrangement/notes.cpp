@@ -53,8 +53,7 @@ std::vector<std::int32_t> materials_used(const Assembly& assembly) {
   for (const LegendRow& row : legend_rows(assembly))
     used.insert(used.end(), row.materials.begin(), row.materials.end());
   std::ranges::sort(used);
-  const auto rest = std::ranges::unique(used);
-  used.erase(rest.begin(), rest.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
   return used;
 }
 
@@ -223,8 +222,8 @@ void draw_scale_bar(DrawingSheet& sheet, double x, double y, double scale) {
 
 SheetBox title_block_size(const Assembly& assembly) {
   const std::size_t materials = std::min(materials_used(assembly).size(), most_materials + 1);
-  const auto rows = double((legend_rows(assembly).size() + 1) / 2 + materials);
-  return {0.0, 0.0, kNoteWidth, kTitleHeight + kLine * (rows + 2.0) + 6.0};
+  const std::size_t rows = (legend_rows(assembly).size() + 1) / 2 + materials;
+  return {0.0, 0.0, kNoteWidth, kTitleHeight + kLine * (double(rows) + 2.0) + 6.0};
 }
 
 void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& assembly, const ArrangementNotes& notes,
@@ -237,7 +236,8 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
   y += 1.4;
   const std::vector<LegendRow> legend = legend_rows(assembly);
   for (std::size_t i = 0; i < legend.size(); ++i) {
-    const double left = x + (i % 2 == 0 ? 0.0 : 0.5 * room), top = y + kLine * double(i / 2);
+    const std::size_t row = i / 2;
+    const double left = x + (i % 2 == 0 ? 0.0 : 0.5 * room), top = y + kLine * double(row);
     paint_patch(sheet, {left, top + 0.4, 6.0, 3.0}, legend[i].component, legend[i].fixed);
     sheet.text(left + 7.5, top + 2.9,
                DrawingSheet::fitting(legend_text(assembly, legend[i]), 0.5 * room - 8.0, kSmallText));

@@ -35,7 +35,7 @@ double DrawingSheet::width_of(const std::string& words, double size) {
   return size * width;
 }
 
-std::string DrawingSheet::fitting(std::string words, double room, double size) {
+std::string DrawingSheet::fitting(const std::string& words, double room, double size) {
   std::size_t most = characters(words);
   while (most > 4 && width_of(shortened(words, most), size) > room) --most;
   return shortened(words, most);

@@ -43,7 +43,7 @@ class DrawingSheet {
   bool try_text(double x, double y, const std::string& words, Align align = Align::middle, bool upright = false);
   static double width_of(const std::string& words, double size = kSmallText);
   /// The text, shortened at its end to fit the given width, mm.
-  static std::string fitting(std::string words, double room, double size = kSmallText);
+  static std::string fitting(const std::string& words, double room, double size = kSmallText);
   /// The text in lines that are not wider than this, mm; only a single word may be.
   static std::vector<std::string> wrapped(const std::string& words, double room, double size = kSmallText);
 

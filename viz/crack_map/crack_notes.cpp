@@ -60,8 +60,8 @@ void sample(DrawingSheet& sheet, double x, double y, const WidthClass& c, const 
 }  // namespace
 
 SheetBox crack_title_size(const CrackLegend& legend) {
-  const auto rows = double((class_rows(legend.threshold).size() + 3) / 2);
-  return {0.0, 0.0, kTitleWidth, 41.0 + kRow * (rows + 1.0 + double(remark_lines(legend).size()))};
+  const std::size_t rows = (class_rows(legend.threshold).size() + 3) / 2;
+  return {0.0, 0.0, kTitleWidth, 41.0 + kRow * (double(rows) + 1.0 + double(remark_lines(legend).size()))};
 }
 
 void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegend& legend, const SheetPlan& placement) {
@@ -71,7 +71,10 @@ void draw_crack_title(DrawingSheet& sheet, const SheetBox& box, const CrackLegen
   double y = inner.y + 3.8;
   sheet.text(x, y, "Width of cracks", kSmallText, DrawingSheet::Align::start, true);
   const std::vector<ClassRow> rows = class_rows(legend.threshold);
-  const auto place = [&](std::size_t i) { return std::pair(x + (i % 2) * 0.5 * room, y + kRow * double(i / 2 + 1)); };
+  const auto place = [&](std::size_t i) {
+    const std::size_t row = i / 2 + 1;
+    return std::pair(x + (i % 2) * 0.5 * room, y + kRow * double(row));
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto [at_x, at_y] = place(i);
     sample(sheet, at_x, at_y - 0.9, width_classes()[rows[i].number], "");
