@@ -241,8 +241,9 @@ Eigen::Index next_start(const Data& d, const Eigen::MatrixXcd& left) {
 double information(const Data& d, const Unknowns& x, double left) {
   const double values = 2.0 * double(d.values.size()) / lines_as_one;
   // The residue of a mode has rank one. The least-squares solution is reduced to this rank.
-  const double poles = double(x.size() / 2), of_residue = double(d.outputs + d.inputs - 1);
-  const double fitted = double(x.size()) + 2.0 * (double(background * d.values.cols()) + poles * of_residue);
+  const Eigen::Index poles = x.size() / 2;
+  const double of_residue = double(d.outputs + d.inputs - 1);
+  const double fitted = double(x.size()) + 2.0 * (double(background * d.values.cols()) + double(poles) * of_residue);
   const double least = 1e-20 * d.values.squaredNorm();
   return values * std::log(std::max(left, least) / values) + fitted * std::log(values);
 }
@@ -312,7 +313,7 @@ void normalise_residue(RankOne& r) {
 RankOne rank_one(const Sides& sides, const Eigen::MatrixXcd& residue, const RankOne* like = nullptr) {
   const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(sides.output.asDiagonal() * residue * sides.input.asDiagonal(),
                                                Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd values = svd.singularValues();
+  const Eigen::VectorXd& values = svd.singularValues();
   RankOne r;
   r.shape = svd.matrixU().col(0).cwiseQuotient(sides.output);
   r.participation = values[0] * svd.matrixV().col(0).conjugate().cwiseQuotient(sides.input);

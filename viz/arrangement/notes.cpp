@@ -242,7 +242,8 @@ void draw_title_block(DrawingSheet& sheet, const SheetBox& box, const Assembly& 
     sheet.text(left + 7.5, top + 2.9,
                DrawingSheet::fitting(legend_text(assembly, legend[i]), 0.5 * room - 8.0, kSmallText));
   }
-  y += kLine * double((legend.size() + 1) / 2) + 3.2;
+  const std::size_t legend_lines = (legend.size() + 1) / 2;
+  y += kLine * double(legend_lines) + 3.2;
   sheet.text(x, y, "Materials", kSmallText, DrawingSheet::Align::start, true);
   std::vector<std::int32_t> used = materials_used(assembly);
   const std::size_t others = used.size() > most_materials ? used.size() - most_materials : 0;
