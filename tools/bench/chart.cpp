@@ -76,8 +76,9 @@ std::vector<std::string> scenes_of(const std::vector<Program>& programs) {
   for (const Program& program : programs)
     for (const auto& [scene, cost] : program.cost) {
       if (std::exchange(seen[scene], true)) continue;
-      const auto listed = std::find_if(scenes().begin(), scenes().end(),
-                                       [&](const Scene& s) { return s.name == scene.substr(0, scene.find('@')); });
+      const auto listed = std::find_if(scenes().begin(), scenes().end(), [&scene = scene](const Scene& s) {
+        return s.name == scene.substr(0, scene.find('@'));
+      });
       by_place[std::size_t(listed - scenes().begin())].push_back(scene);
     }
   std::vector<std::string> names;
@@ -168,7 +169,8 @@ int run(int argc, char** argv) {
   const std::vector<Program> programs = programs_of(o);
   if (scenes_of(programs).empty()) throw InputError("no bench.json has a scene. Run voussoir-bench first");
   for (const auto& [scene, aim] : o.aims)
-    if (std::none_of(programs.begin(), programs.end(), [&](const Program& p) { return p.cost.count(scene); }))
+    if (std::none_of(programs.begin(), programs.end(),
+                     [&scene = scene](const Program& p) { return p.cost.count(scene); }))
       throw InputError("--aim {}: no bench.json has that scene", scene);
   std::ofstream out(o.to);
   out << chart(programs, o.aims);
