@@ -52,7 +52,7 @@ void joints(benchmark::State& timing, const char* name, bool shortcut) {
   Running& r = wall(name);
   const int branches = int(timing.range(0));
   const PatchPass pass = pass_of(r, branches, shortcut);
-  for (auto _ : timing)
+  for ([[maybe_unused]] auto _ : timing)
     for (std::size_t tile = 0; tile < r.model.tiles.size(); ++tile) benchmark::DoNotOptimize(pass.joints(tile));
   const double items = double(r.model.joints.size());
   const Work work = shortcut ? intact_work(branches) : points_work(branches, 9.0, true);
@@ -110,7 +110,7 @@ void tetrahedra(benchmark::State& timing, double shear) {
   Soil soil(cells, shear, branches);
   soil.step();
   std::int64_t yielding = 0;
-  for (auto _ : timing) yielding += soil.step();
+  for ([[maybe_unused]] auto _ : timing) yielding += soil.step();
   const double items = double(soil.model.lane_of_tet.size()), nodes = double(soil.model.nodes.size());
   const double flowed = double(yielding) / double(timing.iterations()) / items;
   const Work first = volume_work(flowed), second = stress_work(branches, flowed),
@@ -125,7 +125,7 @@ void bodies(benchmark::State& timing) {
   Running& r = wall("wall-1040-bonded");
   const Array<double> pose = r.state.pose, motion = r.state.motion;
   const BodyPass pass = r.stepper.body_pass();
-  for (auto _ : timing) benchmark::DoNotOptimize(pass.bodies(0, r.model.bodies.size()));
+  for ([[maybe_unused]] auto _ : timing) benchmark::DoNotOptimize(pass.bodies(0, r.model.bodies.size()));
   r.state.pose = pose, r.state.motion = motion;
   const double items = double(r.model.bodies.size());
   const Work work = body_work(double(r.model.sums.size()) / items);
@@ -136,13 +136,13 @@ void energies(benchmark::State& timing) {
   Running& r = wall("wall-1040-bonded");
   set_branches(r.model, r.state, 0);
   const BodyPass pass = r.stepper.body_pass();
-  for (auto _ : timing) benchmark::DoNotOptimize(compute_energies(r.stepper, pass));
+  for ([[maybe_unused]] auto _ : timing) benchmark::DoNotOptimize(compute_energies(r.stepper, pass));
   timing.SetItemsProcessed(timing.iterations() * std::int64_t(r.model.joints.size()));
 }
 
 void search(benchmark::State& timing) {
   Running& r = wall("wall-1040-bonded");
-  for (auto _ : timing) {
+  for ([[maybe_unused]] auto _ : timing) {
     timing.PauseTiming();
     State state = r.state;
     for (std::size_t i = 0; i < state.searched.size(); i += searched_width) state.searched[i] = 1e18f;

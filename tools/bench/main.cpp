@@ -48,8 +48,8 @@ Measured measure(Running& scene, double movable, const Options& o) {
   const auto goes_on = [&](const Measured& m, std::size_t pieces) {
     return o.steps > 0 ? m.all.steps < o.steps : pieces < 3 || (m.all.seconds < o.seconds && pieces < 200);
   };
-  const std::int64_t now = scene.state.step();
-  advance_scene(scene, whole_sweeps(double(now + piece / 4)) - now);  // warm caches, settled threads
+  const std::int64_t now = scene.state.step(), quarter = piece / 4;
+  advance_scene(scene, whole_sweeps(double(now + quarter)) - now);  // warm caches, settled threads
   Measured m;
   std::vector<double> steps, processor;
   while (goes_on(m, steps.size())) {
