@@ -13,9 +13,10 @@ NOTEBOOKS = sorted((pathlib.Path(__file__).parents[2] / "docs" / "notebooks").gl
 
 
 def texts(notebook):
-    """What the cells print, without pictures, warnings and addresses."""
-    return ["".join(out.get("text", "")) for cell in notebook.cells if cell.cell_type == "code"
-            for out in cell.outputs if out.get("output_type") == "stream" and out.get("name") == "stdout"]
+    """What each cell prints. The kernel sends it in one piece or several, as its clock has it."""
+    return ["".join("".join(out.get("text", "")) for out in cell.outputs
+                    if out.get("output_type") == "stream" and out.get("name") == "stdout")
+            for cell in notebook.cells if cell.cell_type == "code"]
 
 
 def pictures(notebook):
@@ -33,5 +34,5 @@ def test_a_notebook_runs(path, tmp_path):
     nbformat.validate(stored)
     again = nbformat.read(path, as_version=4)
     nbclient.NotebookClient(again, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    assert len(texts(again)) == len(texts(stored))
+    assert [bool(text) for text in texts(again)] == [bool(text) for text in texts(stored)]
     assert pictures(again) == pictures(stored) > 0
