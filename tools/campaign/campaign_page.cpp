@@ -31,10 +31,6 @@ double value_at(const CampaignTable& table, const std::string& column, std::size
   return found ? found->values[run] : NAN;
 }
 
-bool has_result(const CampaignRun& run) {
-  return run.status == RunStatus::done || run.status == RunStatus::collapsed;
-}
-
 std::string facts(const CampaignTable& table) {
   std::map<RunStatus, int> count;
   double seconds = 0.0;

@@ -33,6 +33,11 @@ struct CampaignRun {
   int row = 0;  // row in the file, from 1
 };
 
+/// Whether the bridge has been computed, to the end or until it fell.
+inline bool has_result(const CampaignRun& run) {
+  return run.status == RunStatus::done || run.status == RunStatus::collapsed;
+}
+
 /// A column of numbers, one value for each run; NaN: no value.
 struct NumberColumn {
   std::string name;

@@ -18,10 +18,6 @@ namespace {
 /// Characteristics of a ground motion other than its intensity.
 constexpr std::array<const char*, 4> characteristics = {"im.d595", "im.d575", "im.magnitude", "im.distance"};
 
-bool has_result(const CampaignRun& run) {
-  return run.status == RunStatus::done || run.status == RunStatus::collapsed;
-}
-
 bool is_characteristic(const std::string& name) {
   return std::find(characteristics.begin(), characteristics.end(), name) != characteristics.end();
 }

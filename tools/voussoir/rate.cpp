@@ -6,6 +6,7 @@
 
 #include "io/vtk/series.h"
 #include "solver/base/atomic_file.h"
+#include "solver/base/counted.h"
 #include "solver/base/error.h"
 #include "solver/base/folder.h"
 #include "solver/base/json_file.h"
@@ -148,8 +149,8 @@ RateObservers observers_of(const RateRequest& request, const PlaceStore& store, 
   RateObservers o;
   o.begins = [&](std::size_t planned) {
     const std::size_t vehicles = request.vehicles.size();
-    reports.say(fmt::format("{} position{} of {} vehicle{}; first the stages of the case", planned,
-                            planned == 1 ? "" : "s", vehicles, vehicles == 1 ? "" : "s"));
+    reports.say(fmt::format("{} of {}; first the stages of the case", counted(planned, "position"),
+                            counted(vehicles, "vehicle")));
   };
   o.progress = [&](const Progress& progress) { reports.show(progress); };
   o.recall = [&](RatedPlace& at) { return store.recall(at); };
@@ -229,7 +230,7 @@ std::vector<PassageSeries> pass_repeatedly(const Case& c, const Assembly& assemb
   asked.passages = count;
   asked.stop = &stop_request();
   for (const double share : passage_shares) asked.factors.push_back(share * worst.factor);
-  reports.say(fmt::format("{} passages with each of {} factors", count, asked.factors.size()));
+  reports.say(fmt::format("{} with each of {}", counted(count, "passage"), counted(asked.factors.size(), "factor")));
   return passages(c, assembly, asked, [&](const std::string& text) { reports.say(text); });
 }
 
@@ -255,8 +256,8 @@ bool add_runs(std::optional<WorstRuns> runs, const std::string& out, RatePageWor
 
 /// Says how far a rating came that was stopped. Returns the exit status.
 int stopped(const Rating& rating) {
-  fmt::print(stderr, "interrupted after {} of {} positions. The same command continues the rating\n",
-             rating.places.size(), rating.planned);
+  fmt::print(stderr, "interrupted after {} of {}. The same command continues the rating.\n", rating.places.size(),
+             counted(rating.planned, "position"));
   return 1;
 }
 
