@@ -89,7 +89,8 @@ void Simulation::report_progress(bool force, const std::string& note) {
   if (!observers_.progress || (!force && seconds_since(reported_) < 0.2)) return;
   reported_ = std::chrono::steady_clock::now();
   Progress p;
-  p.stage = position_.stage < std::int64_t(settings_.stages.size()) ? settings_.stages[position_.stage].label : "end";
+  p.stage =
+      position_.stage < std::int64_t(settings_.stages.size()) ? settings_.stages[position_.stage].label : "complete";
   p.end = end_time();
   p.timed = p.end > 0.0 && (position_.stage >= std::int64_t(settings_.stages.size()) ||
                             settings_.stages[position_.stage].duration > 0.0);

@@ -148,7 +148,8 @@ def test_a_callback_cannot_run_the_simulation(stone_on_base):
 
 
 def test_other_threads_run_meanwhile():
-    run = vs.Simulation({**RESTS_AND_SWAYS, "output": {"history_every": 1.0}}, threads=1)
+    stages = [{"kind": "gravity"}, {"kind": "free", "duration": 20.0}]  # some 0.5 s of computing
+    run = vs.Simulation({**RESTS_AND_SWAYS, "stage": stages, "output": {"history_every": 1.0}}, threads=1)
     ticks, done = [], threading.Event()
 
     def tick():
