@@ -54,8 +54,11 @@ std::vector<Hinge> take_run(std::vector<Hinge>& open) {
   return run;
 }
 
-Hinge most_turned(const std::vector<Hinge>& run) {
-  return *std::max_element(run.begin(), run.end(), [](const Hinge& p, const Hinge& q) { return p.turn < q.turn; });
+/// The joint of a run that has turned most, with the range across the arch of the whole run.
+Hinge hinge_of(const std::vector<Hinge>& run) {
+  Hinge hinge = *std::ranges::max_element(run, {}, &Hinge::turn);
+  for (const Hinge& joint : run) hinge.y0 = std::min(hinge.y0, joint.y0), hinge.y1 = std::max(hinge.y1, joint.y1);
+  return hinge;
 }
 
 }  // namespace
@@ -73,10 +76,11 @@ std::vector<Hinge> find_hinges(const Assembly& assembly, const Snapshot& snapsho
     at.a = joint.a, at.b = joint.b;
     at.place = closed_edge(joint, turn);
     at.centre = polygon_centroid(joint.polygon);
-    open.push_back({joint.a, joint.b, edge_name(assembly, at), at.place, turn.norm()});
+    const Box box = bounding_box(joint.polygon);
+    open.push_back({joint.a, joint.b, edge_name(assembly, at), at.place, turn.norm(), box.low.y(), box.high.y()});
   }
   std::vector<Hinge> hinges;
-  while (!open.empty()) hinges.push_back(most_turned(take_run(open)));
+  while (!open.empty()) hinges.push_back(hinge_of(take_run(open)));
   return hinges;
 }
 

@@ -12,6 +12,7 @@ struct Hinge {
   std::string edge;           // the closed edge: "intrados" or "extrados"
   Vec3 place = Vec3::Zero();  // m, middle of that edge, as built
   double turn = 0.0;          // rad, of this joint
+  double y0 = 0.0, y1 = 0.0;  // m, range across the arch of all joints that count as this hinge, as built
 };
 
 /// Finds the hinges of arches along x, among the joints between voussoirs and between voussoirs and fixed bases: those

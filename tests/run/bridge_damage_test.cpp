@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "io/case/case.h"
@@ -71,6 +72,29 @@ TEST(BridgeDamage, HingesThatAlternateAreCounted) {
   ASSERT_TRUE(hinges);
   EXPECT_EQ(hinges->measure, 4.0) << "at both springings and between the pieces";
   EXPECT_EQ(bridge_classes()[hinges->grade], "bearing lost");
+}
+
+TEST(BridgeDamage, AHingeAcrossAVaultOfSeveralStonesIsCounted) {
+  const Assembly assembly = made(
+      "generator = \"bridge\"\nwidth = 5.0\nvoussoir_width = 1.0\n\n"
+      "[[bridge.span]]\nshape = \"semicircular\"\nclear_span = 6.0\nring_thickness = 0.5\n");
+  std::map<std::int64_t, double> along;  // x of the voussoirs
+  for (std::size_t i = 0; i < assembly.blocks.size(); ++i)
+    if (assembly.blocks[i].component == Component::arch) along[std::int64_t(i)] = assembly.blocks[i].centroid.x();
+  double crown = 0.0;
+  for (const auto& [block, x] : along) crown += x / double(along.size());
+  Snapshot snapshot = rest_snapshot(assembly);
+  for (const auto& [block, x] : along)
+    snapshot.rotation[std::size_t(block)] = Eigen::AngleAxisd(x < crown ? 2e-3 : -2e-3, Vec3::UnitY());
+  const std::optional<BridgeFinding> hinges = found(bridge_findings(assembly, snapshot), "hinges");
+  ASSERT_TRUE(hinges);
+  EXPECT_EQ(hinges->measure, 1.0);
+  EXPECT_EQ(bridge_classes()[hinges->grade], "slight");
+  // Half the width that has not turned carries as before.
+  for (const auto& [block, x] : along)
+    if (assembly.blocks[std::size_t(block)].centroid.y() > 0.0)
+      snapshot.rotation[std::size_t(block)] = Eigen::Quaterniond::Identity();
+  EXPECT_FALSE(found(bridge_findings(assembly, snapshot), "hinges"));
 }
 
 TEST(BridgeDamage, CracksByTheirWidth) {

@@ -109,17 +109,12 @@ void take_joints(Worst& worst, const Assembly& assembly, const Snapshot& snapsho
     worst.take(spandrel_share, part_words(part), share.apart / share.area);
 }
 
-struct PlacedHinge {
-  Hinge hinge;
-  double y0 = 0.0, y1 = 0.0;  // m, of its joint
-};
-
 /// Number of alternating hinges along a line. Consecutive hinges on the same side count as one.
-std::size_t alternating(const std::vector<PlacedHinge>& of_ring, double y) {
+std::size_t alternating(const std::vector<Hinge>& of_ring, double y) {
   std::size_t count = 0;
   std::string before;
-  for (const PlacedHinge& h : of_ring)  // along x
-    if (y > h.y0 && y < h.y1 && h.hinge.edge != before) ++count, before = h.hinge.edge;
+  for (const Hinge& hinge : of_ring)  // along x
+    if (y > hinge.y0 && y < hinge.y1 && hinge.edge != before) ++count, before = hinge.edge;
   return count;
 }
 
@@ -127,11 +122,9 @@ std::size_t alternating(const std::vector<PlacedHinge>& of_ring, double y) {
 /// has no more than these.
 void take_hinges(Worst& worst, const Assembly& assembly, const Snapshot& snapshot) {
   constexpr int places = 5;
-  std::map<std::pair<std::int64_t, std::int64_t>, const Joint*> joints;
-  for (const Joint& joint : assembly.joints) joints.try_emplace({joint.a, joint.b}, &joint);
   const RingJoints ring_joints(assembly);
-  std::map<std::int32_t, std::pair<double, double>> across;                         // y of each vault
-  std::map<std::int32_t, std::map<std::uint32_t, std::vector<PlacedHinge>>> found;  // of each ring: its bit
+  std::map<std::int32_t, std::pair<double, double>> across;                   // y of each vault
+  std::map<std::int32_t, std::map<std::uint32_t, std::vector<Hinge>>> found;  // of each ring: its bit
   for (std::size_t i = 0; i < assembly.blocks.size(); ++i) {
     const Block& block = assembly.blocks[i];
     if (block.component != Component::arch) continue;
@@ -144,15 +137,14 @@ void take_hinges(Worst& worst, const Assembly& assembly, const Snapshot& snapsho
   for (const Hinge& hinge : find_hinges(assembly, snapshot)) {
     const bool first = part_of(assembly, hinge.a).component == Component::arch;
     const std::int64_t stone = first ? hinge.a : hinge.b;
-    const Box box = bounding_box(joints.at({hinge.a, hinge.b})->polygon);
     for (auto& [bit, of_ring] : found[part_of(assembly, stone).part])
-      if (std::max(1u, ring_joints.rings_of(stone)) & bit) of_ring.push_back({hinge, box.low.y(), box.high.y()});
+      if (std::max(1u, ring_joints.rings_of(stone)) & bit) of_ring.push_back(hinge);
   }
   for (auto& [part, of_vault] : found) {
     const auto [low, high] = across[part];
     std::size_t least = SIZE_MAX;
     for (auto& [bit, of_ring] : of_vault) {
-      std::ranges::stable_sort(of_ring, {}, [](const PlacedHinge& h) { return h.hinge.place.x(); });
+      std::ranges::stable_sort(of_ring, {}, [](const Hinge& h) { return h.place.x(); });
       for (int k = 0; k < places; ++k)
         least = std::min(least, alternating(of_ring, low + (k + 0.5) / places * (high - low)));
     }
