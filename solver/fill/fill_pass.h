@@ -55,6 +55,7 @@ struct FillPass {
   double load_share = 1.0;                                  // share between the two loads, at this time step
   double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched requires a search
   Vec3 base_displacement = Vec3::Zero();  // m, at the end of the step
+  Vec3 base_velocity = Vec3::Zero();      // m/s, mean of the two half steps
   bool averaged = true;                   // false: standard tetrahedra, which lock; for comparison
   bool single = false;                    // strain and stress in single precision, for time steps of an earthquake
 

@@ -59,7 +59,10 @@ NodeUpdate FillPass::update(std::size_t node) const {
   if (local > 0.0)  // Cundall: a share of the force, against the velocity
     for (int c = 0; c < 3; ++c) force[c] -= local * std::abs(force[c]) * sign(before[c]);
   const double rate = 0.5 * mass_rate * dt;
-  next.velocity = (1.0 / (1.0 + rate)) * ((1.0 - rate) * before + (dt / fill->inertial[node]) * force);
+  Quad pulled = (1.0 - rate) * before + (dt / fill->inertial[node]) * force;
+  if (rate > 0.0)  // as for stones, the velocity relative to the ground's is damped
+    pulled += (2.0 * rate) * Quad{base_velocity.x(), base_velocity.y(), base_velocity.z(), 0.0};
+  next.velocity = (1.0 / (1.0 + rate)) * pulled;
   if (fill->held[node])
     for (int c = 0; c < 3; ++c)
       if (fill->held[node] >> c & 1) next.velocity[c] = before[c];

@@ -46,7 +46,7 @@ double pulse_frequency(const PulseSettings& pulse) {
 
 GroundMotion make_pulse(const PulseSettings& pulse) {
   const double length = pulse_length(pulse), frequency = pulse_frequency(pulse);
-  // 400 points a wave keep linear interpolation within 2e-5 of the sine.
+  // 400 points a wave keep linear interpolation within 3.1e-5 of the amplitude.
   const double finest = frequency > 0.0 ? std::min(length / 1000.0, 1.0 / (400.0 * frequency)) : length / 1000.0;
   // In doubles first: what is asked for may be more than any whole number holds.
   if (!((pulse.start + length) / finest < 5e7))

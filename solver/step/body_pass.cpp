@@ -102,7 +102,7 @@ template <class T>
   return {c, s * h};
 }
 
-/// exp(½ dt ω) q; series below a quarter turn a step, which are the same on every machine.
+/// exp(½ dt ω) q; series below a quarter turn a step, which do not depend on the mathematics library.
 Quat<double> rotate(const Quat<double>& q, const Triple<double>& omega, double dt) {
   const Triple<double> h = 0.5 * dt * omega;
   const double x = dot(h, h);
@@ -121,17 +121,12 @@ double sign(double x) {
 }
 
 /// Cundall's local damping: each component of the out-of-balance force is cut where it speeds the body up and raised
-/// where it slows it down. Returns the loss over the step.
-double damp_locally(double share, double dt, Triple<double>& force, const Triple<double>& velocity) {
-  double loss = 0.0;
-  double* f = &force.x;
-  const double* v = &velocity.x;
-  for (int c = 0; c < 3; ++c) {
-    const double cut = share * std::abs(f[c]) * sign(v[c]);
-    loss += dt * cut * v[c];
-    f[c] -= cut;
-  }
-  return loss;
+/// where it slows it down. Returns what is cut, which acts at the mean velocity of the two half steps.
+Triple<double> damp_locally(double share, Triple<double>& force, const Triple<double>& velocity) {
+  const auto cut = [&](double f, double v) { return share * std::abs(f) * sign(v); };
+  const Triple<double> all = {cut(force.x, velocity.x), cut(force.y, velocity.y), cut(force.z, velocity.z)};
+  force = force - all;
+  return all;
 }
 
 }  // namespace
@@ -147,10 +142,12 @@ void BodyPass::turn(std::size_t i, Triple<double> m, BodyUpdate& r) const {
   const Body& body = model->bodies[i];
   const double* pose = &state->pose[pose_width * i];
   const Triple<double> l = triple(&state->motion[motion_width * i + 3]);
-  if (local > 0.0) r.loss += damp_locally(local, dt, m, spin(body, pose_rotation(pose), l));
+  Triple<double> cut = {0, 0, 0};
+  if (local > 0.0) cut = damp_locally(local, m, spin(body, pose_rotation(pose), l));
   const double h = 0.5 * dt * mass_rate;  // centred: the mean of both half steps is damped
   if (h == 0.0) {
     r.momentum = l + dt * m;
+    if (local > 0.0) r.loss += dt * dot(cut, spin(body, pose_rotation(pose), 0.5 * (l + r.momentum)));
     return;
   }
   r.momentum = (1.0 / (1.0 + h)) * ((1.0 - h) * l + dt * m);
@@ -182,7 +179,7 @@ BodyUpdate BodyPass::held_update(std::size_t i, const Triple<double>& patches, c
     const double cut = local * std::abs(f) * sign(v);
     const double next = ((1.0 - h) * v + dt / body.inertial_mass * (f - cut) + 2.0 * h * base) / (1.0 + h);
     const double mean = 0.5 * (v + next);
-    r.loss += dt * cut * v + mass_rate * dt * body.inertial_mass * (mean - base) * mean;
+    r.loss += dt * cut * mean + mass_rate * dt * body.inertial_mass * (mean - base) * mean;
     r.velocity[c] = next;
   }
   if (body.turns) {
@@ -234,7 +231,8 @@ BodyUpdate BodyPass::update(std::size_t i) const {
   r.force = f;
   r.moment = m;
   const Triple<double> v = triple(motion);
-  if (local > 0.0) r.loss += damp_locally(local, dt, f, v);
+  Triple<double> cut = {0, 0, 0};
+  if (local > 0.0) cut = damp_locally(local, f, v);
   if (mass_rate > 0.0) {  // centred: the mean of both half-step velocities is damped, relative to the ground's
     const double h = 0.5 * dt * mass_rate;
     const Vec3 ground = 0.5 * (base_velocity_now + base_velocity_next);
@@ -245,6 +243,7 @@ BodyUpdate BodyPass::update(std::size_t i) const {
     r.loss += mass_rate * dt * body.inertial_mass * dot(mean - base, mean);
   } else {
     r.velocity = v + (dt / body.inertial_mass) * f;
+    if (local > 0.0) r.loss += dt * dot(cut, 0.5 * (v + r.velocity));
   }
   turn(i, m, r);
   return r;

@@ -312,6 +312,7 @@ Advance Stepper::advance(std::int64_t target, std::int64_t sample_every,
       move_still(pass, still[i], still[i + 1]);
     }
     fill.base_displacement = bodies.front().base_displacement_next;
+    fill.base_velocity = 0.5 * (bodies.front().base_velocity_now + bodies.front().base_velocity_next);
     load_fill(fill, bodies.front().load_share);
     patches.front().energies = samples ? tile_energies.data() : nullptr;
     fill.energies = samples ? fill_energies.data() : nullptr;
@@ -452,6 +453,7 @@ void serial_step(Stepper& s) {
   bodies.looks = state.look_at() <= state.step() + 1;
   const BodyReport report = bodies.bodies(0, model.bodies.size());
   FillPass fill = s.fill_pass();
+  fill.base_velocity = 0.5 * (bodies.base_velocity_now + bodies.base_velocity_next);
   s.load_fill(fill, bodies.load_share);
   for (std::size_t tile = 0; tile < model.fill.tiles.size(); ++tile) kernels().nodes(fill, tile);
   finish_step(state, s.dt, bodies);
