@@ -142,7 +142,7 @@ struct Assembly {
 void finish_blocks(Assembly& assembly);
 /// The name of a block in errors and logs: "block 12 (arch, part 0)".
 std::string block_label(const Assembly& assembly, std::int64_t block);
-double block_density(const Assembly& assembly, const Block& block);
-Box block_box(const Block& block);
+double block_density(const Assembly& assembly, const Block& block);  // kg/m3
+Box block_box(const Block& block);                                   // m, around all its cells
 
 }  // namespace voussoir

@@ -41,9 +41,10 @@ double separation(const Convex& a, const Convex& b, double enough);
 /// Among face axes that tie within 1e-9 m the one nearest to the line of centres wins.
 ///
 /// The reference face belongs to the winning axis; the facing face of the other body is the most anti-parallel one of
-/// those that hold its deepest corner. Two bodies that come within the distance only beside each other's faces give
-/// Kind::face with area 0 and no points. A tip whose faces all stand within 6 degrees of the axis gives Kind::edge with
-/// the tip and its foot on the reference face. For Kind::apart, separation and normal are those of the axis that told.
+/// those that hold its deepest corner. If the facing face is within 6 degrees of the direction of the axis, the result
+/// is Kind::edge with the tip of the other body and its projection on the reference face. If the two faces do not
+/// overlap when they are projected on the common plane, or if that tip is not above the reference face, the result is
+/// Kind::face with area 0 and no points. For Kind::apart, separation and normal are those of the axis that separates.
 ///
 /// Faces must be whole: a flat side given as triangles meets triangle by triangle (see merge_coplanar_faces()).
 Meeting meeting(const Convex& a, const Convex& b, double within);

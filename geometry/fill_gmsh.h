@@ -26,7 +26,8 @@ struct FillMeshing {
 
 /// Meshes the section of the space with triangles and sweeps them across. The tetrahedra are oriented, the surface is
 /// set, and every tetrahedron has the material of its box. Equal input gives equal bits. If the bound of the edges
-/// cannot be kept, fill_quality() gives the longest edge. Throws RunError if Gmsh fails.
+/// cannot be kept, fill_quality() gives the longest edge. Throws InputError if the mesh would have more than about 2e7
+/// tetrahedra, and RunError if Gmsh fails or its library cannot be loaded.
 FillMesh mesh_fill(const FillSpace& space, const FillMeshing& meshing = {});
 
 }  // namespace voussoir

@@ -14,7 +14,8 @@ struct FillJointReport {
 };
 
 /// Finds all patches (geometry only: kn, ks and law stay zero): every triangle is clipped with every face that is
-/// opposed within `search.angle` and has a gap or an overlap of at most `search.gap`. Stones and fill must be finished.
+/// opposed within `search.angle` and has a gap or an overlap of at most `search.gap`. If several faces of a cell meet a
+/// triangle, only the largest patch is kept. Stones and fill must be finished.
 /// Throws InputError if two stones cover the same part of a triangle, which means that stones overlap, and if a part of
 /// the fill touches no stone.
 FillJointReport find_fill_joints(Assembly& assembly, const JointSearch& search = {});

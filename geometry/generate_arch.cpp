@@ -160,6 +160,16 @@ Buttress read_buttress(const GeneratorInput& in, double least) {
   return b;
 }
 
+/// Where the springing joint slopes down outwards, the top of the buttress does too.
+void check_top_course(const Buttress& b, const Vec3& in, const Vec3& out) {
+  const double drop = (in.z() - out.z()) / std::abs(in.x() - out.x()) * b.width, course = b.height / b.courses;
+  if (drop >= course)
+    throw InputError(
+        "[bridge] buttress_width = {:g} m: the top of the buttress slopes down by {:.3g} m over this width, but its "
+        "top course is {:.3g} m high. Make the buttress narrower or higher, or use fewer courses.",
+        b.width, drop, course);
+}
+
 Assembly build_arch(const std::vector<Material>& defaults, const GeneratorInput& in) {
   const HalfRing half = read_half(in);
   const int n = int(in("voussoirs"));
@@ -184,6 +194,7 @@ Assembly build_arch(const std::vector<Material>& defaults, const GeneratorInput&
   }
   const Vec3 &foot_in = ring.intrados.front(), &foot_out = ring.extrados.front();
   if (const Buttress buttress = read_buttress(in, std::abs(foot_out.x() - foot_in.x())); buttress.height > 0.0) {
+    check_top_course(buttress, foot_in, foot_out);
     const double middle = 0.5 * (foot_in.x() + ring.intrados.back().x());
     for (int part : {0, 1}) lay_buttress(layout, buttress, foot_in, foot_out, middle, width, part);
   } else {

@@ -25,7 +25,7 @@ double backing_at(const Bridge& bridge, double x) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
     if (x <= line[i + 1].x())
       return line[i].z() + (line[i + 1].z() - line[i].z()) * (x - line[i].x()) / (line[i + 1].x() - line[i].x());
-  return bridge.backing_top;
+  return line.empty() ? bridge.backing_top : line.back().z();  // an end of the bridge may be rounded to beyond it
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ struct GeneratorInput {
   };
   std::map<std::string, JointOverride> joints;
   double gap_tolerance = 1e-4;  // m
+  /// The value of a key. Throws std::out_of_range if `values` does not have it.
   double operator()(const std::string& key) const { return values.at(key); }
 };
 
@@ -103,7 +104,8 @@ bool is_dimension(const Parameter& parameter);
 GeneratorInput default_input(const Generator& generator);
 
 /// Throws InputError for the first key that is unknown, missing, out of range or not a whole number although it must
-/// be, and for a choice that is not in its list of words. build() calls this function first.
+/// be, for a choice that is not in its list of words, for a wrong number of entries of a list of tables, for materials
+/// that are missing or have values out of range, and for gap_tolerance. build() calls this function first.
 void check_input(const Generator& generator, const GeneratorInput& input);
 
 /// The keys of a generator as Markdown tables (name, default, range, unit, meaning), for --help and the documentation.

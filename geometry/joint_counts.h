@@ -5,7 +5,7 @@
 namespace voussoir {
 
 struct JointCounts {
-  std::int64_t bonded = 0, dry = 0;  // with and without tensile strength or cohesion
+  std::int64_t bonded = 0, dry = 0;  // bonded: with tensile strength or cohesion, or elastic; dry: all others
   std::int64_t ties = 0;
   std::int64_t fill = 0;  // patches between stones and a deformable fill
 };

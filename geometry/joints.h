@@ -29,8 +29,9 @@ struct JointReport {
   double smallest_open_gap = 0.0;   // m, of these pairs
 };
 
-/// Finds all joints (geometry only: kn, ks and law stay zero), sorted by their canonical key. The polygon of a joint is
-/// midway between the two faces. Throws InputError with the names of two blocks whose cells overlap by more than `gap`.
+/// Finds all joints (geometry only: kn, ks and law stay zero), in the order of Assembly::joints. Two cells have at most
+/// one joint; two fixed blocks have none. The polygon of a joint is midway between the two faces. Throws InputError
+/// with the names of two blocks whose cells overlap by more than `gap`.
 JointReport find_joints(Assembly& assembly, const JointSearch& search = {});
 
 /// Two blocks whose cells overlap, and the depth of the deepest overlap of two cells.
@@ -48,7 +49,7 @@ double covered_area(const Assembly& assembly);  // m2, sum over the joints
 double uncovered_surface(const Assembly& assembly);
 
 /// Outer faces of one block as planar convex loops: the faces of its cells without the parts shared with other cells of
-/// the block.
+/// the block. Faces of two cells count as shared if they are at most `gap` m apart.
 std::vector<Polygon> outer_faces(const Block& block, double gap = 1e-6);
 
 }  // namespace voussoir

@@ -21,7 +21,7 @@ SecondMoments second_moments(const PlaneCorners& corners);
 /// N is N/A (1 + A centreᵀ I⁻¹ x) at x, with the matrix I of second moments. The share is a sixth of the difference
 /// between the mean pressure and the lowest pressure at a corner, over the mean. So 1/6 is the border of the kern (no
 /// tension) for any shape. For a rectangle with sides b and d the share is |e_b|/b + |e_d|/d: 1/2 at the middle of an
-/// edge.
+/// edge. 0 for corners that enclose no area.
 double eccentricity_over_depth(const PlaneCorners& corners, const Eigen::Vector2d& centre);
 /// The same for a plane polygon in space with this unit normal; the force is at `offset` (m) from the centroid.
 double eccentricity_over_depth(const Polygon& polygon, const Vec3& normal, const Vec3& offset);

@@ -72,8 +72,9 @@ struct SliverRule {
   double most = 2.0;        // times its nominal volume: a larger stone is merged with slivers only if no other can be
 };
 
-/// Makes an assembly of the layout: finds the joints, merges each sliver (as further cells) with the neighbour of the
-/// same component and material with the largest common area, and finishes the blocks. Stiffness and laws of joints are
+/// Makes an assembly of the layout: finds the joints, merges each sliver (as further cells) with a neighbour of the
+/// same component, material and layer, and finishes the blocks. Neighbours that do not become too large are preferred,
+/// then neighbours that are not slivers, then the one with the largest common area. Stiffness and laws of joints are
 /// not set yet. `gap` as in JointSearch.
 Assembly assemble(Layout layout, const std::vector<Material>& materials, const SliverRule& slivers, double gap);
 

@@ -17,8 +17,8 @@ struct Vault {
   std::vector<double> thickness;  // m, of each ring at the crown
   Vec3 voussoir = Vec3::Ones();   // m: along the arc, across, thickness of the highest ring
   std::int32_t material = 0;
-  std::size_t headers_every =
-      0;  // number of courses from one course of headers (stones through two rings) to the next; 0: none
+  /// Number of courses from one course of headers (stones through two rings) to the next; 0: no headers.
+  std::size_t headers_every = 0;
   /// Nominal size of a stone through `through` rings from `ring` on.
   Vec3 stone(std::size_t ring, std::size_t through) const {
     const auto from = thickness.begin() + std::ptrdiff_t(ring);
@@ -121,7 +121,8 @@ struct Bridge {
   Vec3 leaf_piece = Vec3::Ones();  // along the face, -, course height
   Vec3 infill = Vec3::Ones();
   Vec3 fill = Vec3::Ones();
-  std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;  // materials; of vaults and supports as usual
+  // Indices of materials. Each vault and each support also has its own.
+  std::int32_t masonry = 0, vault = 0, infill_material = 0, backfill = 0;
   std::int32_t surfacing = 0;
 
   double length() const { return supports.back().x1; }
@@ -190,9 +191,11 @@ struct FillRegion {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // m
   std::ptrdiff_t support = -1;                   // the abutment between whose wing walls it is; -1: above the springing
   int course = 0;                                // number of its lowest course in the bond
-  std::vector<Plane> past = {};                  // in addition to the limits of the bridge: the backing below it
-  int lane = 0;                                  // number of the space between internal walls to which it belongs
-  bool surfacing = false;                        // whether it has the material of the surfacing
+  /// No fill beyond these planes, in addition to the limits of the bridge: the top of the backing below the box, and
+  /// the underside of the surfacing.
+  std::vector<Plane> past = {};
+  int lane = 0;            // number of the space between internal walls to which it belongs
+  bool surfacing = false;  // whether it has the material of the surfacing
 };
 /// The boxes of the fill, which do not overlap: those between the wing walls, then those above the springing upwards.
 /// They are used for rigid and for deformable fill. They overlap a backing that is not level; `past` then limits the
@@ -225,11 +228,12 @@ void lay_oblique(Layout& layout, const Bridge& bridge, std::size_t vault);
 void turn_to_skew(Layout& layout, double skew);
 Vec3 at_skew(const Vec3& p, double skew);
 
-void lay_vaults(Layout& layout,
-                const Bridge& bridge);  // sets the layout's rings; groups "keystone i", "quarter i left", …
+/// Also sets the rings of the limits of the layout. Groups "keystone i", "quarter i left", …
+void lay_vaults(Layout& layout, const Bridge& bridge);
 void lay_piers(Layout& layout, const Bridge& bridge);      // groups "pier top 0" …
 void lay_abutments(Layout& layout, const Bridge& bridge);  // with wing walls and the fill between them
-void lay_skewbacks(Layout& layout, const Bridge& bridge);  // supports from the springing to the feet of the vaults
+/// The supports from the springing to the feet of the vaults. Then sets the limits of the layout for all later parts.
+void lay_skewbacks(Layout& layout, const Bridge& bridge);
 void lay_spandrels(Layout& layout, const Bridge& bridge);  // groups "spandrel y- pier 0" …
 void lay_backing(Layout& layout, const Bridge& bridge);
 void lay_backfill(Layout& layout, const Bridge& bridge);

@@ -6,7 +6,9 @@ namespace voussoir {
 
 struct NearestBlock {
   std::int64_t block = -1;  // −1: there are no blocks
-  double distance = 1e300;  // m, to its surface; 0 inside
+  /// m; 0 inside. It is the largest distance beyond the plane of a face of a cell, so that it is less than the distance
+  /// to the surface if the nearest point of the surface lies on an edge or at a corner.
+  double distance = 1e300;
 };
 /// If several blocks contain the point, the one with the lowest number. Blocks of the component restraint are ignored,
 /// so that a point just beside the bridge belongs to the bridge.

@@ -20,7 +20,7 @@ class BoxIndex {
   /// `distance` as above, not negative.
   BoxIndex(const std::vector<Box>& boxes, double distance);
   ~BoxIndex();
-  /// Puts the numbers of the boxes that come within the distance of `box` into `found`, lowest first.
+  /// Replaces the contents of `found` by the numbers of the boxes that come within the distance of `box`, lowest first.
   void near(const Box& box, std::vector<int>& found) const;
 
  private:

@@ -28,6 +28,7 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();   // m5, about the centroid, axes of the world
 };
 
+/// A box along the axes, m. The default is empty: it contains no point.
 struct Box {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
 };
@@ -43,13 +44,13 @@ MassProperties mass_properties(const Polyhedron& shape);
 MassProperties mass_properties(const std::vector<Polyhedron>& cells);
 
 Polygon face_polygon(const Polyhedron& shape, int face);
-Vec3 polygon_normal(const Polygon& polygon);    // unit, by Newell's method
-double polygon_area(const Polygon& polygon);    // m2
-Vec3 polygon_centroid(const Polygon& polygon);  // area centroid
-Plane face_plane(const Polyhedron& shape, int face);
-Box bounding_box(const Polygon& points);  // of any set of points
+Vec3 polygon_normal(const Polygon& polygon);          // unit, by Newell's method; zero for a polygon without area
+double polygon_area(const Polygon& polygon);          // m2
+Vec3 polygon_centroid(const Polygon& polygon);        // area centroid
+Plane face_plane(const Polyhedron& shape, int face);  // through its mean corner; zero normal for a face without area
+Box bounding_box(const Polygon& points);              // of any set of points
 Box bounding_box(const Polyhedron& shape);
-double surface_area(const Polyhedron& shape);
+double surface_area(const Polyhedron& shape);  // m2
 
 /// The part of a convex polyhedron inside the half-space; empty (no faces) if its depth would be below `tolerance` (m).
 /// Vertices within `tolerance` of the plane count as on it, so that cuts along existing faces leave no slivers.

@@ -14,7 +14,7 @@ inline constexpr const char* ring_pair = "ring-ring";
 /// The group of the stones of one ring (0: the lowest) of a vault: "arch 0 ring 1". Headers are in two groups.
 std::string ring_group(std::size_t vault, std::size_t ring);
 
-/// Joints between the rings of one vault.
+/// Joints between the rings of one vault. The assembly must outlive this object.
 class RingJoints {
  public:
   explicit RingJoints(const Assembly& assembly);

@@ -23,6 +23,7 @@ struct RoadShare {
   double area = 0.0;            // m2 in plan, of both
 };
 
+/// The assembly must outlive this object.
 class Road {
  public:
   /// Finds the road: the open upper faces of the fill or of its blocks, and of walls of the same height; without a fill
@@ -30,6 +31,7 @@ class Road {
   explicit Road(const Assembly& assembly);
 
   RoadArea extent() const { return extent_; }
+  /// The shares in a rectangle; the parts of it beyond the road do not count.
   RoadShare under(const RoadArea& area) const;
 
  private:

@@ -33,12 +33,14 @@ std::optional<Meeting> sharp_meeting(const Convex& a, const Convex& b, double wi
 /// Whether the cells have faces in one plane, within 10⁻³ rad and `within` (m), and are on opposite sides of it.
 bool lie_flush(const Convex& a, const Convex& b, double within);
 
-/// Whether two faces that meet stand open like a book whose spine may be an edge of each: not flat on each other, and
-/// nearest within `margin` (m) of the border of the face that gave the normal.
+/// Whether two faces that meet are open towards one side, so that they may touch along an edge only: they are not flat
+/// on each other, and their smallest gap is within `margin` (m) of the border of the face that gave the normal. `m`
+/// must be of Kind::face with points.
 bool opens_at_an_edge(const Convex& a, const Convex& b, const Meeting& m, double margin);
 
-/// The same two faces clipped on the common plane of the pair, the normal being that of the shortest link. The meeting
-/// as it is where that says nothing else; without points where a face is steeper than 45° to that plane.
+/// The two faces of a meeting of Kind::face, clipped on the common plane whose normal is that of the shortest link. The
+/// result is the meeting unchanged if the shrunk cells overlap or if both normals are equal. It has no points if a face
+/// is at more than 45° to that plane.
 Meeting on_common_plane(const Convex& a, const Convex& b, const Meeting& m, double shrink);
 
 }  // namespace voussoir

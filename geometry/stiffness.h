@@ -16,10 +16,9 @@ struct Stiffness {
 /// The rules for stiffness and strength of the joints of an assembly.
 struct JointRules {
   /// moduli: kn = E/dc, ks = G/dc from the two half-lengths, in series if the materials differ.
-  /// table:  one pair of values for each component in every direction; different components in series from equal
-  /// halves.
-  ///         Rigid backfill has no row and takes its values from the moduli.
-  /// given:  `uniform` for every joint.
+  /// table: one pair of values for each component in every direction; different components in series from equal halves,
+  /// but the values of the infill hold for all joints of the infill. Rigid backfill takes its values from the moduli.
+  /// given: `uniform` for every joint.
   enum class Kind { moduli, table, given };
   Kind kind = Kind::moduli;
   Stiffness uniform;                     // given only
@@ -30,12 +29,13 @@ struct JointRules {
   double interface_friction = 0.0;       // rad
   double restraint_share = 0.50;         // joints with restraint blocks: share of the stiffness
   bool rings_bonded = true;              // joints between the rings of a vault; otherwise friction only
-  double smallest_half_length = 1e-3;    // m: smallest distance of a centroid from the joint
+  double smallest_half_length = 1e-3;    // m: a centroid nearer to the joint counts as this far from it
 };
 
 /// Sets kn, ks and law of every joint. The blocks must be finished and the joints found. Order of precedence: the
 /// override of the case for joints between rings ("ring-ring") or for the pair of materials; the interface between
-/// masonry and backfill; the rules above. A fixed block has the material of the stone that touches it. Between
+/// masonry and backfill; the rules above. The stiffness of a joint with a restraint block, also one from an override,
+/// is then multiplied by `restraint_share`. A fixed block has the material of the stone that touches it. Between
 /// different materials each strength is the lower of the two; residual cohesion is 0, and residual friction equals
 /// friction. Joints between two fixed blocks are removed. Throws InputError for an override with an unknown material.
 void assign_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
@@ -47,9 +47,9 @@ void assign_stiffness(Assembly& assembly, const JointRules& rules, const Generat
 void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const GeneratorInput& input);
 
 /// Finds the joints of an assembly that has none and sets their stiffness and strength (blocks finished). The stiffness
-/// is `uniform` or, if that is zero, follows from the moduli. Joints of masonry with blocks of backfill have a fifth of
-/// it and a friction angle of 35 degrees without cohesion. Throws InputError for blocks without moduli, for overlaps,
-/// and if only one of kn and ks is given.
+/// is `uniform` or, if that is zero, follows from the moduli. Joints of masonry with blocks of backfill have a friction
+/// angle of 35 degrees without cohesion and, if the stiffness follows from the moduli, a fifth of it. Throws InputError
+/// for blocks without moduli, for overlaps, and if only one of kn and ks is given.
 JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform = {});
 
 /// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli if both are 0. Throws InputError

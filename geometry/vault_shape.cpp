@@ -30,7 +30,8 @@ Curve arc(double half_angle, double radius, double z) {
 
 Curve segmental(double a, double rise) {
   const double radius = (a * a + rise * rise) / (2.0 * rise);
-  return arc(rise > a ? pi - std::asin(a / radius) : std::asin(a / radius), radius, rise - radius);
+  const double half = std::asin(std::min(1.0, a / radius));  // of a semicircle rounding may give more than 1
+  return arc(rise > a ? pi - half : half, radius, rise - radius);
 }
 
 Curve elliptical(double a, double rise) {
@@ -47,7 +48,7 @@ Curve parabolic(double a, double rise) {
 
 /// Two arcs about points on the springing line.
 Curve pointed(double a, double rise) {
-  const double radius = (a * a + rise * rise) / (2.0 * a), all = std::asin(rise / radius);
+  const double radius = (a * a + rise * rise) / (2.0 * a), all = std::asin(std::min(1.0, rise / radius));
   const double sweep = rise > radius ? pi - all : all;  // of each
   const auto angle = [=](double u) { return sweep * 2.0 * std::min(u, 1.0 - u); };
   const auto side = [](double u) { return u <= 0.5 ? -1.0 : 1.0; };

@@ -17,7 +17,7 @@ struct Sheet {
   double raised = 0.0;            // pixels, height of the rows of a legend above the other words at the foot
 };
 
-/// The font height for a picture of this width.
+/// The font height for a picture of this width, both in pixels.
 double letter_size(int width);
 /// Heights in pixels of the strips above and below the content.
 double top_strip(const Sheet& sheet);

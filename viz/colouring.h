@@ -25,8 +25,9 @@ Colour colour_on_scale(const Colouring& colouring, double value);
 /// Number of parts of a scale from 0 to `top` with round numbers.
 int scale_steps(double top);
 
-/// A round upper end of the scale: `range` or, if that is 0, from the values. If a few values are far beyond all
-/// others, the scale ends at the 98th percentile of the positive values.
+/// Sets the upper end of the scale: `range` or, if that is 0, a round number not below the values (1 if all are below
+/// 1e-6). If the largest value is more than three times the 98th percentile of the positive values, the scale ends at
+/// that percentile.
 void set_top(Colouring& colouring, std::vector<double> values, double range);
 /// The faces with the colour that `colour` gives for their number, as active scalars ("colour"). Nothing if there are
 /// no faces.

@@ -9,7 +9,7 @@ namespace voussoir {
 
 using Spot = Eigen::Vector2d;  // pixels from the lower left
 
-/// Projects points with the present camera.
+/// Projects points with a camera. Camera and sheet must outlive this object; the camera must not change.
 class Projection {
  public:
   Projection(vtkCamera* camera, const Sheet& sheet)

@@ -78,7 +78,7 @@ void render_picture(const Assembly& assembly, const Snapshot& snapshot, const Re
 void render_picture(const PictureFiles& files, const RenderOptions& options, const std::string& png);
 
 /// Upper end of the colour scale that a picture of this frame chooses by itself, in the unit of the scale; 0 if the
-/// colours have a legend. For pictures with a common scale.
+/// colours have a legend. For pictures with a common scale. Throws InputError for the colourings of the joints.
 double picture_scale(const PictureFiles& files, const RenderOptions& options);
 
 }  // namespace voussoir

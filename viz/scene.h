@@ -35,8 +35,8 @@ vtkSmartPointer<vtkPolyData> deformed_faces(vtkUnstructuredGrid* grid, const Hid
 /// Edges at an angle between faces of a stone, or at the end of a face.
 vtkSmartPointer<vtkPolyData> outlines(vtkPolyData* faces);
 
-/// The outline of the whole: the parts of undeformed edges with air on both adjacent faces, and therefore no edges
-/// between stones that join in one face. `faces` are those of the undeformed stones, `joints` all patches.
+/// The outline of the whole: the parts of undeformed edges at which neither adjacent face has a joint. Edges between
+/// stones with flush faces are therefore left out. `faces` are those of the undeformed stones, `joints` all joints.
 vtkSmartPointer<vtkPolyData> outer_outline(vtkPolyData* faces, vtkPolyData* joints);
 
 /// The patches between visible stones that `shown` selects by number, deformed and cut like the stones. Patches

@@ -24,8 +24,9 @@ struct SensorSpec {
 struct MotionSource {
   enum class Kind { none, record, pulse, synthetic };
   Kind kind = Kind::none;
-  std::array<std::string, 3> files,
-      texts;                              // record: paths as opened, and contents; empty: no motion along that axis
+  /// record: paths as opened, and contents, for x, y, z; empty: no motion along that axis. A file with several channels
+  /// stands alone.
+  std::array<std::string, 3> files, texts;
   std::string units = "m/s2";             // record: unit of plain columns: m/s2, g or cm/s2
   double dt = 0.0;                        // s, record: time step; 0: as in the file
   std::vector<std::string> columns = {};  // record: meaning of the columns of a table; empty: as in the file
@@ -79,8 +80,9 @@ struct Case {
   std::vector<PlotSpec> plots;
   std::vector<ExpectedPeriod> expected_periods;
   std::vector<DemandLimit> limits;
-  std::uint64_t hash =
-      0;  // of the resolved text without modes and plots, and of the records: equal for a case and its resolved copy
+  /// Of the resolved text without modes, plots and limit states, and of the records: equal for a case and its resolved
+  /// copy. It does not cover the contents of an assembly file; see assembly_hash().
+  std::uint64_t hash = 0;
 };
 
 /// Purpose for which a case is read: a case for geometry or modes may have no [[stage]].
@@ -93,17 +95,21 @@ Case read_case(const std::string& path, CaseUse use = CaseUse::run);
 Case parse_case(const std::string& text, const std::string& path, CaseUse use = CaseUse::run);
 
 /// A TOML text with every key written out. It gives the same case bit for bit if it is read in a folder that has the
-/// records of the case as motion_<stage>_<axis>.txt and, if the case names an assembly file, that file as assembly.h5.
+/// records of the case as motion_<stage>_<axis>.txt, the measured curves of its plots as measured_<plot>_<curve>.txt
+/// and, if the case names an assembly file, that file as assembly.h5.
 std::string resolved_text(const Case& c);
 /// The [[effect]] tables of a case file.
 std::string effects_text(const std::vector<EffectSetting>& effects);
-/// Writes DIRECTORY/case.toml with resolved_text(), and the records into the same folder. Throws RunError.
+/// Writes DIRECTORY/case.toml with resolved_text(), and records and measured curves into the same folder. Throws
+/// RunError.
 void write_resolved_case(const Case& c, const std::string& directory);
-/// Whether a file with that name in a run directory is one of those records.
+/// The same with a copy of the assembly file, if the case has one, as DIRECTORY/assembly.h5.
+void write_self_contained_case(const Case& c, const std::string& directory);
+/// Whether a file with that name in a run directory is one of those records or curves.
 bool is_copy_for_case(const std::string& name);
 
 /// The assembly of the case: generated, or read from its file with the joint overrides; with its effects and sensors.
-/// Throws InputError.
+/// Throws InputError, and RunError if a deformable fill cannot be meshed.
 Assembly make_assembly(const Case& c);
 /// Attaches each sensor to its nearest block. Throws InputError for a sensor more than 0.05 m away from every block.
 void attach_sensors(Assembly& assembly, const std::vector<SensorSpec>& sensors);

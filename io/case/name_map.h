@@ -23,8 +23,8 @@ struct NameRow {
   std::optional<std::string> material;  // name of the material
   std::vector<std::string> groups;
   std::optional<bool> fixed;
-  std::optional<std::string>
-      block;  // the stone of which the objects are cells; its k-th * stands for the same text as that of the pattern
+  /// The stone of which the objects are cells. Its k-th * stands for the same text as the k-th * of the pattern.
+  std::optional<std::string> block;
   std::optional<NotConvex> not_convex;
 };
 

@@ -385,6 +385,11 @@ void write_resolved_case(const Case& c, const std::string& directory) {
   write_atomically((folder / "case.toml").string(), resolved_text(c));
 }
 
+void write_self_contained_case(const Case& c, const std::string& directory) {
+  write_resolved_case(c, directory);
+  if (!c.assembly_file.empty()) write_atomically(directory + "/assembly.h5", read_text(c.assembly_file));
+}
+
 std::string motion_source_text(const MotionSource& source, const std::array<std::string, 3>& files) {
   TomlText out;
   out.text_.clear();

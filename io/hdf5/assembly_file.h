@@ -13,7 +13,8 @@ inline constexpr std::int64_t assembly_format_version = 3;
 inline constexpr const char* object_group_prefix = "object ";
 
 /// Writes the assembly (finished: masses, joints) atomically. blocks/* have the outer boundary of each block; the
-/// convex cells of blocks with several cells are in cells/*. Throws RunError if the file cannot be written.
+/// convex cells of blocks with several cells are in cells/*. Throws RunError if the file cannot be written, and
+/// InputError if the name of a group is empty or contains '/'.
 void write_assembly(const std::string& path, const Assembly& assembly);
 
 /// Reads an assembly file and checks everything in it: format and version, shapes, offsets, index ranges, finite
@@ -29,7 +30,8 @@ Assembly read_stated_assembly(const std::string& path);
 /// Whether the file has a list of joints, which may be empty.
 bool states_joints(const std::string& path);
 
-/// Hash of everything that affects the motion of the assembly (shapes, masses, joints, laws; not names, groups, case).
+/// Hash of everything that affects the motion of the assembly: blocks with components, parts and materials, joints,
+/// laws and fill; not names, groups, sensors and the text of the case.
 std::uint64_t assembly_hash(const Assembly& assembly);
 
 }  // namespace voussoir

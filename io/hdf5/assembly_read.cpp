@@ -221,7 +221,7 @@ void AssemblyReader::read_stated(const std::string& name, std::size_t columns) {
 }
 
 void AssemblyReader::read_laws() {
-  const std::size_t n = file_.shape("laws/tension").at(0);
+  const std::size_t n = file_.rows("laws/tension");
   const auto kind = read_words("laws/kind", n, joint_law_kinds());
   const auto tension = read_column("laws/tension", n), cohesion = read_column("laws/cohesion", n),
              friction = read_column("laws/friction_angle", n);
@@ -334,7 +334,7 @@ std::vector<std::int64_t> AssemblyReader::read_pairs(std::size_t n) const {
 
 void AssemblyReader::read_joints() {
   if (!file_.has("joints/blocks")) return;
-  const std::size_t n = file_.shape("joints/blocks").at(0);
+  const std::size_t n = file_.rows("joints/blocks");
   const auto between = read_pairs(n);
   const auto corners = read_places(file_, "joints/polygon", h5::any);
   const auto offset = file_.read<std::int64_t>("joints/polygon_offset", {n + 1});

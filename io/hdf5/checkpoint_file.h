@@ -28,12 +28,13 @@ struct CheckpointHeader {
 /// RunError.
 std::uint64_t write_checkpoint(const std::string& path, CheckpointHeader header, const std::vector<NamedArray>& arrays);
 
-/// Reads the header alone. Throws InputError if the file is not a checkpoint or has a newer format, RunError
-/// "checkpoint FILE is damaged (…)" if it cannot be read.
+/// Reads the header alone. Throws InputError if there is no such file, or if it is an HDF5 file that is not a
+/// checkpoint or has a newer format. Throws RunError "checkpoint FILE is damaged: …" for every other file that cannot
+/// be read.
 CheckpointHeader read_checkpoint_header(const std::string& path);
 
 /// Reads the header and the arrays, which are resized to fit. Checksums and digest are verified. After an error the
-/// arrays are not valid. Throws as read_checkpoint_header.
+/// arrays are not valid. Throws as read_checkpoint_header(), and InputError for an older format, too.
 void read_checkpoint(const std::string& path, CheckpointHeader& header, const std::vector<NamedArray>& arrays);
 
 /// The file name for a time in s: "00012.500.h5".

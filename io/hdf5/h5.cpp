@@ -249,6 +249,12 @@ Shape File::shape(const std::string& name) const {
   return Shape(dims.begin(), dims.end());
 }
 
+std::size_t File::rows(const std::string& name) const {
+  const Shape all = shape(name);
+  if (all.empty()) fail(name, "is a single value. Expected rows.");
+  return all.front();
+}
+
 std::size_t File::checked_size(const std::string& name, const Shape& expected, std::size_t bytes) const {
   const Shape found = shape(name);
   bool equal = found.size() == expected.size();

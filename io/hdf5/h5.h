@@ -84,6 +84,8 @@ class File {
 
   bool has(const std::string& name) const;
   Shape shape(const std::string& name) const;
+  /// The first dimension. Throws InputError for a scalar.
+  std::size_t rows(const std::string& name) const;
   std::string unit(const std::string& name) const;                 // "" when it has none
   std::vector<std::string> names(const std::string& group) const;  // members, sorted; empty when there is no such group
   std::vector<std::string> datasets() const;                       // paths of all datasets, sorted by group and name

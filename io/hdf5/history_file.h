@@ -19,7 +19,8 @@ struct Channel {
 class History {
  public:
   History() = default;
-  /// The first channel must be "time" (s). Nothing is written yet. Throws InputError for an empty or repeated name.
+  /// The first channel must be "time" (s). Nothing is written yet. Throws InputError for another first channel and for
+  /// an empty or repeated name.
   History(std::string path, std::vector<Channel> channels);
   /// Reads a history file. Throws InputError with file and dataset.
   static History load(const std::string& path);

@@ -37,9 +37,13 @@ namespace {
 std::vector<RecordFile> named_columns(const std::string& text, const std::string& name, double dt,
                                       const std::vector<std::string>& columns) {
   TextTable table = parse_table(text, name);
-  if (recognise(text).unit == 0.0) table.names.clear();
+  const double unit = recognise(text).unit;
+  if (unit == 0.0) table.names.clear();
   std::vector<RecordFile> channels = channels_of(table, columns, name, dt);
-  for (RecordFile& file : channels) file.format = "columns", file.path = name;
+  for (RecordFile& file : channels) {
+    file.format = "columns", file.path = name;
+    if (file.unit == 0.0) file.unit = unit;
+  }
   return channels;
 }
 

@@ -10,9 +10,9 @@ namespace voussoir {
 
 struct TextTable {
   std::vector<std::vector<double>> columns;  // of the same length
-  std::vector<std::string>
-      names;            // of the columns, from the line above them; empty if the numbers of names and columns differ
-  std::string heading;  // the line above the columns
+  /// Names of the columns, from the line above them; empty if the numbers of names and columns differ.
+  std::vector<std::string> names;
+  std::string heading;        // the line above the columns
   std::size_t first_row = 0;  // line of the first numbers, from 1
 };
 

@@ -49,7 +49,7 @@ class TableReader {
   /// Index of the word in the list.
   std::size_t word(const std::string& key, const std::vector<std::string>& words, std::size_t fallback);
   std::size_t required_word(const std::string& key, const std::vector<std::string>& words);
-  /// A list of exactly `count` numbers.
+  /// A list of exactly `count` numbers. This key and those of the next two functions are required.
   std::vector<double> numbers(const std::string& key, std::size_t count, const Limits& limits = {});
   /// One number or a list of at least one.
   std::vector<double> number_list(const std::string& key, const Limits& limits = {});
@@ -73,7 +73,7 @@ class TableReader {
   std::vector<TableReader> tables(const std::string& key);
   /// Keys of this table, in the order of the file; they count as known.
   std::vector<std::string> keys();
-  /// The table under one of keys().
+  /// The table under one of keys(). The key must exist.
   TableReader member(const std::string& key, const std::string& place);
 
   /// Reads a part of the file. An error is kept for finish(), so that wrong keys of later parts are found too. If there

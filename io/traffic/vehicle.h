@@ -68,16 +68,18 @@ double vehicle_length(const Vehicle& vehicle);
 /// Width over wheels or sleepers, m; without axles over the strips.
 double vehicle_width(const Vehicle& vehicle);
 
-/// The vehicle in the opposite direction: mirrored along its length between the same first and last axle.
+/// The vehicle in the opposite direction: mirrored along its length between the same first and last axle. Distances
+/// across (y) do not change.
 Vehicle turned(const Vehicle& vehicle);
 
 /// The factor for a clear span and a cover over the crown, both in m. `cover` is measured to the top of the sleepers.
+/// Throws InputError for a span that is not above 0 and for a negative cover, if the factor is a formula.
 double dynamic_factor(const DynamicFactor& factor, double span, double cover);
 /// The factor of that name. Throws InputError with a suggestion if the vehicle does not have it.
 const DynamicFactor& factor_named(const Vehicle& vehicle, const std::string& name);
 /// The vehicle with all loads multiplied.
 Vehicle amplified(const Vehicle& vehicle, double factor);
-/// The vehicle with one axle multiplied.
+/// The vehicle with the load of one axle (from 0) multiplied. Throws InputError if there is no such axle.
 Vehicle amplified(const Vehicle& vehicle, double factor, std::size_t axle);
 
 /// The variant of that name, without variants. Throws InputError with a suggestion if there is none.

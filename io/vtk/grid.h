@@ -24,8 +24,10 @@ vtkSmartPointer<vtkUnstructuredGrid> block_grid(const Assembly& assembly, const 
 
 /// One polygon for each patch, in patch order. Cell data: opening, slip, largest_opening, largest_slip (m),
 /// normal_traction, shear_traction (Pa, tension positive), eccentricity (over the depth), utilisation, bonded (share of
-/// the area), had_bond, area (m2), block_a, block_b, component_a, component_b (−1 if the second body is not a block).
-/// Point and field data as block_grid(); the displacement of a corner is the mean of both blocks.
+/// the area), had_bond, area (m2), tie, tie_yielded (m, plastic stretch of a tie), replaced, block_a, block_b,
+/// component_a, component_b (−1 if the second body is not a block); for their meaning see PatchSnapshot. Point and
+/// field data as block_grid(); the displacement of a corner is the mean of both blocks. Throws InputError if the
+/// snapshot is of another assembly.
 vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snapshot& snapshot);
 
 /// The deformable fill: its nodes and tetrahedra in the order of FillMesh; without a fill no cells. Point data:
@@ -37,13 +39,13 @@ vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snap
 vtkSmartPointer<vtkUnstructuredGrid> fill_grid(const Assembly& assembly, const Snapshot& snapshot);
 
 /// The stones of the assembly as built, with a mode: point data mode_shape (largest displacement of a
-/// centroid or node 1), cell data mode_displacement and mode_rotation (1/m).
+/// centroid or node 1), cell data mode_displacement and mode_rotation (1/m). The mode must be of this assembly.
 vtkSmartPointer<vtkUnstructuredGrid> mode_grid(const Assembly& assembly, const Mode& mode);
 /// The same for the fill, without cell data. Throws InputError if the mode is of another fill.
 vtkSmartPointer<vtkUnstructuredGrid> mode_fill_grid(const Assembly& assembly, const Mode& mode);
 
-/// The assembly as built: no displacement, every joint closed, and bonded if its law has tension or cohesion; no stress
-/// in the fill.
+/// The assembly as built: no displacement, every joint closed, and bonded if its law is elastic or has tension or
+/// cohesion; no patches and no stress of the fill.
 Snapshot rest_snapshot(const Assembly& assembly);
 
 }  // namespace voussoir

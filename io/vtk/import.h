@@ -32,7 +32,9 @@ struct ImportOptions {
   double flatten = 1e-3;                     // share of the size of a stone up to which faces are made plane
   NotConvex not_convex = NotConvex::refuse;  // treatment of shapes beyond that
   JointSearch search = careful_search();
-  bool keep_fixed = false;  // only the stones that the file or the map fixes are fixed; `fixed` is not used
+  /// The stones that the file or the map fixes are fixed. `fixed` is used only for a surface file, if neither it nor
+  /// the map fixes a stone.
+  bool keep_fixed = false;
   std::vector<double Material::*> given;  // values of `material` that replace those of an assembly file
 };
 

@@ -20,8 +20,8 @@ class PvdSeries {
   /// Loads the frames of an existing file; without the file there are no frames. Throws InputError if it is not a .pvd.
   explicit PvdSeries(std::string path);
 
-  /// Adds a frame and writes the file. Times ascend: a frame that is not later than the previous one gets a time one
-  /// microsecond after it, so that ParaView shows the ends of stages without duration. Throws RunError.
+  /// Adds a frame and writes the file. Times ascend: a frame less than a microsecond later than the previous one gets a
+  /// time one microsecond after it, so that ParaView shows the ends of stages without duration. Throws RunError.
   void add(double time, const std::string& file);
   /// Keeps only the first `count` frames, for a restart from an earlier checkpoint, and writes the file.
   void keep_first(std::size_t count);

@@ -36,7 +36,7 @@ using Array = std::vector<T, CacheAligned<T>>;
   for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<const char*>(from) + at);
 }
 
-/// One array of the state under the name it has in a checkpoint file, e.g. "bodies/displacement".
+/// One array of the state under the name it has in a checkpoint file, e.g. "bodies/pose".
 struct NamedArray {
   std::string name;
   std::size_t columns = 1;  // row length; the number of rows is size / columns

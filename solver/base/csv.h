@@ -10,7 +10,7 @@
 
 namespace voussoir {
 
-/// Text of a table cell without a number.
+/// Value of a table cell without a number (NaN).
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A text file in memory.
@@ -45,6 +45,7 @@ class CsvReader {
   const std::vector<std::string>& columns() const { return columns_; }
   int heading_row() const { return heading_row_; }
   int row() const { return row_; }  // line in the file, from 1
+  /// The text after the present line.
   std::string_view rest() const { return rest_; }
 
   /// Moves to the next line that is neither empty nor a comment; false at the end.
@@ -75,7 +76,7 @@ class CsvReader {
   std::vector<std::string> columns_;
 };
 
-/// A small table with known columns, in any order.
+/// A small table with known columns, in any order. The file must outlive the table.
 class CsvTable {
  public:
   /// Throws InputError for an unknown or missing column, a row with too few or too many cells, or a table without rows.

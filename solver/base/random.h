@@ -1,4 +1,5 @@
-// Random number generator of the program: a seed gives the same numbers on every machine.
+// Random number generator of the program. A seed gives the same bits and uniform numbers on every machine. Normal
+// numbers use the C library (log, sin, cos) and can differ in their last digits.
 #pragma once
 #include <cmath>
 #include <cstddef>

@@ -4,16 +4,17 @@
 
 namespace voussoir {
 
-/// Path of a file or folder of the source tree ("cases/validation"). It is searched in the current folder, in the
-/// folder of the program, in the three folders above it (a build folder is in the source tree), and in share/voussoir
-/// next to the folder of the program. The Python module first searches its own folder, the four folders above it, and
-/// the prefix in which it is installed. Throws RunError with the searched folders.
+/// Path of a file or folder of the source tree ("cases/validation"). It is searched in this order: the current folder,
+/// share/voussoir next to the folder of the program, the folder of the program, and the three folders above it (a build
+/// folder is in the source tree). The Python module searches its own folder, the four folders above it and
+/// share/voussoir in the prefix in which it is installed directly after the current folder. Throws RunError with the
+/// searched folders.
 std::string shipped(const std::string& path);
 
-/// Absolute path of a library that the program loads ("libvoussoir_mesher.so"). It is searched in the folder of the
-/// program, in the folder above it (for test programs), and in lib/voussoir next to the folder of the program (or
-/// lib/x86_64-linux-gnu/voussoir on systems with such folders). The Python module first searches its own folder, the
-/// two above it, and the prefix in which it is installed. The current folder is not searched because loaded code is
+/// Absolute path of a library that the program loads ("libvoussoir_mesher.so"). It is searched in this order:
+/// lib/voussoir next to the folder of the program (or lib/x86_64-linux-gnu/voussoir on systems with such folders), the
+/// folder of the program, and the folder above it (for test programs). The Python module first searches its own folder,
+/// the two above it, and the prefix in which it is installed. The current folder is not searched because loaded code is
 /// executed. Throws RunError with the searched folders.
 std::string shipped_library(const std::string& name);
 

@@ -5,7 +5,8 @@
 
 namespace voussoir {
 
-/// The known word nearest to `word` (edit distance with transpositions, at most a third of its length), or empty.
+/// The known word nearest to `word`, or empty if none is near enough. The edit distance with transpositions is at most
+/// a third of the length of `word`, and at least 1 is allowed.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 /// ": did you mean 'X'?" or ": expected one of: A, B, C".
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);

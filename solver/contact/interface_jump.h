@@ -18,6 +18,7 @@ struct InterfaceJump {
   }
 };
 
+/// The jump of a patch in the present placement of its stone and its nodes.
 InterfaceJump interface_jump(const Model& model, const State& state, const InterfacePatch& patch);
 
 /// Elastic jump at point `i` of the patch in a slot, m; zero if it is open. Shear beyond the cone is reduced to it, as

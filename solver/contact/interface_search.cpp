@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/neighbours.h"
+#include "solver/base/error.h"
 #include "solver/base/parallel.h"
 #include "solver/contact/interface_change.h"
 #include "solver/contact/interface_jump.h"
@@ -153,8 +154,8 @@ class InterfaceSearch {
 
   double least_area() const { return least_face_share * model_.typical_size * model_.typical_size; }
 
-  /// The old patch with another outline. It keeps what its corners have moved across the face, and, along the face, the
-  /// mean elastic part of that: no plastic slip is left, and the tractions are as before.
+  /// The old patch with another outline. It keeps what its corners have moved across the face, less the mean opening by
+  /// dilation, and, along the face, the mean elastic part: no plastic jump is left, and the tractions are as before.
   InterfacePatch moved_patch(std::size_t slot, const InterfaceJump& j, const Overlap& now) const {
     const InterfacePatch& old = state_.interface.patches[slot];
     InterfacePatch patch = old;
@@ -165,8 +166,9 @@ class InterfaceSearch {
     const Vec3 own =
         Eigen::Quaterniond(old.frame[0], old.frame[1], old.frame[2], old.frame[3]) * Vec3(0.0, slid[1], slid[2]);
     for (int c = 0; c < 3; ++c) patch.slid[c] += own[c];
+    const double opened = mean_dilation(slot);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 moved(j.moved[k][0], elastic[0], elastic[1]);
+      const Vec3 moved(j.moved[k][0] - opened, elastic[0], elastic[1]);
       set_rest(j.axes, patch, k, moved);
     }
     patch.again = true;
@@ -184,6 +186,17 @@ class InterfaceSearch {
       sum += old.points[i].weight * elastic_point(model_, state_, slot, j, shape, i);
     }
     return {sum[1] / area, sum[2] / area};
+  }
+
+  /// Mean opening by dilation, m. The tractions do not know it, and the new points begin without it.
+  double mean_dilation(std::size_t slot) const {
+    const std::vector<PatchPoint>& points = state_.interface.patches[slot].points;
+    double area = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      area += points[i].weight;
+      sum += points[i].weight * state_.interface_memory.point_rest[state_.interface.point_index(slot, i, 2, 0)];
+    }
+    return sum / area;
   }
 
   /// Outline, points and place of a patch whose axes are these now.
@@ -419,6 +432,11 @@ class InterfaceSearch {
 
   /// As the stone's other patches, or the triangle's, or the first there is.
   void set_law(InterfacePatch& patch) {
+    if (state_.interface.patches.empty())
+      throw RunError(
+          "block {} touches a fill that has no joint with any stone, so the law of the contact is not known. Give the "
+          "fill at least one joint with a stone",
+          model_.block_of_body[std::size_t(patch.body)]);
     const std::span<const std::size_t> beside = slots_of(patch.triangle);
     const std::int64_t same = first_slot_of_body(patch.body);
     const std::size_t slot = same >= 0 ? std::size_t(same) : beside.empty() ? 0 : beside.front();

@@ -6,7 +6,7 @@ namespace voussoir {
 
 struct InterfaceUpdate {
   std::int64_t made = 0, clipped = 0, dropped = 0;
-  std::vector<std::int32_t> bodies, nodes;  // (of the model) with a new patch; repetitions are possible
+  std::vector<std::int32_t> bodies, nodes;  // of the model, with a new or reclipped patch; repetitions are possible
   bool changed() const { return made + clipped + dropped > 0; }
 };
 

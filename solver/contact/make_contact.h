@@ -26,10 +26,10 @@ struct Examined {
 Examined make_contact(const Model& model, const State& state, const JointsOfBodies& joints, const CellPair& cells,
                       const Convex& placed_a, const Convex& placed_b, double within);
 
-/// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force and moment that `old`
-/// (with its points and memory) carries now: always the force, and the moment as long as the new patch is wholly
-/// closed. If this needed more elastic energy than the old patch has (`energy`, J), all tractions are reduced
-/// accordingly.
+/// Sets the plastic slip of `contact`, and shifts its gap, so that it carries the elastic force that `old` (with its
+/// points and memory) carries now. It also carries the moment if the new patch is then wholly closed. If this needs
+/// more elastic energy than the old patch has (`energy`, J), all tractions are reduced accordingly. Nothing is
+/// transferred if the old normal force is not compressive.
 void carry_over(const Model& model, const State& state, const Patch& old, const Array<double>& points,
                 const PatchMemory& memory, double energy, NewContact& contact);
 

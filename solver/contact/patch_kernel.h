@@ -7,10 +7,10 @@ namespace voussoir {
 
 /// Results of the pass. Each thread collects its own, and the order of merging has no effect.
 struct PassReport {
-  bool reclip = false;      // a patch has exceeded its limit of slip or rotation
-  std::int64_t intact = 0;  // joints on the intact path
-  std::int64_t points = 0;  // joints computed point by point
-  std::int64_t contacts = 0;
+  bool reclip = false;        // a patch has exceeded its limit of slip or rotation
+  std::int64_t intact = 0;    // joints on the intact path
+  std::int64_t points = 0;    // joints computed point by point
+  std::int64_t contacts = 0;  // contacts computed
   void merge(const PassReport& other) {
     reclip |= other.reclip;
     intact += other.intact;
@@ -19,7 +19,8 @@ struct PassReport {
   }
 };
 
-/// Stored energy of the joints and contacts of a tile, J, without joints that point_patch() computes.
+/// Stored energy of the joints, contacts and patches with the fill of a tile, J, without joints that point_patch()
+/// computes.
 struct TileEnergy {
   double elastic = 0.0, branches = 0.0;
 };
@@ -49,7 +50,8 @@ struct PatchPass {
   PassReport joints(std::size_t tile) const;
   /// Computes the contacts of a tile, in these batches of eight. Call it after its joints.
   PassReport contacts(std::size_t tile, const std::int32_t* begin, const std::int32_t* end) const;
-  /// Computes the patches between the bodies of the tile and the fill. Call it after its joints.
+  /// Computes the patches between the bodies of the tile and the fill. Call it after its joints. Returns whether a
+  /// patch has slid past its limit and must be reclipped.
   bool interface(std::size_t tile) const;
 };
 
@@ -64,7 +66,8 @@ bool past_limits(const Model& model, const Patch& patch, const Jump<double>& jum
 /// jump, to the last pass.
 void follow_open_contact(State& state, std::size_t contact);
 
-/// Evaluates a joint point by point, for laws without a lane form.
+/// Evaluates a joint point by point, for laws without a lane form. `wrench`: wrench_width numbers, force (N) on body a
+/// and moment (N m) about the world's origin.
 void point_patch(const PatchPass& pass, std::size_t joint, double* wrench);
 
 }  // namespace voussoir

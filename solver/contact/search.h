@@ -12,8 +12,8 @@ struct ContactUpdate {
   std::int64_t examined = 0;  // pairs of cells examined in the narrow phase
   bool listed = false;        // whether pairs were listed again
   std::int64_t made = 0, clipped = 0, dropped = 0;
-  std::vector<std::int32_t> bodies;  // bodies with a new contact; repetitions are possible
-  std::vector<std::int32_t> nodes;   // nodes of the fill model with a new patch; repetitions are possible
+  std::vector<std::int32_t> bodies;  // bodies with a new or reclipped patch; repetitions are possible
+  std::vector<std::int32_t> nodes;   // nodes of the fill model with such a patch; repetitions are possible
   bool changed() const { return made + clipped + dropped > 0; }
   /// Whether the assignment of patches to slots has changed. Otherwise Stepper::prepare_contacts() is not necessary.
   bool moved = false;
@@ -30,7 +30,8 @@ inline double skin(const Model& model) {
 constexpr double search_share = 0.25, moved_share = 0.1, least_pair_share = 0.3;
 constexpr double list_margin = 6.0, list_distance = 2.7;
 
-/// A rotation by φ changes the quaternion by 2 sin(φ/4) ≥ φ/2.1, up to half a revolution.
+/// A rotation by φ changes the quaternion by d = 2 sin(φ/4). It moves a point at the distance r from the axis by
+/// 2 r sin(φ/2) ≤ 2 d r. The value has a small margin above 2.
 constexpr double quaternion_reach = 2.1;
 
 /// Upper bound of the motion of any point of the body, relative to the base, since its position was noted in

@@ -60,7 +60,8 @@ struct Contributions {
   std::vector<Lump> lumps;
 };
 /// The contributions of all joints, blocks, patches and elements in their order, and of the rings around all nodes.
-/// Fixed blocks have their masses.
+/// Fixed blocks have their masses. Throws InputError as fill_elements(), and for a node of the fill without a
+/// tetrahedron.
 Contributions contributions(const Assembly& assembly);
 /// Terms of one element, and of a ring from fill_rings().
 Contributions::Element shear_term(const FillElement& element);

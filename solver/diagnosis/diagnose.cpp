@@ -91,15 +91,17 @@ void set_channels_right(DiagnosisProblem& problem, const DiagnosisSettings& sett
 /// Adds candidates one by one as long as each one is accepted.
 void add_greedily(DiagnosisProblem& problem, const DiagnosisSettings& settings, SearchPoint& standing, int most,
                   const std::vector<Candidate>& candidates, std::vector<Round>& rounds, const Say& say) {
+  const auto accepted = std::size_t(std::ranges::count_if(rounds, &Round::accepted));
+  const std::size_t before = standing.fit.hypothesis.effects.size() - accepted;  // found by rounds that are not here
   for (int added = 0; added < most; ++added) {
     rounds.push_back(run_round(problem, settings, standing, candidates, say));
     Round& round = rounds.back();
     round.accepted = accepts(round, standing.fit, settings);
     if (!round.accepted) break;
     standing = adopt(problem, settings, round.trials[0], standing);
-    exchange(problem, settings, standing, rounds, say);
+    exchange(problem, settings, standing, before, rounds, say);
     const std::size_t effects = standing.fit.hypothesis.effects.size();
-    drop_superseded(problem, settings, standing.fit, rounds, say);
+    drop_superseded(problem, settings, standing.fit, before, rounds, say);
     if (standing.fit.hypothesis.effects.size() < effects) {
       const Eigen::VectorXd x = at_usual_materials(standing.fit);
       standing.origin = origin_at(problem, standing.fit.hypothesis, x);

@@ -15,7 +15,7 @@ struct DiagnosisSettings {
   double further = 3.5;          // additional margin if an effect is already present: two are rarer than one
   double certain = 12.0;         // margin for a channel fault that is corrected before the search for effects
   double consistent = 0.02;      // a model is consistent if the probability of a larger misfit is above this
-  double credible = 1e-3;        // below this probability it is not consistent, with any added effects
+  double credible = 1e-3;        // a model with added effects is accepted down to this probability
   bool detectable = true;        // compute the least detectable amounts
   int further_measurements = 3;  // number of further sensors or modes that lower them most
   bool predict = true;           // an added effect must also improve the prediction of each mode from the others

@@ -11,8 +11,9 @@
 namespace voussoir {
 
 void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& settings, Fit& current,
-                     std::vector<Round>& rounds, const std::function<void(const std::string&)>& say) {
-  for (std::size_t i = 0; i + 1 < current.hypothesis.effects.size();) {
+                     std::size_t before, std::vector<Round>& rounds,
+                     const std::function<void(const std::string&)>& say) {
+  for (std::size_t i = before; i + 1 < current.hypothesis.effects.size();) {
     const Candidate out = current.hypothesis.effects[i];
     const std::optional<Fit> less =
         fit_if_possible(problem, without(current.hypothesis, i), without(current, i), settings.iterations);
@@ -22,7 +23,7 @@ void drop_superseded(const DiagnosisProblem& problem, const DiagnosisSettings& s
     }
     say(fmt::format("  {} is no longer needed", out.full_text()));
     current = *less;
-    std::size_t accepted = 0;
+    std::size_t accepted = before;
     for (Round& round : rounds)
       if (round.accepted && accepted++ == i) {
         round.accepted = false;
@@ -79,9 +80,9 @@ std::optional<Trial> best_in_place(const DiagnosisProblem& problem, const Diagno
 
 }  // namespace
 
-void exchange(DiagnosisProblem& problem, const DiagnosisSettings& settings, SearchPoint& standing,
+void exchange(DiagnosisProblem& problem, const DiagnosisSettings& settings, SearchPoint& standing, std::size_t before,
               std::vector<Round>& rounds, const std::function<void(const std::string&)>& say) {
-  std::size_t next = 0;
+  std::size_t next = before;
   for (Round& round : rounds) {
     if (!round.accepted) continue;
     const std::size_t effect = next++;

@@ -66,7 +66,8 @@ struct LeftOutSensor {
 std::vector<LeftOutSensor> leave_out_sensors(const DiagnosisProblem& problem, const Fit& fit);
 /// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
-/// Probability that a sum of squares of n standard normal numbers is larger.
+/// Probability that a sum of squares of n standard normal numbers is larger, by the approximation of Wilson & Hilferty
+/// (1931); 1 for n <= 0.
 double chi_square_tail(double sum, int n);
 
 }  // namespace voussoir

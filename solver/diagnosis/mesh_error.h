@@ -18,12 +18,13 @@ struct MeshError {
                          // fitted
   double scatter = 0.0;  // standard deviation of the changes about `shift`
   double shape = 0.0;    // root mean square difference of shapes, share of the largest component
-  /// Modes of the coarser mesh minus those of the model, if both have them; frequencies also minus the shift.
+  /// Logarithms of frequencies (minus the shift) and values at the sensors: of the coarser mesh minus those of the
+  /// model, zero for modes that only one of them has. Other members are empty.
   ModalData difference;
 };
 
 /// The error between the coarser mesh, with a hypothesis applied at x, and the model with this response. It compares
-/// those of the lowest modes that have the same direction and order and similar frequencies; zero if there are none.
+/// those of the lowest modes that have the same direction and frequencies within about 15 %; zero if there are none.
 /// Throws the exceptions of Hypothesis::assembly() and linear_model().
 MeshError mesh_error(const CoarserMesh& coarser, const Response& response, const Hypothesis& hypothesis,
                      const Eigen::VectorXd& x, int modes);

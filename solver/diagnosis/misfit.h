@@ -10,9 +10,10 @@ struct Tail {
 };
 
 /// Probability of a misfit at least as large if the model is correct and all standard deviations are a tenth larger.
-/// (With hundreds of rows, a tenth would make noise look like an effect.) It is the smaller of the values for all rows
-/// and for the worst kind of rows (Bonferroni), so that hundreds of agreeing shape values cannot hide a few wrong
-/// frequencies. The scale of each shape is free, and also its phase if the phase is known.
+/// The standard deviations are known only to about a tenth, and with hundreds of rows an error of a tenth would make
+/// noise look like an effect. The result is the smaller of the values for all rows and for the worst kind of rows
+/// (Bonferroni), so that hundreds of agreeing shape values cannot hide a few wrong frequencies. The scale of each shape
+/// is free, and also its phase if the phase is known.
 Tail tail(const DiagnosisProblem& problem, const Fit& fit);
 /// "a misfit as large has probability 0.02 (frequencies)".
 std::string misfit_text(const Tail& tail);

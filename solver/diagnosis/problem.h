@@ -25,7 +25,8 @@ struct ErrorScale {
   double shapes = 1.0;     // of measured shapes, their phases and participation
 };
 
-/// Covariance of all rows to first order: C = own + free + structure structureᵀ, each scaled.
+/// Covariance of all rows to first order: C = own + free + structure structureᵀ. An ErrorScale scales `own` and
+/// `structure`, but not `free`.
 struct RowCovariance {
   Eigen::MatrixXd own;        // measurement, mesh, the mixing of near modes
   Eigen::MatrixXd free;       // the unknown scale of each shape (and its phase, if the phase is known)

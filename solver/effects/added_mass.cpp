@@ -41,7 +41,13 @@ void apply_added_mass(Assembly& assembly, const std::string&, const std::vector<
   const BlockSet on_deck = deck(assembly);
   const std::vector<std::size_t> elements = deck_of_fill(assembly.fill);
   double low = 1e300, high = -1e300, volume = 0.0;
-  for (const std::size_t tet : elements) volume += volume_of(assembly.fill, tet);
+  for (const std::size_t tet : elements) {
+    volume += volume_of(assembly.fill, tet);
+    for (const std::int32_t node : assembly.fill.tets[tet]) {
+      const double x = assembly.fill.nodes[std::size_t(node)].x();
+      low = std::min(low, x), high = std::max(high, x);
+    }
+  }
   for (std::size_t i = 0; i < on_deck.size(); ++i) {
     if (!on_deck[i]) continue;
     const Box box = block_box(assembly.blocks[i]);

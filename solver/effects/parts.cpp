@@ -28,10 +28,13 @@ std::string part_name(Component component, const std::string& family, int part) 
   return fmt::format("{} {}", family, part);
 }
 
+/// The number of the right abutment among the supports. It may have no infill.
 int last_support_of_infill(const Assembly& assembly) {
   int last = 0;
-  for (const Block& b : assembly.blocks)
+  for (const Block& b : assembly.blocks) {
     if (b.component == Component::infill) last = std::max(last, int(b.part));
+    if (b.component == Component::pier) last = std::max(last, int(b.part) + 2);
+  }
   return last;
 }
 

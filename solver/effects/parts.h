@@ -18,8 +18,8 @@ inline BlockSet component(const Assembly& assembly, Component c) {
 }
 
 /// Masonry parts that can be softer or stiffer than assumed: "arch 0" …, "pier 0" …, "abutment left", "abutment right",
-/// "spandrel y-", "spandrel y+", "backing"; "arches", "piers", "abutments", "spandrels" where there is more than one;
-/// "all". Only those that exist in the assembly.
+/// "spandrel y-", "spandrel y+", "spandrel internal", "backing"; "arches", "piers", "abutments", "spandrels" where
+/// there is more than one; "all". Only those that exist in the assembly.
 std::vector<std::string> masonry_parts(const Assembly& assembly);
 /// The blocks of one of them; the infill of a pier or abutment belongs to it.
 BlockSet masonry_part(const Assembly& assembly, const std::string& name);

@@ -8,8 +8,8 @@
 // are exact and no stress is accumulated (Simo 1992; de Souza Neto, Perić & Owen 2008, ch. 14). The elastic volumetric
 // strain θ = ϑ(J) − θp of a tetrahedron is replaced by the mean of its nodes' means, or plastic flow at constant
 // volume would lock (average nodal pressure: Bonet & Burton 1998; nodal mixed discretisation: Detournay & Dzik 2006).
-// It is the strain less what plastic flow has added that is averaged: all of it, or neighbours that dilate would drift
-// apart, and tearing would give energy back.
+// The mean is taken of the elastic part, not of the total strain. Otherwise neighbours that dilate would drift apart,
+// and tensile opening would return energy.
 #pragma once
 #include "solver/model/branches.h"
 #include "solver/model/fill_memory.h"
@@ -46,7 +46,7 @@ struct FillPass {
   Vec3 gravity = Vec3::Zero();                              // m/s2
   double dt = 0.0;                                          // s
   double mass_rate = 0.0;                                   // 1/s, Rayleigh
-  double local = 0.0;                                       // Cundall
+  double local = 0.0;                                       // coefficient of local damping (Cundall)
   bool loaded = false;                                      // whether the following loads act in addition to gravity
   const double *loads_from = nullptr, *loads_to = nullptr;  // N, node_width for each node, in addition to gravity; or
                                                             // null
@@ -59,11 +59,17 @@ struct FillPass {
   bool averaged = true;                   // false: standard tetrahedra, which lock; for comparison
   bool single = false;                    // strain and stress in single precision, for time steps of an earthquake
 
+  /// Round 1: sums κ V θ of the tetrahedra of a tile about their nodes. It does nothing without `averaged`.
   void volumes(std::size_t tile) const;
+  /// The mean about each node of a tile (fourth number of FillMemory::pose). Call it when volumes() of this tile and of
+  /// the tiles that share its nodes are done.
   void means(std::size_t tile) const;
+  /// Round 2: stresses of the tetrahedra of a tile, which update their memory, and the sums of their nodal forces.
   FillReport stresses(std::size_t tile) const;
+  /// Moves the nodes of a tile over one time step.
   FillReport nodes(std::size_t tile) const;
 
+  /// Force on a node at present and its velocity at the next half step. Changes nothing.
   NodeUpdate update(std::size_t node) const;
   /// Loads in addition to gravity at this time step, N.
   Quad load(std::size_t node) const;

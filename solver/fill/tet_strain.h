@@ -137,7 +137,8 @@ template <class L>
            {minor(0, 1, 1, 2), minor(0, 1, 2, 0), minor(0, 1, 0, 1)}}};
 }
 
-/// Whether any of the eight has ever yielded. If not, their plastic memory is zero and need not be read.
+/// Whether any of the eight has ever yielded or was built deformed. If not, their plastic memory is zero and need not
+/// be read.
 [[gnu::always_inline]] inline bool has_flowed(const std::uint8_t* yield) {
   std::uint64_t flags;
   std::memcpy(&flags, yield, sizeof(flags));

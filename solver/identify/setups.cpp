@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "solver/base/counted.h"
@@ -37,7 +38,7 @@ struct Member {
 struct Track {
   IdentifiedMode mode;          // shape over all channels, NaN: not known yet
   std::vector<Member> members;  // of the shape; frequency and damping may know of more setups
-  std::vector<double> frequencies, frequency_weights, dampings, damping_weights;
+  std::vector<double> frequencies, frequency_stds, dampings, damping_stds;
   int setups = 0;
 };
 
@@ -156,14 +157,10 @@ Eigen::MatrixXcd changes_of(const std::vector<Member>& members, const Eigen::Vec
 }
 
 void add_numbers(Track& track, const IdentifiedMode& mode) {
-  const auto weight = [](double deviation) {
-    const double v = variance_of(deviation);
-    return v > 0.0 ? 1.0 / v : 1.0;
-  };
   track.frequencies.push_back(mode.frequency);
-  track.frequency_weights.push_back(weight(mode.frequency_std));
+  track.frequency_stds.push_back(mode.frequency_std);
   track.dampings.push_back(mode.damping);
-  track.damping_weights.push_back(weight(mode.damping_std));
+  track.damping_stds.push_back(mode.damping_std);
   track.mode.hits = std::min(track.mode.hits, mode.hits);
   track.mode.kurtosis = std::min(track.mode.kurtosis, mode.kurtosis);
   ++track.setups;
@@ -194,30 +191,51 @@ void add(Track& track, const IdentifiedMode& mode) {
                                           std::norm(mode.shape[i]) * scale.std * scale.std);
 }
 
-/// Squares of the differences between setups over their variances, and how many there are.
-std::pair<double, int> differences(const Track& track) {
-  double sum = 0.0, weight = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < track.frequencies.size(); ++i)
-    sum += track.frequency_weights[i] * track.frequencies[i], weight += track.frequency_weights[i];
-  for (std::size_t i = 0; i < track.frequencies.size(); ++i)
-    squares += track.frequency_weights[i] * std::pow(track.frequencies[i] - sum / weight, 2);
-  return {squares, int(track.frequencies.size()) - 1};
+/// 1 over the variances; none if the standard deviation of one value is not known.
+std::vector<double> weights_of(const std::vector<double>& deviations) {
+  std::vector<double> weights;
+  for (const double deviation : deviations) {
+    const double v = variance_of(deviation);
+    if (!(v > 0.0)) return {};
+    weights.push_back(1.0 / v);
+  }
+  return weights;
 }
 
-/// The weighted mean, and a standard deviation that also holds how far the values differ.
-std::pair<double, double> mean_of(const std::vector<double>& values, const std::vector<double>& weights) {
+/// The weighted mean, and the sum of the weighted squares of the differences from it.
+std::pair<double, double> mean_and_squares(const std::vector<double>& values, const std::vector<double>& weights) {
   double sum = 0.0, weight = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) sum += weights[i] * values[i], weight += weights[i];
   const double mean = sum / weight;
   for (std::size_t i = 0; i < values.size(); ++i) squares += weights[i] * (values[i] - mean) * (values[i] - mean);
+  return {mean, squares};
+}
+
+/// Squares of the differences between setups over their variances, and how many there are. None of either if a variance
+/// is not known.
+std::pair<double, int> differences(const Track& track) {
+  const std::vector<double> weights = weights_of(track.frequency_stds);
+  if (weights.empty()) return {0.0, 0};
+  return {mean_and_squares(track.frequencies, weights).second, int(track.frequencies.size()) - 1};
+}
+
+/// The weighted mean, and a standard deviation that also contains how far the values differ. If the standard deviation
+/// of a value is not known, all have the same weight, and that of the mean is not known either.
+std::pair<double, double> mean_of(const std::vector<double>& values, const std::vector<double>& deviations) {
+  const std::vector<double> weights = weights_of(deviations);
+  if (weights.empty())
+    return {mean_and_squares(values, std::vector<double>(values.size(), 1.0)).first,
+            std::numeric_limits<double>::quiet_NaN()};
+  const auto [mean, squares] = mean_and_squares(values, weights);
+  const double weight = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double between = values.size() > 1 ? squares / weight / double(values.size() - 1) : 0.0;
   return {mean, std::sqrt(1.0 / weight + between)};
 }
 
 void finish(Track& track) {
   IdentifiedMode& mode = track.mode;
-  std::tie(mode.frequency, mode.frequency_std) = mean_of(track.frequencies, track.frequency_weights);
-  std::tie(mode.damping, mode.damping_std) = mean_of(track.dampings, track.damping_weights);
+  std::tie(mode.frequency, mode.frequency_std) = mean_of(track.frequencies, track.frequency_stds);
+  std::tie(mode.damping, mode.damping_std) = mean_of(track.dampings, track.damping_stds);
   Eigen::Index largest = -1;
   for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
     if (known(mode.shape[i]) && (largest < 0 || std::abs(mode.shape[i]) > std::abs(mode.shape[largest]))) largest = i;

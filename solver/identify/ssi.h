@@ -22,7 +22,7 @@ struct SsiSettings {
   double damping_tolerance = 0.05;    // of the damping ratio of a stable pole
   double shape_tolerance = 0.02;      // 1 − MAC
   double cluster_radius = 0.05;       // largest distance() of poles of one mode
-  double least_hits = 0.25;           // share of the orders at which a mode must appear
+  double least_hits = 0.25;           // share of the orders at which a mode must be stable
   double least_mean_phase = 0.5;      // MPC
   double least_damping = 0.001;       // masonry has 0.005 and more; smaller values belong to machines
   double largest_damping = 0.2;
@@ -35,7 +35,7 @@ struct IdentifiedMode {
   Eigen::VectorXd shape_std;       // for each channel, of the complex component; NaN as above
   Eigen::MatrixXcd shape_changes;  // channels × replicates: their squares add up to the variances; 0: channel not used
   int order = 0;                   // order of its model
-  int hits = 0;                    // number of orders at which it appears
+  int hits = 0;                    // number of orders at which it is stable
   double mean_phase = 0.0;         // modal phase collinearity (Pappa et al. 1993): 1 if all points move in phase
   double kurtosis = 0.0;           // of the signal about its frequency: 3 for noise, 1.5 for a harmonic
   int stops = 0;                   // number of times it stopped faster than its damping ratio allows

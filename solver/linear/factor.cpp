@@ -58,6 +58,10 @@ bool Factor::compute(const SparseMatrix& a, double most_operations) {
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     cholesky_.analyzePattern(a);
+    if (cholesky_.cholmod().status < CHOLMOD_OK) {  // there is no factor to continue with
+      outer_.clear(), inner_.clear();
+      return false;
+    }
     outer_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1);
     inner_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   }

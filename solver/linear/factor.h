@@ -15,11 +15,12 @@ class Factor {
   /// the number of operations would exceed the limit. A core performs 13e9 to 27e9 operations per second
   /// (docs/theory/equilibrium.md).
   bool compute(const SparseMatrix& a, double most_operations = 1e300);
+  /// Whether the last compute() failed because memory was insufficient.
   bool lacked_memory();
   /// a⁻¹ x for all columns of x. Several threads may call it at the same time.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const;
   double operations() { return cholesky_.cholmod().fl; }  // known after the analysis of the pattern
-  double entries() { return cholesky_.cholmod().lnz; }
+  double entries() { return cholesky_.cholmod().lnz; }    // non-zeros of the factor, known at the same time
   double bytes() { return double(cholesky_.cholmod().memory_usage); }
 
  private:

@@ -154,7 +154,8 @@ void add_interface(const Model& model, const State& state, PatchTangent kind, Bl
       if (kind == PatchTangent::present) {
         const Vec3 u = jump.point(shape, point.s, point.t);
         const PatchMemory& memory = state.interface_memory;
-        const Triple<double> elastic = {u[0], u[1] - memory.point[interface.point_index(slot, p, 2, 0)],
+        const Triple<double> elastic = {u[0] - memory.point_rest[interface.point_index(slot, p, 2, 0)],
+                                        u[1] - memory.point[interface.point_index(slot, p, 2, 0)],
                                         u[2] - memory.point[interface.point_index(slot, p, 2, 1)]};
         d = point_tangent(model.laws[std::size_t(patch.law)], patch.kn, patch.ks, elastic,
                           memory.broken[interface.point_index(slot, p, 1, 0)]);

@@ -26,7 +26,8 @@ Mat3 point_tangent(const LawConstants& law, double kn, double ks, const Triple<d
 Mat3 composite_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken,
                        double softening, double crushed);
 
-/// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m.
+/// Generalised stiffness of one patch in its local axes, for the jump (n, s, t, θn, θs, θt): N/m, N, N m. `index`: of
+/// Model::joints, or the number of joints plus the slot of a contact. A joint that is gone has no stiffness.
 Matrix6 patch_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);
 /// Contributions of that patch to the two diagonal blocks of K, of its bodies a and b.
 std::array<Matrix6, 2> own_stiffness(const Model& model, const State& state, std::size_t index, PatchTangent kind);

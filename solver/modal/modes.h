@@ -50,16 +50,15 @@ struct Modes {
 };
 
 /// The `count` lowest modes at the present placement, and up to `extra` more if they exist. With `wrenches` the
-/// geometric stiffness is included (see add_geometric_stiffness). Throws InputError if there are fewer unknowns than
-/// modes, if no joint holds anything, or if the mass matrix of a block, which it names, is singular.
+/// geometric stiffness is included (see add_geometric_stiffness). Throws InputError if `count` is below 1, if fewer
+/// unknowns than `count` are held by something, or if the mass matrix of a block, which it names, is singular.
 Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
                  const Array<double>* wrenches = nullptr, int extra = 0);
 
 /// Direction and order of a mode, from the distribution of its kinetic energy.
 ModeWords mode_words(const Assembly& assembly, const Mode& mode);
 
-/// Modal assurance criterion |φᵀ W ψ|² / (φᵀ W φ)(ψᵀ W ψ) over the displacements of paired blocks, W their masses
-/// (Allemang 2003, eq. 4). Rows are the modes of `a`.
+/// Blocks of one assembly and their partners in another.
 struct BlockPairs {
   std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // of a, of b
   std::vector<double> mass;                                   // kg, of a's
@@ -74,6 +73,8 @@ struct BlockPlaces {
 BlockPlaces block_places(const Assembly& assembly, const Model& model);
 /// Each moving block of a with the nearest moving one of b, no farther than the larger of the two sizes.
 BlockPairs pair_blocks(const BlockPlaces& a, const BlockPlaces& b);
+/// Modal assurance criterion |φᵀ W ψ|² / (φᵀ W φ)(ψᵀ W ψ) over the displacements of paired blocks, W their masses
+/// (Allemang 2003, eq. 4). Rows are the modes of `a`, columns those of `b`.
 Eigen::MatrixXd assurance(const std::vector<Mode>& a, const std::vector<Mode>& b, const BlockPairs& pairs);
 
 }  // namespace voussoir

@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-/// exp(−x) of x ≥ 0 by its series within a factor √2 (Abramowitz & Stegun 1964, 4.2.1), to the rounding of x. The
-/// function of the library depends on the processor, so that it would not give the same bits on all processors.
+/// exp(−x) for x ≥ 0: a power of two times exp(r), |r| ≤ ½ ln 2, from its series (Abramowitz & Stegun 1964, 4.2.1). The
+/// result is accurate to rounding. std::exp is not used, because its last bits depend on the processor.
 inline double fading(double x) {
   if (x > 700.0) return 0.0;
   constexpr double log_2 = 0.693147180559945309417;
@@ -74,8 +74,9 @@ class CrushingCurve {
     if (y < 1.0) return -strength_ / width_ * y;
     return -strength_ / width_ * fading((y - 1.0) / (middle - rest));
   }
-  /// Strength in effective stress: divided by the remaining share of the stiffness.
+  /// Strength divided by the remaining share of the stiffness (effective stress), Pa.
   double effective(double crushed) const { return strength(crushed) + (1.0 - lasting) * kn_ * crushed; }
+  /// Remaining share of the stiffness at an inelastic jump (m): 1 without crushing.
   double kept(double crushed) const { return crushed > 0.0 ? strength(crushed) / effective(crushed) : 1.0; }
 
  private:

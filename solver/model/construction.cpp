@@ -140,8 +140,10 @@ class Planner {
     for (const Item& item : items) low = std::min(low, item.low), high = std::max(high, item.high);
     const int lifts = step.lift > 0.0 ? std::max(1, int(std::ceil((high - low) / step.lift - 1e-9))) : 1;
     std::vector<std::vector<Item>> by_lift{std::size_t(lifts)};
-    for (const Item& item : items)
-      by_lift[std::size_t(std::clamp(int((item.z - low) / (high - low) * lifts), 0, lifts - 1))].push_back(item);
+    for (const Item& item : items) {
+      const int at = high > low ? int((item.z - low) / (high - low) * lifts) : 0;
+      by_lift[std::size_t(std::clamp(at, 0, lifts - 1))].push_back(item);
+    }
     std::erase_if(by_lift, [](const auto& lift) { return lift.empty(); });
     for (std::size_t i = 0; i < by_lift.size(); ++i) {
       const std::int32_t number = plan_.steps();
@@ -281,7 +283,8 @@ std::vector<ConstructionStep> usual_order(const Assembly& assembly, double lift)
   };
   add({"base", "pier", "abutment", "infill", "wall", "block"}, lift, false);
   const double bottom = bottom_of(assembly, {Component::arch, Component::backing});
-  if (any_below(assembly, bottom)) add({"backfill", fill_name}, lift, false, bottom);
+  const bool vaulted = there.contains("arch") || there.contains("backing");
+  if (vaulted && any_below(assembly, bottom)) add({"backfill", fill_name}, lift, false, bottom);
   add({"arch"}, 0.0, true);
   add({"backing"}, 0.0, false);
   if (there.contains("arch")) {

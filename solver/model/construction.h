@@ -21,9 +21,10 @@ struct ConstructionPlan {
   std::int32_t steps() const { return std::int32_t(labels.size()); }
 };
 
-/// The usual construction sequence of a bridge with these components: supports with their infill in lifts, vaults on
-/// centering, backing, centering struck, spandrel walls and fill in lifts, parapets. Stones of other components come
-/// first, and the restraints of the ends last.
+/// The usual construction sequence of a bridge with these components: supports with their infill in lifts, the fill
+/// below the lowest point of the vaults, vaults on centering, backing, centering struck, spandrel walls and fill in
+/// lifts, parapets. Stones of other components come first, and the restraints of the ends last. `lift`: largest height
+/// of a lift, m; 0: no lifts.
 std::vector<ConstructionStep> usual_order(const Assembly& assembly, double lift);
 
 /// Throws InputError for an unknown name, a step that adds or strikes nothing, parts that no step adds, centering that

@@ -1,10 +1,10 @@
 // Interface between the fill and the stones. Each overlap of a face of a stone with a triangle of the surface of the
 // fill is a patch. One side is the rigid stone, and the other side deforms with the triangle (docs/theory/fill.md).
 //
-// The local axes (n, s, t) and the origin are fixed to the stone. The jump at a point p is Σ N_k(p) d_k, with d_k what
-// the triangle's corner k has moved in those axes since the patch was made: affine over the patch. The traction acts on
-// the point of the triangle, on the stone as on the nodes, so that force and moment balance at any placement and the
-// work is that on the jump.
+// The local axes (n, s, t) and the origin are fixed to the stone. The jump at a point p is Σ N_k(p) d_k. d_k is the
+// displacement of corner k of the triangle in those axes since the patch was made, so that the jump is affine over the
+// patch. The traction on the stone and the traction on the nodes both act at the point of the triangle. Force and
+// moment therefore balance at any placement, and the work of the tractions is their work on the jump.
 #pragma once
 #include <vector>
 

@@ -38,6 +38,7 @@ struct Body {
   /// Whether displacement (c < 3) or rotation c is prescribed.
   bool held(int c) const { return fixed && !(c < 3 ? free_ways >> c & 1 : turns); }
   bool still() const { return fixed && free_ways == 0 && !turns; }
+  void hold() { fixed = true, free_ways = 0, turns = false; }  // also where a guide leaves it free
 };
 
 /// Geometry of one patch for the point-by-point path. The local axes (n, s, t) are fixed to both bodies: e_a and e_b
@@ -129,7 +130,7 @@ inline std::int32_t most_corners(std::int32_t rows) {
   return std::max(4, (rows - 1) / 2);
 }
 
-/// A patch between a body and a triangle of the fill's surface, see solver/fill/interface.
+/// A patch between a body and a triangle of the fill's surface, see solver/model/interface.h.
 struct InterfacePatch {
   std::int32_t body = 0, cell = 0, face = 0;
   std::int32_t triangle = 0;       // of FillMesh::triangles
@@ -172,7 +173,7 @@ CellPair cells_of(const Patch& patch);
 /// positions only with joints of the same tile and shape, so that batches keep their rows of points and corners.
 struct JointPlace {
   std::int32_t now = 0, first = 0;
-  std::int32_t shape = 0;  // 0: a rectangle; else its corners
+  std::int32_t shape = 0;  // 0: a rectangle; else the number of its corners
 };
 
 struct Model {
@@ -217,7 +218,8 @@ struct Model {
   };
   std::vector<Matter> matter;             // per body
   std::vector<std::int32_t> contact_law;  // per body: the law of an unbonded contact with its own friction
-  double typical_size = 0.0;              // m, median over bodies of volume^(1/3)
+  /// m, median over the free bodies of volume^(1/3); of an average tetrahedron if only the fill can move.
+  double typical_size = 0.0;
   /// Square of the slip past which a patch is clipped again, m2. For small patches it is that of a patch with a quarter
   /// of the size of a block.
   double slip_limit2(double area) const {
@@ -226,7 +228,9 @@ struct Model {
   double least_slip_area() const { return 0.0625 * typical_size * typical_size; }
   /// Square of the rotation φ past which a patch is clipped again, measured as |2 sin(φ/2)|.
   double turn_limit2() const { return contact.reclip_angle * contact.reclip_angle; }
-  double average_weight = 0.0;  // N, of a free block under the gravity of the case, or 9.81 m/s2 without gravity
+  /// N, average over the free bodies (over the tetrahedra if only the fill can move), under the gravity of the case,
+  /// or 9.81 m/s2 without gravity.
+  double average_weight = 0.0;
   ContactSettings contact;
   Vec3 gravity = Vec3::Zero();
   Vec3 up = Vec3::Zero();  // against gravity; zero without
@@ -240,8 +244,9 @@ std::int32_t common_law(const PatchBatch& batch);
 /// Whether any lane of a batch joins a body of Model::still.
 bool touches_still(const Model& model, const JointBatch& batch);
 
-/// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError if no block can move or a
-/// joint has no stiffness.
+/// Builds the model of a finished assembly (blocks, joints, laws all set). Throws InputError if nothing can move (no
+/// free block and no fill), a joint has no stiffness, or a tie does not have 4 corners. It also throws the errors of
+/// construction_plan(), build_fill(), interface_patches() and of the number of points per side.
 Model build_model(const Assembly& assembly, const SolverSettings& settings);
 
 }  // namespace voussoir

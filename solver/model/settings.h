@@ -176,7 +176,7 @@ struct ModalSettings {
 
 struct OutputSettings {
   double checkpoint_every = 5.0;   // s of simulated time
-  double checkpoint_wall = 600.0;  // s of wall time
+  double checkpoint_wall = 600.0;  // s of wall-clock time
   double fields_every = 0.5;       // s of simulated time; 0: only at the end of stages
   double history_every = 0.005;    // s of simulated time
   int gravity_modes = 3;           // number of periods of a bridge in the report of a gravity stage; 0: none

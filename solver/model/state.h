@@ -37,6 +37,8 @@ struct PatchMemory {
   Array<double> largest;  // 2 a patch: opening, slip (m); of a tie its stretch (m) and tension (Pa)
   Array<double> energy;   // 3 a patch: friction, fracture, work done on the branches point by point (J)
   Array<float> last;      // 6 a patch: jump at the last pass (m, rad)
+  /// Sets the tables to this size and all their values to zero, and removes the memory of the branches. Does not
+  /// change `point_crush` and `last`.
   void resize(std::size_t patches, std::size_t batches, std::size_t points);
 };
 

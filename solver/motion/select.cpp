@@ -146,6 +146,8 @@ void try_exchanges(const SelectionProblem& p, const Products& products, Best& be
   while (tried < double(p.tries)) {
     Set set = random_set(p, random);
     double score = products.best_within_factors(set);
+    best.add(score, set);
+    ++tried;
     for (bool better = true; better && tried < double(p.tries);) {
       better = false;
       Set next;

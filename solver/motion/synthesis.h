@@ -35,15 +35,18 @@ double ground_spectrum(double omega, double ground_omega, double ground_damping)
 /// end. `rise` and `strong` are times in s.
 double jennings_envelope(double t, double rise, double strong, double duration);
 
-/// Throws InputError when peak, duration, frequency, bandwidth or dt is not positive, no axis is chosen, or there would
-/// be more than a million samples. These are all possible errors of a synthetic motion; the motion is not made.
+/// Throws InputError when peak (without a spectrum), duration, frequency, bandwidth or dt is not positive, no axis is
+/// chosen, 0 < rise <= strong < 1 does not hold, dt is above 0.1 s, or the samples are fewer than 20 or more than a
+/// million; with a spectrum also as check_target(). These are all possible errors of a synthetic motion; the motion is
+/// not made.
 void check_synthetic(const SyntheticSettings& settings);
 
 /// Sum of cosines with Gaussian coefficients, enveloped, baseline-corrected (zero velocity at the end) and scaled to
-/// the peak. The program has its own random number generator, so a seed gives the same motion on every machine. With a
-/// spectrum, the amplitudes of the Fourier components are repeatedly multiplied by target over response at their
-/// periods, with constant phases (Gasparini & Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Costs
-/// n log n. Throws InputError as check_synthetic() does.
+/// the peak. The program has its own random number generator, so a seed gives the same motion on every machine, up to
+/// the last digits of the mathematical functions (solver/base/random.h). With a spectrum, the amplitudes of the Fourier
+/// components are repeatedly multiplied by target over response at their periods, with constant phases (Gasparini &
+/// Vanmarcke 1976): from 0.04 s to 4 s, or to a third of the duration. Costs n log n. Throws InputError as
+/// check_synthetic() does.
 GroundMotion synthesize(const SyntheticSettings& settings);
 
 }  // namespace voussoir

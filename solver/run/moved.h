@@ -13,13 +13,13 @@ struct Standing {
   Array<double> pose;
   Array<std::uint8_t> joint_mode;  // of Model::joints; a stage without simulated time does not change their order
   std::vector<Patch> contacts;     // the closed contacts
-  bool drawn = true;               // true: joint displacements count from the drawn geometry; false: from the position
-                                   // where the joint was made
+  bool drawn = true;               // true: joint displacements count from the placement `pose`; false: from that in
+                                   // which the joint was made
 };
 Standing standing_of(const State& state);
 
 /// Free bodies that have moved away, the farthest first. A body counts if the two faces of one of its joints have moved
-/// relative to each other by more than 5 % of the size of the smaller stone (the cube root of its volume), or have
+/// relative to each other by more than 5 % of the size of the smaller free stone (the cube root of its volume), or have
 /// rotated by more than 3°, and if it moved more than the other stone. For a body without contact the same limits hold
 /// for its displacement relative to the base. The limits apply to single joints because the deformations of many
 /// elastic joints can add up to a large settlement.

@@ -1,6 +1,7 @@
 // Quasi-static stages: from equilibrium to equilibrium along a path of loads and driven supports
 // (docs/theory/steps.md).
 #include <algorithm>
+#include <cmath>
 
 #include "solver/base/counted.h"
 #include "solver/contact/search.h"
@@ -193,8 +194,11 @@ bool Simulation::begin_steps(const StageSettings& stage) {
   step_pattern_ = stage.moving.empty() ? one_a_point(places_.at_work(before, after)) : LoadsAtWork{};
   step_row_ = {};
   step_time_ = state_.time();
-  step_row_.multiplier = position_.stops > 0.0 ? position_.multiplier : 0.0;
-  if (position_.stops > 0.0) return true;
+  if (position_.stops > 0.0) {
+    step_row_.multiplier = position_.multiplier;
+    step_row_.force = step_row_.displacement = NAN;  // of a resumed run: not known until the next equilibrium
+    return true;
+  }
   position_.along = pattern_displacement(model_, state_, step_pattern_);
   if (equilibrium_at(stage, {}, stage.method != StageSettings::Method::newton)) return true;
   failure_ = fmt::format(
@@ -206,10 +210,13 @@ bool Simulation::begin_steps(const StageSettings& stage) {
 
 /// A path that ends before its last stop is a valid result in the last stage and a failure in earlier stages.
 RunEnd Simulation::lose(const StageSettings& stage, const Stop& from, const Stop& to) {
+  const std::string reached =
+      std::isnan(step_row_.force)
+          ? ""
+          : fmt::format(", after {:.5g} kN at {:.5g} mm", 1e-3 * step_row_.force, 1e3 * step_row_.displacement);
   const std::string text = fmt::format(
-      "stage '{}': equilibrium is lost between the shares {:.5g} and {:.5g}, after {:.5g} kN at {:.5g} mm. The run "
-      "keeps the last equilibrium",
-      stage.label, from.share, to.share, 1e-3 * step_row_.force, 1e3 * step_row_.displacement);
+      "stage '{}': equilibrium is lost between the shares {:.5g} and {:.5g}{}. The run keeps the last equilibrium",
+      stage.label, from.share, to.share, reached);
   log(text);
   if (std::size_t(position_.stage) + 1 == settings_.stages.size()) return RunEnd::finished;
   failure_ =

@@ -25,8 +25,8 @@ struct Progress {
   bool timed = true;             // false in stages that take no simulated time
   double time = 0.0, end = 0.0;  // s of simulated time, of the whole run
   double share = 0.0;            // of the whole run
-  double speed = 0.0;            // simulated over wall time
-  double left = 0.0;             // s of wall time
+  double speed = 0.0;            // simulated time over wall-clock time
+  double left = 0.0;             // s of wall-clock time, estimated
   std::string note;              // state of the iteration, or the share of patches evaluated point by point
 };
 
@@ -41,11 +41,11 @@ struct StepRow {
 
 /// One row of the history.
 struct Sample {
-  double time = 0.0;
+  double time = 0.0;  // s since the start of the run
   Energies energies;
   double balance_error = 0.0;  // error of the energy balance over its largest term so far
-  Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();
-  std::int64_t contacts = 0;
+  Vec3 base_displacement = Vec3::Zero(), base_acceleration = Vec3::Zero();  // m, m/s2
+  std::int64_t contacts = 0;          // number of contacts found during the run that exist now
   std::int64_t stage = 0;             // index in the settings
   std::vector<double> broken_shares;  // of the bonds of bonded_families()
   std::vector<Vec3> reactions;        // N, forces that hold or drive the held_groups()
@@ -55,10 +55,13 @@ struct Sample {
 };
 
 struct Observers {
+  /// Called every OutputSettings::history_every, and after each equilibrium of stages without simulated time.
   std::function<void(const Simulation&, const Sample&)> history;
+  /// Called every OutputSettings::fields_every and at the ends of stages: the state is to be written.
   std::function<void(Simulation&)> fields;
   /// Called when a stage (its index in the settings) has ended, before its end is stored.
   std::function<void(const Simulation&, std::int64_t stage)> ended;
+  /// Called when a checkpoint is due (OutputSettings) and at the ends of stages: it writes state() and position().
   std::function<void(Simulation&, bool stage_end)> checkpoint;
   /// Called at the beginning of each stage with time and then every `control_every` s of simulated time (0: at every
   /// time step). It may read the state and call Simulation::push().
@@ -102,11 +105,12 @@ class Simulation {
   void check();
   /// Restarts from a checkpoint. Call it after the arrays of the state have been read into state() and unpacked.
   void restore(const RunPosition& position);
-  /// Runs the remaining stages up to `until` (s of simulated time; negative: all stages).
+  /// Runs the remaining stages up to `until` (s of simulated time; negative: all stages). Returns `interrupted` if it
+  /// stops there or by the stop flag; another call continues the run.
   RunEnd run(double until = -1.0);
   /// Sets dead forces that act in addition to the loads of the stages in all following time steps, until the next call.
-  /// They are not part of the state: after a restart they must be set again. Throws InputError for a body that cannot
-  /// move.
+  /// They are not part of the state: after a restart they must be set again. PointLoad::body is an index of
+  /// Model::bodies. Throws InputError for a body that cannot move.
   void push(std::vector<PointLoad> forces);
   double time_step() const { return position_.dt; }  // s; 0 before the first stage with time
 

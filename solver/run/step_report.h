@@ -32,7 +32,7 @@ struct StepReport {
 /// Lists the `count` stiffest sites. Computes a critical time step for each of them and for each row of `raised`.
 StepReport report_step(const Model& model, const State& state, int count);
 
-/// The patch of a body with the largest kn A or ks A, or −1.
+/// The joint of a body with the largest kn A or ks A, as index in Model::joints, or −1.
 std::int64_t stiffest_patch(const Model& model, std::int32_t body);
 /// Smallest extent of a body along the normals of its faces, m.
 double least_thickness(const Model& model, std::int32_t body);

@@ -120,8 +120,7 @@ bool rest_stands(Stepper stepper, State state, const CollapseLoss& loss, double 
                  const RelaxationLimits& limits, double distance, const std::atomic<bool>* stop) {
   Model held = *stepper.model;
   for (std::int64_t block : loss.blocks) {
-    Body& body = held.bodies[std::size_t(held.body_of_block[std::size_t(block)])];
-    body.fixed = true, body.free_ways = 0, body.turns = false;
+    held.bodies[std::size_t(held.body_of_block[std::size_t(block)])].hold();
   }
   for (PointLoad& p : stepper.loads.points)
     if (held.bodies[std::size_t(p.body)].still()) p.from = p.to = Vec3::Zero();

@@ -98,7 +98,7 @@ Model during_step(const Model& model, std::int32_t step) {
   m.contact.search = false;
   for (std::size_t i = 0; i < m.bodies.size(); ++i) {
     const auto block = std::size_t(m.block_of_body[i]);
-    if (m.plan.block[block] > step || m.plan.free[block] > step) m.bodies[i].fixed = true;
+    if (m.plan.block[block] > step || m.plan.free[block] > step) m.bodies[i].hold();
   }
   const auto later = [&](std::int32_t of) { return of > step; };
   if (std::all_of(m.fill.step_of_law.begin(), m.fill.step_of_law.end(), later)) {

@@ -14,17 +14,18 @@ namespace voussoir {
 struct Equilibrium {
   bool converged = false;
   bool relaxed = false;    // dynamic relaxation was needed
-  bool lost = false;       // the limit of displacement was exceeded
+  bool lost = false;       // the limit of displacement was exceeded, a velocity ran away, or the motion is `hopeless`
   int iterations = 0;      // Newton
   std::int64_t steps = 0;  // iterations of the relaxation
   double residual = 0.0;   // largest out-of-balance force over the weight of an average block
   double first_residual = 0.0;
   std::string account;    // one line for the log
-  Array<double> earlier;  // of a relaxation: rows of State::pose in its second quarter or third, to find the moving
-                          // bodies
+  Array<double> earlier;  // of a relaxation: rows of State::pose after a quarter to a half of its iterations, to find
+                          // the moving bodies
 };
 
-/// Out-of-balance force and moment of every free body (N, N m), and the largest as in out_of_balance() below.
+/// Out-of-balance force and moment of all unknowns (N, N m; bodies and nodes of the fill), and the largest as in
+/// out_of_balance() below.
 struct OutOfBalance {
   Eigen::VectorXd force;
   double largest = 0.0;

@@ -15,9 +15,9 @@ struct Hinge {
   double y0 = 0.0, y1 = 0.0;  // m, range across the arch of all joints that count as this hinge, as built
 };
 
-/// Finds the hinges of arches along x, among the joints between voussoirs and between voussoirs and fixed bases: those
-/// whose rotation is at least `share` of the largest rotation and at least `least` (rad). Rotations are assumed to be
-/// small. The order is that of the joints of the assembly.
+/// Finds the hinges of arches along x, among the joints between voussoirs and between voussoirs and bases
+/// (Component::base): those whose rotation is at least `share` of the largest rotation and at least `least` (rad).
+/// Rotations are assumed to be small. The order is that of the joints of the assembly.
 std::vector<Hinge> find_hinges(const Assembly& assembly, const Snapshot& snapshot, double share = 0.1,
                                double least = 1e-3);
 

@@ -7,8 +7,8 @@
 
 namespace voussoir {
 
-/// Condition of a patch: open (no force), bonded (whole bond), cracked (part of the bond is lost), closed (no bond, no
-/// sliding), or sliding (shear at its capacity).
+/// Condition of a patch: open (no force), bonded (whole bond), cracked (part or all of its first bond is lost), closed
+/// (never had a bond, no sliding), or sliding (shear at its capacity).
 enum class JointCondition { open, bonded, cracked, closed, sliding };
 /// The name: "open" …
 const char* condition_word(JointCondition condition);

@@ -14,7 +14,8 @@ struct Machine {
   double stiffness = 0.0;  // 1/m; chosen by brace()
   double multiplier = 0.0;
 
-  /// Chooses the stiffness of the spring for a relaxation (`model`, M ≥ K): a quarter of the stiffness of the loaded
+  /// Chooses the stiffness of the spring for a relaxation. relax() has given `model` an inertia M ≥ K in its fictitious
+  /// time, so that the inertia stands for the stiffness. The spring has a quarter of the stiffness of the loaded
   /// body or node with the least stiffness for its load. It increases the inertia of the loaded bodies and nodes
   /// accordingly: (Σ wᵢ uᵢ)² ≤ Σ |wᵢ| uᵢ², with Σ |wᵢ| = 1.
   void brace(Model& model);

@@ -22,7 +22,7 @@ struct MexeInput {
 /// All intermediate values and the axle load.
 struct MexeResult {
   double fill = 0.0, total = 0.0;         // m, h and d + h as used in the calculation
-  double provisional = 0.0;               // t, PAL
+  double provisional = 0.0;               // t, PAL, at most 70
   double span_rise_ratio = 0.0;           // L / r_c
   double quarter_ratio = 0.0;             // r_q / r_c
   double span_rise = 1.0, profile = 1.0;  // F_sr, F_p

@@ -7,8 +7,9 @@ namespace voussoir {
 
 /// Force of a patch on its block a. The force on block b is the opposite.
 struct PatchForce {
-  Vec3 force = Vec3::Zero();         // N
-  Vec3 moment = Vec3::Zero();        // N m, about the origin of the world
+  Vec3 force = Vec3::Zero();   // N
+  Vec3 moment = Vec3::Zero();  // N m, about the origin of the world
+  // Both are 0 for ties and patches without force.
   double shear_capacity = 0.0;       // N, see make_snapshot.h
   double largest_compression = 0.0;  // Pa, at an integration point or corner; positive
 };

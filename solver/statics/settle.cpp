@@ -47,18 +47,18 @@ Settled settle(Stepper& stepper, double tolerance, const std::atomic<bool>* stop
     again = settled.equilibrium.lost;
     if (again)  // something has moved far: what falls freely waits until the rest stands
       for (std::int32_t body : falling(standing, state, before, 0.5 * far)) {
-        standing.bodies[std::size_t(body)].fixed = true;
+        standing.bodies[std::size_t(body)].hold();
         ++falls[std::size_t(body)];
       }
     if (settled.equilibrium.converged)
       for (std::size_t body = 0; body < falls.size(); ++body) {
-        if (!standing.bodies[body].fixed || falls[body] == 0 || falls[body] >= chances) continue;
-        standing.bodies[body].fixed = false;  // it may land on what stands now
+        if (!standing.bodies[body].still() || falls[body] == 0 || falls[body] >= chances) continue;
+        standing.bodies[body] = model->bodies[body];  // it may land on what stands now
         again = true;
       }
   }
   for (std::size_t body = 0; body < falls.size(); ++body)
-    if (falls[body] > 0 && standing.bodies[body].fixed) settled.falling.push_back(std::int32_t(body));
+    if (falls[body] > 0 && standing.bodies[body].still()) settled.falling.push_back(std::int32_t(body));
   settled.equilibrium.steps = steps;
   stepper.model = model;
   stepper.prepare();

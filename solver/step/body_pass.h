@@ -66,7 +66,7 @@ struct BodyPass {
   const std::vector<Energies>* energies = nullptr;  // of each tile, if they were computed in advance for a sample
   double dt = 0.0;                                  // s
   double mass_rate = 0.0;                           // 1/s, Rayleigh
-  double local = 0.0;                               // Cundall
+  double local = 0.0;                               // coefficient of local damping (Cundall)
   bool looks = false;                               // whether displacements are checked at the end of the time step,
                                                     // see BodyReport
   const Array<std::int32_t>* drive = nullptr;       // of each body: index in drive_velocity, or -1; empty: none

@@ -13,8 +13,8 @@ namespace voussoir {
 /// the order of the enumeration. The joints between a leaf and its infill form a separate family.
 std::string joint_family(Component a, Component b);
 
-/// Families with joints that began with tensile strength or cohesion, in the order of the enumeration; those within a
-/// component first.
+/// Families with joints that began with a bond (tensile strength or cohesion, or an elastic law), in the order of the
+/// enumeration; those within a component first.
 std::vector<std::string> bonded_families(const Assembly& assembly);
 
 /// Lost share of the bond of each family of joints.

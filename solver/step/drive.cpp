@@ -78,10 +78,17 @@ void check_against_guide(const StageSettings& stage, const Drive& drive, const G
 
 void check_drives(const Assembly& assembly, const std::vector<StageSettings>& stages,
                   const std::vector<Guide>& guides) {
+  const auto share_a_block = [&](const std::string& driven, const std::string& guided) {
+    const auto one = assembly.groups.find(driven), other = assembly.groups.find(guided);
+    if (one == assembly.groups.end() || other == assembly.groups.end()) return false;  // refused elsewhere
+    return std::ranges::any_of(one->second, [&](std::int64_t block) {
+      return std::ranges::find(other->second, block) != other->second.end();
+    });
+  };
   for (const StageSettings& stage : stages)
     for (const Drive& drive : stage.drives)
       for (const Guide& guide : guides)
-        if (guide.group == drive.group) check_against_guide(stage, drive, guide);
+        if (share_a_block(drive.group, guide.group)) check_against_guide(stage, drive, guide);
   for (const StageSettings& stage : stages) {
     std::set<std::int64_t> driven;
     for (const Drive& drive : stage.drives)

@@ -28,8 +28,8 @@ void apply_guides(const Assembly& assembly, const std::vector<Guide>& guides, Mo
 /// Names of the groups that consist of fixed blocks only, including guided and driven ones, in alphabetical order.
 std::vector<std::string> names_held(const Assembly& assembly);
 
-/// The same for placements. They need free blocks and a stage that begins at rest (the first, or one after a stage
-/// without simulated time).
+/// Throws InputError if a stage places an unknown group or a fixed block, or does not begin at rest: it must be the
+/// first stage or follow a stage without simulated time.
 void check_placements(const Assembly& assembly, const std::vector<StageSettings>& stages);
 
 }  // namespace voussoir

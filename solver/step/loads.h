@@ -1,4 +1,5 @@
-// Dead loads of a stage: an acceleration of all free blocks and forces on groups of them.
+// Loads of a stage in addition to gravity: an acceleration of all free blocks and of the fill, forces on groups of
+// blocks, pressures on the road, and loads that move along it.
 #pragma once
 #include <memory>
 
@@ -19,7 +20,7 @@ struct PointLoad {
 
 /// Loads in addition to gravity. Each load changes from one value to another as `share` goes from 0 to 1.
 struct LoadsAtWork {
-  Vec3 acceleration_from = Vec3::Zero(), acceleration_to = Vec3::Zero();  // m/s2, on all free bodies
+  Vec3 acceleration_from = Vec3::Zero(), acceleration_to = Vec3::Zero();  // m/s2, on free bodies and the fill
   std::vector<PointLoad> points;                                          // by body
   Array<std::int32_t> first;           // point load of each body, and one past the end; empty: no point loads
   Array<double> nodes_from, nodes_to;  // N, node_width a node of the fill; empty: none
@@ -38,9 +39,9 @@ double eased(double time, double duration);
 
 /// `loads` together with the moving loads at `time` (s) after the beginning of their stage.
 Loads with_moving(Loads loads, const std::vector<MovingLoad>& moving, double time);
-/// Number of equal time intervals into which a stage of this duration (s) divides its moving loads. A load is at its
-/// exact position at the ends of each interval; in between, the program distributes it to the two positions. Its sum
-/// and moment are therefore exact at any time.
+/// Number of equal time intervals into which the way of the moving loads of a stage of this duration (s) is divided. A
+/// load is at its exact position at the ends of each interval. In between, the program distributes it to the two
+/// positions, so that its sum and moment are exact at any time.
 std::int64_t parts_of_way(const std::vector<MovingLoad>& moving, double duration);
 
 /// Loads at the end of a stage: its own loads, or those of an earlier stage that remain.
@@ -50,9 +51,9 @@ Loads loads_after(const std::vector<StageSettings>& stages, std::size_t stage);
 class LoadPlaces {
  public:
   LoadPlaces(const Assembly& assembly, const Model& model) : assembly_(&assembly), model_(&model) {}
-  /// Throws InputError for a group that does not exist, that contains a fixed block, or that has more than one block if
-  /// the force acts at a point, and for a road load outside the road. Forces on a group are distributed in proportion
-  /// to mass, pressures on the road according to their position (RoadShare).
+  /// Throws InputError for a group that does not exist, that contains a fixed block without a guide, or that has more
+  /// than one block if the force acts at a point, and for a road load beside the road. Forces on a group are
+  /// distributed in proportion to mass, pressures on the road according to their position (RoadShare).
   LoadsAtWork at_work(const Loads& from, const Loads& to) const;
 
  private:

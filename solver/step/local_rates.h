@@ -20,7 +20,7 @@ struct LocalRate {
 /// is also a bound. Nodes are bounded by the sums of the norms in their rows (Gershgorin).
 std::vector<LocalRate> local_rates(const Model& model, const State& state);
 
-/// 2/√rate: the longest stable step at that rate (s).
+/// 2/√rate: the longest stable time step (s) at that rate (1/s2). 0 for a rate of 0.
 double step_at(double rate);
 
 }  // namespace voussoir

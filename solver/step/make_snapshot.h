@@ -31,7 +31,7 @@ Vec3 relative_rotation(const Model& model, const State& state, std::int64_t bloc
 Vec3 point_velocity(const Model& model, const State& state, std::int64_t block, const Vec3& position);
 
 /// Share of the mass of all free blocks and of the fill that has moved farther than `distance` (m) relative to the
-/// base: centroids of blocks since the last gravity stage, nodes of the fill since the end of construction. A
+/// base: centroids of blocks since the last gravity stage, nodes of the fill since the assembly as built. A
 /// displacement that is not a number counts as farther.
 double fallen_share(const Model& model, const State& state, double distance);
 

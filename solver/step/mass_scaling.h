@@ -27,7 +27,7 @@ MassScaling raise_to(Model& model, const std::vector<LocalRate>& rates, double c
 MassScaling scale_mass(Model& model, const State& state, double step, double limit);
 
 /// Upper bounds of the reduction of the lowest frequencies of the intact assembly, as a share of each frequency, in
-/// ascending order of frequency. Degrees of freedom that nothing holds are left out.
+/// ascending order of frequency. Degrees of freedom that nothing holds are left out. `scaling` must be at work.
 std::vector<double> frequency_shifts(const Model& model, const State& state, const MassScaling& scaling, int count);
 
 }  // namespace voussoir

@@ -25,7 +25,7 @@ struct PatchSnapshot {
   // compression. Utilisation: shear over shear_capacity(); 0 without shear, 1 without capacity.
   double eccentricity = 0.0, utilisation = 0.0;
   double bonded = 1.0;    // bonded share of the area (0 for joints that never had a bond)
-  bool had_bond = false;  // the joint started with tensile strength or cohesion
+  bool had_bond = false;  // the joint started with tensile strength or cohesion, or is elastic
   bool tie = false;       // a bar, drawn as its strip from anchor to anchor; it does not open or slip
   double yielded = 0.0, largest_tension = 0.0;  // of a tie: plastic stretch (m); Pa, since the start
   bool replaced =
@@ -43,7 +43,7 @@ struct TetSnapshot {
 /// The deformable fill, in the order of FillMesh; empty without one.
 struct FillSnapshot {
   std::vector<Vec3> displacement;  // m, of each node since the reference placement
-  std::vector<Vec3> velocity;      // m/s
+  std::vector<Vec3> velocity;      // m/s, of each node at the last half step, including that of the ground
   std::vector<TetSnapshot> tets;
   bool empty() const { return tets.empty(); }
 };
@@ -53,7 +53,7 @@ struct Snapshot {
   Vec3 base_displacement = Vec3::Zero();     // m
   std::vector<Vec3> displacement;            // m, of the centroid of each block since the reference placement
   std::vector<Eigen::Quaterniond> rotation;  // since the reference placement
-  std::vector<Vec3> velocity;                // m/s
+  std::vector<Vec3> velocity;                // m/s, of each centroid at the last half step, likewise
   std::vector<PatchSnapshot> patches;
   FillSnapshot fill;
 };

@@ -5,7 +5,8 @@
 namespace voussoir {
 
 /// Message if `time` s of simulated time need too many time steps of `dt` s, with their number and the least wall-clock
-/// time. Empty if the number is acceptable, or if `dt` is not yet known (0).
+/// time. It begins with "is … s"; the caller writes the name of the key before it. Empty if the number is acceptable,
+/// or if `dt` is not yet known (0).
 std::string too_many_steps(double time, double dt);
 
 }  // namespace voussoir

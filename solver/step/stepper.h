@@ -77,9 +77,11 @@ struct Stepper {
   /// half step before.
   Advance advance(std::int64_t target, std::int64_t sample_every, const std::function<void(const BodyPass&)>& sample,
                   const std::atomic<bool>* stop);
-  /// Evaluates only the patches, in one thread: wrenches at the present placement (for the static solver and reports).
+  /// Evaluates only the patches and the tetrahedra of the fill, in one thread: wrenches and stresses at the present
+  /// placement (for the static solver and reports). Their memory is updated.
   PassReport patches_only();
-  /// Sets the present strains in new branches, so that the first time step does not treat the whole strain as a change.
+  /// Notes the present jumps and strains as those of the last pass, so that the first time step does not treat them as
+  /// a change. Call it after new branches were set.
   void begin_branches();
   BodyPass body_pass() const;
   /// Present positions of the still bodies, and their positions after a pass.
@@ -111,6 +113,8 @@ struct Stepper {
 /// body sums tiles and contacts, then all bodies move. It is the reference that advance() must equal bit for bit.
 void serial_step(Stepper& stepper);
 
+/// Acceleration (m/s2, world axes) of a motion at `time` (s) after its first sample: linear between the samples, zero
+/// before and after them and without a motion.
 Vec3 base_acceleration(const GroundMotion* motion, double time);
 
 }  // namespace voussoir

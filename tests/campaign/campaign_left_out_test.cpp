@@ -41,5 +41,20 @@ TEST(CampaignPlan, WhatAFolderLeavesOutStandsInThePlan) {
     EXPECT_GT(case_of(more.plan, run, folder / "camp").settings.stages[1].motion.acceleration.at(1).y(), 0.0);
 }
 
+TEST(CampaignPlan, WhatEachOfTwoFoldersLeavesOutStandsInThePlan) {
+  test::CampaignFolder folder;
+  for (const char* place : {"one", "two"}) {
+    folder.write(fmt::format("{}/three_{}.csv", place, place),
+                 "time (s), EW (g), NS (g), UD (g)\n0, 0.1, 0.2, 0.3\n0.01, 0, 0.1, 0\n0.02, 0, 0, 0.1\n");
+    folder.write(fmt::format("{}/lonely{}_EW.txt", place, place), "0 1\n0.01 2\n");
+  }
+  const std::string file =
+      folder.write("c.toml", "[campaign]\ncases = [\"column.toml\"]\nrecords = [\"one\", \"two\"]\n");
+  const std::vector<std::string> left_out = make_draft(read_settings(file)).plan.left_out;
+  ASSERT_EQ(left_out.size(), 2u);
+  EXPECT_TRUE(left_out[0].starts_with("lonelyone")) << left_out[0];
+  EXPECT_TRUE(left_out[1].starts_with("lonelytwo")) << left_out[1];
+}
+
 }  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::campaign

@@ -273,6 +273,16 @@ TEST(Arch, StandsOnButtresses) {
   EXPECT_NE(
       error_of("arch", slim).find("buttress_width = 1 m is less than the width of the springing joint in plan, 1.5 m"),
       std::string::npos);
+  GeneratorInput low = default_input(find_generator("arch"));
+  for (const auto& [key, value] : {std::pair{"embrace_angle", 200.0},
+                                   {"mean_radius", 10.0},
+                                   {"thickness", 1.5},
+                                   {"buttress_width", 8.0},
+                                   {"buttress_height", 1.0}})
+    low.values[key] = value;
+  EXPECT_NE(error_of("arch", low).find("slopes down by 1.41 m over this width, but its top course is 1 m high"),
+            std::string::npos)
+      << error_of("arch", low);
 }
 
 }  // namespace VOUSSOIR_FILE

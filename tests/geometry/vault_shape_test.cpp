@@ -234,5 +234,14 @@ TEST(SectionLimits, LeaveWhatIsOutsideVaultsSupportsAndDeck) {
   }
 }
 
+/// The radius of a semicircle, (a² + a²)/(2 a), may be rounded to less than a.
+TEST(VaultShape, OfASemicircleHasItsLengthWhateverTheSpan) {
+  for (int cm = 100; cm <= 2000; ++cm)
+    for (const char* shape : {"segmental", "pointed"}) {
+      const double span = 0.01 * cm, length = intrados_length(vault(shape, span, 0.5 * span));
+      ASSERT_NEAR(length, 0.5 * pi * span, 1e-6 * span) << shape << " of " << span;
+    }
+}
+
 }  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -203,6 +203,10 @@ TEST(AgencyFormats, TablesOfAfadAndCwa) {
   EXPECT_EQ(parse_channels(cwa, "r").at(0).station, "ABC");
   expect_recording("one.txt", afad, 1e-7);
   expect_recording("two.txt", cwa, 1e-5);
+  // The unit of the format holds for columns that the user names, too.
+  const std::vector<RecordFile> named = parse_channels(afad, "r", dt, {"y", "x", "z"});
+  ASSERT_EQ(named.size(), 3u);
+  for (const RecordFile& file : named) EXPECT_EQ(file.unit, parse_channels(afad, "r").at(0).unit);
   EXPECT_TRUE(says(fault(afad + "1 2\r\n"), "2 columns, but 3 in the rows before"));
   EXPECT_TRUE(says(fault(afad + "1 2 3\r\n"), "44 samples, but line 4 says 43"));
 }

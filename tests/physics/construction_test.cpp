@@ -196,6 +196,17 @@ TEST(Construction, RefusesOrdersThatLeaveSomethingOut) {
 }
 
 /// The masons' order of a whole bridge puts everything somewhere, vaults on centering.
+/// A retaining wall: no vault, and a fill that lies on one level only.
+TEST(Construction, TheUsualOrderHoldsForAWallWithFill) {
+  Assembly assembly = stone();
+  add_box(assembly, {-1, 0, -1}, {3, 1, 0}, true);
+  add_box(assembly, {-1, 0, 0}, {0, 1, 1});
+  assembly = filled(std::move(assembly), box_mesh({0, 0, 0}, {2, 1, 1}, 2, 1, 1), elastic_fill(1500.0, 80e6, 50e6), 1e9,
+                    0.4e9, dry_law(0.6));
+  const ConstructionPlan plan = construction_plan(assembly, ConstructionSettings{{}, 2.0});
+  EXPECT_GE(plan.steps(), 2);
+}
+
 TEST(Construction, TheUsualOrderHoldsForBridges) {
   for (const char* name : {"cs1", "cs2"}) {
     const Assembly assembly = generated(name, {{"block_scale", 3.0}});

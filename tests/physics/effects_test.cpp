@@ -469,5 +469,30 @@ TEST(Effects, AskedWronglySayWhatIsRight) {
   holds(message("retrofit_ties", "pier 0", {{"depth", 30.0}}), "at 30 m below their top. Choose another depth");
 }
 
+/// Infill has the number of its support. An abutment without infill does not take that of the last pier.
+TEST(Parts, InfillBelongsToItsSupport) {
+  const Generator& generator = find_generator("bridge");
+  GeneratorInput in = default_input(generator);
+  in.entries["span"] = 2, in.entries["pier"] = 1;
+  const Keys keys = keys_of(generator, in);
+  for (const Parameter& p : keys.parameters) in.values.try_emplace(p.name, p.value);
+  for (const Choice& c : keys.choices) in.choices.try_emplace(c.name, c.words.front());
+  in.values["block_scale"] = 2.0;
+  in.choices["pier.1.makeup"] = in.choices["abutment.left.makeup"] = "leaf";
+  in.choices["abutment.right.makeup"] = "solid";
+  in.values["pier.1.thickness"] = 3.0;
+  const Assembly assembly = generator.build(in);
+  const auto infill = [&](const std::string& part) {
+    const BlockSet blocks = masonry_part(assembly, part);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      count += blocks[i] && assembly.blocks[i].component == Component::infill;
+    return count;
+  };
+  EXPECT_GT(infill("abutment left"), 0u);
+  EXPECT_GT(infill("pier 0"), 0u);
+  EXPECT_EQ(infill("abutment right"), 0u);
+}
+
 }  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

@@ -1,4 +1,5 @@
 // Patches between stones and fill that slide on, run off an edge, or come to be.
+#include "solver/contact/interface_jump.h"
 #include "solver/contact/interface_search.h"
 #include "tests/solver/models.h"
 #include "tools/ladder/fill_models.h"
@@ -36,7 +37,8 @@ Vec3 mean_place(const ladder::Bench& bench) {
 /// A slab of stiff fill, 1.5 × 1 × 0.4 m, on fixed stones half a metre long, from x = 0 to `end`; pressed down by its
 /// weight already.
 struct Slab : ladder::Bench {
-  Slab(double end, double friction, const Vec3& gravity) : Bench(stones(end, friction), damped(gravity)) {
+  Slab(double end, double friction, const Vec3& gravity, double dilation = 0.0)
+      : Bench(stones(end, friction, dilation), damped(gravity)) {
     for (std::size_t i = 0; i < model.fill.nodes.size(); ++i)
       ladder::move_node(state, i, {0, 0, 1500.0 * 0.4 * gravity.z() / 1e9});
     begin(1e-5);
@@ -47,12 +49,15 @@ struct Slab : ladder::Bench {
     settings.damping.ratio = 0.05, settings.damping.band = {50.0, 1000.0};
     return settings;
   }
-  static Assembly stones(double end, double friction) {
+  static Assembly stones(double end, double friction, double dilation) {
     Assembly assembly = stone();
-    for (double x = 0.0; x < end - 1e-9; x += 0.5) ladder::add_box(assembly, {x, 0, -1}, {x + 0.5, 2, 0}, true);
+    const double length = dilation > 0.0 ? end : 0.5;  // a stone that is reached anew knows nothing of dilation
+    for (double x = 0.0; x < end - 1e-9; x += length) ladder::add_box(assembly, {x, 0, -1}, {x + length, 2, 0}, true);
     const Material stiff = ladder::elastic_fill(1500.0, 80e9 / 3.0, 16e9);
+    JointLaw law = ladder::dry_law(friction);
+    law.dilation_angle = dilation;
     return ladder::filled(std::move(assembly), ladder::box_mesh({0.5, 0.5, 0}, {2, 1.5, 0.4}, 3, 2, 1), stiff, 1e9,
-                          0.4e9, ladder::dry_law(friction));
+                          0.4e9, law);
   }
 };
 
@@ -75,6 +80,29 @@ TEST(FillReclip, ASlabSlidesFromStoneToStone) {
     EXPECT_LT(std::abs(x - at), 1.1);
     EXPECT_GT(slab.state.interface_memory.largest[largest_index(place_of_slot(slot), 1)], 0.0);
   }
+}
+
+/// A slab that has slid by d without friction and has risen by d tan ψ is pressed as before when its patches get other
+/// outlines.
+TEST(FillReclip, APatchThatHasDilatedKeepsItsPressure) {
+  const double dilation = radians(5.0), slid = 0.2, risen = slid * std::tan(dilation);
+  Slab slab(6.0, 0.0, {0, 0, -9.81}, dilation);
+  for (std::size_t i = 0; i < slab.model.fill.nodes.size(); ++i)
+    ladder::move_node(slab.state, i, {slid, 0, risen - 1500.0 * 0.4 * 9.81 / 1e9});
+  const Interface& interface = slab.state.interface;
+  for (std::size_t slot = 0; slot < interface.patches.size(); ++slot)
+    for (std::size_t i = 0; i < interface.patches[slot].points.size(); ++i)
+      slab.state.interface_memory.point_rest[interface.point_index(slot, i, 2, 0)] = risen;
+  const auto energy = [&] {
+    double sum = 0.0;
+    for (std::size_t slot = 0; slot < interface.patches.size(); ++slot)
+      if (interface.used(slot)) sum += interface_energy(slab.model, slab.state, slot);
+    return sum;
+  };
+  const double before = energy(), pressure = 1500.0 * 0.4 * 9.81;
+  EXPECT_NEAR(before, 0.5 * pressure * pressure / 1e9 * 1.5, 1e-6 * before);
+  EXPECT_GT(update_contacts(slab.model, slab.state, slab.stepper.damping.branches).clipped, 0);
+  EXPECT_NEAR(energy(), before, 1e-3 * before);
 }
 
 TEST(FillReclip, ASlabRunsOffTheEdgeAndFalls) {

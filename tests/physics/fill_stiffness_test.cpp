@@ -124,5 +124,25 @@ TEST(FillStiffness, TheCriticalStepIsThatOfTheMixedModel) {
   EXPECT_NEAR(critical_step(bench.model, bench.state).step, exact, 3e-3 * exact);
 }
 
+/// Points that are open by dilation alone are pressed: their tangent is that of the intact joint.
+TEST(FillStiffness, OfAPatchThatHasDilatedIsThatOfAClosedOne) {
+  Assembly assembly = stone();
+  add_box(assembly, {0, 0, -1}, {1, 1, 0}, true);
+  Bench bench(filled(std::move(assembly), box_mesh({0, 0, 0}, {1, 1, 1}, 1, 1, 1), elastic_fill(1500.0, 266e6, 160e6),
+                     2e9, 0.8e9, dry_law(0.6)));
+  for (std::size_t i = 0; i < bench.model.fill.nodes.size(); ++i) move_node(bench.state, i, {0, 0, 1e-3});
+  const Unknowns unknowns = number_unknowns(bench.model);
+  const auto stiffness = [&](PatchTangent kind) {
+    return Eigen::MatrixXd(assemble_stiffness(bench.model, bench.state, unknowns, kind));
+  };
+  const Eigen::MatrixXd closed = stiffness(PatchTangent::intact);
+  EXPECT_GT((stiffness(PatchTangent::present) - closed).norm(), 0.1 * closed.norm()) << "open";
+  const Interface& interface = bench.state.interface;
+  for (std::size_t slot = 0; slot < interface.patches.size(); ++slot)
+    for (std::size_t i = 0; i < interface.patches[slot].points.size(); ++i)
+      bench.state.interface_memory.point_rest[interface.point_index(slot, i, 2, 0)] = 1.1e-3;
+  EXPECT_LT((stiffness(PatchTangent::present) - closed).norm(), 1e-9 * closed.norm());
+}
+
 }  // namespace VOUSSOIR_FILE
 }  // namespace voussoir::test

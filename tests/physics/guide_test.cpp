@@ -1,6 +1,7 @@
 // Guided blocks: fixed ones that may move along some axes but never turn, such as a loading beam kept level.
 #include "solver/base/error.h"
 #include "solver/run/simulation.h"
+#include "solver/statics/construction.h"
 #include "tests/solver/measured.h"
 #include "tests/solver/models.h"
 
@@ -215,6 +216,31 @@ TEST(Guide, RefusesWhatCannotBeGuided) {
   shaken.drives[0].displacement.setZero();
   shaken.drives[0].delay = 0.1;
   refused(settings, "differently from the ground ('factor', 'delay'), but a [[guide]] leaves it free along z");
+}
+
+/// A stage drives another group that has the guided block in it.
+TEST(Guide, AndDriveMeetInABlock) {
+  Assembly assembly = under_a_beam(dry_law(0.6));
+  assembly.groups["plates"] = {0, 2};
+  SolverSettings settings = guided();
+  StageSettings moved;
+  moved.kind = StageSettings::Kind::free;
+  moved.duration = 0.1;
+  moved.drives = {{"plates", Vec3::Zero(), {0, 0, 0.01}}};
+  settings.stages.push_back(moved);
+  EXPECT_THROW(Simulation(assembly, settings, 1, {}), InputError);
+}
+
+/// What has not been built yet is held, whatever a guide says.
+TEST(Guide, HoldsOnlyWhatIsBuilt) {
+  const Assembly assembly = under_a_beam(dry_law(0.6));
+  Model model = build_model(assembly, guided());
+  const auto beam = std::size_t(model.body_of_block[2]);
+  model.bodies[beam].free_ways = 4;  // along z, as the guide says
+  model.plan.block = {0, 0, 1}, model.plan.free = {0, 0, 0};
+  EXPECT_TRUE(during_step(model, 0).bodies[beam].still());
+  model.plan.block[2] = 0;
+  EXPECT_FALSE(during_step(model, 0).bodies[beam].still());
 }
 
 }  // namespace VOUSSOIR_FILE

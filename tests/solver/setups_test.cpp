@@ -120,5 +120,18 @@ TEST(Setups, DroppedChannelsAreNamed) {
   EXPECT_THROW(check_in_common({a, setup("far", numbers({8}, 9, 20), 2)}), InputError);
 }
 
+/// Two segments are too few for standard deviations.
+TEST(Setups, WithoutDeviationsHaveNone) {
+  SsiSettings settings;
+  settings.segments = 2;
+  const SsiResult result =
+      identify_modes({setup("one", numbers({2, 5, 8}, 0, 9), 1), setup("two", numbers({2, 5, 8}, 9, 20), 2)}, settings);
+  ASSERT_FALSE(result.modes.empty());
+  for (const IdentifiedMode& mode : result.modes) {
+    EXPECT_TRUE(std::isnan(mode.frequency_std)) << mode.frequency_std;
+    EXPECT_TRUE(std::isnan(mode.damping_std)) << mode.damping_std;
+  }
+}
+
 }  // namespace VOUSSOIR_FILE
 }  // namespace voussoir

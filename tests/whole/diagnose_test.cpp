@@ -233,6 +233,31 @@ TEST(Diagnose, SaysWhatIsWrongWithItsInput) {
   expect_error(run({"--measured", "hidden/measured"}), 2, {"modes.csv:2", "-0.3"});
 }
 
+/// Results beside the case: the corrected case has its assembly, and the files of the user stay as they are.
+TEST(Diagnose, KeepsTheFilesOfTheUser) {
+  const Folder folder;
+  hide(folder, {"--sensors", "rich", "--seed", "3"});
+  ASSERT_EQ(voussoir({"generate", "bridge.toml", "-o", "bridge.h5"}, {.folder = folder.path()}).status, 0);
+  const std::string text = "[bridge]\nassembly = \"bridge.h5\"\n";
+  folder.write("case.toml", text);
+  const auto run = [&] {
+    return voussoir({"diagnose", "case.toml", "--measured", "hidden/measured", "-o", ".", "--fits", "1", "--no-page",
+                     "--no-least-amounts", "--threads", "2"},
+                    {.folder = folder.path()});
+  };
+  folder.write("assembly.h5", "of another bridge");
+  expect_error(run(), 2, {"assembly.h5 exists and is not a copy", "-o"});
+  EXPECT_EQ(bytes_of(folder / "assembly.h5"), "of another bridge");
+  std::filesystem::remove(folder / "assembly.h5");
+  const Outcome outcome = run();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(bytes_of(folder / "case.toml"), text);
+  EXPECT_EQ(bytes_of(folder / "assembly.h5"), bytes_of(folder / "bridge.h5"));
+  EXPECT_FALSE(exists(folder / "corrected.new"));
+  const Outcome modal = voussoir({"modal", "corrected.toml", "-n", "1", "--no-pictures"}, {.folder = folder.path()});
+  EXPECT_EQ(modal.status, 0) << modal.err;
+}
+
 TEST(Hide, SaysWhatIsWrongWithItsInput) {
   const Folder folder;
   folder.write("bridge.toml", bridge);
@@ -244,6 +269,7 @@ TEST(Hide, SaysWhatIsWrongWithItsInput) {
   expect_error(run({"--effect", "scor"}), 2, {"'scor'", "scour"});
   expect_error(run({"--effect", "scour pier 7 x-"}), 2, {"pier 7 x-", "pier 0 x-"});
   expect_error(run({"--effect", "scour pier 0 x- lost_share=much"}), 2, {"lost_share=much"});
+  expect_error(run({"--effect", "scour pier 0 x- lost_share=0,4"}), 2, {"lost_share=0,4", "PARAMETER=NUMBER"});
   expect_error(run({"--effect", "support_motion pier 0 factor=0.5"}), 2, {"support_motion", "--shaken"});
   expect_error(run({"--effect", "sensor_fault channel A01y delay=0.01"}), 2, {"late clock", "--minutes"});
   expect_error(run({"--trace", "--minutes", "2"}), 2, {"--trace"});

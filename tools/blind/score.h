@@ -6,18 +6,20 @@ namespace voussoir {
 
 struct Outcome {
   const BlindTrial* trial = nullptr;
-  std::size_t number = 0;  // from 1
-  std::vector<std::string> effects;
-  std::string said;          // verdict and effects, in words; "failed: …"
-  double score = 0.0;        // also 0 for a failed trial
-  double probability = 0.0;  // probability of the first effect
+  std::size_t number = 0;            // from 1
+  std::vector<std::string> effects;  // the hidden effects, see TrialRun
+  std::string said;                  // verdict and effects, in words; "failed: …"
+  double score = 0.0;                // also 0 for a failed trial
+  double probability = 0.0;          // probability of the first effect
   bool wrong = false, false_alarm = true;
   bool placed = false;               // out of the library: the place is right, whatever its name
   int values = 0, values_right = 0;  // values of hidden effects that were named
   int faults = 0, faults_right = 0;  // faults of sensors
+  // Root mean square residuals, standard deviations: of the fitted data before and after the diagnosis, and of the data
+  // that were not fitted.
   double gap_before = 0.0, gap_after = 0.0, held_back = 1e9;
-  double trace = -1.0;  // see TrialRun
-  double seconds = 0.0;
+  double trace = -1.0;   // see TrialRun
+  double seconds = 0.0;  // s, wall-clock time of the trial
 };
 
 /// Smallest trace of an effect that evidence can name. A candidate pays about 5 for being one of 150 places and must

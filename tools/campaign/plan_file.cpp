@@ -195,8 +195,7 @@ void read_runs(const json& j, const std::string& path, Plan& plan) {
 void write_case(const Case& c, const PlannedCase& planned, const std::string& directory) {
   const std::string folder = directory + "/cases/" + planned.slug;
   fs::create_directories(folder);
-  write_resolved_case(c, folder);
-  if (!c.assembly_file.empty()) write_atomically(folder + "/assembly.h5", read_text(c.assembly_file));
+  write_self_contained_case(c, folder);
   write_atomically(folder + "/case.toml", text_of(portable(c)));
 }
 

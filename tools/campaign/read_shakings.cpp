@@ -82,7 +82,8 @@ std::vector<Shaking> read_selection(const std::string& path, bool correct) {
 std::vector<Shaking> read_folder(const std::string& path, const std::string& units, double dt, bool correct,
                                  std::vector<std::string>& left_out) {
   const RecordFolder folder = read_record_folder(path, {units, dt});
-  left_out = folder.left_out;
+  for (const std::string& reason : folder.left_out)
+    if (std::ranges::find(left_out, reason) == left_out.end()) left_out.push_back(reason);
   std::vector<Shaking> records;
   for (const RecordSet& set : folder.sets)
     records.push_back(

@@ -1,10 +1,10 @@
-// The table of a campaign, one row a run: what was run, what shook it, what came of it.
+// The table of a campaign. It has one row for each run, with its input, its ground motion and its results.
 //
-//   run,case,record,event,scale,sample,status,reason,seconds   texts, but for scale and seconds
-//   material.KEY                                               what was sampled, in the unit of the case
+//   run,case,record,event,scale,sample,status,reason,seconds   texts, except scale and seconds
+//   material.KEY                                               sampled value, in the unit of the case
 //   im.NAME                                                    intensity of the scaled ground motion
 //   edp.NAME                                                   demand of the structure
-//   damage.COMPONENT.MEASURE                                   damage in the end
+//   damage.COMPONENT.MEASURE                                   damage at the end
 //
 // Layout and units: docs/formats.md.
 #pragma once
@@ -47,7 +47,7 @@ struct NumberColumn {
 struct CampaignTable {
   std::string path;  // for errors
   std::vector<CampaignRun> runs;
-  std::vector<NumberColumn> columns;  // im.*, edp.*, damage.*, in the order of the file
+  std::vector<NumberColumn> columns;  // material.*, im.*, edp.*, damage.*, in the order of the file
 
   /// The column with this name, or null.
   const NumberColumn* find(std::string_view name) const;
@@ -66,8 +66,8 @@ struct CampaignTable {
 CampaignTable parse_table(const std::string& text, const std::string& path);
 CampaignTable read_table(const std::string& path);
 
-/// The table as text. parse_table() returns the same table bit for bit, except that line breaks in texts become
-/// blanks.
+/// The table as text. parse_table() returns the same table bit for bit, except that line breaks in texts become blanks
+/// and infinite numbers become NaN.
 std::string table_text(const CampaignTable& table);
 /// Writes the table in one step into an existing folder.
 void write_table(const std::string& path, const CampaignTable& table);

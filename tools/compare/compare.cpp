@@ -57,7 +57,10 @@ std::vector<std::string> short_names(const std::vector<std::string>& paths) {
     }
     if (std::set<std::string>(names.begin(), names.end()).size() == names.size()) return names;
   }
-  throw InputError("the same result is given twice: {}", paths.front());
+  std::set<fs::path> seen;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (!seen.insert(whole[i]).second) throw InputError("the same result is given twice: {}", paths[i]);
+  throw InputError("the folders {} have names that cannot be told apart. Rename one", fmt::join(paths, ", "));
 }
 
 double difference(const ComparedRow& row, std::size_t i) {

@@ -27,11 +27,11 @@ struct Study {
 /// The tables of a study as Markdown, with its title as a heading.
 std::string markdown(const Study& study);
 
-/// Order p from two computations with errors ~ h^p: ln(e1/e2) / ln(h1/h2). NaN if an error is zero.
+/// Order p from two computations with errors ~ h^p: ln(e1/e2) / ln(h1/h2). Not finite if an error is zero.
 double measured_order(double error1, double error2, double h1, double h2);
 /// "1.98", or "" if there is no order.
 std::string order_text(double order);
-/// "+0.12 %" of a relative error; three significant digits.
+/// "+0.12 %" of a relative error: three significant digits, but at most six decimals.
 std::string percent(double error);
 
 }  // namespace voussoir

@@ -27,11 +27,19 @@ bool can_remesh(const Case& c) {
   return !c.generator.empty() && c.generator_input.values.contains("block_scale");
 }
 
+/// Of what the generator allows.
+double largest_scale(const Case& c) {
+  const std::vector<Parameter> parameters = keys_of(find_generator(c.generator), c.generator_input).parameters;
+  return std::ranges::find(parameters, "block_scale", &Parameter::name)->high;
+}
+
 /// The mesh with blocks 1.25 times as large. It shows how the block size affects the modes.
 std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
   if (!can_remesh(input.c)) return nullptr;
+  const double coarser = 1.25 * input.c.generator_input.values.at("block_scale");
+  if (coarser > largest_scale(input.c)) return nullptr;
   auto mesh = std::make_shared<CoarserMesh>();
-  mesh->assembly = remeshed(input.c, 1.25 * input.c.generator_input.values.at("block_scale"));
+  mesh->assembly = remeshed(input.c, coarser);
   mesh->sensors = features_of(input.measured, mesh->assembly).sensors;
   mesh->farther = 0.5;  // the case has real stones, but the uncertainty of a mesh is at least half of that
   return mesh;
@@ -91,9 +99,10 @@ Assembly for_runs(const Case& c, Assembly assembly) {
   constexpr double most = 12000.0;
   if (!can_remesh(c)) return assembly;
   double block_scale = c.generator_input.values.at("block_scale");
-  while (double(unknowns_of(assembly)) > most) {
+  const double largest = largest_scale(c);
+  while (double(unknowns_of(assembly)) > most && block_scale < largest) {
     // Blocks per volume fall with the cube of their size.
-    block_scale *= std::max(1.05, std::cbrt(double(unknowns_of(assembly)) / most));
+    block_scale = std::min(largest, block_scale * std::max(1.05, std::cbrt(double(unknowns_of(assembly)) / most)));
     assembly = remeshed(c, block_scale);
   }
   return assembly;

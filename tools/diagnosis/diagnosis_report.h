@@ -11,11 +11,12 @@ namespace voussoir {
 struct ModeComparison {
   std::string name, direction;
   bool held_back = false;
-  double measured = 0.0, std = 0.0;                        // s
-  double before = 0.0, after = 0.0;                        // s; 0: the model has no such mode
-  double deviations_before = 0.0, deviations_after = 0.0;  // residual of the frequency, standard deviations
-  double mac_before = 0.0, mac_after = 0.0;                // not finite without a shape
-  std::string words_before, words_after;                   // of the computed mode
+  double measured = 0.0, std = 0.0;  // s
+  double before = 0.0, after = 0.0;  // s; 0: the model has no such mode
+  // Measured minus computed frequency, divided by the standard deviation of measurement and model together.
+  double deviations_before = 0.0, deviations_after = 0.0;
+  double mac_before = 0.0, mac_after = 0.0;  // not finite without a shape
+  std::string words_before, words_after;     // of the computed mode
 };
 
 struct DiagnosisResult {
@@ -29,8 +30,11 @@ struct DiagnosisResult {
   std::string corrected_text;             // text of corrected.toml
 };
 
+/// One entry for each measured mode, in order of frequency. `problem` has the standard deviations of `before`, and
+/// `judged` those of `after`.
 std::vector<ModeComparison> compare_modes(const DiagnosisProblem& problem, const Fit& before,
                                           const DiagnosisProblem& judged, const Fit& after);
+/// Layout: docs/formats.md.
 nlohmann::json diagnosis_json(const DiagnosisInput& input, const DiagnosisResult& result);
 std::string diagnosis_text(const DiagnosisInput& input, const DiagnosisResult& result);
 

@@ -112,8 +112,12 @@ ThreeSentences of_unexplained(const DiagnosisResult& result) {
     asked.push_back(nameless_text(d.nameless_best, i));
   for (std::size_t i = 0; i < std::min<std::size_t>(3, result.where_after.parts.size()); ++i)
     parts.push_back(result.where_after.parts[i].part);
-  s.next = asked.empty() ? fmt::format("Inspect {} first: there the model disagrees most.", fmt::join(parts, ", "))
-                         : fmt::format("Inspect first where stiffness or mass is missing: {}.", fmt::join(asked, "; "));
+  if (asked.empty() && parts.empty())
+    s.next = "Check the measurements and the dimensions of the case.";
+  else
+    s.next = asked.empty()
+                 ? fmt::format("Inspect {} first: there the model disagrees most.", fmt::join(parts, ", "))
+                 : fmt::format("Inspect first where stiffness or mass is missing: {}.", fmt::join(asked, "; "));
   const std::vector<const Round*> rounds = accepted_rounds(d.rounds);
   for (std::size_t i = 0; i < std::min(rounds.size(), d.best.hypothesis.effects.size()); ++i)
     s.next += fmt::format(" Before that, check for {}: {}", plain_name(d.best.hypothesis.effects[i]),

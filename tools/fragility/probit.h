@@ -20,7 +20,7 @@ enum class Identified {
   all_beyond,   // the median lies below the smallest
   one_level,    // one intensity only: a share, but no slope
   separated,    // no run below some intensity and all above it exceed the limit: no slope
-  one_mixed,    // the same, except for one level at which some do
+  one_mixed,    // the same, except for one level at which some runs exceed the limit and others do not
   falling,      // the share that exceeds the limit does not increase with the intensity
   few_demands,  // of a cloud: fewer than five demands for a line
   flat,         // of a cloud: the demand does not increase with the intensity
@@ -32,8 +32,9 @@ struct LognormalFit {
   double theta = nan, beta = nan;             // median (unit of the intensity), dispersion (of the logarithm)
   double ln_theta_std = nan, beta_std = nan;  // standard errors for independent runs
   double below = nan, above = nan;            // bounds of the median where it is not identified; NaN: none
-  Count mixed;                                // that level
-  /// The largest; where there is none, what it grows towards. NaN: falling, no runs, or one level.
+  Count mixed;                                // the level of Identified::one_mixed
+  /// The largest log-likelihood. If there is no maximum: the value that it approaches. NaN for falling, no_runs and
+  /// one_level.
   double log_likelihood = nan;
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };

@@ -1,4 +1,4 @@
-// What a reader may answer.
+// The errors that a reader may throw.
 #pragma once
 #include <new>
 
@@ -6,7 +6,7 @@
 
 namespace voussoir::fuzz {
 
-/// Does the work; an error with a text for a person is as good as a result.
+/// Does the work, and ignores InputError and RunError.
 template <class Work>
 void answer(Work&& work) {
   try {

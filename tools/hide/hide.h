@@ -1,4 +1,4 @@
-// Measurements of a bridge that has what its case lacks.
+// Artificial measurements of a bridge with effects that its case does not have.
 #pragma once
 #include "io/measured/measured.h"
 #include "tools/hide/request.h"

@@ -37,9 +37,9 @@ struct JointForce {
 /// Motion of a joint of the mechanism. The rates are scaled so that the power of the pattern is 1 W.
 struct JointRate {
   std::size_t joint = 0;
-  double opening[2] = {0.0, 0.0};  // at both ends along the in-plane direction, ≥ 0
-  double slip = 0.0;
-  bool slides() const;  // slips more than it opens by rotation
+  double opening[2] = {0.0, 0.0};  // m/s, at both ends along the in-plane direction; ≥ 0 except for rounding
+  double slip = 0.0;               // m/s
+  bool slides() const;             // slips more than it opens by rotation
 };
 
 struct LimitAnalysis {

@@ -21,6 +21,7 @@ struct Pairing {
   std::vector<std::int64_t> ours;  // our best mode for each of theirs; −1 if none reaches a MAC of 0.5
   double share = 0.0;              // share of our mass whose blocks have a partner
 };
+/// Throws InputError if less than half of our mass has a partner.
 Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs);
 /// One line for each of their modes: their frequency, ours, change, MAC, motion.
 std::string pairing_table(const ModesFile& ours, const ModesFile& theirs, const Pairing& pairing,
@@ -29,8 +30,8 @@ std::string pairing_table(const ModesFile& ours, const ModesFile& theirs, const 
 /// A period that the case expects, and the computed one.
 struct PeriodCheck {
   ExpectedPeriod expected;
-  double found = 0.0;  // s; 0: no such mode among the computed ones
-  double error() const { return found / expected.period - 1.0; }
+  double found = 0.0;                                             // s; 0: no such mode among the computed ones
+  double error() const { return found / expected.period - 1.0; }  // relative; only if found > 0
 };
 std::vector<PeriodCheck> check_periods(const std::vector<ExpectedPeriod>& expected, const std::vector<Mode>& modes);
 std::string periods_table(const std::vector<PeriodCheck>& checks);

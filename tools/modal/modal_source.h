@@ -15,7 +15,7 @@ struct ModalSource {
   PatchTangent tangent = PatchTangent::intact;
   bool damaged = false;                   // the state is that of a run, to be compared with the intact assembly
   std::optional<Array<double>> wrenches;  // forces and moments of the joints, for the geometric stiffness
-  Loads loads;                            // constant loads of the stage of a run
+  Loads loads;                            // constant loads that act in the state; none for intact joints of a case
   std::string name;                       // name of the case file or of the run directory
   std::string about;                      // "cs1-r.toml, all joints intact"
 };

@@ -6,10 +6,10 @@ namespace voussoir {
 
 /// The bridge after a passage, without the vehicle.
 struct AfterPassage {
-  double crown = 0.0;    // m, largest downward displacement of a crown since gravity
+  double crown = 0.0;    // m, displacement of the crown that moved most since gravity, downwards positive
   double opening = 0.0;  // m, largest present opening of a joint
-  double slip = 0.0;     // m, largest slip of a joint since the start
-  double slips = 0.0;    // m, mean slip of all joints, weighted by area
+  double slip = 0.0;     // m, largest present slip of a joint
+  double slips = 0.0;    // m, mean present slip of all joints, weighted by area
   double plastic = 0.0;  // mean plastic shear strain of the fill
   double largest = 0.0;  // m, largest displacement of a stone since gravity
 };

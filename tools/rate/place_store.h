@@ -5,7 +5,7 @@
 namespace voussoir {
 
 /// One file for each place. Its name is a hash of all that the result depends on: the program, the case, the assembly,
-/// the loads of the vehicle and the settings of the search.
+/// the loads of the vehicle and the settings of the search. The case and the request must outlive this object.
 class PlaceStore {
  public:
   PlaceStore(std::string folder, const Case& c, const Assembly& assembly, const RateRequest& request);

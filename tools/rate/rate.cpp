@@ -29,13 +29,35 @@ std::pair<double, double> reach(const Vehicle& vehicle) {
   return reach.first > reach.second ? std::pair(0.0, 0.0) : reach;
 }
 
+/// Whether each member of one list has its equal in the other; the order does not matter.
+template <class T>
+bool same_members(const std::vector<T>& one, const std::vector<T>& other, const auto& numbers) {
+  const auto equal = [&](const T& a, const T& b) {
+    const auto p = numbers(a), q = numbers(b);
+    return std::ranges::equal(p, q, [](double x, double y) {
+      return x == y || std::abs(x - y) <= 1e-9 * std::max({1.0, std::abs(x), std::abs(y)});
+    });
+  };
+  const auto in = [&](const std::vector<T>& list) {
+    return [&](const T& a) { return std::ranges::any_of(list, [&](const T& b) { return equal(a, b); }); };
+  };
+  return one.size() == other.size() && std::ranges::all_of(one, in(other)) && std::ranges::all_of(other, in(one));
+}
+
+/// Whether the vehicle is its own mirror image, so that it need not be rated in both directions.
 bool same_both_ways(const Vehicle& vehicle) {
   const Vehicle other = turned(vehicle);
-  for (std::size_t i = 0; i < vehicle.axles.size(); ++i)
-    if (std::abs(vehicle.axles[i].x - other.axles[i].x) > 1e-9 ||
-        std::abs(vehicle.axles[i].load - other.axles[i].load) > 1e-6)
-      return false;
-  return vehicle.strips.empty() || !vehicle.axles.empty();
+  return same_members(vehicle.axles, other.axles,
+                      [](const VehicleAxle& a) {
+                        return std::array{a.x, a.load};
+                      }) &&
+         same_members(vehicle.patches, other.patches,
+                      [](const LoadPatch& p) {
+                        return std::array{p.x, p.y, p.length, p.width, p.force};
+                      }) &&
+         same_members(vehicle.strips, other.strips, [](const LoadStrip& s) {
+           return std::array{s.from, s.to, s.y, s.width, s.pressure};
+         });
 }
 
 StageSettings collapse_stage(const RateRequest& request, const Case& c, const RatedPlace& at) {

@@ -21,7 +21,7 @@ struct RateRequest {
   std::vector<double> lanes = {0.0};      // m, y of the middle lines of the lanes
   bool both_ways = true;                  // also the reverse direction, for unsymmetric vehicles
   double step = 0.0;                      // m, distance between places; 0: a tenth of the shortest span
-  double from = -1e300, to = 1e300;       // m; only places with the middle of the axles between these x
+  double from = -1e300, to = 1e300;       // m; places with the middle of the axles between these x, before refinement
   int refinements = 2;                    // number of refinements about the worst place, each with half the distance
   double most = 30.0;                     // upper limit of the factors that are tried
   double tolerance = 0.05;                // tolerance of the factor
@@ -63,20 +63,20 @@ struct RateObservers {
   const std::atomic<bool>* stop = nullptr;  // set by a signal: the rating ends with the places that are complete
 };
 
-/// The case without the parts that must not act before a vehicle, such as a last collapse stage. Throws InputError if
-/// no remaining stage brings the bridge to rest.
+/// The case without a last collapse stage. Throws InputError if no stage remains.
 Case before_vehicles(const Case& c);
 /// The loads of a vehicle of the request on the road of the bridge, or on its strip.
 std::vector<RoadLoad> vehicle_loads(const RateRequest& request, const Case& c, std::size_t vehicle,
                                     const VehiclePlace& place);
 
-/// Index into places of the worst place of all vehicles.
+/// Index into places of the worst place of all vehicles. There must be at least one place.
 std::size_t worst_of_all(const Rating& rating);
 
-/// The vaults that carry a road, from left to right. Throws InputError if there is none.
+/// All vaults (blocks of the component arch), from left to right. Throws InputError if there is none.
 std::vector<SpanExtent> span_extents(const Assembly& assembly);
 
-/// Positions of the front of a vehicle with any of its axles over a vault, every `step` m.
+/// Positions of the front of a vehicle with any of its axles between the first and the last vault, about `step` m
+/// apart.
 std::vector<double> fronts(const Vehicle& vehicle, const std::vector<SpanExtent>& spans, bool towards_right,
                            double step);
 

@@ -12,8 +12,8 @@ class DeckLine {
   explicit DeckLine(const Assembly& assembly);                       // no stations if there is no road
   const std::vector<double>& stations() const { return stations_; }  // m, x
   static std::string channel(double station);                        // "deck/12.500"
-  /// Vertical displacements of the stations since the blocks were built, m: means over a narrow strip of the road,
-  /// weighted by area.
+  /// Vertical displacements of the stations (m, upwards positive) since the blocks were built, relative to the ground.
+  /// They are means over a narrow strip of the road, weighted by area.
   std::vector<double> displacements(const Model& model, const State& state) const;
 
  private:

@@ -8,10 +8,11 @@
 namespace voussoir {
 
 /// Points whose largest displacement is a demand: the groups of the assembly named "keystone …" (x) and "spandrel …"
-/// (y).
+/// (y). A demand is the mean displacement of the blocks of the group, relative to the base and to the state after
+/// gravity.
 struct DemandPoint {
   std::string group;
-  int axis = 0;
+  int axis = 0;  // 0, 1, 2 for x, y, z
 };
 std::vector<DemandPoint> demand_points(const Assembly& assembly);
 /// "demand/GROUP AXIS"
@@ -22,10 +23,10 @@ std::vector<std::string> shown_places(const Assembly& assembly);
 
 /// All channels, in the order of a row.
 std::vector<Channel> history_channels(const Simulation& run);
+/// The values of all channels for one sample. `deck` is used only in runs with quasi-static stages.
 std::vector<double> history_row(const Simulation& run, const Sample& sample, const DeckLine& deck);
 
-/// The channels of the rows of quasi-static stages, such as "steps/share", in the order of a row.
+/// The channels with the increments of quasi-static stages, such as "steps/share", in the order of a row.
 const std::vector<std::pair<const char*, double StepRow::*>>& step_channels();
-std::vector<double> history_row(const Simulation& run, const Sample& sample);
 
 }  // namespace voussoir

@@ -28,7 +28,9 @@ struct RunRequest {
   double fall_share = 0.0;  // the run ends when more than this share of the movable mass has fallen; 0: never
 };
 
-enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };  // late: past its time limit
+/// none: no end yet, or an error; paused: at `until`; stopped: by a signal; late: past its time limit; fallen: the
+/// bridge fell; failed: the solver failed.
+enum class SessionEnd { none, done, paused, stopped, late, fallen, failed };
 
 class RunSession {
  public:
@@ -41,7 +43,8 @@ class RunSession {
   /// Continues from the end of another run of the same assembly whose stages are the first stages of this case, and
   /// takes over its history and frames. The directory must be new. Throws InputError.
   void begin_where(const std::string& other);
-  /// Runs to the end (or `until`); returns the exit status.
+  /// Runs to the end (or `until`); returns the exit status: 1 if the run was stopped by a signal or its time limit,
+  /// otherwise 0. Throws RunError if the solver fails or a file cannot be written.
   int run();
   /// A request to stop (a signal, a time limit) holds for all runs of the process. This function withdraws it.
   static void forget_stop();

@@ -24,8 +24,8 @@ bool is_checkpoint_of_run(const std::string& file);
 /// directory, is damaged, or belongs to another assembly.
 StoredState read_stored_state(const std::string& checkpoint);
 
-/// The newest readable checkpoint of a run directory. If there is none, throws InputError, whose text ends with
-/// `remedy`.
+/// Path of the newest checkpoint of a run directory, which is not opened and may be damaged. If there is none, throws
+/// InputError, whose text ends with `remedy`.
 std::string newest_checkpoint(const std::string& directory, const std::string& remedy = "Run the case first");
 
 }  // namespace voussoir

@@ -21,14 +21,50 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Writes the corrected case with copies of its records and its assembly, so that the folder is self-contained.
+/// The corrected case with copies of its records and its assembly, in a folder of its own within the results, and its
+/// files with the names that they will have in the results.
+class CorrectedCase {
+ public:
+  CorrectedCase(const Case& c, const std::string& directory) : results_(directory), own_(results_ / "corrected.new") {
+    fs::remove_all(own_);
+    fs::create_directories(own_);
+    write_self_contained_case(c, own_.string());
+    fs::rename(own_ / "case.toml", own_ / "corrected.toml");
+  }
+  ~CorrectedCase() {
+    std::error_code ignored;
+    fs::remove_all(own_, ignored);
+  }
+  CorrectedCase(const CorrectedCase&) = delete;
+
+  /// Refuses results beside other files that have the names of copies.
+  void check() const {
+    for (const fs::directory_entry& file : fs::directory_iterator(own_)) {
+      const fs::path name = file.path().filename(), there = results_ / name;
+      if (name == "corrected.toml" || !fs::exists(there)) continue;
+      if (!fs::is_regular_file(there) || read_text(there.string()) != read_text(file.path().string()))
+        throw InputError("{} exists and is not a copy of the file that the case names. Choose another folder with -o",
+                         there.string());
+    }
+  }
+  void put_in_place() const {
+    for (const fs::directory_entry& file : fs::directory_iterator(own_))
+      fs::rename(file.path(), results_ / file.path().filename());
+  }
+
+ private:
+  fs::path results_, own_;
+};
+
+bool has_files(const Case& c) {
+  return !c.assembly_file.empty() || std::any_of(c.motions.begin(), c.motions.end(), [](const MotionSource& m) {
+    return m.kind == MotionSource::Kind::record;
+  });
+}
+
 void write_corrected(const Case& corrected, const std::string& text, const std::string& directory) {
-  const bool files = !corrected.assembly_file.empty() ||
-                     std::any_of(corrected.motions.begin(), corrected.motions.end(),
-                                 [](const MotionSource& m) { return m.kind == MotionSource::Kind::record; });
-  if (!files) return write_atomically(directory + "/corrected.toml", text);
-  write_resolved_case(corrected, directory);
-  fs::rename(directory + "/case.toml", directory + "/corrected.toml");
+  if (!has_files(corrected)) return write_atomically(directory + "/corrected.toml", text);
+  CorrectedCase(corrected, directory).put_in_place();
 }
 
 int diagnose_and_write(const DiagnosisRequest& request) {
@@ -36,6 +72,7 @@ int diagnose_and_write(const DiagnosisRequest& request) {
     if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
   };
   const DiagnosisInput input = diagnosis_input(request);
+  if (has_files(input.c)) CorrectedCase(input.c, request.directory).check();
   say(fmt::format("{} at {}; model error {:.1f} % of frequencies, {:.1f} % of shapes",
                   counted(input.problem.features.modes.size(), "measured mode"), sensors_used(input.problem.features),
                   100.0 * input.problem.error.frequency, 100.0 * input.problem.error.shape));

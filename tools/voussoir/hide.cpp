@@ -28,11 +28,10 @@ EffectSetting parse_effect(const std::string& text) {
       effect.where += (effect.where.empty() ? "" : " ") + word;
       continue;
     }
-    try {
-      effect.values[word.substr(0, at)] = std::stod(word.substr(at + 1));
-    } catch (const std::exception&) {
+    double value = 0.0;
+    if (parse_number(std::string_view(word).substr(at + 1), value) != NumberTrouble::none)
       throw InputError("--effect \"{}\": {} must have the form PARAMETER=NUMBER", text, word);
-    }
+    effect.values[word.substr(0, at)] = value;
   }
   complete(effect);
   return effect;

@@ -11,6 +11,7 @@ double angle(const options::variables_map& values, const char* name);  // an opt
 /// Metres per unit, from --units or --scale. Throws InputError if both are given, and for an unknown unit.
 double scale_asked(const options::variables_map& values);
 
+/// Whether the name ends in .msh (Gmsh).
 bool is_fill_file(const std::string& path);
 /// Reads the fill, puts it into the assembly of --into, and writes that assembly. Returns the exit status.
 int import_fill(const options::variables_map& values);

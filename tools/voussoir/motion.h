@@ -44,6 +44,7 @@ std::vector<double> chart_periods();
 std::array<std::vector<double>, 3> spectra_of(const GroundMotion& motion, const std::vector<double>& periods,
                                               double damping);
 std::array<Intensity, 3> intensities_of(const GroundMotion& motion);
+/// Whether the component along axis 0, 1 or 2 is not zero throughout.
 bool shaken(const GroundMotion& motion, int axis);
 
 nlohmann::json intensity_json(const Intensity& intensity);
@@ -61,7 +62,7 @@ extern const char* const axis_colour[3];
 extern const char* const axis_word[3];
 
 /// Writes DIR/NAME_x.txt, _y, _z with columns of time (s) and acceleration (m/s2), and `about` in the heading. Returns
-/// the paths of the files.
+/// the paths of the files. A component that is zero throughout has no file and an empty path.
 std::array<std::string, 3> write_motion_files(const std::string& directory, const std::string& name,
                                               const GroundMotion& motion, const std::string& about);
 

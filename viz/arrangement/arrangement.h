@@ -17,7 +17,7 @@ struct ArrangementNotes {
 };
 
 /// For bridges (stones of component arch) the drawing measures spans, rings, supports, fill and widths; for other
-/// assemblies only the overall size. The sheet is A3, A2 or A1, depending on the content.
+/// assemblies only the overall size. The sheet has a format from A3 to A1 (see paper.cpp), depending on the content.
 class Arrangement {
  public:
   Arrangement(const Assembly& assembly, const ArrangementNotes& notes);

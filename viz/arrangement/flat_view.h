@@ -45,7 +45,8 @@ struct ViewCut {
   double place = 0.0, to = 1e300;  // m
 };
 
-/// All visible faces. Faces covered by joints or patches of the fill are left out, and so are the blocks in `without`.
+/// All faces turned to the reader. Faces of which joints or patches of the fill cover more than 99.9 % of the area are
+/// left out, and so are the blocks in `without`.
 FlatView flat_view(const Assembly& assembly, const SheetAxes& axes,
                    const std::optional<ViewCut>& section = std::nullopt, const std::vector<std::int64_t>& without = {});
 

@@ -14,12 +14,13 @@ enum class LineKind { joint, edge, outline };
 constexpr std::size_t kLineKinds = 3;
 using FlatLine = std::pair<Vec3, Vec3>;  // (u, v, 0), m
 
-/// Finds the nearest face at a point of a view.
+/// Finds the nearest face at a point of a view. The view must outlive this object.
 class InFront {
  public:
   explicit InFront(const FlatView& view);
   /// The nearest face at the point; −1 for none.
   std::ptrdiff_t at(const Vec3& place) const;
+  /// Distance of the plane of the face along the view, m; larger values are farther from the reader.
   double depth(std::size_t face, const Vec3& place) const;
   /// Calls `pair(i, j)`, i < j, once for each two faces whose boxes overlap.
   template <class Pair>

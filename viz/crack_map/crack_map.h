@@ -17,7 +17,8 @@ struct CrackMapNotes {
 
 class CrackMap {
  public:
-  /// Cracks are found and numbered in the state `by`; those of at least `threshold` (m) in this state are drawn.
+  /// Cracks are found and numbered in the state `by`. draw() shows their joints whose width is at least `threshold` (m)
+  /// in the state that it draws. The assembly must outlive this object.
   CrackMap(const Assembly& assembly, const Snapshot& snapshot, const CrackMapNotes& notes,
            double threshold = kCrackThreshold, CrackState by = CrackState::ever);
   /// The widest first; empty if nothing exceeds the threshold.

@@ -11,8 +11,8 @@ struct CrackLegend {
   const CrackMapNotes& notes;
   const std::vector<Crack>& cracks;
   double threshold = 0.0;  // m
-  CrackState state = CrackState::ever,
-             by = CrackState::ever;  // state that is drawn, and state in which cracks are found
+  // The state that is drawn, and the state in which the cracks were found.
+  CrackState state = CrackState::ever, by = CrackState::ever;
   bool any_fell = false;
   std::vector<std::string> remarks;
 };

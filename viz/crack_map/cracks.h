@@ -45,19 +45,19 @@ bool is_wall(Component component);
 
 /// Joints above the threshold between the same two parts, each touching another.
 struct Crack {
-  int number = 0;                    // from 1, the widest first
-  std::vector<std::size_t> joints;   // of Assembly::joints, ascending
-  std::array<CrackedPart, 2> parts;  // ascending
-  std::string where, direction;      // words
-  Box box;                           // m
-  double length = 0.0;               // m, from end to end along the surface
-  double area = 0.0;                 // m2, of its joints
-  JointGap ever, now;                // largest values of its joints
-  double width() const { return ever.width(); }
+  int number = 0;                                // from 1, the widest first in the state of find_cracks()
+  std::vector<std::size_t> joints;               // of Assembly::joints, ascending
+  std::array<CrackedPart, 2> parts;              // ascending
+  std::string where, direction;                  // words
+  Box box;                                       // m
+  double length = 0.0;                           // m, from end to end along the surface
+  double area = 0.0;                             // m2, of its joints
+  JointGap ever, now;                            // largest values of its joints
+  double width() const { return ever.width(); }  // m, largest since the start
 };
 
-/// The cracks whose joints have ever opened or slid by at least `threshold` (m), the widest first. Ties and joints
-/// with blocks of backfill (soil) are not cracks. Positions are those as built.
+/// The cracks whose joints have opened or slid by at least `threshold` (m) in this state. The crack that is widest in
+/// this state is the first. Ties and joints with blocks of backfill (soil) are not cracks. Positions are as built.
 std::vector<Crack> find_cracks(const Assembly& assembly, const std::vector<JointGaps>& gaps,
                                const std::vector<Intrados>& vaults, double threshold, CrackState state);
 

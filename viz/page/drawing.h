@@ -18,7 +18,7 @@ std::string shortened(const std::string& text, std::size_t most);
 std::size_t characters(std::string_view text);
 
 constexpr double kTextSize = 13.0;  // px
-/// Upper bound of the width of a text; fonts differ.
+/// Upper bound of the width of a text, px. Fonts differ.
 double text_width(std::string_view text, double size = kTextSize);
 
 enum class Marker { circle, square, triangle, diamond };  // full, hollow, full, hollow

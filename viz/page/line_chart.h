@@ -34,10 +34,10 @@ struct ChartDots {
 
 struct LineChart {
   std::string title = {}, x_label = {}, y_label = {};  // labels with units: "period, s"
-  double width = 1000.0, height = 380.0;
+  double width = 1000.0, height = 380.0;               // px, without the legend above
   bool log_x = false, log_y = false;
-  std::optional<double> x_low = {}, x_high = {}, y_low = {},
-                        y_high = {};  // limits of the axes; otherwise around the data
+  // Limits of the axes; without a value the axis encloses the data.
+  std::optional<double> x_low = {}, x_high = {}, y_low = {}, y_high = {};
   std::vector<ChartBand> bands = {};  // drawn first
   std::vector<ChartCurve> curves = {};
   std::vector<ChartDots> dots = {};

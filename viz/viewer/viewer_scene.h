@@ -33,8 +33,8 @@ using ViewerForces = std::array<double, 3>;
 
 struct ViewerFrame {
   std::string label;  // "t = 12.5 s"
-  std::vector<Vec3> displacement,
-      rotation;                      // per stone, relative to the base: m, of the centroid; rotation vector, rad
+  // For each stone, relative to the base: displacement of the centroid (m) and rotation vector (rad).
+  std::vector<Vec3> displacement, rotation;
   std::vector<Vec3> fill;            // m, per node of the fill, relative to the base
   std::vector<ViewerValues> values;  // for each stone; empty: none
   std::vector<ViewerForces> forces;  // for each pair; shorter if later frames add pairs

@@ -1,4 +1,4 @@
-// Between C++ and numpy.
+// Conversions between C++ and numpy.
 #pragma once
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -38,12 +38,14 @@ inline py::array_t<double> vectors(const std::vector<Vec3>& of) {
   return vectors(of, [](const Vec3& v) { return v; });
 }
 
-/// A view of rows that `owner` keeps; what is written into it is written there.
+/// A view of rows of data that `owner` keeps alive, without a copy: writing to the array changes the data. `stride` is
+/// the distance of two rows, counted in elements.
 template <class T>
 py::array_t<T> view(T* data, std::size_t rows, std::size_t columns, std::size_t stride, py::handle owner) {
   return py::array_t<T>({rows, columns}, {stride * sizeof(T), sizeof(T)}, data, owner);
 }
 
+/// The vector of a sequence or array of three numbers. Throws InputError that begins with `what` for anything else.
 Vec3 vector_of(const py::handle& three, const char* what);
 
 }  // namespace voussoir::python

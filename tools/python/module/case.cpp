@@ -28,7 +28,7 @@ void bind_case(py::module_& m) {
       .def_readonly("text", &Case::text)
       .def_readonly("generator", &Case::generator)
       .def("_resolved", &resolved_text)
-      .def("_write", &write_resolved_case)
+      .def("_write", &write_self_contained_case)
       .def("_remarks", [](const Case& c, const Assembly& a) { return remarks(c, a); })
       .def(
           "_assembly", [](const Case& c) { return std::make_shared<Assembly>(make_assembly(c)); }, Release());

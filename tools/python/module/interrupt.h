@@ -4,14 +4,15 @@
 
 namespace voussoir::python {
 
-/// While one lives on Python's main thread, Ctrl-C sets `stop` instead of waiting for the interpreter, which does not
-/// run meanwhile. On another thread it does nothing: Ctrl-C goes to the main thread then.
+/// While an object of this class exists on Python's main thread, Ctrl-C sets `stop`. Python itself could not react to
+/// Ctrl-C, because its interpreter does not run in this time. On another thread, or if there is such an object already,
+/// the object does nothing.
 class InterruptWatch {
  public:
-  explicit InterruptWatch(std::atomic<bool>& stop);  // with the GIL
+  explicit InterruptWatch(std::atomic<bool>& stop);  // the caller must hold the GIL
   ~InterruptWatch();
   InterruptWatch(const InterruptWatch&) = delete;
-  /// Throws KeyboardInterrupt if it was pressed; with the GIL.
+  /// Throws KeyboardInterrupt if Ctrl-C was pressed. The caller must hold the GIL.
   void raise_if_pressed() const;
 
  private:

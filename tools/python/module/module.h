@@ -1,4 +1,4 @@
-// What the Python module _voussoir is made of; the package voussoir (tools/python/voussoir) wraps it.
+// The parts of the Python module _voussoir. Users call it through the package voussoir (tools/python/voussoir).
 #pragma once
 #include <pybind11/pybind11.h>
 

@@ -1,4 +1,4 @@
-// What callbacks are given.
+// The arguments of callbacks as Python dictionaries. All values are in SI units.
 #pragma once
 #include "solver/run/simulation.h"
 #include "tools/python/module/arrays.h"

@@ -62,7 +62,7 @@ class Case:
         return tomllib.loads(self._case._resolved())
 
     def write(self, directory):
-        """Writes case.toml with every key, and the records it names, into a folder."""
+        """Writes case.toml with every key, and copies of its records and its assembly file, into a folder."""
         os.makedirs(directory, exist_ok=True)
         self._case._write(os.fspath(directory))
 
