@@ -135,8 +135,7 @@ TEST(ImportNames, AShapeThatIsNotConvexIsCutOrItsHullTaken) {
   // The hull bridges the corner under the corbel's head: a triangle of 0.7 by 1.2.
   EXPECT_NEAR(hull.assembly.blocks[1].mass, stone + 2000.0 * 0.5 * 0.5 * 0.7 * 1.2, 1e-9);
   EXPECT_EQ(hull.assembly.blocks[1].cells.size(), 1u);
-  EXPECT_NE(hull.notes.at(0).find("convex hull; the volume grows by up to 43.8 %"), std::string::npos)
-      << hull.notes[0];
+  EXPECT_NE(hull.notes.at(0).find("convex hull; the volume grows by up to 43.8 %"), std::string::npos) << hull.notes[0];
   try {
     const Import cut = import_with(text, "[names]\n\"corbel\" = {not_convex = \"cut\"}\n\"pier\" = {part = 0}\n");
     ASSERT_EQ(cut.assembly.blocks.size(), 2u);
