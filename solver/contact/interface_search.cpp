@@ -188,7 +188,7 @@ class InterfaceSearch {
     return {sum[1] / area, sum[2] / area};
   }
 
-  /// Mean opening by dilation, m. The tractions do not know it, and the new points begin without it.
+  /// Mean opening by dilation, m. It causes no traction, and the points of the new patch begin without it.
   double mean_dilation(std::size_t slot) const {
     const std::vector<PatchPoint>& points = state_.interface.patches[slot].points;
     double area = 0.0, sum = 0.0;

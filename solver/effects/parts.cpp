@@ -28,8 +28,8 @@ std::string part_name(Component component, const std::string& family, int part) 
   return fmt::format("{} {}", family, part);
 }
 
-/// The number of the right abutment among the supports. It may have no infill.
-int last_support_of_infill(const Assembly& assembly) {
+/// The number of the right abutment among the supports, which count from the left. It may have no infill.
+int right_abutment_number(const Assembly& assembly) {
   int last = 0;
   for (const Block& b : assembly.blocks) {
     if (b.component == Component::infill) last = std::max(last, int(b.part));
@@ -79,7 +79,7 @@ std::vector<std::string> masonry_parts(const Assembly& assembly) {
 BlockSet masonry_part(const Assembly& assembly, const std::string& name) {
   if (name == "all") return blocks_where(assembly, [](const Block& b) { return is_masonry(b.component); });
   if (name == "backing") return component(assembly, Component::backing);
-  const int last = last_support_of_infill(assembly);
+  const int last = right_abutment_number(assembly);
   const auto is_it = [&](Component own, int part) {
     if (own == Component::infill) std::tie(own, part) = owner_of_infill(part, last);
     for (const auto& [family_component, family] : families)

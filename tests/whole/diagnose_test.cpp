@@ -256,6 +256,10 @@ TEST(Diagnose, KeepsTheFilesOfTheUser) {
   EXPECT_FALSE(exists(folder / "corrected.new"));
   const Outcome modal = voussoir({"modal", "corrected.toml", "-n", "1", "--no-pictures"}, {.folder = folder.path()});
   EXPECT_EQ(modal.status, 0) << modal.err;
+  // Another diagnosis in the same folder replaces its own copies.
+  folder.write("assembly.h5", "of an earlier diagnosis");
+  ASSERT_EQ(run().status, 0);
+  EXPECT_EQ(bytes_of(folder / "assembly.h5"), bytes_of(folder / "bridge.h5"));
 }
 
 TEST(Hide, SaysWhatIsWrongWithItsInput) {

@@ -121,6 +121,17 @@ TEST(Rate, SaysWhatItComputesAndEachPosition) {
   EXPECT_EQ(silent.out + silent.err, "");
 }
 
+/// A load behind a symmetrical axle is not its own mirror image: the first position is rated in both directions. The
+/// two of the refinement follow.
+TEST(Rate, RatesBothDirectionsOfAVehicleThatIsNotSymmetrical) {
+  const Bridge folder;
+  folder.write("axle.toml", axle + "\n[[uniform]]\nfrom = 3.0\nwidth = 3.0\npressure = 1e3\n");
+  const Outcome outcome = rate(
+      folder, {"--strip", "0.4", "--step", "2", "--refine", "1", "--most", "2", "--tolerance", "0.5", "--no-runs"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("4 positions of 1 vehicle"), std::string::npos) << outcome.err;
+}
+
 /// The sweep has more positions than are computed before the signal arrives.
 TEST(Rate, WritesCompletePositionsWhenInterrupted) {
   const Bridge folder;

@@ -27,13 +27,14 @@ bool can_remesh(const Case& c) {
   return !c.generator.empty() && c.generator_input.values.contains("block_scale");
 }
 
-/// Of what the generator allows.
+/// The largest block_scale that the generator accepts.
 double largest_scale(const Case& c) {
   const std::vector<Parameter> parameters = keys_of(find_generator(c.generator), c.generator_input).parameters;
   return std::ranges::find(parameters, "block_scale", &Parameter::name)->high;
 }
 
-/// The mesh with blocks 1.25 times as large. It shows how the block size affects the modes.
+/// The mesh with blocks 1.25 times as large. It shows how the block size affects the modes. Null if the case cannot be
+/// meshed with larger blocks.
 std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
   if (!can_remesh(input.c)) return nullptr;
   const double coarser = 1.25 * input.c.generator_input.values.at("block_scale");

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The corrected case with copies of its records and its assembly, in a folder of its own within the results, and its
-/// files with the names that they will have in the results.
+/// The corrected case with copies of its records and its assembly, in a folder within the results until put_in_place().
 class CorrectedCase {
  public:
   CorrectedCase(const Case& c, const std::string& directory) : results_(directory), own_(results_ / "corrected.new") {
@@ -30,6 +29,7 @@ class CorrectedCase {
     fs::create_directories(own_);
     write_self_contained_case(c, own_.string());
     fs::rename(own_ / "case.toml", own_ / "corrected.toml");
+    for (const fs::directory_entry& file : fs::directory_iterator(own_)) names_.push_back(file.path().filename());
   }
   ~CorrectedCase() {
     std::error_code ignored;
@@ -37,23 +37,25 @@ class CorrectedCase {
   }
   CorrectedCase(const CorrectedCase&) = delete;
 
-  /// Refuses results beside other files that have the names of copies.
+  /// Throws InputError if the folder has other files with the names of the copies. Copies of an earlier diagnosis may
+  /// be replaced.
   void check() const {
-    for (const fs::directory_entry& file : fs::directory_iterator(own_)) {
-      const fs::path name = file.path().filename(), there = results_ / name;
-      if (name == "corrected.toml" || !fs::exists(there)) continue;
-      if (!fs::is_regular_file(there) || read_text(there.string()) != read_text(file.path().string()))
+    if (fs::exists(results_ / "corrected.toml")) return;
+    for (const fs::path& name : names_) {
+      const fs::path there = results_ / name;
+      if (!fs::exists(there)) continue;
+      if (!fs::is_regular_file(there) || read_text(there.string()) != read_text((own_ / name).string()))
         throw InputError("{} exists and is not a copy of the file that the case names. Choose another folder with -o",
                          there.string());
     }
   }
   void put_in_place() const {
-    for (const fs::directory_entry& file : fs::directory_iterator(own_))
-      fs::rename(file.path(), results_ / file.path().filename());
+    for (const fs::path& name : names_) fs::rename(own_ / name, results_ / name);
   }
 
  private:
   fs::path results_, own_;
+  std::vector<fs::path> names_;
 };
 
 bool has_files(const Case& c) {
