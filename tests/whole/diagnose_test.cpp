@@ -103,6 +103,19 @@ TEST(Diagnose, SaysWhatAPlanWouldShow) {
   EXPECT_FALSE(exists(folder / "more/plan.html"));
 }
 
+/// Blocks 1.25 times as large are more than the generator accepts: the error of the mesh stays unknown, and that is
+/// said.
+TEST(Diagnose, SaysThatTheErrorOfTheMeshIsUnknown) {
+  const Folder folder;
+  folder.write("bridge.toml", exchanged(bridge, "block_scale = 3.0", "block_scale = 5.0"));
+  folder.write("sensors.csv", "id,x,y,z,direction\nA01,8,-3,16.5,y\n");
+  const Outcome outcome = voussoir({"diagnose", "bridge.toml", "--plan", "sensors.csv", "--plan-modes", "2", "-o",
+                                    "plan", "--threads", "2", "--no-page"},
+                                   {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("block_scale <= 4.8"), std::string::npos) << outcome.out;
+}
+
 TEST(Diagnose, WantsMeasurementsOrAPlan) {
   const Folder folder;
   folder.write("bridge.toml", bridge);

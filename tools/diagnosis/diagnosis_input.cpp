@@ -1,5 +1,7 @@
 #include "tools/diagnosis/diagnosis_input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,11 +36,17 @@ double largest_scale(const Case& c) {
 }
 
 /// The mesh with blocks 1.25 times as large. It shows how the block size affects the modes. Null if the case cannot be
-/// meshed with larger blocks.
-std::shared_ptr<const CoarserMesh> coarser_mesh(const DiagnosisInput& input) {
+/// meshed with larger blocks; a remark says so if only its block_scale is too large.
+std::shared_ptr<const CoarserMesh> coarser_mesh(DiagnosisInput& input) {
   if (!can_remesh(input.c)) return nullptr;
-  const double coarser = 1.25 * input.c.generator_input.values.at("block_scale");
-  if (coarser > largest_scale(input.c)) return nullptr;
+  const double own = input.c.generator_input.values.at("block_scale"), coarser = 1.25 * own;
+  if (const double largest = largest_scale(input.c); coarser > largest) {
+    input.measured.remarks.push_back(fmt::format(
+        "block_scale = {} leaves no mesh with blocks 1.25 times as large (the generator accepts at most {}), so the "
+        "model error does not contain the error of the mesh; use block_scale <= {:.4g}",
+        own, largest, largest / 1.25));
+    return nullptr;
+  }
   auto mesh = std::make_shared<CoarserMesh>();
   mesh->assembly = remeshed(input.c, coarser);
   mesh->sensors = features_of(input.measured, mesh->assembly).sensors;
