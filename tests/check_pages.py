@@ -22,7 +22,7 @@ and a link `cases` to the cases of SOURCE_DIR. `voussoir` is PROGRAM. Rules of t
   at the moment are left out (`PROGRESS`).
 
 The exit status is 1 if a command fails or prints something else. With --update the program writes what it found into
-the page. Lines that agree and all `…` remain as they are.
+the page: also a number that differs within the tolerance, rounded as on the page. Times and all `…` remain as they are.
 """
 
 import os
@@ -156,6 +156,14 @@ def renewed(expected, found):
     return found[:len(found) - len(found.lstrip())] + text
 
 
+def new_line(shown, printed):
+    """The line of a renewed page. The line of the page remains if only its space or its times differ."""
+    if printed is None or shown is not None and shown.strip() == ELLIPSIS:
+        return shown
+    line = printed.rstrip() if shown is None else renewed(shown, printed)
+    return shown if shown is not None and words_of(line) == words_of(shown) else line
+
+
 def compare(page, block, found):
     """Prints the lines in which a block and what was found differ. Returns their number and the block's new lines."""
     bad, new, number = 0, [], block.first
@@ -167,7 +175,7 @@ def compare(page, block, found):
             print(f"{page}:{max(number, block.first + 1)}:\n  the page shows  {'(no line)' if shown is None else shown}\n"
                   f"  the command prints  {'(no line)' if printed is None else printed}")
         if same or printed is not None:
-            line = shown if same else printed.rstrip() if shown is None else renewed(shown, printed)
+            line = new_line(shown, printed)
             new.append(block.indent + line if line else line)
     return bad, new
 

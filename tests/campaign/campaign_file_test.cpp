@@ -1,4 +1,5 @@
 // What a campaign file may say, and how what it may not is refused: place, value, remedy.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/campaign/campaign_folder.h"
@@ -106,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
             {"\"keystone\"", "edp.keystone_x"}},
         Bad{std::string(""),
             one_record + "[[limit_state]]\nname = \"a\"\ndemand = \"edp.x\"\nthreshold = 1.0\ncase = \"colum\"\n",
-            {"\"colum\"", "did you mean 'column'?"}}));
+            {"\"colum\"", "did you mean 'column'?"}}),
+    [](const testing::TestParamInfo<Bad>& bad) { return fmt::format("Line{}", bad.index + 1); });
 
 TEST(CampaignFile, CasesAreChecked) {
   CampaignFolder folder;

@@ -62,7 +62,10 @@ TEST_P(Settles, StraightDown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guide, Settles,
-                         testing::Values(StageSettings::Method::newton, StageSettings::Method::relaxation));
+                         testing::Values(StageSettings::Method::newton, StageSettings::Method::relaxation),
+                         [](const testing::TestParamInfo<StageSettings::Method>& method) {
+                           return method.param == StageSettings::Method::newton ? "Newton" : "Relaxation";
+                         });
 
 /// Rotation of the beam under a unit moment, held at its centroid sideways: the block (u, θ) and the beam (θ) between
 /// the springs of two joints, in shear and in bending (rad / N m).
