@@ -164,10 +164,13 @@ void Simulation::choose_step() {
         "damping) of {}. Lower it, or leave it out: the program then uses {} × the critical time step.",
         settings_.step.time_step, limit, critical.step, factor, short_name(*assembly_, model_, critical),
         settings_.step.safety);
-  position_.dt = settings_.step.time_step > 0.0 ? settings_.step.time_step : settings_.step.safety * limit;
+  const bool set_by_case = settings_.step.time_step > 0.0;
+  position_.dt = set_by_case ? settings_.step.time_step : settings_.step.safety * limit;
   if (const std::string why = too_many_steps(end_time(), position_.dt); !why.empty())
-    throw InputError("the time step, set by {}, {}. Lower the stiffness of its joints, or increase its mass.",
-                     critical.body >= 0 ? short_name(*assembly_, model_, critical) : "[analysis] time_step", why);
+    throw InputError("the time step, set by {}, {}. {}.",
+                     set_by_case ? "[analysis] time_step" : short_name(*assembly_, model_, critical), why,
+                     set_by_case ? "Give a longer time step or shorter stages"
+                                 : "Lower the stiffness of its joints, or increase its mass");
   position_.highest = critical.highest;
   position_.stiffest = bound_.of_bodies(stepper_);
   position_.stiffest_node = bound_.of_nodes(stepper_);

@@ -67,6 +67,23 @@ TEST(Fronts, HaveEveryAxleOverTheSpansOnce) {
   }
 }
 
+/// A vehicle whose worst place looks to the left drives to the left: from its first place on the right to its last.
+TEST(Fronts, OfAPassageAreInTheOrderOfTravel) {
+  const std::vector<SpanExtent> spans = {{0, 4.0, 10.0}, {1, 12.0, 18.0}};
+  PassageRequest request;
+  request.rate.vehicles = {two_axles()};
+  request.places = 4;
+  for (const bool right : {true, false}) {
+    request.towards_right = right;
+    const std::vector<double> at = fronts_of_passage(spans, request);
+    ASSERT_EQ(at.size(), 4u);
+    // All axles are off the bridge at 4 and 20 m (to the right), and at 18 and 2 m (to the left).
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_NEAR(at[std::size_t(k)], right ? 6.0 + 4.0 * k : 16.0 - 4.0 * k, 2e-3);
+    }
+  }
+}
+
 TEST(PlacedVehicle, HasItsAxlesWhereItDrives) {
   const auto middle = [](const RoadLoad& load) { return 0.5 * (load.area.x0 + load.area.x1); };
   const std::vector<RoadLoad> right = loads_of(two_axles(), {7.0, 0.5, true}),
@@ -107,6 +124,20 @@ TEST(StripRemarks, CountEffects) {
     const std::vector<std::string> remarks = strip_remarks(c);
     EXPECT_EQ(std::ranges::count(remarks, said), 1) << said;
   }
+}
+
+/// Everything but gravity is left out of the strip. The stages and guides of a loading test are not rated anyway.
+TEST(StripRemarks, CountStagesAndGuides) {
+  Case c = read_case(std::string(VOUSSOIR_SOURCE_DIR) + "/cases/bridges/prestwood.toml");
+  const std::vector<std::string> none = strip_remarks(c);
+  EXPECT_EQ(std::ranges::count_if(none, [](const std::string& text) { return text.find("stage") < text.size(); }), 0);
+  c = without_loading_test(c);
+  c.settings.stages.emplace_back().kind = StageSettings::Kind::free;
+  c.motions.emplace_back();
+  c.settings.guides.emplace_back();
+  const std::vector<std::string> remarks = strip_remarks(c);
+  EXPECT_EQ(std::ranges::count(remarks, "1 stage after gravity is left out"), 1);
+  EXPECT_EQ(std::ranges::count(remarks, "1 guide is left out"), 1);
 }
 
 TEST(EffectiveWidth, IsWheelsAndACoverButNoMoreThanTheBridge) {

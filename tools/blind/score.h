@@ -23,7 +23,8 @@ struct Outcome {
 };
 
 /// Smallest trace of an effect that evidence can name. A candidate pays about 5 for being one of 150 places and must
-/// win by 2.3 (log probabilities), and the evidence is at most half of the trace.
+/// win by a margin (log probabilities), and the evidence is at most half of the trace. The margin was 2.3 when this
+/// limit was set.
 inline constexpr double shows = 15.0;
 
 /// Verdict and effects in words: "found; abutment_restraint at both (1.00)".

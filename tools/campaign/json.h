@@ -33,8 +33,10 @@ template <class T>
 T need(const json& object, const char* key, const std::string& place) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end()) throw InputError("{}: '{}' is missing", place, key);
-  if (!fits<T>(*found))
-    throw InputError("{}: '{}' is {}: expected a whole number in range", place, key, json_excerpt(*found));
+  if constexpr (std::is_integral_v<T>)
+    if (!fits<T>(*found))
+      throw InputError("{}: '{}' is {}. It must be a whole number from {} to {}", place, key, json_excerpt(*found),
+                       std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max());
   try {
     return found->template get<T>();
   } catch (const json::exception&) {

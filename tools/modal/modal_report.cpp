@@ -81,12 +81,25 @@ std::string loose_text(const Assembly& assembly, const Modes& modes) {
   return text;
 }
 
-Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs) {
-  const BlockPairs pairs = pair_blocks(ours.places, theirs.places);
+namespace {
+
+BlockPairs pairs_of_same_structure(const BlockPlaces& ours, const BlockPlaces& theirs) {
+  BlockPairs pairs = pair_blocks(ours, theirs);
   if (pairs.share < 0.5)
     throw InputError(
         "only {:.0f} % of the mass has a block of the other analysis near it. Compare analyses of the same structure",
         100.0 * pairs.share);
+  return pairs;
+}
+
+}  // namespace
+
+void check_same_structure(const BlockPlaces& ours, const BlockPlaces& theirs) {
+  pairs_of_same_structure(ours, theirs);
+}
+
+Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs) {
+  const BlockPairs pairs = pairs_of_same_structure(ours.places, theirs.places);
   Pairing pairing;
   pairing.share = pairs.share;
   pairing.assurance = assurance(ours.modes, theirs.modes, pairs);

@@ -21,7 +21,10 @@ struct Pairing {
   std::vector<std::int64_t> ours;  // our best mode for each of theirs; −1 if none reaches a MAC of 0.5
   double share = 0.0;              // share of our mass whose blocks have a partner
 };
-/// Throws InputError if less than half of our mass has a partner.
+/// Throws InputError if less than half of our mass has a partner. It needs no modes, so it can be called before they
+/// are computed.
+void check_same_structure(const BlockPlaces& ours, const BlockPlaces& theirs);
+/// Throws the error of check_same_structure().
 Pairing pair_modes(const ModesFile& ours, const ModesFile& theirs);
 /// One line for each of their modes: their frequency, ours, change, MAC, motion.
 std::string pairing_table(const ModesFile& ours, const ModesFile& theirs, const Pairing& pairing,

@@ -57,12 +57,10 @@ std::vector<StageSettings> all_stages(const Case& c, const std::vector<SpanExten
   std::vector<StageSettings> stages = before_vehicles(c).settings.stages;
   first = stages.size();
   const Loads before = loads_after(stages, first - 1);
-  const Vehicle& vehicle = request.rate.vehicles.front();
-  const std::vector<double> way = fronts(vehicle, spans, true, 1e-3);
+  const std::vector<double> fronts = fronts_of_passage(spans, request);
   for (int n = 0; n < request.passages; ++n) {
-    for (int k = 0; k < request.places; ++k) {
-      const double share = (k + 0.5) / request.places;
-      const VehiclePlace place = {way.front() + share * (way.back() - way.front()), request.rate.lanes.front(), true};
+    for (const double front : fronts) {
+      const VehiclePlace place = {front, request.rate.lanes.front(), request.towards_right};
       std::vector<RoadLoad> loads = vehicle_loads(request.rate, c, 0, place);
       for (RoadLoad& load : loads) load.pressure *= factor;
       stages.push_back(standing(loads, before));
@@ -126,6 +124,15 @@ PassageEnd judge(const std::vector<AfterPassage>& after, double settled) {
   const double before = grown(passages - 2 * third, passages - third), last = grown(passages - third, passages);
   if (last <= settled || last <= 0.5 * before) return PassageEnd::settles;
   return last >= 0.9 * before ? PassageEnd::grows : PassageEnd::undecided;
+}
+
+std::vector<double> fronts_of_passage(const std::vector<SpanExtent>& spans, const PassageRequest& request) {
+  std::vector<double> way = fronts(request.rate.vehicles.front(), spans, request.towards_right, 1e-3);
+  if (!request.towards_right) std::ranges::reverse(way);
+  std::vector<double> at;
+  for (int k = 0; k < request.places; ++k)
+    at.push_back(way.front() + (k + 0.5) / request.places * (way.back() - way.front()));
+  return at;
 }
 
 std::vector<PassageSeries> passages(const Case& c, const Assembly& assembly, const PassageRequest& request,

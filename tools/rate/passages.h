@@ -27,11 +27,15 @@ struct PassageSeries {
 struct PassageRequest {
   RateRequest rate;  // uses its first vehicle and first lane
   int passages = 10;
-  int places = 12;  // number of places of the vehicle in a passage, at equal distances
+  int places = 12;            // number of places of the vehicle in a passage, at equal distances
+  bool towards_right = true;  // direction of all passages: along +x
   std::vector<double> factors;
   double settled = 1e-6;                    // m per passage; smaller increments count as none
   const std::atomic<bool>* stop = nullptr;  // set by a signal
 };
+
+/// The places of the front of the vehicle in one passage (x in m), in the order of travel.
+std::vector<double> fronts_of_passage(const std::vector<SpanExtent>& spans, const PassageRequest& request);
 
 /// Drives the vehicle over the bridge repeatedly with each factor. The bridge is brought to equilibrium with the
 /// vehicle at one place after the other, and without the vehicle at the end of each passage. The results are in the

@@ -69,7 +69,7 @@ Case strip_case(const Case& c, double width) {
 }
 
 std::vector<std::string> strip_remarks(const Case& c) {
-  std::vector<std::string> remarks = {"without spandrel walls and parapets"};
+  std::vector<std::string> remarks = {"the model has no spandrel walls and no parapets"};
   const GeneratorInput& in = c.generator_input;
   if (in("skew") != 0.0)
     remarks.push_back(fmt::format("the strip is square: the skew of {:g} degrees is left out", in("skew")));
@@ -77,6 +77,14 @@ std::vector<std::string> strip_remarks(const Case& c) {
   if (has_word(c, "makeup", "solid")) remarks.push_back("supports are solid");
   if (!c.effects.empty())
     remarks.push_back(fmt::format("{} left out", counted(c.effects.size(), "effect is", "effects are")));
+  const Case rated = without_loading_test(c);
+  const auto others = std::ranges::count_if(
+      rated.settings.stages, [](const StageSettings& s) { return s.kind != StageSettings::Kind::gravity; });
+  if (others > 0)
+    remarks.push_back(
+        fmt::format("{} left out", counted(others, "stage after gravity is", "stages after gravity are")));
+  if (!rated.settings.guides.empty())
+    remarks.push_back(fmt::format("{} left out", counted(rated.settings.guides.size(), "guide is", "guides are")));
   for (const StageSettings& stage : c.settings.stages)
     if (stage.construction) remarks.push_back("the whole weight acts at once, without construction steps");
   return remarks;

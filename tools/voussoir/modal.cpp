@@ -206,6 +206,7 @@ int analyse(const ModalRequest& request) {
   if (!request.quiet) fmt::print(stderr, "reading {}\n", request.from);
   const ModalSource source =
       modal_source(request.from, request.settings, request.as_stored, request.threads, request.quiet);
+  if (against) check_same_structure(block_places(source.assembly, source.model), against->places);
   const std::vector<std::string> noticed = remarks(source.c, source.assembly);
   say_remarks(noticed, request.quiet);
   Findings f = find(source);
@@ -238,11 +239,12 @@ int modal(const std::vector<std::string>& arguments) {
   line.described.add_options()("output,o", options::value<std::string>()->value_name("DIR"),
                                "folder for tables, shapes and pictures (default: NAME-modes of a case, RUN/modes of a "
                                "run); with --paper a Markdown file for its tables")(
-      "modes,n", whole_option("modes", 1, 10000)->value_name("N"), "number of modes (default: the case's, 10)")(
+      "modes,n", whole_option("modes", 1, 10000)->value_name("N"),
+      "number of modes (default: that of the case, otherwise 10)")(
       "state", options::value<std::string>()->value_name("WORD"),
-      "state of the joints of a case: intact (bonded and elastic) or gravity (as they rest under gravity) (default: "
-      "the case's, intact)")("geometric", "add the geometric stiffness of the forces in the joints")(
-      "as-stored", "of a run: the state as it is, not brought to rest first")(
+      "state of the joints of a case: intact (bonded and elastic) or gravity (as they rest under gravity); default: "
+      "that of the case, otherwise intact")("geometric", "add the geometric stiffness of the forces in the joints")(
+      "as-stored", "of a run: take the state as it is, do not bring it to rest first")(
       "against", options::value<std::string>()->value_name("MODES.H5"),
       "pair the modes with those of another analysis")(
       "view,v", options::value<std::string>()->default_value("oblique"), "view: front, side, plan or oblique")(

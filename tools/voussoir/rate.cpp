@@ -149,7 +149,7 @@ RateObservers observers_of(const RateRequest& request, const PlaceStore& store, 
   RateObservers o;
   o.begins = [&](std::size_t planned) {
     const std::size_t vehicles = request.vehicles.size();
-    reports.say(fmt::format("{} of {}; first the stages of the case", counted(planned, "position"),
+    reports.say(fmt::format("{} of {}. The program computes the stages of the case first", counted(planned, "position"),
                             counted(vehicles, "vehicle")));
   };
   o.progress = [&](const Progress& progress) { reports.show(progress); };
@@ -227,6 +227,7 @@ std::vector<PassageSeries> pass_repeatedly(const Case& c, const Assembly& assemb
   PassageRequest asked;
   asked.rate = request;
   asked.rate.lanes = {worst.place.y};
+  asked.towards_right = worst.place.towards_right;
   asked.passages = count;
   asked.stop = &stop_request();
   for (const double share : passage_shares) asked.factors.push_back(share * worst.factor);
