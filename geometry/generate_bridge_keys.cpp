@@ -28,7 +28,7 @@ std::vector<Parameter> any_bridge_keys() {
       {"base_depth", 1.0, 0.1, 20.0, "m", "depth of the fixed block under each support"},
       {"restraint_depth", 1.0, 0.1, 20.0, "m", "length of the fixed block at each end, if restrained"},
       {"wing_wall_thickness", 0.0, 0.0, 10.0, "m",
-       "thickness of the walls behind the built part of an abutment; 0: spandrel_thickness_bottom"},
+       "thickness of the wing walls behind the built_length of an abutment; 0: spandrel_thickness_bottom"},
       {"leaf_thickness_even", 0.3, 0.05, 5.0, "m", "leaf: thickness of the leaf in courses 0, 2, … from the base"},
       {"leaf_thickness_odd", 0.5, 0.05, 5.0, "m", "leaf: thickness of the leaf in courses 1, 3, …"},
       {"strip_width", 0.3, 0.05, 5.0, "m", "strip: width across the bridge"},
@@ -82,8 +82,8 @@ std::vector<Choice> any_bridge_choices() {
            "inner faces of the spandrel walls: stepped from course to course, or one plane from springing to deck"},
           {"skew_bond",
            {"parallel", "helicoidal", "logarithmic"},
-           "bed joints of the vaults of a skew bridge: parallel to the supports (false skew), or square to the faces "
-           "at their chord (English) or everywhere (French)"},
+           "bed joints of the vaults of a skew bridge: parallel to the supports (false skew); helicoidal: square to "
+           "the chord of the faces (English); logarithmic: square to the faces everywhere (French)"},
           {"extent",
            {"whole", "strip"},
            "strip: a strip of the bridge in plane strain between fixed smooth walls, without spandrel walls, internal "

@@ -270,6 +270,9 @@ std::string describe(const Generator& generator) {
     text += fmt::format("| `{}` | {:g} | {:g} | {:g} | {:g} | {:g} | {:g} |\n", m.name, m.density, m.youngs_modulus,
                         m.shear_modulus, m.tensile_strength, m.cohesion, m.friction_angle * 180.0 / pi);
   }
+  text +=
+      "\nE and G are the moduli of a material. dc is the sum of the distances from the centroids of the two blocks to "
+      "their joint, m. ft is the tensile strength and c the cohesion.\n";
   return text;
 }
 

@@ -61,14 +61,14 @@ ColouredJoints painted_by(vtkPolyData* faces, const Colouring& colouring, const 
 /// Compression upwards and tension downwards, in whole parts of the same scale.
 ColouredJoints joints_by_normal(vtkPolyData* faces, double range) {
   const std::vector<double> compression = joint_values(faces, "normal_traction", -1e-6);
-  Colouring colouring{.title = "mean compression of the joints, MPa; outlines only: less than 5 %"};
+  Colouring colouring{.title = "mean compression of the joints, MPa; outlines: below 5 % of the scale"};
   set_top(colouring, compression, range);
   const double part = colouring.top / scale_steps(colouring.top);
   const double least = compression.empty() ? 0.0 : *std::ranges::min_element(compression);
   if (-least > hardly * colouring.top) {
     const double parts = std::min(std::ceil(-least / part), double(scale_steps(colouring.top)));
     colouring.bottom = -parts * part;
-    colouring.title = "mean compression of the joints, MPa (negative: tension); outlines only: less than 5 %";
+    colouring.title = "mean compression of the joints, MPa (negative: tension); outlines: below 5 % of the scale";
   }
   return painted_by(faces, colouring, compression);
 }
@@ -116,11 +116,11 @@ ColouredJoints colour_joints(vtkPolyData* faces, const std::string& by, double r
   if (by == "normal") return joints_by_normal(faces, range);
   if (by == "shear")
     return joints_on_one_side(faces, "shear_traction", 1e-6,
-                              "mean shear stress of the joints, MPa; outlines only: less than 5 %", range);
+                              "mean shear stress of the joints, MPa; outlines: below 5 % of the scale", range);
   if (by == "utilisation")
     return joints_on_one_side(
         faces, "utilisation", 1.0,
-        "utilisation: shear force / shear resistance (friction and cohesion); outlines only: less than 5 %",
+        "utilisation: shear force / shear resistance (friction and cohesion); outlines: below 5 % of the scale",
         range > 0.0 ? range : 1.0);
   return joints_by_eccentricity(faces);
 }

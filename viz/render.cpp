@@ -213,7 +213,8 @@ Content content_of(const Shapes& now, const Shapes& rest, bool outline) {
 }  // namespace
 
 void check_options(const RenderOptions& options) {
-  if (!std::isfinite(options.amplification)) throw InputError("pictures: the amplification is not a number");
+  if (!std::isfinite(options.amplification))
+    throw InputError("pictures: the amplification is {}. It must be a finite number", options.amplification);
   if (!options.resultants.empty() && options.amplification != 1.0)
     throw InputError(
         "pictures: the amplification is {:g}. It must be 1 for resultants, because they are drawn at the joints",

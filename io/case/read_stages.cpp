@@ -79,7 +79,8 @@ void read_drives(TableReader& table, StageSettings& stage) {
     Drive drive;
     drive.group = sub.required_text("group");
     if (sub.has("velocity") && stage.kind == StageSettings::Kind::quasi_static)
-      sub.fail("velocity", "is not for a quasi-static stage. Give 'displacement', [x, y, z] in m at the share 1.");
+      sub.fail("velocity",
+               "is not for a quasi-static stage. Give 'displacement' = [x, y, z], its value in m at the share 1.");
     if (sub.has("velocity") && sub.has("displacement"))
       sub.fail("velocity", "and 'displacement' are both given. Keep one of them.");
     const bool departs = sub.has("factor") || sub.has("delay");

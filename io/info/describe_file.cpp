@@ -46,8 +46,8 @@ double largest(const std::vector<double>& values) {
 std::string motion_text(const GroundMotion& motion) {
   Vec3 peak = Vec3::Zero();
   for (const Vec3& a : motion.acceleration) peak = peak.cwiseMax(a.cwiseAbs());
-  return fmt::format("{:.6g} s of motion at {:.6g} s, peaks x {:.4g}, y {:.4g}, z {:.4g} m/s2", motion.duration(),
-                     motion.dt, peak.x(), peak.y(), peak.z());
+  return fmt::format("{:.6g} s of motion at time steps of {:.6g} s, peaks x {:.4g}, y {:.4g}, z {:.4g} m/s2",
+                     motion.duration(), motion.dt, peak.x(), peak.y(), peak.z());
 }
 
 /// Describes a synthetic motion without computing it.
@@ -56,7 +56,7 @@ std::string synthetic_text(const MotionSource& source) {
   const std::string size = s.spectrum
                                ? fmt::format("with the spectrum of {}", target_codes()[std::size_t(s.spectrum->code)])
                                : fmt::format("largest value {:.4g} m/s2", s.peak * std::abs(source.scale));
-  return fmt::format("{:.6g} s of synthetic motion at {:.6g} s, {}", s.duration, s.dt, size);
+  return fmt::format("{:.6g} s of synthetic motion at time steps of {:.6g} s, {}", s.duration, s.dt, size);
 }
 
 std::string describe_case(const std::string& path) {
@@ -134,7 +134,7 @@ std::string describe_assembly(const std::string& path) {
   if (!volumes.empty())
     out.add("  smallest block {} ({:.4g} m3), largest block {} ({:.4g} m3)", small - volumes.begin(), *small,
             large - volumes.begin(), *large);
-  out.add("  {:.3f} x {:.3f} x {:.3f} m, from ({:.3f}, {:.3f}, {:.3f})", size.x(), size.y(), size.z(), box.low.x(),
+  out.add("  {:.3f} x {:.3f} x {:.3f} m, from ({:.3f}, {:.3f}, {:.3f}) m", size.x(), size.y(), size.z(), box.low.x(),
           box.low.y(), box.low.z());
   out.add("  {}, {:.2f} m2, {}, {}", counted(assembly.joints.size(), "joint"), area,
           counted(assembly.laws.size(), "law"), counted(assembly.materials.size(), "material"));
@@ -171,8 +171,8 @@ std::string describe_checkpoint(const std::string& path) {
   const h5::File file = h5::File::open(path);
   Lines out;
   out.add("{}: checkpoint of voussoir {}", path, header.program_version);
-  out.add("  time {:.6f} s, step {}, stage {} at {:.6f} s", header.time, header.step, header.stage + 1,
-          header.stage_time);
+  out.add("  time {:.6f} s, time step {}; {} finished, {:.6f} s of the next", header.time, header.step,
+          counted(header.stage, "stage"), header.stage_time);
   out.add("  state {:016x}, assembly {:016x}, case {:016x}", header.state_hash, header.assembly_hash, header.case_hash);
   for (const auto& [name, value] : header.numbers) out.add("  {} = {:.9g}", name, value);
   for (const std::string& name : file.datasets()) {
@@ -216,7 +216,7 @@ void describe_channel(const RecordFile& file, Lines& out) {
   if (file.unit > 0.0)
     out.add("  event {}, station {}, component {}; unit {:g} m/s2", said(file.event), said(file.station),
             said(file.component), file.unit);
-  out.add("  largest value {:.6g}, largest velocity {:.6g}, at the end {:.6g}", largest(record.values),
+  out.add("  largest value {:.6g}, largest velocity {:.6g}, velocity at the end {:.6g}", largest(record.values),
           largest(velocity), velocity.back());
   if (file.unit == 0.0) return;
   std::vector<double> acceleration = record.values;
@@ -230,7 +230,7 @@ std::string describe_record(const std::string& path) {
   const std::vector<RecordFile> channels = parse_channels(read_text(path), path);
   const RecordFile& first = channels.front();
   Lines out;
-  out.add("{}: {}record of {}{}, {:.6g} s at {:.6g} s", path, first.unit > 0.0 ? first.format + " " : "",
+  out.add("{}: {}record of {}{}, {:.6g} s at time steps of {:.6g} s", path, first.unit > 0.0 ? first.format + " " : "",
           channels.size() > 1 ? fmt::format("{} channels of ", channels.size()) : "",
           counted(first.record.values.size(), "sample"), first.record.duration(), first.record.dt);
   for (const RecordFile& channel : channels) describe_channel(channel, out);

@@ -218,8 +218,8 @@ void parse_record(const TextFile& file, Measured& measured) {
   convert_units(record, measured.sensors);
   if (std::size_t(record.values.rows()) < fewest_samples)
     csv.fail(std::max(csv.row(), 1),
-             fmt::format("{} left once velocities and displacements are made accelerations, expected at least {}: give "
-                         "a longer recording",
+             fmt::format("{} left after velocities and displacements were converted into accelerations. At least {} "
+                         "are needed. Give a longer recording.",
                          counted(record.values.rows(), "sample is", "samples are"), fewest_samples));
   for (const Recording& other : measured.records)
     if (same_samples(other, record))

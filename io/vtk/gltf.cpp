@@ -87,7 +87,8 @@ class GltfReader {
       const GltfJson& chosen = list("scenes")[scene];
       if (list("scenes").size() > 1)
         surface_.notes.push_back(
-            fmt::format("{}: of {} scenes the program has read number {}", path_, list("scenes").size(), scene));
+            fmt::format("{}: the file has {} scenes; the program has read scene {}, counted from 0", path_,
+                        list("scenes").size(), scene));
       for (const GltfJson& root : list("nodes", chosen))
         roots.push_back(index(root, nodes.size(), "a root of the scene"));
     } else {

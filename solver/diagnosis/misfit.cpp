@@ -66,8 +66,8 @@ Tail tail(const DiagnosisProblem& problem, const Fit& fit) {
 }
 
 std::string misfit_text(const Tail& t) {
-  return t.of.empty() ? std::string("a misfit as large is usual")
-                      : fmt::format("a misfit as large has probability {:.2g} ({})", t.probability, t.of);
+  return t.of.empty() ? std::string("a misfit of this size is usual")
+                      : fmt::format("a misfit at least this large has probability {:.2g} ({})", t.probability, t.of);
 }
 
 std::vector<std::string> alarms_of(const Fit& fit) {

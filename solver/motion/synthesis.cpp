@@ -179,11 +179,15 @@ void check_synthetic(const SyntheticSettings& s) {
                      s.rise, s.strong);
   if (s.dt > 0.1) throw InputError("synthetic motion: 'dt' is {} s. It must be at most 0.1 s.", s.dt);
   if (s.duration < 20.0 * s.dt)
-    throw InputError("synthetic motion: 'duration' is {} s, which is fewer than 20 time steps of 'dt', {} s",
-                     s.duration, s.dt);
+    throw InputError(
+        "synthetic motion: 'duration' is {} s, which is fewer than 20 time steps of 'dt', {} s. Give a longer "
+        "'duration' or a smaller 'dt'.",
+        s.duration, s.dt);
   if (s.duration / s.dt > 1e6)
-    throw InputError("synthetic motion: 'duration' {} s divided by 'dt' {} s gives more than a million samples",
-                     s.duration, s.dt);
+    throw InputError(
+        "synthetic motion: 'duration' {} s divided by 'dt' {} s gives more than a million samples. Give a shorter "
+        "'duration' or a larger 'dt'.",
+        s.duration, s.dt);
 }
 
 GroundMotion synthesize(const SyntheticSettings& settings) {

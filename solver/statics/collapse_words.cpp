@@ -81,8 +81,8 @@ std::string collapse_headline(const Assembly& assembly, const Collapse& c) {
       "move).",
       c.loss.local ? "Local" : "Global", c.multiplier, moving_part(assembly, c.loss), 100.0 * c.loss.share);
   if (c.loss.rest_stands)
-    text += fmt::format(" The rest {} without {}{}.", *c.loss.rest_stands ? "stands" : "does not stand",
-                        them(c.loss.blocks.size() + (c.loss.fill ? 1 : 0)), *c.loss.rest_stands ? "" : " either");
+    text += *c.loss.rest_stands ? " The rest stands if this part is held and its loads are removed."
+                                : " The rest falls even if this part is held and its loads are removed.";
   if (c.stands_below == false) text += " The dynamic run does not stand below it, which contradicts the static solver.";
   return text;
 }

@@ -101,7 +101,8 @@ TEST(Info, SaysWhatEachFileHolds) {
       << history;
 
   const std::string record = describe_file(folder.write("r.txt", "0 0\n0.5 -3\n1.0 0\n"));
-  EXPECT_TRUE(holds(record, "3 samples, 1 s at 0.5 s") && holds(record, "largest value 3, largest velocity 1.5"))
+  EXPECT_TRUE(holds(record, "3 samples, 1 s at time steps of 0.5 s") &&
+              holds(record, "largest value 3, largest velocity 1.5"))
       << record;
 
   const std::string text =
@@ -119,8 +120,8 @@ TEST(Info, SaysWhatEachFileHolds) {
   header.numbers = {{"time_step", 0.001}};
   write_checkpoint(folder / "k.h5", header, {{"bodies/x", 3, "m", &x}});
   const std::string checkpoint = describe_file(folder / "k.h5");
-  EXPECT_TRUE(holds(checkpoint, "time 2.500000 s, step 7") && holds(checkpoint, "bodies/x: 2 x 3 in m") &&
-              holds(checkpoint, "time_step = 0.001"))
+  EXPECT_TRUE(holds(checkpoint, "time 2.500000 s, time step 7; 0 stages finished") &&
+              holds(checkpoint, "bodies/x: 2 x 3 in m") && holds(checkpoint, "time_step = 0.001"))
       << checkpoint;
 
   Assembly assembly;

@@ -68,7 +68,7 @@ def test_files_and_round_trip(stone_on_base, tmp_path, program):
     ([box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.5), (1, 1, 1.5))], "overlap", {}),
     ([(np.zeros((4, 2)), [[0, 1, 2]])], r"shape \(n, 3\)", {}),
     ([(np.zeros((4, 3)), [[0, 1, 7]])], "vertex 7", {}),
-    ([box((0, 0, 0), (1, 1, 1))], "no component", {"components": ["archh"]}),
+    ([box((0, 0, 0), (1, 1, 1))], "not a component", {"components": ["archh"]}),
     ([box((0, 0, 0), (1, 1, 1))], "1 block", {"components": ["arch", "arch"]}),
     ([box((0, 0, 0), (1, 1, 1))], "block 3", {"fixed": [3]}),
     ([box((0, 0, 0), (1, 1, 1))], "block 5", {"groups": {"g": [5]}}),

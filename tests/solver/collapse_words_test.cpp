@@ -25,14 +25,8 @@ TEST(CollapseWords, CountMovingBlocks) {
   const Assembly assembly = spandrels(2);
   EXPECT_EQ(moving_part(assembly, of({0}, true).loss), "1 block of component spandrel and the fill around it");
   EXPECT_EQ(moving_part(assembly, of({0, 1}, true).loss), "2 blocks of component spandrel and the fill around them");
-  const auto ends = [&](const Collapse& c, const char* sentence) {
-    const std::string text = collapse_headline(assembly, c);
-    EXPECT_TRUE(text.ends_with(sentence)) << text;
-  };
-  ends(of({0}, false), " The rest stands without it.");
-  ends(of({0}, true), " The rest stands without them.");  // the block and the fill
-  ends(of({0, 1}, false), " The rest stands without them.");
-  ends(of({}, true), " The rest stands without it.");  // the fill alone
+  const std::string text = collapse_headline(assembly, of({0}, false));
+  EXPECT_TRUE(text.ends_with(" The rest stands if this part is held and its loads are removed.")) << text;
 }
 
 TEST(CollapseWords, CountJointsOfAMechanism) {

@@ -79,7 +79,7 @@ TEST(Check, AKnownMissIsSaidAndDoesNotFail) {
   folder.write("known.toml", tipping("0.6") + "miss = \"the block is too tall\"\n");
   const Outcome known = voussoir({"check", "known.toml", "-o", "runs"}, there);
   EXPECT_EQ(known.status, 0) << known.err;
-  EXPECT_NE(known.out.find("known: the block is too tall"), std::string::npos) << known.out;
+  EXPECT_NE(known.out.find("known miss: the block is too tall"), std::string::npos) << known.out;
   EXPECT_NE(known.out.find("0 of 1 quantity within their tolerance, 1 known miss\n"), std::string::npos) << known.out;
   EXPECT_EQ(known.out.find("MISS"), std::string::npos) << known.out;
   const nlohmann::json rows = read_json(folder / "runs/check.json");

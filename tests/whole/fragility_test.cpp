@@ -119,7 +119,7 @@ TEST(Fragility, CountsAtTheLevelsThatRecordsWereScaledTo) {
   EXPECT_EQ(json["curves"][1]["identified"], false);
   EXPECT_EQ(json["curves"][1]["theta"], nullptr);
   EXPECT_EQ(json["curves"][1]["theta_between"][0], 4.0);
-  EXPECT_NE(outcome.out.find("only at one intensity, 4 m/s², do some runs exceed the limit and others not (2 of 5 "
+  EXPECT_NE(outcome.out.find("at one intensity only, 4 m/s², some runs exceed the limit and others do not (2 of 5 "
                              "exceed it): θ lies above it"),
             std::string::npos)
       << outcome.out;

@@ -196,7 +196,7 @@ TEST(Rate, SaysWhatItNeeds) {
   EXPECT_NE(wide.err.find("is not road"), std::string::npos) << wide.err;
   const Outcome nowhere = rate(folder, {"--from", "40"});
   EXPECT_EQ(nowhere.status, 2);
-  EXPECT_NE(nowhere.err.find("--from and --to leave no place for axle"), std::string::npos) << nowhere.err;
+  EXPECT_NE(nowhere.err.find("--from and --to leave no position for axle"), std::string::npos) << nowhere.err;
   const Outcome named = voussoir({"rate", "bridge.toml", "--vehicle", "cs454-normal-singl"}, {.folder = folder.path()});
   EXPECT_EQ(named.status, 2);
   EXPECT_NE(named.err.find("cs454-normal-single"), std::string::npos) << named.err;
@@ -232,7 +232,7 @@ TEST(Rate, DrawsTheThrustOfTheWorstPlace) {
     }
   }
   const std::string page = bytes_of(folder / "rated/report.html");
-  EXPECT_NE(page.find("Thrust lines at the worst place"), std::string::npos);
+  EXPECT_NE(page.find("Thrust lines at the worst position"), std::string::npos);
   EXPECT_NE(page.find("largest load found"), std::string::npos);
   EXPECT_NE(bytes_of(folder / "rated/images/thrust.svg").find("<svg"), std::string::npos);
 }

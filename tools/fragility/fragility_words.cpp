@@ -27,7 +27,7 @@ std::string one_mixed_words(const Estimate& e, const std::string& column) {
                           ? "θ equals it"
                           : fmt::format("θ lies from {:.4g} to {:.4g} {}", e.below, e.above, measure_unit(column));
   return fmt::format(
-      "only at one intensity, {}, do some runs exceed the limit and others not ({:.0f} of {:.0f} exceed it): {}, β is "
+      "at one intensity only, {}, some runs exceed the limit and others do not ({:.0f} of {:.0f} exceed it): {}, β is "
       "not known. Run intensities slightly below and above",
       with_unit(e.mixed.im, column), e.mixed.beyond, e.mixed.runs, where);
 }

@@ -22,7 +22,9 @@ namespace {
 void check_shows(const HideRequest& request) {
   const bool recorded = request.minutes > 0.0 || request.shaken > 0.0;
   if (recorded && request.sensors == "none")
-    throw InputError("--minutes and --shaken need sensors. Give --sensors sparse or rich");
+    throw InputError(
+        "--minutes and --shaken need sensors, but --sensors is none. Give sparse, rich, a number of channels or a "
+        "file");
   if (recorded && request.noise_said != 1.0)
     throw InputError("--noise-said applies to standard deviations, which recordings do not have. Leave it out");
   if (recorded && request.trace)

@@ -257,8 +257,8 @@ std::vector<RatedPlace> places_of(const RateRequest& request, const std::vector<
   for (std::size_t v = 0; v < request.vehicles.size(); ++v)
     if (std::none_of(places.begin(), places.end(), [v](const RatedPlace& at) { return at.vehicle == v; }))
       throw InputError(
-          "--from and --to leave no place for {}. The vaults extend from x = {:.2f} to {:.2f} m, and the places are "
-          "{:.2f} m apart",
+          "--from and --to leave no position for {}. The vaults extend from x = {:.2f} to {:.2f} m, and the positions "
+          "are {:.2f} m apart. Widen the range, or give a smaller --step",
           request.vehicles[v].name, spans.front().x0, spans.back().x1, step);
   return places;
 }

@@ -36,13 +36,13 @@ void mark_spans(LineChart& chart, const Rating& rating, double high) {
 
 std::string table(const Rating& rating, const RateRequest& request) {
   std::string text = "<table>\n" + table_row({{"vehicle"},
-                                              {"axles, t", true},
+                                              {"weight of the axles, t", true},
                                               {"adequacy factor", true},
-                                              {"no equilibrium at factor", true},
+                                              {"smallest factor without equilibrium", true},
                                               {"front at x, m", true},
                                               {"y, m", true},
                                               {"direction"},
-                                              {"middle of the axles"},
+                                              {"middle of the axles, share of the span"},
                                               {"what moves at collapse"}},
                                              "th");
   for (const std::size_t index : rating.worst) {
@@ -67,7 +67,8 @@ std::string first_sentence(const Rating& rating, const RateRequest& request) {
   const RatedPlace& at = rating.places[worst_of_all(rating)];
   const Vehicle& vehicle = request.vehicles[at.vehicle];
   if (!at.found)
-    return fmt::format("The bridge carries {:g} times every vehicle at every place that was computed.", request.most);
+    return fmt::format("The bridge carries each vehicle, multiplied by {:g}, at every computed position.",
+                       request.most);
   return fmt::format("The least adequacy factor is {}, for {} with the middle of its axles over {}.",
                      factor_text(at, request), vehicle.name, where_on(rating, vehicle, at.place));
 }
@@ -110,19 +111,19 @@ std::string rate_page(const Rating& rating, const RateRequest& request, const Ra
   std::string body = rating.complete() ? "" : paragraph(missing_text(rating));
   body += paragraph(first_sentence(rating, request));
   body += paragraph(
-      "The factor multiplies all loads of a vehicle at one place, with the dynamic factors given below. The weight of "
-      "the bridge is not multiplied. The adequacy factor is the largest factor at which the program found "
+      "The factor multiplies all loads of a vehicle at one position, with the dynamic factors given below. The weight "
+      "of the bridge is not multiplied. The adequacy factor is the largest factor at which the program found "
       "equilibrium.");
   body += figure(influence_chart(rating, request));
-  body += heading("Worst places") + table(rating, request);
+  body += heading("Worst positions") + table(rating, request);
   if (!words.passages.empty())
     body += heading("Repeated passages") + figure(ratchet_chart(words.passages)) +
             paragraph(passages_text(words.passages, rating.places[rating.worst.front()].factor));
   if (!words.beside.empty()) body += heading("Comparison with other methods") + paragraph(words.beside);
   if (!words.remarks.empty()) body += heading("Assumptions") + list(words.remarks);
-  body += pictures_section(words.pictures, "The worst place");
+  body += pictures_section(words.pictures, "The worst position");
   if (!words.thrust.empty())
-    body += heading("Thrust lines at the worst place") + figure(words.thrust) +
+    body += heading("Thrust lines at the worst position") + figure(words.thrust) +
             note(
                 "One line for each ring: the resultant over the whole width of the vault, seen along y. The forces of "
                 "the joints are in worst/joints.csv and working/joints.csv.");

@@ -249,12 +249,11 @@ std::string gravity_section(const json& reports) {
       html += table_row({words(mode["motion"]), number(period_text(mode["intact"])), number(period_text(mode["now"])),
                          number(fmt::format("{:.3f}", mode["mac"].get<double>()))},
                         "td");
-    html +=
-        "</table>\n" +
-        note(
-            "Intact: every joint is bonded and elastic. Now: the joints are as they rest under gravity. The modes of "
-            "the two states are paired by shape. None: none of the lowest modes of the present state has a similar "
-            "shape, because loose blocks have lower modes.");
+    html += "</table>\n" + note(
+                               "Intact: every joint is bonded and elastic. Now: the joints are as they rest under "
+                               "gravity. The modes of the two states are paired by shape, with the modal assurance "
+                               "criterion (MAC). None: none of the lowest modes of the present state has a similar "
+                               "shape, because loose blocks have lower modes.");
   }
   return html;
 }

@@ -49,7 +49,8 @@ std::string factor_table(const json& c) {
                 fmt::format("{}, {:.1f} % of the mass that can move", c["moving"].value("part", std::string()),
                             100.0 * c["moving"].value("share_of_mass", NAN)));
   if (c.contains("rest_stands"))
-    text += row("rest of the bridge, if this part is held", c["rest_stands"].get<bool>() ? "stands" : "falls too");
+    text += row("rest of the bridge, if this part is held and its loads are removed",
+                c["rest_stands"].get<bool>() ? "stands" : "falls too");
   return text + "</table>\n";
 }
 

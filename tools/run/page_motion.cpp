@@ -92,7 +92,9 @@ std::string motion_section(const RunFiles& run) {
                     {"Arias intensity, m/s", true},
                     {"D5–95, s", true}},
                    "th") +
-         rows + "</table>\n" + charts;
+         rows + "</table>\n" +
+         note("PGA, PGV: peak ground acceleration and velocity. D5–95: time from 5 to 95 % of the Arias intensity.") +
+         charts;
 }
 
 }  // namespace voussoir

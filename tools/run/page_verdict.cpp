@@ -133,7 +133,8 @@ std::string fallen_sentence(const RunFiles& run) {
   if (!run.summary.contains("fallen")) return "";
   const json& fallen = run.of("fallen");
   return sentence("The bridge fell",
-                  fmt::format("at {:.2f} s. Then {:.0f} % of the mass that can move had moved farther than the limit.",
+                  fmt::format("at {:.2f} s. At that time {:.0f} % of the mass that can move had moved farther than the "
+                              "limit of the campaign.",
                               fallen.value("time", NAN), 100.0 * fallen.value("share_of_mass", NAN)));
 }
 

@@ -64,7 +64,7 @@ std::string counts_text(const Tally& t) {
 
 /// A line for each run.
 void print_plan(const Plan& plan) {
-  fmt::print("{:<60} {:>8} {:>8} {:>10}\n", "run", "scale", "t [s]", "PGA [m/s2]");
+  fmt::print("{:<60} {:>8} {:>8} {:>10}\n", "run", "scale", "time [s]", "PGA [m/s2]");
   for (const PlannedRun& run : plan.runs) {
     const PlannedRecord& record = plan.records[run.record];
     fmt::print("{:<60} {:>8g} {:>8.2f} {:>10.3g}\n", run.id, run.scale, record.duration,
@@ -194,7 +194,7 @@ void add_options(CommandLine& line) {
       "status", "say how far each run is, and why it failed")(
       "table", "write the table of the present results; run nothing")("retry-failed", "run failed runs once more")(
       "engine", options::value<std::string>()->value_name("NAME"), "local or slurm (default: the file's)")(
-      "no-wait", "leave the runs to Slurm; the same command without this option gathers them");
+      "no-wait", "leave the runs to Slurm; the same command without this option gathers their results");
 }
 
 int run_campaign(const std::vector<std::string>& arguments) {

@@ -165,7 +165,7 @@ std::vector<CheckRow> climb_case(const std::string& file, const Climb& how) {
   std::vector<CheckRow> rows;
   std::map<std::string, nlohmann::json> summaries;
   const std::vector<Check> checks = read_checks(file);
-  if (checks.empty()) throw InputError("{} has no [[check]], so there is nothing to compare", file);
+  if (checks.empty()) throw InputError("{} has no [[check]], so there is nothing to compare. Add at least one", file);
   for (const Check& check : checks) {
     if (check.slow && !how.slow_too) continue;
     CheckRow row{name, {check}, {}};
@@ -256,8 +256,8 @@ void expect_folder_of(const std::string& table) {
 int check(const std::vector<std::string>& arguments) {
   CommandLine line("check", "check [NAME|CASE …] [--long] [--table FILE] [-o DIR]",
                    "voussoir check joint-stiffness arch.toml");
-  line.described.add_options()("long", "run the slow rungs too")(
-      "list", "name the rungs, and of cases the quantities with their sources; run nothing")(
+  line.described.add_options()("long", "run the slow checks (rungs of the ladder), too")(
+      "list", "list the rungs, and the quantities of the cases with their sources; run nothing")(
       "table", options::value<std::string>()->value_name("FILE")->default_value(""),
       "write the results as a Markdown table")("output,o",
                                                options::value<std::string>()->value_name("DIR")->default_value(""),

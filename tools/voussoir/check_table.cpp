@@ -85,7 +85,7 @@ void print_check_row(const CheckRow& row) {
   fmt::print(layout, row.rung, c.quantity, number_text(c.expected), got_text(row), c.unit, error_text(row),
              tolerance_text(c), verdict(row), c.source);
   if (!row.trouble.empty()) fmt::print("  {}\n", row.trouble);
-  if (row.known_miss()) fmt::print("  known: {}\n", c.miss);
+  if (row.known_miss()) fmt::print("  known miss: {}\n", c.miss);
   if (row.pass() && !c.miss.empty())
     fmt::print("  This known miss is within its tolerance now. Remove its `miss` (\"{}\")\n", c.miss);
   std::fflush(stdout);

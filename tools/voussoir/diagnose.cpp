@@ -134,20 +134,20 @@ int diagnose_run(const std::vector<std::string>& arguments) {
       "number of candidates that are fitted fully in a round")(
       "model-error",
       real_option("model-error", 1e-9, 0.999, &request.model_error)->default_value(request.model_error, "0.005"),
-      "error of the frequencies of a right model, share, in addition to the error of the mesh")(
+      "error of the frequencies of a correct model, as a share, in addition to the error of the mesh")(
       "most-modes", whole_option("most-modes", 1, 30, &request.most_modes)->default_value(request.most_modes),
       "largest number of modes used of those identified from recordings, the lowest first")(
       "run-seconds", real_option("run-seconds", 0.0, 3600.0, &request.run_seconds)->default_value(request.run_seconds),
-      "seconds of the first recording with the ground's motion for which the explicit solver is run, before and after; "
-      "0: no run")("no-least-amounts",
-                   "do not compute the least amounts of the effects that these data would have shown")(
+      "seconds of the first recording with the ground's motion that the explicit solver computes, with the case and "
+      "with the corrected case; 0: no run")(
+      "no-least-amounts", "do not compute the least amounts of the effects that these data would have shown")(
       "plan", options::value<std::string>(&plan.sensors)->value_name("FILE"),
       "planned sensors, in place of measurements (format of sensors.csv): compute the least amounts that they would "
       "show")("plan-modes", whole_option("plan-modes", 1, 30, &plan.modes)->default_value(plan.modes),
               "with --plan: number of the lowest modes to count on")(
       "plan-noise", real_option("plan-noise", 1e-6, 0.5, &plan.noise)->default_value(plan.noise),
-      "with --plan: standard deviation of periods, share; of shapes twice that")("no-page",
-                                                                                 "no HTML page and no pictures");
+      "with --plan: standard deviation of the periods, as a share; that of the shapes is twice as large")(
+      "no-page", "no HTML page and no pictures");
   line.positional = {"CASE"};
   line.required = {"CASE"};
   options::variables_map values;

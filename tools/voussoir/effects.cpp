@@ -44,7 +44,7 @@ int effects_verb_run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb effects_verb() {
-  return {"effects", "list what a model can lack (effects for [[effect]]) and where it can act", effects_verb_run};
+  return {"effects", "list the effects that a model can lack ([[effect]]), and where each can act", effects_verb_run};
 }
 
 }  // namespace voussoir

@@ -207,7 +207,7 @@ int fragility(const std::vector<std::string>& arguments) {
       "limit state NAME:DEMAND:THRESHOLD in SI units, or NAME:collapse; may be repeated; added to those of "
       "campaign.json, replaces one with the same name")(
       "im", options::value<std::string>()->value_name("NAME"),
-      "measure of intensity: a column im.NAME of the table (default: the most proficient that all runs have)")(
+      "intensity measure: a column im.NAME of the table (default: the most proficient that all runs have)")(
       "bootstrap", whole_option("bootstrap", 0, 1'000'000)->value_name("N")->default_value(1000),
       "number of resamples of the records for the bands; 0: no bands")(
       "seed", options::value<std::uint64_t>()->value_name("S")->default_value(1), "seed of the resamples");

@@ -74,14 +74,14 @@ int hide_run(const std::vector<std::string>& arguments) {
   line.described.add_options()("effect", options::value<Texts>()->composing(),
                                "effect that the case lacks; may be repeated; none: no effect")(
       "loosen", options::value<Texts>()->composing(),
-      "change that the case lacks and no effect makes, such as \"x=12..14 z=9.. part=arch 1 factor=0.05\": factor on "
-      "the stiffness of the joints whose centroids lie in the box (m), or density= on the mass of the blocks; may be "
-      "repeated")("truth", options::value<Texts>()->composing(),
-                  "KEY=VALUE: a key of the generator that differs in the true bridge, such as backfill=deformable; may "
-                  "be repeated")("sensors",
-                                 options::value<std::string>(&request.sensors)->default_value(request.sensors),
-                                 "plan of the sensors: sparse, rich, none (periods alone), a number of channels from 5 "
-                                 "to 40 drawn by the seed, or a file in the format of sensors.csv")(
+      "change that the case lacks and that is no effect of the library, such as \"x=12..14 z=9.. part=arch 1 "
+      "factor=0.05\": in this box (m), factor= multiplies the stiffness of the joints, and density= the mass of the "
+      "blocks; may be repeated")(
+      "truth", options::value<Texts>()->composing(),
+      "KEY=VALUE: a key of the generator that differs in the true bridge, such as backfill=deformable; may "
+      "be repeated")("sensors", options::value<std::string>(&request.sensors)->default_value(request.sensors),
+                     "plan of the sensors: sparse, rich, none (periods alone), a number of channels from 5 "
+                     "to 40 drawn by the seed, or a file in the format of sensors.csv")(
       "modes", whole_option("modes", 1, 1000, &request.modes)->default_value(6),
       "number of measured modes: the lowest that are not local")(
       "minutes", real_option("minutes", 0.0, 600.0, &request.minutes)->default_value(0.0),
@@ -90,9 +90,9 @@ int hide_run(const std::vector<std::string>& arguments) {
       "seconds of a synthetic earthquake instead of modes, recorded on the ground too; noise as with --minutes")(
       "noise",
       real_option("noise", 0.0, 0.999, &request.noise)->default_value(request.noise, fmt::format("{}", request.noise)),
-      "standard deviation of periods, share; of shapes twice that")(
+      "standard deviation of the periods, as a share; that of the shapes is twice as large")(
       "noise-said", real_option("noise-said", 0.01, 100.0, &request.noise_said)->default_value(1.0),
-      "ratio of the standard deviations that are written to the true ones; 0.5 understates them by half")(
+      "ratio of the stated standard deviations to the true ones; 0.5 understates them by half")(
       "scatter",
       real_option("scatter", 0.0, 0.999, &request.scatter)
           ->default_value(request.scatter, fmt::format("{}", request.scatter)),
@@ -111,9 +111,9 @@ int hide_run(const std::vector<std::string>& arguments) {
       "parapet-gaps", whole_option("parapet-gaps", 0, 1000, &request.parapet_gaps)->default_value(0),
       "number of movement joints in the parapets that the case lacks, at random places")(
       "trace",
-      "write to answer.toml how much of the effects shows in the modes: the sum of squares, in standard deviations, "
-      "that remains after the materials have been fitted")(
-      "seed", options::value<std::uint64_t>(&request.seed)->default_value(request.seed), "seed of everything random")(
+      "write to answer.toml how clearly the effects show in the modes: the sum of the squared residuals, in standard "
+      "deviations, that remains after the materials have been fitted")(
+      "seed", options::value<std::uint64_t>(&request.seed)->default_value(request.seed), "seed of all random numbers")(
       "output,o", options::value<std::string>(&request.directory)->value_name("DIR"), "folder to write to");
   line.positional = {"CASE"};
   line.required = {"CASE", "output"};
@@ -133,7 +133,8 @@ int hide_run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 Verb hide_verb() {
-  return {"hide", "make measurements of a bridge that has an effect its case lacks, to try diagnose", hide_run};
+  return {"hide", "make synthetic measurements of a bridge with an effect that its case lacks, to test diagnose",
+          hide_run};
 }
 
 }  // namespace voussoir

@@ -81,7 +81,7 @@ int import(const std::vector<std::string>& arguments) {
       "scale", real_option("scale", 1e-9, 1e6)->default_value(1.0),
       "the unit of length as a number: metres per unit of the file")(
       "up", options::value<std::string>()->value_name("AXIS"),
-      "axis of the file that points up: x, y, z, -x, -y, -z (default: z, of glTF y)")(
+      "axis of the file that points up: x, y, z, -x, -y, -z (default: z; for glTF y)")(
       "map", options::value<std::string>()->value_name("FILE"),
       "TOML file that assigns properties to objects by their names: [names] \"arch*\" = {component = \"arch\", part = "
       "0, material = ..., group = ..., fixed = ..., block = ..., not_convex = ...}; the same by layers: [layers]; "
@@ -98,14 +98,19 @@ int import(const std::vector<std::string>& arguments) {
       "TOML file with tables [materials.NAME]: the keys of a case and objects = [\"corbel*\", ...]; keys that are left "
       "out are as the options say")(
       "fixed", options::value<std::string>()->default_value("lowest"),
-      "blocks that move with the ground: lowest, none, or names or numbers of objects, separated by commas (default: "
-      "those of the map, of an assembly file or of the supports of a COMPAS file, otherwise lowest)")(
-      "density", real_option("density", 1e-6, 1e5)->default_value(2000.0), "kg/m3")(
-      "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9, "4e9"), "Pa")(
-      "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9, "1.6e9"), "Pa")(
-      "tension", real_option("tension", 0.0, 1e10)->default_value(0.0), "tensile strength of the joints, Pa")(
-      "cohesion", real_option("cohesion", 0.0, 1e10)->default_value(0.0), "Pa")(
-      "friction", real_option("friction", 0.0, 89.0)->default_value(30.0), "degrees")(
+      "blocks that move with the ground: lowest, none, or names or numbers of objects, separated by commas; without "
+      "this option: those of the map, of an assembly file or of the supports of a COMPAS file, otherwise lowest")(
+      "density", real_option("density", 1e-6, 1e5)->default_value(2000.0),
+      "density of the stones or of the fill, kg/m3")(
+      "youngs-modulus", real_option("youngs-modulus", 1.0, 1e13)->default_value(4e9, "4e9"),
+      "Young's modulus of the stones or of the fill, Pa")(
+      "shear-modulus", real_option("shear-modulus", 1.0, 1e13)->default_value(1.6e9, "1.6e9"),
+      "shear modulus of the stones or of the fill, Pa")("tension",
+                                                        real_option("tension", 0.0, 1e10)->default_value(0.0),
+                                                        "tensile strength of the joints or of the fill, Pa")(
+      "cohesion", real_option("cohesion", 0.0, 1e10)->default_value(0.0), "cohesion of the joints or of the fill, Pa")(
+      "friction", real_option("friction", 0.0, 89.0)->default_value(30.0),
+      "friction angle of the joints or of the fill, degrees")(
       "kn", real_option("kn", 0.0, 1e15)->default_value(0.0),
       "normal stiffness of every joint, Pa/m; 0: from the moduli")(
       "ks", real_option("ks", 0.0, 1e15)->default_value(0.0),

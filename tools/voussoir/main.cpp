@@ -18,7 +18,9 @@ void print_help() {
       voussoir::program_version());
   for (const voussoir::Verb& verb : voussoir::verbs())
     if (!verb.summary.empty()) fmt::print("  {:<10} {}\n", verb.name, verb.summary);
-  fmt::print("\nExit status: 0 the work is done, 1 the work failed, 2 the input is wrong.\n");
+  fmt::print(
+      "\nvoussoir --version prints the version, the kernels and the libraries.\nExit status: 0 the work is done, 1 the "
+      "work failed, 2 the input is wrong.\n");
 }
 
 int run(int argc, char** argv) {

@@ -27,8 +27,8 @@ namespace {
 
 const std::vector<Verb>& motion_parts() {
   static const std::vector<Verb> list = {
-      {"info", "print what records hold, and their measures", motion_info},
-      {"spectrum", "compute response spectra, and that of a code if --target is given", motion_spectrum},
+      {"info", "print what records hold, and their intensity measures", motion_info},
+      {"spectrum", "compute response spectra, with --target also the spectrum of a code", motion_spectrum},
       {"process", "process records and join their components: taper, band-pass filter, baseline correction, resampling",
        motion_process},
       {"select", "select records whose mean spectrum fits that of a code", motion_select},
@@ -65,7 +65,7 @@ Verb motion_verb() {
 void add_columns_options(CommandLine& line) {
   line.described.add_options()("units", options::value<std::string>()->default_value("m/s2"),
                                "unit of files of plain columns: m/s2, g or cm/s2")(
-      "dt", options::value<double>()->default_value(0.005), "time step of files without times, s")(
+      "dt", options::value<double>()->default_value(0.005, "0.005"), "time step of files without times, s")(
       "columns", options::value<std::vector<std::string>>()->multitoken(),
       "names of the columns of a table: t, x, y, z, or - for a column to skip");
 }
@@ -92,7 +92,7 @@ void add_target_options(CommandLine& line) {
       "tc", options::value<double>(), "NTC 2018: corner period Tc* on rock, s")(
       "soil", options::value<char>(), "soil class, A to E")("topography", options::value<int>()->default_value(1),
                                                             "topographic class, 1 to 4 (T1 to T4)")(
-      "damping", options::value<double>()->default_value(0.05), "damping ratio of the spectra");
+      "damping", options::value<double>()->default_value(0.05, "0.05"), "damping ratio of the spectra");
 }
 
 std::optional<TargetSpectrum> target_asked(const options::variables_map& values) {
@@ -265,7 +265,10 @@ std::string measures_table(const std::vector<std::string>& names, const std::vec
       first = false;
     }
   }
-  return text + "</table>\n";
+  return text + "</table>\n" +
+         note(
+             "PGA, PGV: peak ground acceleration and velocity. D5–95: time from 5 to 95 % of the Arias intensity. CAV: "
+             "cumulative absolute velocity.");
 }
 
 std::string histories_figure(const std::string& name, const GroundMotion& motion) {

@@ -138,7 +138,7 @@ int motion_info(const std::vector<std::string>& arguments) {
 }
 
 int motion_spectrum(const std::vector<std::string>& arguments) {
-  CommandLine line("motion spectrum", "motion spectrum DIR|FILE [FILE FILE] -o OUT [--target …]",
+  CommandLine line("motion spectrum", "motion spectrum DIR|FILE [FILE FILE] [-o OUT] [--target …]",
                    "voussoir motion spectrum records --target ntc2018 --ag 0.2607 --f0 2.36 --tc 0.35 --soil D -o OUT");
   take_paths(line);
   add_target_options(line);
@@ -192,7 +192,8 @@ int motion_process(const std::vector<std::string>& arguments) {
       throw InputError("--band has {}. Give two corner frequencies in Hz", counted(band.size(), "number"));
     asked.low = band[0], asked.high = band[1];
     for (const double corner : band)
-      if (!(corner >= 0.0 && corner <= 1e5)) throw InputError("--band has {} Hz. Give 0 (no limit) or more", corner);
+      if (!(corner >= 0.0 && corner <= 1e5))
+        throw InputError("--band has {} Hz. It must be from 0 (no limit on that side) to 1e5 Hz", corner);
   }
   if (!(asked.taper >= 0.0 && asked.taper <= 0.5))
     throw InputError("--taper is {}. It must be a share from 0 to 0.5", asked.taper);

@@ -292,7 +292,7 @@ int select(SelectRequest& request) {
 }  // namespace
 
 int motion_select(const std::vector<std::string>& arguments) {
-  CommandLine line("motion select", "motion select DIR --target CODE … --range LOW HIGH [-o OUT]",
+  CommandLine line("motion select", "motion select DIR --target CODE … [--range LOW HIGH] [-o OUT]",
                    "voussoir motion select records --count 7 --target ntc2018 --ag 0.2607 --f0 2.360 --tc 0.350 "
                    "--soil D --range 0.15 1.2 --bounds 0.9 1.3 -o selection");
   add_target_options(line);

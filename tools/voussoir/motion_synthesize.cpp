@@ -78,8 +78,8 @@ int motion_synthesize(const std::vector<std::string>& arguments) {
       "count,n", options::value<int>()->default_value(1), "number of records, each of three components")(
       "seed", options::value<int>()->default_value(1),
       "seed of the first record; each further record has the next number")(
-      "duration", options::value<double>()->default_value(25.0), "s")(
-      "step", options::value<double>()->default_value(0.005), "s");
+      "duration", options::value<double>()->default_value(25.0), "length of each record, s")(
+      "step", options::value<double>()->default_value(0.005, "0.005"), "time step of the records, s");
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;
   const std::optional<TargetSpectrum> target = target_asked(values);

@@ -109,7 +109,7 @@ int render(const std::vector<std::string>& arguments) {
       "range", real_option("range", 0.0, 1e9)->default_value(0.0),
       "top of the colour scale, mm (plastic: %, stress: kPa, normal and shear: MPa); 0: from the data")(
       "resultants", "draw the resultants of the bed joints of vaults and the lines of thrust; needs a state at rest")(
-      "width", whole_option("width", 200, 8000)->default_value(1800), "pixels")(
+      "width", whole_option("width", 200, 8000)->default_value(1800), "width of the picture, pixels")(
       "height", whole_option("height", 0, 8000)->default_value(1000),
       "height of the picture, pixels; 0: as the content needs")("undeformed",
                                                                 "draw thin outlines of the undeformed stones")(

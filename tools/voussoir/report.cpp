@@ -22,7 +22,7 @@ void print_beside(const std::string& page, bool says) {
 
 int report(const std::vector<std::string>& arguments) {
   CommandLine line("report", "report DIR|PAGE.html [--pdf]", "voussoir report demo --pdf");
-  line.described.add_options()("pdf", "also print the page as a PDF beside it (needs Chromium)");
+  line.described.add_options()("pdf", "also print the page as a PDF in the same folder (needs Chromium)");
   line.positional = line.required = {"DIR"};
   options::variables_map values;
   if (!line.parse(arguments, values)) return 0;

@@ -39,14 +39,17 @@ std::vector<Budget> try_budgets(const Model& model, const State& state) {
 void print_report(const Assembly& assembly, const Model& model, const StepReport& report) {
   const char* what = model.fill.empty() ? "bodies" : "bodies and nodes";
   fmt::print(
-      "\n{} that demand the shortest time steps: time step that each demands, s; time step of the assembly if it is "
-      "held, s\n",
+      "\n{} that demand the shortest time steps. First column: time step that each demands, s. Second column: time "
+      "step of the assembly if this one is held, s\n",
       what);
   for (const StiffSite& row : report.stiffest)
     fmt::print("{:>10.4g} {:>10.4g}  {}\n", row.step, row.without, describe_stiff_site(assembly, model, row));
-  fmt::print("\nshare of the {} that demand a shorter time step than, s\n", what);
+  fmt::print("\nshare of the {} that demand a time step shorter than the value in the second column, s\n", what);
   for (double share : shares) fmt::print("{:>9.1f} % {:>10.4g}\n", 100 * share, report.at_share(share));
-  fmt::print("\ncritical time step, s, with the inertia of the stiffest {} raised to that of the next\n", what);
+  fmt::print(
+      "\ncritical time step, s, if the inertia of the stiffest {} is raised until they demand no shorter time step "
+      "than the next one\n",
+      what);
   fmt::print("{:>10} {:>10} {:>12} {:>8}\n", "raised", "step", "added mass", "gain");
   for (const StiffestRaised& row : report.raised)
     fmt::print("{:>10} {:>10.4g} {:>10.4f} % {:>8.3f}\n", row.count, row.step, 100 * row.share,
@@ -54,7 +57,10 @@ void print_report(const Assembly& assembly, const Model& model, const StepReport
 }
 
 void print_budgets(const std::vector<Budget>& rows, double before) {
-  fmt::print("\ncritical time step, s, with mass scaling (mass_scaling_limit)\n");
+  fmt::print(
+      "\ncritical time step, s, with mass scaling (mass_scaling_limit). Column bodies: number of bodies with more "
+      "inertia; heavier: number of these with more mass; most mass, most rot.: largest factors on mass and rotary "
+      "inertia\n");
   fmt::print("{:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}\n", "limit", "step", "gain", "bodies", "heavier",
              "most mass", "most rot.");
   for (const Budget& row : rows)

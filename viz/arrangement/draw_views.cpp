@@ -338,7 +338,7 @@ void ArrangementParts::draw_section(DrawingSheet& sheet, const SheetBox& box, co
     chain_of_places(sheet, place, top - 5.0, top,
                     {parapet(1)->low.x(), parapet(1)->high.x(), parapet(0)->low.x(), parapet(0)->high.x()});
   }
-  // Below: spandrel walls at their lowest course there, and the width at the foot.
+  // Below: spandrel walls at their lowest course there, and the width of the whole section.
   if (spandrel(0) && spandrel(1)) {
     chain_of_places(sheet, place, foot + 5.5, foot,
                     {spandrel(1)->low.x(), spandrel(1)->high.x(), spandrel(0)->low.x(), spandrel(0)->high.x()});

@@ -45,7 +45,7 @@ NameRow meaning_of_block(const BlockWords& words, std::size_t block) {
     const auto& known = component_names();
     const auto at = std::find(known.begin(), known.end(), words.components[block]);
     if (at == known.end())
-      throw InputError("block {}: '{}' is no component{}", block, words.components[block],
+      throw InputError("block {}: '{}' is not a component{}", block, words.components[block],
                        suggestion(words.components[block], known));
     row.component = Component(at - known.begin());
   }
@@ -70,7 +70,7 @@ void add_cell(const py::handle& vertices, const py::handle& faces, std::size_t b
     for (const py::handle& vertex : face) {
       const auto index = vertex.cast<py::ssize_t>();
       if (index < 0 || index >= corners.shape(0))
-        throw InputError("block {}: a face names vertex {}, and there are vertices 0 to {}", block, index,
+        throw InputError("block {}: a face has the vertex {}. It must be from 0 to {}", block, index,
                          corners.shape(0) - 1);
       loop.push_back(first + int(index));
     }
@@ -86,7 +86,8 @@ Surface surface_of(const py::sequence& blocks) {
     surface.objects.emplace_back().name = fmt::format("{}", i);
     for (const py::handle& cell : blocks[i]) {
       const auto pair = cell.cast<py::tuple>();
-      if (pair.size() != 2) throw InputError("block {}: give (vertices, faces)", i);
+      if (pair.size() != 2)
+        throw InputError("block {}: a cell has {} entries. Give a tuple (vertices, faces)", i, pair.size());
       add_cell(pair[0], pair[1], i, surface);
     }
     if (surface.objects.back().faces.empty()) throw InputError("block {} has no faces", i);
@@ -98,7 +99,8 @@ Surface surface_of(const py::sequence& blocks) {
 void check_lengths(const BlockWords& words, std::size_t blocks) {
   const auto check = [&](std::size_t given, const char* what) {
     if (given != 0 && given != blocks)
-      throw InputError("'{}' has {} entries for {} blocks: give one a block, or none", what, given, blocks);
+      throw InputError("'{}' has {} for {}. Give one entry for each block, or none", what,
+                       counted(given, "entry", "entries"), counted(blocks, "block"));
   };
   check(words.components.size(), "components"), check(words.parts.size(), "parts");
   check(words.materials.size(), "block_materials"), check(words.fixed.size(), "fixed");
@@ -137,7 +139,7 @@ Made from_arrays(const py::sequence& blocks, const BlockWords& words, const std:
   for (const auto& [name, members] : groups) {
     for (const std::int64_t block : members)
       if (block < 0 || block >= std::ssize(import.assembly.blocks))
-        throw InputError("the group '{}' names block {}, and there are blocks 0 to {}.", name, block,
+        throw InputError("the group '{}' contains the block {}. Blocks must be from 0 to {}.", name, block,
                          import.assembly.blocks.size() - 1);
     import.assembly.groups[name] = members;
   }
@@ -172,7 +174,8 @@ py::dict joints_of(const Assembly& a) {
 
 const Block& block_at(const Assembly& a, std::int64_t i) {
   if (i < 0 || i >= std::ssize(a.blocks))
-    throw py::index_error(fmt::format("block {}: there are blocks 0 to {}.", i, std::ssize(a.blocks) - 1));
+    throw py::index_error(
+        fmt::format("there is no block {}. The assembly has the blocks 0 to {}.", i, std::ssize(a.blocks) - 1));
   return a.blocks[std::size_t(i)];
 }
 
@@ -198,7 +201,8 @@ std::vector<std::string> block_materials(const Assembly& a) {
 
 py::array_t<double> polygon_of_joint(const Assembly& a, std::size_t i) {
   if (i >= a.joints.size())
-    throw py::index_error(fmt::format("joint {}: there are {}.", i, counted(a.joints.size(), "joint")));
+    throw py::index_error(fmt::format("there is no joint {}. The assembly has {}, counted from 0.", i,
+                                      counted(a.joints.size(), "joint")));
   return vectors(a.joints[i].polygon);
 }
 
@@ -230,7 +234,7 @@ void bind_assembly(py::module_& m) {
            "Writes the shapes for other programs: .obj, or .json for COMPAS. Joints are not written.")
       .def("__len__", [](const Assembly& a) { return a.blocks.size(); })
       .def_property_readonly("hash", &assembly_hash,
-                             "Number of 64 bits; equal where assemblies move alike, bit for bit.")
+                             "Digest of 64 bits. It is equal for assemblies that move identically, bit for bit.")
       .def_property_readonly(
           "centroids", [](const Assembly& a) { return vectors(a.blocks, [](auto& b) { return b.centroid; }); },
           "Centroids of the blocks, shape (n, 3), m.")

@@ -67,7 +67,7 @@ std::string session(const std::string& directory, bool resumed, double until, in
   if (thrown) std::rethrow_exception(thrown);
   if (end == SessionEnd::stopped) {
     PyErr_SetString(PyExc_KeyboardInterrupt,
-                    ("stopped with a checkpoint; go on with resume() in " + directory).c_str());
+                    ("stopped with a checkpoint. Continue with resume() in " + directory).c_str());
     throw py::error_already_set();
   }
   return end == SessionEnd::paused ? "paused" : "finished";

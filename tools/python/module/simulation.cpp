@@ -61,15 +61,15 @@ class PythonRun {
     const auto rows = [&](const py::array_t<double>& a) {
       return a.ndim() == 2 && a.shape(0) == count && a.shape(1) == 3;
     };
-    if (!rows(forces)) throw InputError("forces must be an array of shape ({}, 3), in N: one row a block", count);
+    if (!rows(forces))
+      throw InputError("forces must be an array of shape ({}, 3), in N: one row for each block", count);
     const auto at = points.is_none() ? py::array_t<double>() : points.cast<py::array_t<double>>();
     if (!points.is_none() && !rows(at)) throw InputError("points must be an array of shape ({}, 3), in m", count);
     std::vector<PointLoad> loads;
     for (py::ssize_t i = 0; i < count; ++i) {
       const std::int64_t block = blocks[std::size_t(i)];
       if (block < 0 || block >= std::ssize(assembly_->blocks))
-        throw InputError("a force is to act on block {}, and there are blocks 0 to {}", block,
-                         assembly_->blocks.size() - 1);
+        throw InputError("a force acts on block {}. Blocks must be from 0 to {}", block, assembly_->blocks.size() - 1);
       PointLoad load;
       load.body = run_->model().body_of_block[std::size_t(block)];
       for (py::ssize_t c = 0; c < 3; ++c) load.from[c] = load.to[c] = forces.at(i, c);

@@ -46,7 +46,7 @@ def diagnose(case, measured, *, directory=None, page=False, hold_back=(), withou
     hold_back      names of modes that are predicted, not fitted
     without        names of effects that are not tried
     effects        most that are added
-    model_error    of a right model's frequencies, share, beside what the mesh does
+    model_error    of the frequencies of a correct model, as a share, in addition to the error of the mesh
     least_amounts  say what least amount of each effect would have been found
     run_seconds    s of a recording with the ground's motion for which the explicit solver is run; 0: not
     progress       True: a line for each step; or a function of a text
@@ -60,7 +60,7 @@ def diagnose(case, measured, *, directory=None, page=False, hold_back=(), withou
 
 
 class Rating:
-    """What a bridge bears of vehicles.
+    """The vehicles that a bridge can carry.
 
     text  one line a vehicle: the worst place and the factor there
     data  every place, as in rate.json (docs/formats.md)
@@ -86,7 +86,7 @@ def rate(case, vehicles, *, lanes=(0.0,), both_ways=True, step=None, refinements
     refinements      halvings of the step about the worst place
     most, tolerance  the factor is looked for up to `most`, to within `tolerance`
     strip            m: a strip of this width in plane strain instead of the whole bridge
-    effective_width  m across that bear a vehicle, with `strip`; None: wheels + 1.5 m + cover
+    effective_width  m, width of the bridge that carries a vehicle, with `strip`; None: wheels + 1.5 m + cover
     progress         True: a line for each place; or a function of a text
 
     No dynamic factor acts. Ctrl-C stops between two places.

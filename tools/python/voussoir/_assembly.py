@@ -37,8 +37,8 @@ def assembly_from_blocks(blocks, *, fixed=None, components=None, parts=None, mat
     components       'arch', 'pier', ... a block (component_names()); None: 'block'.
     parts            number of each block's part among those of its component; None: 0.
     materials        dictionaries with name, density (kg/m3), youngs_modulus, shear_modulus, tensile_strength,
-                     cohesion (Pa), friction_angle (degrees); a joint has the weaker strength of the two materials
-                     beside it. None: dry stone of 2000 kg/m3, E = 4 GPa, G = 1.6 GPa, 30 degrees.
+                     cohesion (Pa), friction_angle (degrees); a joint has the weaker strength of its two
+                     materials. None: dry stone of 2000 kg/m3, E = 4 GPa, G = 1.6 GPa, 30 degrees.
     block_materials  name of each block's material; None: the first of `materials`.
     groups           {name: [block, ...]}: what loads, drives and outputs of a case can name.
     kn, ks           Pa/m of every joint; None: from the moduli and the sizes of the stones.

@@ -54,7 +54,7 @@ class Simulation:
             ended(bar)
 
     def push(self, forces):
-        """Forces that act beside those of the case in all time steps from now on, until the next call.
+        """Forces that act in addition to those of the case in all time steps from now on, until the next call.
 
         forces  {block: (fx, fy, fz)} in N, or {block: ((fx, fy, fz), (x, y, z))} with the point of the block, as built,
                 on which it acts (else its centroid); {} ends them.
