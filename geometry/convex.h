@@ -41,8 +41,8 @@ double separation(const Convex& a, const Convex& b, double enough);
 /// Among face axes that tie within 1e-9 m the one nearest to the line of centres wins.
 ///
 /// The reference face belongs to the winning axis; the facing face of the other body is the most anti-parallel one of
-/// those that hold its deepest corner. If the facing face is within 6 degrees of the direction of the axis, the result
-/// is Kind::edge with the tip of the other body and its projection on the reference face. If the two faces do not
+/// those that hold its deepest corner. If the plane of the facing face is within 6 degrees of the axis, the result is
+/// Kind::edge with the tip of the other body and its projection on the reference face. If the two faces do not
 /// overlap when they are projected on the common plane, or if that tip is not above the reference face, the result is
 /// Kind::face with area 0 and no points. For Kind::apart, separation and normal are those of the axis that separates.
 ///

@@ -15,9 +15,9 @@ void orient_tets(FillMesh& mesh);
 /// result does not depend on the order of the tetrahedra.
 void find_surface(FillMesh& mesh);
 
-/// Throws InputError, with its place, for coordinates that are not finite, nodes out of range or unused, a tetrahedron
-/// that is inverted or flat (lower than 1e-6 of its longest edge), a face of three tetrahedra, two tetrahedra on one
-/// side of a face. `what` is the beginning of the message: "the fill", or the name of a file.
+/// Throws InputError, with the place of the fault, for coordinates that are not finite, nodes out of range or unused, a
+/// tetrahedron that is inverted or flat (lower than 1e-6 of its longest edge), a face of three tetrahedra, and two
+/// tetrahedra on one side of a face. `what` is the beginning of the message: "the fill", or the name of a file.
 void check_fill(const FillMesh& mesh, const std::string& what);
 
 /// Throws InputError if the volume of the mesh differs from the expected one (m3) by more than 0.1 %.

@@ -1,4 +1,4 @@
-// Makes faces of stones plane that are drawn with few decimals or slightly warped.
+// Makes the faces of stones plane if they are drawn with few decimals or slightly warped.
 #pragma once
 #include <optional>
 

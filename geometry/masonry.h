@@ -58,8 +58,8 @@ std::vector<std::int64_t> lay_ring(Layout& layout, const Ring& ring, double y0, 
 
 /// Fills a box with horizontal courses in running bond: along x (a course is offset half a length against the ones
 /// above and below) and across y (each row is offset against its neighbours in the course), unless the unit is stacked.
-/// The limits of the layout cut stones; separate pieces become separate stones. `first` is the
-/// number of the lowest course in the bond, for walls laid in several calls.
+/// The limits of the layout cut stones; separate pieces become separate stones. `first` is the number of the lowest
+/// course in the bond, for walls laid in several calls.
 void lay_courses(Layout& layout, const Vec3& low, const Vec3& high, const Unit& unit, int first = 0);
 
 /// Adds one stone of the given cells.

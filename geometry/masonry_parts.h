@@ -1,6 +1,6 @@
 // The parts of a masonry arch bridge. Each is a function that adds its stones to a layout (one file each,
 // masonry_PART.cpp). All take their coordinates from one description of the bridge, so that neighbouring parts have
-// equal coordinates where they meet.
+// equal coordinates where they meet. Coordinates (x, y, z) are in m, in the axes of Bridge.
 #pragma once
 #include <algorithm>
 #include <numeric>
@@ -71,7 +71,7 @@ struct Support {
   double height = 0.0;                  // m, from the base to the springing
   double base = 0.0, springing = 0.0;   // z
   double top = 0.0;                     // z of the highest foot of a vault on it
-  double slope_x = 0.0, slope_y = 0.0;  // batter of its faces, widening downwards; x: of piers
+  double slope_x = 0.0, slope_y = 0.0;  // batter, horizontal over vertical, widening downwards; x: piers only
   double width = 0.0;                   // m, across, at the springing
   std::int32_t material = 0;            // material of its stones, not of its infill
   Makeup makeup = Makeup::solid;

@@ -9,9 +9,9 @@
 namespace voussoir {
 
 /// Pairs (i, j), i < j, of boxes that come within `distance` (m) of each other along all three axes, sorted. Negative
-/// distances find boxes that overlap by more than that. Sweep along the axis on which the boxes spread most
-/// (after Baraff 1992), in columns of a grid across it, so that the time is proportional to the number of boxes even if
-/// many are side by side (after Tracy, Buss & Woods 2009).
+/// distances find boxes that overlap by more than that. The method is a sweep along the axis on which the boxes spread
+/// most (after Baraff 1992), in columns of a grid across it. The time is therefore proportional to the number of boxes
+/// even if many are side by side (after Tracy, Buss & Woods 2009).
 std::vector<std::pair<int, int>> neighbours(const std::vector<Box>& boxes, double distance);
 
 /// An index of boxes for many queries, also by several threads at once.

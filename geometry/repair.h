@@ -6,9 +6,9 @@
 
 namespace voussoir {
 
-/// Merges neighbouring faces of a closed surface whose normals differ by at most `angle` (rad) from the largest of them
-/// into one polygon, joins vertices closer than 1e-6 of the shape's size, and drops vertices on straight edges and
-/// collapsed faces. For closed convex surfaces given as triangles (STL, VTK); faces that do not merge into a single
+/// Merges neighbouring faces of a closed surface into one polygon if their normals differ by at most `angle` (rad) from
+/// that of the largest face, joins vertices closer than 1e-6 of the shape's size, and drops vertices on straight edges
+/// and collapsed faces. For closed convex surfaces given as triangles (STL, VTK); faces that do not merge into a single
 /// loop stay as they are. The order of the result does not depend on the triangles' order beyond ties in size.
 Polyhedron merge_coplanar_faces(const Polyhedron& triangulated, double angle);
 

@@ -11,8 +11,8 @@ struct Segment {
   Vec3 from, to;  // m
 };
 
-/// Nearest points of two segments, which may be points: the interior solution, with each parameter clamped for the
-/// other.
+/// Nearest points of two segments, m. A segment may have zero length. The parameter of the nearest point of each
+/// segment is computed from that of the other and limited to the segment.
 inline std::pair<Vec3, Vec3> nearest_points(const Segment& p, const Segment& q) {
   const auto clamped = [](double above, double below) {
     return below > 0.0 ? std::clamp(above / below, 0.0, 1.0) : 0.0;

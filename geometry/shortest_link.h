@@ -21,8 +21,8 @@ struct ShortestLink {
 /// times as far. Corners within an edge or a face move with it, so that the shrunk cell does not depend on them.
 std::vector<Vec3> shrunk_vertices(const Convex& shape, double shrink);
 
-/// The shortest link (Gilbert, Johnson & Keerthi 1988); empty if the shrunk cells overlap. Its direction depends only
-/// on the two sets of points, and continuously.
+/// The shortest link (Gilbert, Johnson & Keerthi 1988); empty if the shrunk cells overlap. Its direction is a
+/// continuous function of the two sets of points and depends on nothing else.
 std::optional<ShortestLink> shortest_link(const Convex& a, const Convex& b, double shrink);
 
 /// The contact of two cells at edges or corners, by the shortest link of the shrunk cells: Kind::edge with one pair of

@@ -15,7 +15,8 @@ struct Stiffness {
 
 /// The rules for stiffness and strength of the joints of an assembly.
 struct JointRules {
-  /// moduli: kn = E/dc, ks = G/dc from the two half-lengths, in series if the materials differ.
+  /// moduli: kn = E/dc and ks = G/dc, where dc (m) is the sum of the two half-lengths. A half-length is the distance of
+  /// a centroid from the joint along its normal. Different materials act in series.
   /// table: one pair of values for each component in every direction; different components in series from equal halves,
   /// but the values of the infill hold for all joints of the infill. Rigid backfill takes its values from the moduli.
   /// given: `uniform` for every joint.
@@ -48,8 +49,8 @@ void assign_fill_stiffness(Assembly& assembly, const JointRules& rules, const Ge
 
 /// Finds the joints of an assembly that has none and sets their stiffness and strength (blocks finished). The stiffness
 /// is `uniform` or, if that is zero, follows from the moduli. Joints of masonry with blocks of backfill have a friction
-/// angle of 35 degrees without cohesion and, if the stiffness follows from the moduli, a fifth of it. Throws InputError
-/// for blocks without moduli, for overlaps, and if only one of kn and ks is given.
+/// angle of 35 degrees and no cohesion. If the stiffness follows from the moduli, they have a fifth of the stiffness of
+/// the masonry. Throws InputError for blocks without moduli, for overlaps, and if only one of kn and ks is given.
 JointReport lay_joints(Assembly& assembly, const JointSearch& search, const Stiffness& uniform = {});
 
 /// Rules of the small generators: keys kn and ks (Pa/m) for every joint, or the moduli if both are 0. Throws InputError

@@ -1,4 +1,4 @@
-// The parts of a picture: faces, lines and lamps, as actors of a renderer.
+// The parts of a picture: faces, lines and lights of a renderer.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
@@ -22,8 +22,8 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* lines, double width, const Co
 /// The borders of the coloured polygons that the reader sees edge-on, in their colours; `lift` as above.
 void add_edge_on(vtkRenderer* renderer, vtkPolyData* faces, const View& view, double lift);
 
-/// A lamp over the left shoulder of the reader and a weak one from the right. Together they show a face turned to the
-/// reader in its own colour, so that the colour scale can be read.
+/// Adds a light from above on the left side of the reader, and a weak one from the right. Together they show a face
+/// turned to the reader in its own colour, so that the colour scale can be read.
 void add_lights(vtkRenderer* renderer, const View& view);
 
 }  // namespace voussoir

@@ -40,7 +40,7 @@ class Places {
   vtkIdType on_edge(vtkIdType a, vtkIdType b, const CutPlane& cut);
   /// Number of points including those on edges.
   vtkIdType count() const { return vtkIdType(reference_.size()); }
-  /// reference + amplification × displacement.
+  /// Points at reference + amplification × displacement relative to the base, m.
   vtkSmartPointer<vtkPoints> amplified(double amplification) const;
   /// Named "displacement_of_point", m.
   vtkSmartPointer<vtkDataArray> displacements() const;
@@ -58,8 +58,9 @@ Loop cut_polygon(const Loop& polygon, Places& places, const CutPlane& cut, std::
 
 bool in_plane(const Loop& polygon, const Places& places, const CutPlane& cut);
 
-/// The remaining faces of a closed body with these faces, then its section; none if the body is in front of the plane.
-/// Of the faces only those with `seen` are returned, and those in the plane, where the neighbour is left out.
+/// The faces that remain of a closed body after the cut, then its section; none if the body is in front of the plane. A
+/// face is returned only if it is marked in `seen`, or if it lies in the plane, because the neighbour there is left
+/// out.
 std::vector<Loop> cut_body(const std::vector<Loop>& faces, const std::vector<bool>& seen, Places& places,
                            const CutPlane& cut);
 

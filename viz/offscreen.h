@@ -15,7 +15,7 @@ constexpr int kOversampling = 2;
 /// between 64 and 8000 pixels. A Display must exist.
 vtkSmartPointer<vtkRenderWindow> offscreen_window(int width, int height);
 
-/// Draws the window and writes the averaged picture in one step. Throws RunError that names the path.
+/// Draws the window and writes the averaged picture atomically. Throws RunError that names the path.
 void write_png(vtkRenderWindow* window, const std::string& path);
 
 }  // namespace voussoir

@@ -41,8 +41,8 @@ class Overlay {
 
 /// The largest of 1, 2, 5 × 10^n that is not above `limit` (> 0).
 double nice_below(double limit);
-/// The smallest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 × 10^n that is not below `value` (> 0): a scale with this upper
-/// end is used by at least two thirds.
+/// The smallest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 × 10^n that is not below `value` (> 0). On a scale with this
+/// upper end the value is at least at two thirds of the scale.
 double nice_above(double value);
 
 }  // namespace voussoir

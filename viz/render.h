@@ -42,10 +42,10 @@ struct RenderOptions {
   std::string scale_title;                       // title of the colour scale; empty: the coloured quantity
   double range = 0.0;                            // mm, %, MPa or kPa, upper end of the colour scale; 0: from the data
   bool undeformed = false;                       // thin outlines of the undeformed stones
-  bool outline = false;                          // or only the outline of the undeformed whole (needs the joints)
+  bool outline = false;                          // only the outline of the undeformed whole (needs the joints)
   std::string title;
   std::array<std::string, 2> notes;  // two lines in the lower right; empty: time and amplification
-  std::vector<Mark> marks;           // drawn over everything, too
+  std::vector<Mark> marks;           // drawn over everything
   std::vector<Arrow> arrows;         // drawn over everything
   std::vector<BedJoint> resultants;  // arrows and thrust lines, drawn over everything; only for true deformations
 };

@@ -25,7 +25,7 @@ struct MotionSource {
   enum class Kind { none, record, pulse, synthetic };
   Kind kind = Kind::none;
   /// record: paths as opened, and contents, for x, y, z; empty: no motion along that axis. A file with several channels
-  /// stands alone.
+  /// must be the only one; it contains all axes.
   std::array<std::string, 3> files, texts;
   std::string units = "m/s2";             // record: unit of plain columns: m/s2, g or cm/s2
   double dt = 0.0;                        // s, record: time step; 0: as in the file
@@ -44,7 +44,7 @@ struct MeasuredCurve {
   std::string text;  // contents of the file; empty if there is no such file
 };
 
-/// A picture that is drawn at the end of a run: one channel of the history over another.
+/// A picture that is drawn at the end of a run: one channel of the history plotted against another.
 struct PlotSpec {
   std::string name;                       // name of the file in images/, without .png
   std::string title, label = "computed";  // text above the chart; name in the legend
@@ -80,8 +80,8 @@ struct Case {
   std::vector<PlotSpec> plots;
   std::vector<ExpectedPeriod> expected_periods;
   std::vector<DemandLimit> limits;
-  /// Of the resolved text without modes, plots and limit states, and of the records: equal for a case and its resolved
-  /// copy. It does not cover the contents of an assembly file; see assembly_hash().
+  /// Hash of the resolved text without modes, plots and limit states, and of the records. It is equal for a case and
+  /// its resolved copy. It does not cover the contents of an assembly file; see assembly_hash().
   std::uint64_t hash = 0;
 };
 

@@ -18,11 +18,11 @@ inline constexpr const char* object_group_prefix = "object ";
 void write_assembly(const std::string& path, const Assembly& assembly);
 
 /// Reads an assembly file and checks everything in it: format and version, shapes, offsets, index ranges, finite
-/// numbers, convex closed blocks of positive volume, stated masses, at least one fixed block, sensible joints, a sound
-/// mesh of the fill. Optional in a file: cells/*, materials/* (then from blocks/density), mass, centroid and inertia,
-/// joints/cells and faces, joints as a whole, fill/*, groups, sensors; a file of a fill needs no blocks. Joints that it
-/// does not state are found, with stiffness and strength of its materials. Throws InputError with file, dataset and
-/// row.
+/// numbers, convex closed blocks of positive volume, stated masses, at least one fixed block, valid joints, a valid
+/// mesh of the fill. Optional in a file: cells/*, materials/* (without them, materials are made from blocks/density),
+/// mass, centroid and inertia, joints/cells and faces, joints as a whole, fill/*, groups, sensors. A file with a fill
+/// needs no blocks. If the file has no list of joints, joints are found, with stiffness and strength from its
+/// materials. Throws InputError with file, dataset and row.
 Assembly read_assembly(const std::string& path, const JointSearch& search = careful_search());
 /// The same without changes: joints are not found, and no block needs to be fixed. For callers that change the
 /// assembly.

@@ -1,4 +1,4 @@
-// Checks that joints between stones and patches with the fill share when they are read from a file.
+// Common checks of joints between stones and of patches with the fill when they are read from a file.
 #pragma once
 #include <fmt/format.h>
 

@@ -42,8 +42,8 @@ std::string checkpoint_name(double time);
 /// Paths of all checkpoints in a folder, newest simulated time first; those that cannot be read and have no time in
 /// their name come last. Empty if there is no such folder.
 std::vector<std::string> list_checkpoints(const std::string& directory);
-/// Removes all but the newest `keep` readable checkpoints, but never those named stage_*.h5 and never
-/// unreadable ones, which do not count. Also removes leftovers of interrupted writes. Returns the number of removed
+/// Removes all but the newest `keep` readable checkpoints. It never removes those named stage_*.h5 and unreadable ones,
+/// and does not count them in `keep`. Also removes leftovers of interrupted writes. Returns the number of removed
 /// files.
 int prune_checkpoints(const std::string& directory, int keep = 3);
 

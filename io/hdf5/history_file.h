@@ -29,7 +29,7 @@ class History {
   void append(std::span<const double> row);
   /// Writes the file atomically: a reader finds the old file or the new one. Throws RunError.
   void flush();
-  /// Keeps only the first `count` rows, for a restart. A time would not be unique, because stages may take no time.
+  /// Keeps only the first `count` rows, for a restart. Rows are counted because several rows may have the same time.
   void keep_first(std::size_t count);
 
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }

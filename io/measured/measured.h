@@ -2,7 +2,8 @@
 //
 //   sensors.csv     id,x,y,z,direction: m; x, y, z, -x, -y, -z or a unit vector "0.7071;0.7071;0"; and unit, of its
 //                   channels in recordings (default m/s2)
-//   modes.csv       mode,period,period_std,damping,damping_std,direction: s; or frequency,frequency_std in Hz
+//   modes.csv       mode,period,period_std,damping,damping_std,direction: s, damping ratio; or frequency,frequency_std
+//                   in Hz; _std: standard deviation
 //   shapes.csv      mode,sensor,value,std: real shapes, any scale per mode
 //   records/*.csv   t,<sensor id>,…: s, unit of the sensor; the ground motion as base_x, base_y, base_z in m/s2
 //   about.toml      what, when, units ("SI"), notes: texts; other keys are allowed

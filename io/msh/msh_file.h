@@ -1,5 +1,5 @@
-// Reads meshes of a fill from Gmsh files. The program has its own reader, because that of Gmsh trusts the numbers in a
-// file.
+// Reads meshes of a fill from Gmsh files. The program has its own reader, because that of Gmsh does not check the
+// numbers in a file.
 #pragma once
 #include <string>
 

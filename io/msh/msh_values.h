@@ -19,7 +19,7 @@ class MshValues {
 
   /// The next word of text, also in a binary file; empty at the end.
   std::string_view word();
-  /// A whole number of text, also in a binary file.
+  /// A whole number written as text, also in a binary file.
   std::int64_t whole_word(const char* what);
   /// The name of the next section without its "$"; empty at the end of the file.
   std::string section();
@@ -48,7 +48,7 @@ class MshValues {
 
   std::string_view bytes_;
   std::string file_;
-  std::size_t at_ = 0, token_ = 0;  // position of the next read, and begin of the last word
+  std::size_t at_ = 0, token_ = 0;  // positions of the next read and of the last word
   bool binary_ = false, swapped_ = false;
 };
 

@@ -82,7 +82,8 @@ Vehicle amplified(const Vehicle& vehicle, double factor);
 /// The vehicle with the load of one axle (from 0) multiplied. Throws InputError if there is no such axle.
 Vehicle amplified(const Vehicle& vehicle, double factor, std::size_t axle);
 
-/// The variant of that name, without variants. Throws InputError with a suggestion if there is none.
+/// The vehicle with the axle loads of the variant of that name. The result itself has no variants. Throws InputError
+/// with a suggestion if there is none.
 Vehicle variant_named(const Vehicle& vehicle, const std::string& name);
 
 /// Reads the text of the file of a vehicle. Throws InputError "FILE:LINE: …".

@@ -3,7 +3,8 @@
 //
 // Points are at their current, absolute place: x' = c + u + R (x − c) with centroid c, displacement u and rotation R of
 // the block. The point array "displacement_of_point" is x' − x less the displacement of the base, so that
-//   reference = point − displacement_of_point − base_displacement,   drawn = reference + amplification × displacement.
+//   reference = point − displacement_of_point − base_displacement,
+//   drawn = reference + amplification × displacement_of_point.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -38,8 +39,9 @@ vtkSmartPointer<vtkPolyData> joint_polydata(const Assembly& assembly, const Snap
 /// if the snapshot is of another assembly.
 vtkSmartPointer<vtkUnstructuredGrid> fill_grid(const Assembly& assembly, const Snapshot& snapshot);
 
-/// The stones of the assembly as built, with a mode: point data mode_shape (largest displacement of a
-/// centroid or node 1), cell data mode_displacement and mode_rotation (1/m). The mode must be of this assembly.
+/// The stones of the assembly as built, with a mode: point data mode_shape, cell data mode_displacement and
+/// mode_rotation (1/m). They are scaled so that the largest displacement of a centroid or of a node is 1. The mode must
+/// be of this assembly.
 vtkSmartPointer<vtkUnstructuredGrid> mode_grid(const Assembly& assembly, const Mode& mode);
 /// The same for the fill, without cell data. Throws InputError if the mode is of another fill.
 vtkSmartPointer<vtkUnstructuredGrid> mode_fill_grid(const Assembly& assembly, const Mode& mode);

@@ -20,9 +20,10 @@ struct Shell {
 };
 
 /// Splits every object of the surface into closed shells, first by shared vertices. If a shell is then not closed,
-/// corners at the same place are welded, and faces are followed over shared edges; at an edge of several stones the
-/// sharper inner angle decides. Inside-out shells are reversed. A face that occurs twice is used once, with a note.
-/// `path` is used in messages. Throws InputError with object and line if a surface is not closed or encloses no volume.
+/// corners at the same place are welded, and faces are joined over shared edges. At an edge of several stones each face
+/// is joined to the one with the smallest inner angle between them. Inside-out shells are reversed. A face that occurs
+/// twice is used once, with a note. `path` is used in messages. Throws InputError with object and line if a surface is
+/// not closed or encloses no volume.
 std::vector<Shell> split_shells(const Surface& surface, const std::string& path, std::vector<std::string>& notes);
 
 }  // namespace voussoir

@@ -1,4 +1,5 @@
-// Checks VTK files for consistency, because VTK trusts the numbers of a damaged file and may read beyond its end.
+// Checks VTK files for consistency, because VTK does not check the numbers of a damaged file and may read beyond its
+// end.
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>

@@ -11,8 +11,8 @@ namespace voussoir {
 
 constexpr std::size_t cache_line = 64, large_page = std::size_t(2) << 20;
 
-/// Memory aligned to cache lines. From a quarter of a large page on it uses whole large pages, because a time step of a
-/// large bridge reads tens of thousands of pages of 4 kB.
+/// Memory aligned to cache lines. Allocations of at least a quarter of a large page consist of whole large pages,
+/// because a time step of a large bridge reads tens of thousands of pages of 4 kB.
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* memory, std::size_t bytes);
 

@@ -62,7 +62,7 @@ struct Answer {
 Answer ask(const std::vector<std::string>& words);
 
 bool in_path(const std::string& program);
-/// The executable file of this program.
+/// Absolute path of the executable file of this program. Throws RunError if it cannot be determined.
 std::string own_program();
 void pause_milliseconds(int milliseconds);
 

@@ -9,8 +9,8 @@
 
 namespace voussoir {
 
-/// A message that ends as sentences do: with a full stop, unless it has an end already or ends in a list of indented
-/// lines.
+/// Adds a full stop to the end of a message, unless the message already ends with a punctuation mark or with a list of
+/// indented lines.
 inline std::string with_full_stop(std::string text) {
   const std::size_t line = text.rfind('\n') + 1;  // 0 where there is one line
   const bool ended = text.empty() || std::string_view(".?!:").find(text.back()) != std::string_view::npos ||

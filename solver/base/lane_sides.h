@@ -1,6 +1,7 @@
-// Number of lanes that a long kernel processes at a time. With registers of four or two numbers it processes the eight
-// lanes register by register. Fewer intermediate values are then stored in memory, and a rare case in one lane delays
-// three lanes or one lane instead of seven (docs/developer/performance-notes.md). The results of a lane are the same.
+// Sides: a side is the group of lanes that a long kernel processes at a time. With registers of four or two numbers it
+// processes the eight lanes register by register. Fewer intermediate values are then stored in memory, and a rare case
+// in one lane delays three lanes or one lane instead of seven (docs/developer/performance-notes.md). The results of a
+// lane are the same.
 #pragma once
 #include <type_traits>
 

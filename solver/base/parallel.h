@@ -13,8 +13,8 @@ namespace voussoir {
 /// Number of threads that this process may use (according to its affinity mask).
 int available_threads();
 
-/// As long as an object exists, libraries that this thread calls use no OpenMP threads. CHOLMOD would use them for each
-/// of the many small parts of a factorisation, and waking them costs more time than they save.
+/// As long as an object of this class exists, libraries that this thread calls use no OpenMP threads. CHOLMOD would use
+/// them for each of the many small parts of a factorisation, and waking them costs more time than they save.
 class Alone {
  public:
   Alone();
@@ -51,7 +51,7 @@ struct NextRound {
 };
 
 struct RoundWork {
-  std::function<void(std::size_t item, int step)> first, second;  // step: of the round
+  std::function<void(std::size_t item, int step)> first, second;  // step: its number in the round, from 0
   std::function<void(std::size_t)> between;
   std::function<void(std::size_t)> before_first, before_second;  // of a round `before`, with the dependencies of `both`
   std::function<NextRound(RoundKind)> next;  // called by one thread at the end of a round; returns the next round

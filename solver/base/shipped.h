@@ -6,8 +6,8 @@ namespace voussoir {
 
 /// Path of a file or folder of the source tree ("cases/validation"). It is searched in this order: the current folder,
 /// share/voussoir next to the folder of the program, the folder of the program, and the three folders above it (a build
-/// folder is in the source tree). The Python module searches its own folder, the four folders above it and
-/// share/voussoir in the prefix in which it is installed directly after the current folder. Throws RunError with the
+/// folder is in the source tree). Directly after the current folder, the Python module also searches its own folder,
+/// the four folders above it, and share/voussoir in the prefix in which it is installed. Throws RunError with the
 /// searched folders.
 std::string shipped(const std::string& path);
 

@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-/// The known word nearest to `word`, or empty if none is near enough. The edit distance with transpositions is at most
-/// a third of the length of `word`, and at least 1 is allowed.
+/// The known word nearest to `word`, or empty if none is near enough. Its edit distance (with transpositions) is at
+/// most a third of the length of `word`; a distance of 1 is always allowed.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 /// ": did you mean 'X'?" or ": expected one of: A, B, C".
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);

@@ -12,9 +12,10 @@ class ContactSlots {
  public:
   ContactSlots(const Model& model, State& state, const Branches& branches)
       : model_(model), state_(state), branches_(branches.count) {}
-  /// Returns the lowest free slot that fits, or the first of a new batch.
+  /// Stores a contact in the lowest free slot that fits, or else in the first slot of a new batch, and returns the
+  /// slot.
   std::size_t add(const NewContact& contact);
-  /// Adds its dissipated energy to the sum for removed contacts.
+  /// Frees the slot and adds the dissipated energy of its contact to the sum for removed contacts.
   void remove(std::size_t slot);
 
  private:

@@ -11,8 +11,8 @@ class JointsOfBodies {
 
   /// Whether an active joint of the two bodies, or a joint of each of them with another body, ends within `reach` (m)
   /// of the present contact position, with all of these bodies near their positions as built. In masonry this holds for
-  /// nearly every edge next to an edge and every corner at a corner, because the stones of a bond fill the space around
-  /// it.
+  /// nearly all contacts of an edge with an edge or of a corner with a corner, because the stones of a bond fill the
+  /// space around them.
   bool enclose(const State& state, const CellPair& cells, const Vec3& place, double reach) const;
 
  private:

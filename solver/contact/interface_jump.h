@@ -21,8 +21,8 @@ struct InterfaceJump {
 /// The jump of a patch in the present placement of its stone and its nodes.
 InterfaceJump interface_jump(const Model& model, const State& state, const InterfacePatch& patch);
 
-/// Elastic jump at point `i` of the patch in a slot, m; zero if it is open. Shear beyond the cone is reduced to it, as
-/// in the next pass.
+/// Elastic jump at point `i` of the patch in a slot, m; zero if it is open. Shear beyond the friction limit is reduced
+/// to the limit, as in the next pass.
 Vec3 elastic_point(const Model& model, const State& state, std::size_t slot, const InterfaceJump& jump,
                    const Mat3& shape, std::size_t i);
 /// Elastic energy of these jumps for the patch in a slot, J.

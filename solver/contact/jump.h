@@ -3,9 +3,10 @@
 //
 //   δ(r) = δc + θ' × Q r,  θ' = 2 vec(q_b q_a⁻¹),  Q = (q_a + q_b)/|q_a + q_b|
 //
-// because with P the rotation of b relative to a, R_b − R_a = P^½ Q − P^−½ Q = 2 sin(φ/2) [axis]× Q. Tractions act
-// midway between the two material points: r_mid = H Q r, H = cos(φ/2) 1 + θ'θ'ᵀ/(4(1 + cos(φ/2)))
-// (docs/theory/joints.md).
+// Here r is the position of a point relative to the centroid of the patch, δc the jump at the centroid, and q_a, q_b
+// are the rotations of the bodies as unit quaternions. The formula holds because, with P the rotation of b relative to
+// a and φ its angle, R_b − R_a = P^½ Q − P^−½ Q = 2 sin(φ/2) [axis]× Q. Tractions act midway between the two material
+// points: r_mid = H Q r, H = cos(φ/2) 1 + θ'θ'ᵀ/(4(1 + cos(φ/2))) (docs/theory/joints.md).
 #pragma once
 #include "solver/model/state.h"
 
@@ -22,8 +23,9 @@ struct Jump {
   Triple<T> place;  // midpoint between the two material points at the centroid of the patch, m
 };
 
-/// `way` from the material point of a at the centroid to that of b, `moves` the sum of what both have moved (m);
-/// `relative` = q_b q_a⁻¹ of the frames in the hemisphere w ≥ 0, `sum` = q_a + q_b times the local axes.
+/// `way` (m) is the vector from the material point of a at the centroid to that of b, and `place` + ½ `moves` (m) is
+/// the midpoint between both. `relative` = q_b q_a⁻¹ with w ≥ 0 and `sum` = q_a + q_b, where q_a and q_b rotate the
+/// local axes of the patch to world axes.
 template <class T>
 [[gnu::always_inline]] inline Jump<T> local_jump(const Triple<T>& way, const Triple<T>& moves, const Triple<T>& place,
                                                  const Quat<T>& relative, const Quat<T>& sum) {
@@ -91,7 +93,7 @@ inline Mat3 axes_matrix(const Jump<double>& j) {
   return m;
 }
 
-/// Jump of the patch's material at a point of it, gap included: n, s, t.
+/// Jump at the point (s, t) of a patch, including its gap: n, s, t (m).
 inline Triple<double> point_jump(const Patch& patch, const Jump<double>& j, double s, double t) {
   const double rs = j.rs + patch.gap[1], rt = j.rt + patch.gap[2];
   return {j.n + patch.gap[0] + rs * t - rt * s, j.s - j.rn * t, j.t + j.rn * s};

@@ -6,7 +6,8 @@
 
 namespace voussoir {
 
-/// Strengths of eight patches: with bond, where tension ends at the apex of the cone, and without bond.
+/// Strengths of eight patches (Pa; tangents without unit): with bond, where tension ends at the apex of the friction
+/// cone, and without bond (`residual_`).
 struct LaneStrength {
   Lanes tension, cohesion, tangent, residual_cohesion, residual_tangent, dilation;
   LaneMask brittle;
@@ -51,7 +52,8 @@ struct LaneStrength {
   return batch.law >= 0 ? strength_of(model.laws[std::size_t(batch.law)]) : mixed_strengths(model, batch);
 }
 
-/// Results of the evaluation point by point: numbers L and masks M of all lanes or of a side (lane_sides.h).
+/// Results of the evaluation point by point: numbers L and masks M of all lanes or of a side (lane_sides.h). Energies
+/// and work are in J, `opening` in m, and `slip2`, the square of the slip, in m².
 template <class L, class M>
 struct FoundPoints {
   Resultant<L> resultant{};

@@ -23,7 +23,7 @@ template <class L>
   return {e.u[0] + e.u[4] * t - e.u[5] * s, e.u[1] - e.u[3] * t, e.u[2] + e.u[3] * s};
 }
 
-/// Strengths of intact joints, with and without bond.
+/// Strength of each lane on the intact path, with or without its bond: Pa, Pa, –.
 template <class L>
 struct BearingOf {
   L tension, cohesion, tangent;
@@ -97,7 +97,8 @@ template <class Side, class L>
   return all(within_cap<Side>(batch, cap, L(n - turned), L(along * along + across * across)));
 }
 
-/// Lanes of a side without crushing at any corner. The cap is also convex.
+/// Lanes of a side without crushing at any corner. The set of tractions within the cap is convex, so the corners are
+/// sufficient.
 template <class Side, class L>
 [[gnu::noinline]] auto whole_lanes(const Model& model, const JointBatch& batch, L n, L s, L t, L rn, L rs, L rt) {
   const ElasticOf<L> e = {{n, s, t, rn, rs, rt}};
@@ -155,8 +156,9 @@ template <class Side, class L, class M>
     if (open[lane]) mode[Side::first_lane + lane] |= mode_slid;
 }
 
-/// The branches of one generalised jump follow its change `du`; those of lanes that are not closed relax. Adds their q
-/// to `viscous` and returns the sum of q at both ends of the time step. Only the selected lanes are written.
+/// The branches of one generalised jump follow its change `du`; those of lanes that are not closed are set to zero.
+/// Adds their q to `viscous` and returns the sum of q at both ends of the time step. Only the selected lanes are
+/// written.
 template <class Side, int count>
 [[gnu::always_inline]] inline auto advance_jump(const Branches& branches, const SingleBranches<count>& several,
                                                 typename Side::Numbers du, auto closed, auto keep, Singles* kept,

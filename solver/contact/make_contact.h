@@ -11,7 +11,7 @@ namespace voussoir {
 struct NewContact {
   Patch patch;  // first_point and first_corner are zero
   std::vector<PatchPoint> points, corners;
-  Array<double> memory;           // 4 a point: plastic jump n, s, t (m), softening
+  Array<double> memory;           // 4 per point: plastic jump n, s, t (m), softening
   double carried_opening = 0.0;   // m, largest of the patch it replaces
   double slid[4] = {0, 0, 0, 0};  // see State::contact_slid
 };

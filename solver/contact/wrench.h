@@ -4,7 +4,7 @@
 
 namespace voussoir {
 
-/// Sums of traction over a patch in local axes: resultant, and first moments of the tractions.
+/// Integrals of the tractions over a patch in local axes: resultant (N) and first moments (N m).
 template <class T>
 struct Resultant {
   T n, s, t;         // ∫ σ, τs, τt
@@ -12,7 +12,7 @@ struct Resultant {
   T ss, tt;          // ∫ s τs, t τt
 };
 
-/// Force and moment about the world's origin on body a, with the exact arms H Q r.
+/// Force (N) on body a and moment (N m) about the world's origin, world axes, with the exact arms H Q r (jump.h).
 template <class T>
 struct WorldWrench {
   Triple<T> force, moment;

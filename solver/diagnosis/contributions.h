@@ -1,5 +1,5 @@
-// Contributions of the joints, blocks, fill elements and patches of an intact assembly to K and M, computed directly
-// from the assembly, and products with their sums without forming a matrix.
+// Contributions of the joints, blocks, fill elements and patches of an intact assembly to its stiffness matrix K and
+// mass matrix M, computed directly from the assembly, and products with their sums without forming a matrix.
 #pragma once
 #include "geometry/assembly.h"
 #include "solver/linear/fill_stiffness.h"

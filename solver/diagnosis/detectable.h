@@ -14,7 +14,7 @@ struct Detectable {
 };
 
 struct DetectionSettings {
-  double margin = 3.0;  // margin by which a further effect must be better than none
+  double margin = 3.0;  // log probability by which a further effect must exceed "none"
   int further = 3;      // number of further sensors to find, and of further modes
   int threads = 1;
 };

@@ -45,9 +45,9 @@ struct Fit {
   double predicted_gap = 0.0;
 };
 
-/// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds: in a reduced
-/// basis about `origin`, which begins with the vectors `shared` by all such fits. If that basis does not converge, the
-/// fit is repeated about the model at its end. The full model at the end is not computed.
+/// Levenberg–Marquardt (Ceres) from x, whose prior is standard normal, within the parameters' bounds. The models are
+/// those of a reduced basis about `origin`, which begins with the vectors `shared` by all such fits. If that basis does
+/// not converge, the fit is repeated about the model at its end. The full model at the end is not computed.
 Fit fit(const DiagnosisProblem& problem, const Hypothesis& hypothesis, const Eigen::VectorXd& x, int iterations,
         const Origin& origin, const Vectors& shared);
 /// The same about the model at x, including the full model at the end.
@@ -64,7 +64,8 @@ struct LeftOutSensor {
   int rows = 0;
 };
 std::vector<LeftOutSensor> leave_out_sensors(const DiagnosisProblem& problem, const Fit& fit);
-/// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2): of fitted rows r and Jacobian j.
+/// Laplace's approximation about x of ln ∫ exp(−½|r|² − ½|x|²) dx/(2π)^(n/2), where r are the residuals of the fitted
+/// rows, j their Jacobian, and n the number of parameters.
 double log_evidence(const Eigen::VectorXd& r, const Eigen::MatrixXd& j, const Eigen::VectorXd& x);
 /// Probability that a sum of squares of n standard normal numbers is larger, by the approximation of Wilson & Hilferty
 /// (1931); 1 for n <= 0.

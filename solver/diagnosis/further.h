@@ -8,14 +8,14 @@ namespace voussoir {
 struct Addition {
   std::string text;     // "a sensor at (12.0, 0.0, 8.1) m on parapet along y", "the mode transverse, 4th order, …"
   std::string sensor;   // "12,0,8.1,y", as a row of sensors.csv; empty: it is a mode
-  double factor = 1.0;  // factor on the least amounts with it and the earlier ones of its kind, geometric mean
+  double factor = 1.0;  // factor on the detection limits due to it and the earlier ones of its kind, geometric mean
   struct Helped {
     std::string name, where;
     double factor = 1.0;
-    bool above = false;     // the least amount above the neutral value, else below
+    bool above = false;     // the limit above the neutral value, else that below
     std::size_t trace = 0;  // index among the traces given to best_additions()
   };
-  std::vector<Helped> most;  // at most three least amounts that it alone lowers most
+  std::vector<Helped> most;  // at most three detection limits, those that it alone lowers most
   std::vector<int> rows;     // rows of the extended problem that it measures
 };
 
@@ -48,11 +48,11 @@ struct Trace {
   bool above = false;         // above its neutral value
 };
 
-/// The `count` sensors, or modes, that lower least amounts most, one after the other (greedily). The distance of an
-/// effect from "none" is in proportion to its amount, so the least amount decreases as the distance for a fixed amount
-/// increases. With rows A in addition to S, the square of the distance d grows by gᵀ (C_AA − C_AS C_SS⁻¹ C_SA)⁻¹ g, g =
-/// d_A − C_AS C_SS⁻¹ d_S (conditional normal distributions). `covariance` is that of all rows, including the fitted
-/// parameters.
+/// The `count` sensors, or modes, that lower the detection limits most, one after the other (greedily). The distance of
+/// an effect from "none" is in proportion to its amount, so the detection limit decreases as the distance for a fixed
+/// amount increases. With rows A in addition to S, the square of the distance grows by gᵀ (C_AA − C_AS C_SS⁻¹ C_SA)⁻¹ g
+/// with g = d_A − C_AS C_SS⁻¹ d_S (conditional normal distributions), where d is the change of the rows and C is
+/// `covariance`: that of all rows, including the fitted parameters.
 std::vector<Addition> best_additions(const Extended& all, bool sensors, const Eigen::MatrixXd& covariance,
                                      const std::vector<Trace>& traces, int count);
 

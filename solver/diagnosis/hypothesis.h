@@ -10,7 +10,8 @@
 
 namespace voussoir {
 
-/// A parameter with its prior. Fits work in x, standard deviations of the prior from its middle.
+/// A parameter with its prior. The variable of a fit is x, the distance from the middle of the prior in standard
+/// deviations.
 struct FitParameter {
   std::string name, unit;
   double usual = 1.0, spread = 1.0;  // of the logarithm where `logarithmic`
@@ -70,7 +71,7 @@ struct Observed {
   Eigen::MatrixXd readings;        // sensor × mode
   Eigen::MatrixXcd participation;  // axis × mode, of M-normalised modes; empty: not requested
   Eigen::VectorXd delays;          // s, of each sensor's clock
-  double damping = 0.0;            // share of critical
+  double damping = 0.0;            // damping ratio
 };
 
 /// A trial model: the model of the case with factors on its materials and with candidates applied.
@@ -86,8 +87,8 @@ struct Hypothesis {
   Assembly assembly(const Assembly& base, const Eigen::VectorXd& x) const;
   /// The same, applied to an existing copy of the base.
   void change(Assembly& copy, const Eigen::VectorXd& x) const;
-  /// Observations of the modes, with the faults of sensors and motions of supports; `damping` (share of critical) is
-  /// that of the case.
+  /// Observations of the modes, with the faults of sensors and motions of supports; `damping` is the damping ratio of
+  /// the case.
   Observed observe(const ModalData& modes, double damping, const Eigen::VectorXd& x) const;
   /// The same with a further candidate.
   Hypothesis with(const Candidate& candidate) const;

@@ -14,7 +14,7 @@ struct PartResidual {
 struct Location {
   std::vector<PartResidual> parts;  // largest first
   std::vector<double> blocks;       // energy by block, the largest 1
-  double size = 0.0;                // energy of the corrections over that of the modes: 0.01 is about 10 % in λ
+  double size = 0.0;                // energy of the corrections over that of the modes: 0.01 is about 10 % in ω²
 };
 
 /// The dynamic force residual f = (K − ω²M) φ of each measured mode expanded over the model's modes, and the energy of

@@ -96,7 +96,7 @@ ModePairs pair_features(const Features& features, const Response& response, cons
 Question question_of(const DiagnosisProblem& problem, const Response& response);
 
 /// Measured − computed for each row, in the unit of the row. Shapes have their best-fitting scale, and participations
-/// the same.
+/// have the same scale.
 Eigen::VectorXd differences(const DiagnosisProblem& problem, const std::vector<ResidualRow>& rows,
                             const ModePairs& pairing, const Observed& observed);
 /// The same in independent standard deviations.

@@ -25,7 +25,7 @@ class Origin {
   const Vectors& momenta() const { return momenta_; }
   /// (K − σ M)⁻¹ F over the origin's unknowns, further rows zero; σ is negligible against all eigenvalues.
   Vectors static_response(const Vectors& forces) const;
-  double shift() const { return response_.shift; }  // σ
+  double shift() const { return response_.shift; }  // rad2/s2, σ
   /// A copy of the base that effects may change while the pointer is held. Copies are reused for the same base because
   /// copying all cells of all blocks takes longer than changing them.
   std::shared_ptr<Assembly> copy_of(const Assembly& base) const;

@@ -21,7 +21,8 @@ struct ModalData {
 struct GroundForces {
   Eigen::MatrixXd inertia;            // M r, r a common translation
   std::vector<std::int64_t> bases;    // of each of supports()
-  std::vector<Eigen::MatrixXd> pull;  // −K_uf e for the motion of each single base
+  std::vector<Eigen::MatrixXd> pull;  // N/m, N: −K_uf e for the unit translations e of each single base; K_uf is the
+                                      // stiffness between the unknowns and the base
 };
 
 /// Unit translations of all unknowns, one column for each axis.

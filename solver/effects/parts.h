@@ -82,11 +82,12 @@ struct Neighbourhood {
 };
 Neighbourhood lengthways(const Assembly& assembly, Component component);
 
-/// Appends a box of a material, finished; returns its index.
+/// Appends a block in the shape of a box between the corners `low` and `high` (m, world axes), with its computed
+/// properties such as mass. Returns its index.
 std::int64_t add_box_block(Assembly& assembly, const Vec3& low, const Vec3& high, Component component,
                            std::int32_t material, bool fixed);
-/// Appends a joint of block a (lower index) with b over a polygon that is counter-clockwise about `normal`, from a to
-/// b. Valid until the next one is added.
+/// Appends a joint of blocks a and b over a polygon that is counter-clockwise about `normal`, from a to b; kn and ks
+/// are in Pa/m. The block with the lower index becomes Joint::a. The reference is valid until the next joint is added.
 Joint& add_joint(Assembly& assembly, std::int64_t a, std::int64_t b, const Polygon& polygon, const Vec3& normal,
                  double kn, double ks, std::int32_t law);
 /// Adds joints between the faces of an end and a block in contact with them. Each joint has the law and a share of the
@@ -94,7 +95,7 @@ Joint& add_joint(Assembly& assembly, std::int64_t a, std::int64_t b, const Polyg
 void join_end(Assembly& assembly, const std::vector<EndFace>& faces, std::int64_t block, double share,
               double most = 1e300);
 std::int32_t elastic_law_index(Assembly& assembly);
-/// In the order of Assembly::joints.
+/// Sorts the joints as Assembly::joints requires: by blocks, cells and faces.
 void sort_joints(Assembly& assembly);
 
 }  // namespace voussoir

@@ -3,13 +3,14 @@
 // Round 1: elastic volumetric strain of the tetrahedra, then its mean about each node.
 // Round 2: stresses and nodal forces, then the nodes move.
 //
-// Strain is total: of each tetrahedron F = 1 + Σ u ∇N from the reference placement. With the plastic memory Cp⁻¹ the
-// elastic left Cauchy–Green tensor is b = F Cp⁻¹ Fᵀ, the elastic strain e = dev ½ ln b, so that rotations of any size
-// are exact and no stress is accumulated (Simo 1992; de Souza Neto, Perić & Owen 2008, ch. 14). The elastic volumetric
-// strain θ = ϑ(J) − θp of a tetrahedron is replaced by the mean of its nodes' means, or plastic flow at constant
-// volume would lock (average nodal pressure: Bonet & Burton 1998; nodal mixed discretisation: Detournay & Dzik 2006).
-// The mean is taken of the elastic part, not of the total strain. Otherwise neighbours that dilate would drift apart,
-// and tensile opening would return energy.
+// The strain is total: the deformation gradient of a tetrahedron is F = 1 + Σ u ∇N from the reference placement. With
+// the plastic memory Cp⁻¹ the elastic left Cauchy–Green tensor is b = F Cp⁻¹ Fᵀ, and e = dev ½ ln b is the elastic
+// strain, so that rotations of any size are exact and no stress is accumulated (Simo 1992; de Souza Neto, Perić & Owen
+// 2008, ch. 14). The elastic volumetric strain θ = ϑ(J) − θp of a tetrahedron (J = det F, θp the plastic volumetric
+// strain) is replaced by the mean of its nodes' means, because elements would otherwise lock in plastic flow at
+// constant volume (average nodal pressure: Bonet & Burton 1998; nodal mixed discretisation: Detournay & Dzik 2006). The
+// mean is taken of the elastic part, not of the total strain. Otherwise neighbours that dilate would drift apart, and
+// tensile opening would return energy.
 #pragma once
 #include "solver/model/branches.h"
 #include "solver/model/fill_memory.h"
@@ -39,7 +40,7 @@ struct FillPass {
   Branches branches;
   double* sums = nullptr;         // node_width × FillModel::sum_count(): forces
   double* volume_sums = nullptr;  // FillModel::sum_count(): κ V θ, J
-  // Forces from outside, N: node_width a slot, and the slots of each node; none.
+  // Forces from outside, N: node_width for each slot, and the slots of each node; null: none.
   const double* outside = nullptr;
   const std::vector<std::int32_t>*first_of_node = nullptr, *of_node = nullptr;
   FillEnergy* energies = nullptr;                           // of each tile, or null
@@ -54,8 +55,8 @@ struct FillPass {
                                                             // step
   double load_share = 1.0;                                  // share between the two loads, at this time step
   double search_distance = 1e300;  // m: a node that has moved farther since FillMemory::searched requires a search
-  Vec3 base_displacement = Vec3::Zero();  // m, at the end of the step
-  Vec3 base_velocity = Vec3::Zero();      // m/s, mean of the two half steps
+  Vec3 base_displacement = Vec3::Zero();  // m, at the end of the time step
+  Vec3 base_velocity = Vec3::Zero();      // m/s, mean of those at the half steps before and after
   bool averaged = true;                   // false: standard tetrahedra, which lock; for comparison
   bool single = false;                    // strain and stress in single precision, for time steps of an earthquake
 

@@ -1,10 +1,11 @@
 // Mohr–Coulomb with tension cut-off and dilation, with the return in principal stresses (de Borst 1987; Clausen,
 // Damkilde & Andersen 2006; de Souza Neto, Perić & Owen 2008, ch. 8). Tension is positive, σ1 ≥ σ2 ≥ σ3.
 //
-//   f = (1 + sin φ) σ1 − (1 − sin φ) σ3 − 2 c cos φ ≤ 0,  flow along the same with ψ for φ
-//   σ1 ≤ ft, associated; ft is no more than the apex c cot φ
+//   f = (1 + sin φ) σ1 − (1 − sin φ) σ3 − 2 c cos φ ≤ 0,  plastic potential: f with ψ instead of φ
+//   σ1 ≤ ft, associated flow; ft is no more than the apex c cot φ
 //
-// Elastic stiffness is isotropic: σ_i = λ tr ε + 2 μ ε_i.
+// φ is the friction angle, ψ the dilation angle, c the cohesion and ft the tensile strength (Pa). Elastic stiffness is
+// isotropic: σ_i = λ tr ε + 2 μ ε_i.
 #pragma once
 #include "solver/fill/symmetric.h"
 #include "solver/model/fill_law.h"
@@ -15,8 +16,8 @@ namespace voussoir {
 enum class ReturnRegion { elastic, plane, edge_12, edge_23, cut, cut_12, apex, plane_cut, vertex_23, vertex_12 };
 constexpr int return_regions = 10;
 
-/// Whether a stress with deviator s : s = 2 J2 and mean p is certainly elastic: inside the inscribed circular cone of
-/// the hexagonal one, and below the cut-off. No root is computed.
+/// Whether a stress with deviator s : s = 2 J2 and mean p is certainly elastic: inside the circular cone that is
+/// inscribed in the hexagonal one, and below the cut-off. No root is computed.
 template <class T>
 [[gnu::always_inline]] inline auto surely_elastic(const FillLaw& law, T two_j2, T p) {
   const T zero = all_lanes<T>(0.0);

@@ -7,7 +7,8 @@ namespace voussoir {
 
 namespace detail {
 
-/// Least value for a deviator that consists of rounding errors. Its cube and the inverse of the cube are finite.
+/// Lower limit of the size of a deviator, for deviators that consist of rounding errors. The cube of the limit and its
+/// inverse are finite.
 template <class T>
 constexpr double least_size = std::is_same_v<T, Floats> ? 1e-12 : 1e-100;
 
@@ -35,8 +36,8 @@ template <class T>
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
 
-/// The eigenvector of an eigenvalue that is separate from the two others on one side. All columns of the adjugate of
-/// `a` minus this value are parallel to it; the longest column has the greatest diagonal entry.
+/// The eigenvector of the greatest or the least eigenvalue, which must differ from the two others. All columns of the
+/// adjugate of `a` minus this value are parallel to it; the longest column has the greatest diagonal entry.
 template <class T>
 [[gnu::always_inline]] inline Triple<T> axis_of(const Symmetric<T>& a, T value) {
   const T xx = a.xx - value, yy = a.yy - value, zz = a.zz - value;
@@ -50,8 +51,9 @@ template <class T>
 
 }  // namespace detail
 
-/// The principal value of the deviator that differs from both others by at least its own size: `value` of the tensor
-/// scaled by `scale` to the roots of x³ − 3 x = 2 r, with opposite sign if r is below zero (Smith 1961).
+/// The principal value of the deviator that differs from both others by at least its own size. `value` is that of the
+/// deviator times `scale`, whose principal values are the roots of x³ − 3 x = 2 r with r ≥ 0 (Smith 1961). `scale` is
+/// negative if r would otherwise be negative (`over`).
 template <class T>
 struct ApartValue {
   T value, scale, size;  // size = 1/|scale|

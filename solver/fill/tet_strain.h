@@ -94,9 +94,10 @@ template <class L>
   return larger(change, all_lanes<L>(least_volume - 1.0));
 }
 
-/// θ for ln J, and dθ/d ln J: ½ (J − 1/J) in compression, which resists the loss of all volume; y + ½ y² + ⅓ y³ with y
-/// = 1 − 1/J in extension, the series of ln J. Its slope 1 − y³ decreases with J, so that a widely opened element does
-/// not become stiffer. Both agree with ln J to second order.
+/// The function ϑ(J), which replaces ln J, and its slope dϑ/d ln J. In compression ϑ = ½ (J − 1/J), which resists the
+/// loss of all volume. In extension ϑ = y + ½ y² + ⅓ y³ with y = 1 − 1/J, the beginning of the series of ln J. Its
+/// slope 1 − y³ decreases with J, so that a widely opened element does not become stiffer. Both agree with ln J to
+/// second order.
 template <class L>
 struct Volumetric {
   L strain, slope, by;  // by: 1/J
@@ -188,7 +189,7 @@ template <class L>
 LaneMask flow(const FillLaw& law, const Strain<L>& s, LaneMask lanes, Lanes* plastic, std::uint8_t* yield,
               Symmetric<L>& e, L& p, L& dissipated);
 
-/// Kirchhoff stress τ = 2 μ e + p dθ/d ln J, Pa.
+/// Kirchhoff stress τ = 2 μ e + p dϑ/d ln J, Pa.
 template <class L>
 [[gnu::always_inline]] inline Symmetric<L> kirchhoff(const FillLaw& law, const Strain<L>& s, L slope, L p) {
   const L round = p * slope;

@@ -9,7 +9,7 @@ struct DrivenSettings {
   bool smoothed = true;           // apply the window of the estimates to the model
   double largest_damping = 0.2;   // ratio
   double largest_spread = 0.05;   // frequency_std over frequency
-  double least_mean_phase = 0.5;  // MPC
+  double least_mean_phase = 0.5;  // modal phase collinearity
   double largest_second = 0.5;    // second singular value of a residue over the first
 };
 
@@ -40,9 +40,9 @@ struct DrivenModes {
                            // deviation; 0 to 1
 };
 
-/// Poles of all transfer functions at once, residues as shape × participationᵀ.
+/// Fits common poles to all transfer functions at once. The residue of a pole is shape × participationᵀ.
 ///
-/// Fitted by variable projection (Golub & Pereyra 1973) with Ceres, adding one pole after the other as long as the
+/// The method is variable projection (Golub & Pereyra 1973) with Ceres. It adds one pole after the other as long as the
 /// Bayesian information criterion (Schwarz 1978) decreases. Throws InputError if fewer than 16 lines are finite or the
 /// number of poles is 0. It uses one thread and gives the same bits for the same input.
 DrivenModes driven_modes(const TransferFunctions& t, const DrivenSettings& settings = {});

@@ -15,8 +15,8 @@ struct Narrowband {
 Narrowband narrowband_kurtosis(const std::vector<Eigen::MatrixXd>& signals, double dt, double frequency, double damping,
                                const Eigen::VectorXcd& along);
 
-/// Jacobsen, Andersen & Brincker (2007): a kurtosis near 1.5. With too few envelopes for a decision, only a damping
-/// ratio near zero counts.
+/// Whether the signal comes from a machine: its kurtosis is near 1.5 (Jacobsen, Andersen & Brincker 2007). With too few
+/// envelopes for a decision, only a damping ratio near zero counts.
 bool is_harmonic(const Narrowband& band, double damping);
 
 /// Ends of the motion at a frequency.

@@ -61,8 +61,8 @@ Prepared gathered(const std::vector<Recording>& recordings, double highest_frequ
 Prepared prepare(const std::vector<Recording>& recordings, double highest_frequency);
 
 /// Number of samples, a power of two, of a window of this length (s). For 0 s the length is the longest recording over
-/// `parts`, at least 16 samples. Throws InputError that begins with `what` for less than 8 samples or more than the
-/// longest recording.
+/// `parts`, at least 16 samples. Throws an InputError that begins with `what` for fewer than 8 samples or more samples
+/// than the longest recording has.
 int window_samples(const Prepared& prepared, double seconds, double parts, const char* what);
 
 /// Extends a vector over `used` channels to all channels, with NaN for channels that were left out.

@@ -23,7 +23,7 @@ struct SsiSettings {
   double shape_tolerance = 0.02;      // 1 − MAC
   double cluster_radius = 0.05;       // largest distance() of poles of one mode
   double least_hits = 0.25;           // share of the orders at which a mode must be stable
-  double least_mean_phase = 0.5;      // MPC
+  double least_mean_phase = 0.5;      // modal phase collinearity
   double least_damping = 0.001;       // masonry has 0.005 and more; smaller values belong to machines
   double largest_damping = 0.2;
 };

@@ -28,7 +28,7 @@ Eigen::MatrixXd covariances(const LaggedProducts& products, const std::vector<bo
 struct CanonicalWeights {
   Eigen::MatrixXd future, past;
 };
-/// The signals are scaled to a variance of 1.
+/// The signals must be scaled to a variance of 1.
 CanonicalWeights canonical_weights(const std::vector<Eigen::MatrixXd>& signals, const std::vector<int>& references,
                                    int block_rows);
 

@@ -9,13 +9,13 @@ namespace voussoir {
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// D of A = P ᵀL D Lᵀ P, symmetric A; the product of its entries is the determinant of A.
+/// D of A = Pᵀ L D Lᵀ P, symmetric A; the product of its entries is the determinant of A.
 Eigen::VectorXd pivots_of(const Eigen::MatrixXd& a);
 
 /// A⁻¹ by LU with partial pivoting.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
 
-/// L⁻¹ of A = L Lᵀ, symmetric positive definite A: L⁻¹ x has the covariance 1 where x has A.
+/// L⁻¹ of A = L Lᵀ, symmetric positive definite A: if x has the covariance A, L⁻¹ x has the unit matrix as covariance.
 Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& a);
 
 /// L of A = L Lᵀ.

@@ -1,4 +1,5 @@
-// Stiffness of the fill and of its interface with the stones, from the same elements and points as the explicit step.
+// Stiffness of the fill and of its interface with the stones, from the same elements and points as the explicit time
+// step.
 #pragma once
 #include "solver/linear/stiffness.h"
 

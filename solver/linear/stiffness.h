@@ -1,4 +1,4 @@
-// Stiffness and mass of the whole assembly from the same patches and points as the explicit step.
+// Stiffness and mass of the whole assembly from the same patches and points as the explicit time step.
 #pragma once
 #include "solver/contact/jump.h"
 #include "solver/linear/block_matrix.h"
@@ -17,12 +17,13 @@ enum class PatchTangent {
   present,  // open points have no stiffness; sliding points only transverse to their slip direction
 };
 
-/// Tangent (n, s, t; Pa/m) at a point after its update: zero if open, normal and transverse stiffness if sliding.
+/// Tangent (n, s, t; Pa/m) at a point after its update: zero if open; if sliding, the normal and the transverse
+/// stiffness and a thousandth of ks along the slip.
 Mat3 point_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken);
 
 /// The same for a point of the composite law, with its remaining stiffness, bond and strength. A point on its cap has
-/// the hardening tangent along the normal. Past the peak it has a thousandth of kn, which is positive, as friction also
-/// keeps a thousandth.
+/// the hardening tangent along the normal. Past the peak, where that tangent is negative, it has a thousandth of kn
+/// instead.
 Mat3 composite_tangent(const LawConstants& law, double kn, double ks, const Triple<double>& elastic, bool broken,
                        double softening, double crushed);
 

@@ -1,4 +1,4 @@
-// Unknowns of the linear problems (equilibrium, critical step, modes) and vectors over them.
+// Unknowns of the linear problems (equilibrium, critical time step, modes) and vectors over them.
 //
 // A site has up to six unknowns. A body has a displacement (m, world axes, of its centroid) and a rotation vector (rad,
 // world axes); a node of the fill has a displacement. Prescribed components (of fixed bodies, and those held by a

@@ -6,7 +6,7 @@ namespace voussoir {
 
 struct DampedMode {
   double frequency = 0.0;  // Hz, of the decaying vibration; 0: none (overdamped, or no frequency without damping)
-  double ratio = 0.0;      // share of critical: −Re s/|s| of the pole s
+  double ratio = 0.0;      // damping ratio: −Re s/|s| of the pole s
   double period() const { return frequency > 0.0 ? 1.0 / frequency : 0.0; }  // s
 };
 

@@ -26,7 +26,8 @@ struct Mode {
   double eigenvalue = 0.0;  // rad2/s2; negative if the state is unstable
   double frequency = 0.0;   // Hz; 0 for a rigid motion or a mechanism, or if the eigenvalue is negative
   double period() const { return frequency > 0.0 ? 1.0 / frequency : 0.0; }  // s; 0: none
-  BlockMotions shape;  // largest displacement 1 (1/m: rotations per metre of it), positive in its largest component
+  BlockMotions shape;  // scaled to a largest displacement of 1 (rotations: rad per metre of it), which is positive in
+                       // its largest component
   NodeMotions nodes;   // of the fill's mesh, to the same scale
   double modal_mass = 0.0;            // kg, φᵀ M φ of that shape
   Vec3 participation = Vec3::Zero();  // φᵀ M r / φᵀ M φ of that shape, r a ground motion along x, y, z
@@ -50,8 +51,8 @@ struct Modes {
 };
 
 /// The `count` lowest modes at the present placement, and up to `extra` more if they exist. With `wrenches` the
-/// geometric stiffness is included (see add_geometric_stiffness). Throws InputError if `count` is below 1, if fewer
-/// unknowns than `count` are held by something, or if the mass matrix of a block, which it names, is singular.
+/// geometric stiffness is included (see add_geometric_stiffness). Throws InputError if `count` is below 1 or exceeds
+/// the number of unknowns that have a stiffness, or if the mass matrix of a block, which it names, is singular.
 Modes find_modes(const Assembly& assembly, const Model& model, const State& state, int count, PatchTangent tangent,
                  const Array<double>* wrenches = nullptr, int extra = 0);
 

@@ -169,8 +169,8 @@ struct CompositeLaw {
       return tangent;
     }
 
-    /// Opens a bonded point until its traction is T exp(−opening/w), w = GI/T0. A softening branch that is too steep
-    /// for the spring is brittle.
+    /// Opens a bonded point until its traction is T exp(−opening/w) with w = GI/T0, where T is the present and T0 the
+    /// initial tension limit. A softening branch that is too steep for the spring is brittle.
     void pull() {
       const double k = kept * kn, tension = law.most_tension * bond();
       if (k * n <= tension) return;
@@ -259,8 +259,8 @@ struct CompositeLaw {
     }
 
     /// Associated return to the cap p² + Css τ² = strength² with p the pressure, in effective stress. Returns true if
-    /// the point yielded. With the multiplier x/(1 − x) over kn the pressure falls to the fraction 1 − x and the shear
-    /// to the fraction shear_left(x).
+    /// the point yielded. With the plastic multiplier x/((1 − x) kn) the pressure falls to the fraction 1 − x and the
+    /// shear to the fraction shear_left(x).
     bool crush() {
       const double pressure = std::max(0.0, -kn * n), drag = ks * shear(), css = law.cap_shear;
       const double trial = std::sqrt(pressure * pressure + css * drag * drag);

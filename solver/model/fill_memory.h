@@ -17,18 +17,18 @@ constexpr int plastic_width = 8, strain_rows = 7;
 constexpr int row_volume = 6, row_shear = 7;  // of FillMemory::plastic
 
 struct FillMemory {
-  Array<double> pose;     // 4 a node: displacement (m), mean elastic volumetric strain about it at the last
-                          // pass
-  Array<double> motion;   // 4 a node: velocity at the last half step (m/s), unused
-  Array<float> searched;  // 4 a node: displacement relative to the base when patches about it were last looked for (m),
-                          // unused
-  Array<double> plastic;  // 8 rows of lanes a batch: Cp⁻¹ − 1 (xx yy zz xy xz yz), volumetric strain by dilation and
+  Array<double> pose;     // 4 per node: displacement (m), mean elastic volumetric strain about it at the last pass
+  Array<double> motion;   // 4 per node: velocity at the last half step (m/s); the fourth is not used
+  Array<float> searched;  // 4 per node: displacement relative to the base at the last search for patches about it (m);
+                          // the fourth is not used
+  Array<double> plastic;  // 8 rows of lanes per batch: Cp⁻¹ − 1 (xx yy zz xy xz yz), volumetric strain by dilation and
                           // tension, accumulated plastic shear strain
-  Array<float> last;          // 7 rows of lanes a batch: elastic strain at the last pass, material axes, with the mean
-                              // volumetric strain; then the tetrahedron's own
-  Array<float> branch;        // 6 rows of lanes a batch and branch: q
+  Array<float> last;    // 7 rows of lanes per batch: elastic strain at the last pass, material axes, with the mean
+                        // volumetric strain; then the tetrahedron's own
+  Array<float> branch;  // 6 rows of lanes per batch and branch: q
   Array<std::uint8_t> yield;  // of each lane, TetYield bits
-  Array<double> lost;         // 4 a tile, J: by plastic flow; work done on branches, by held nodes; by damping of nodes
+  Array<double> lost;  // 4 per tile, J: dissipated by plastic flow; work done on branches; work of held nodes and
+                       // loads; dissipated by damping of nodes
 };
 
 /// At rest in the reference placement.

@@ -36,20 +36,20 @@ constexpr std::int32_t tile_nodes = 128;
 
 struct FillModel {
   std::vector<FillLaw> laws;              // of the materials of the fill, for each construction step
-  std::vector<std::int32_t> step_of_law;  // of the ConstructionPlan; 0 without any
+  std::vector<std::int32_t> step_of_law;  // of the ConstructionPlan; 0 without a plan
   std::vector<Vec3> nodes;                // m, reference placement
-  Array<double> place;                    // the same, node_width a node, the last zero
+  Array<double> place;                    // the same, node_width per node, the last zero
   std::vector<double> mass;               // kg, lumped
   std::vector<double> inertial;           // kg, differs from mass only in relaxations
   Array<double> weight;            // J, Σ κ V of the tetrahedra around a node: weights its mean volumetric strain
-  std::vector<std::uint8_t> held;  // bit c: the velocity of displacement c is prescribed
+  std::vector<std::uint8_t> held;  // bit c: the velocity along axis c is prescribed
   std::vector<std::array<std::int32_t, 3>> triangles;  // the surface's nodes, in the order of FillMesh::triangles
   std::vector<std::int32_t> node_of;                   // of FillMesh::nodes
   std::vector<std::int32_t> mesh_node;                 // and back
-  std::vector<std::int32_t> tet_of_lane;               // of FillMesh::tets; lane_count a batch, −1 in spare lanes
+  std::vector<std::int32_t> tet_of_lane;               // of FillMesh::tets; lane_count per batch, −1 in spare lanes
   std::vector<std::int32_t> lane_of_tet;
   Array<TetBatch> batches;
-  Array<float> shapes;  // shape_rows of lanes a batch: gradients of corners 1 to 3 (x, y, z each, 1/m), volume (m3)
+  Array<float> shapes;  // shape_rows of lanes per batch: gradients of corners 1 to 3 (x, y, z each, 1/m), volume (m3)
   std::vector<FillTile> tiles;
   // Sums of each node in the order of addition: first entry of each node (and one past the end), positions of the sums.
   std::vector<std::int32_t> first_sum, sums;

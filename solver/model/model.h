@@ -81,7 +81,7 @@ inline PatchPoint patch_corner(const Patch& p, const Array<double>& table, int i
   return {table[at], table[at + 1], 0.0};
 }
 
-constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line a body
+constexpr int pose_width = 8;    // displacement 3, quaternion 4 (w x y z), unused: one cache line per body
 constexpr int wrench_width = 8;  // force 3, moment about the world's origin 3, unused: one cache line
 
 /// Eight patches, one in each lane: the data common to all kinds of patches.
@@ -212,7 +212,7 @@ struct Model {
   /// Number of sites of the linear problems: bodies, then nodes of the fill.
   std::size_t sites() const { return bodies.size() + fill.nodes.size(); }
 
-  // Material of a body, for new contacts.
+  // Material of a body, for new contacts: Pa, Pa, –.
   struct Matter {
     double youngs = 0.0, shear = 0.0, tan_friction = 0.0;
   };
@@ -232,9 +232,9 @@ struct Model {
   /// or 9.81 m/s2 without gravity.
   double average_weight = 0.0;
   ContactSettings contact;
-  Vec3 gravity = Vec3::Zero();
-  Vec3 up = Vec3::Zero();  // against gravity; zero without
-  double bottom = -1e300;  // m, of the assembly as built, along up
+  Vec3 gravity = Vec3::Zero();  // m/s2, world axes
+  Vec3 up = Vec3::Zero();       // unit vector against gravity; zero without gravity
+  double bottom = -1e300;       // m, of the assembly as built, along up
 };
 
 /// Writes the constants of one patch into its lane.

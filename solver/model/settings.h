@@ -13,7 +13,7 @@ namespace voussoir {
 struct DampingSettings {
   enum class Kind { none, maxwell, rayleigh, local };
   Kind kind = Kind::maxwell;
-  double ratio = 0.02;                       // share of critical; maxwell, rayleigh
+  double ratio = 0.02;                       // damping ratio; maxwell, rayleigh
   std::array<double, 2> band = {0.5, 12.0};  // Hz; maxwell, rayleigh (the two frequencies where the ratio is exact)
   int branches = 3;                          // maxwell
   double coefficient = 0.8;                  // local (Cundall): share of the out-of-balance force
@@ -86,7 +86,7 @@ struct Placement {
 struct CollapseSettings {
   double to = 1.0;             // upper limit of the search; the lower limit is 0
   double tolerance = 1e-3;     // width of the bracket
-  double displacement = 0.02;  // displacement that counts as loss of equilibrium, as a share of the median block size
+  double displacement = 0.02;  // from which a motion is judged (MotionWatch), as a share of the median block size
   double confirm = 2.0;        // s: rise time of the load in the confirming dynamic runs; 0: no such runs
   std::optional<Vec3> tilt;    // axis about which gravity is rotated by the arc tangent of the multiplier, instead of
                                // loads
@@ -150,9 +150,9 @@ struct StageSettings {
 struct ContactSettings {
   int points_per_side = 3;      // 3, 4 or 5: Gauss-Lobatto points of quadrilateral patches
   double gap_tolerance = 1e-4;  // m: faces closer than this start in contact
-  double skin = 0.04;           // neighbour list, share of the median block size
-  double reclip_slip = 0.05;    // share of the patch size
-  double reclip_angle = 0.05;   // rad
+  double skin = 0.04;           // distance below which a contact is made, share of the median block size
+  double reclip_slip = 0.05;    // slip past which a patch is clipped again, share of √(area of the patch)
+  double reclip_angle = 0.05;   // rad, rotation past which a patch is clipped again
   bool search = true;           // search for contacts that appear during the run
 };
 

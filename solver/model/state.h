@@ -31,66 +31,65 @@ struct PatchMemory {
   Array<double>
       point_crush;  // 3 columns: inelastic jump, closure and slip (m); none without joints of the composite law
   Array<std::uint8_t> broken;  // 1 column: 0, or 1 without bond, or 3 without bond and open
-  Array<float> point_branch;   // 3 columns a branch: q (m)
-  Array<std::uint8_t> mode;    // 1 a patch, PatchMode bits
+  Array<float> point_branch;   // 3 columns per branch: q (m)
+  Array<std::uint8_t> mode;    // 1 per patch, PatchMode bits
   // Eight patches side by side:
-  Array<double> largest;  // 2 a patch: opening, slip (m); of a tie its stretch (m) and tension (Pa)
-  Array<double> energy;   // 3 a patch: friction, fracture, work done on the branches point by point (J)
-  Array<float> last;      // 6 a patch: jump at the last pass (m, rad)
+  Array<double> largest;  // 2 per patch: opening, slip (m); of a tie its stretch (m) and tension (Pa)
+  Array<double> energy;   // 3 per patch: friction, fracture, work done on the branches point by point (J)
+  Array<float> last;      // 6 per patch: jump at the last pass (m, rad)
   /// Sets the tables to this size and all their values to zero, and removes the memory of the branches. Does not
   /// change `point_crush` and `last`.
   void resize(std::size_t patches, std::size_t batches, std::size_t points);
 };
 
-constexpr int motion_width = 8;  // velocity 3, angular momentum 3, work of the base (of still bodies: on contacts),
-                                 // loss by body damping (J)
+constexpr int motion_width = 8;  // velocity 3 (m/s), angular momentum 3 (kg m2/s), work of the base (J; of still
+                                 // bodies: on contacts), loss by body damping (J)
 constexpr int searched_width = 8;
 
 struct State {
-  // scalars: time, base velocity and displacement (3 + 3), energies of removed contacts (friction, fracture, damping),
-  // elastic energy removed when patches were clipped again, energy at the start of the motion, largest energy term so
-  // far
+  // scalars: time (s), base velocity (3, m/s) and displacement (3, m); in J: energies of removed contacts (friction,
+  // fracture, damping), elastic energy removed when patches were clipped again, energy at the start of the motion,
+  // largest energy term so far
   Array<double> scalars = Array<double>(13, 0.0);
   Array<std::int64_t> counters = Array<std::int64_t>(5, 0);  // time steps, contact searches, contacts made, last time
                                                              // step at which patches were grouped, next time step at
                                                              // whose end displacements of bodies are checked
 
-  Array<double> pose;      // pose_width a body; displacement since the reference placement
-  Array<double> motion;    // motion_width a body; velocities at the last half step
-  Array<double> baseline;  // pose_width a body: placement at the end of the last gravity stage, relative to the base
-  Array<float> searched;   // searched_width a body: displacement relative to the base (m) and quaternion at the last
-                           // contact search; 1 once it is lost
+  Array<double> pose;      // pose_width per body; displacement since the reference placement
+  Array<double> motion;    // motion_width per body; velocities at the last half step
+  Array<double> baseline;  // pose_width per body: placement at the end of the last gravity stage, relative to the base
+  Array<float> searched;   // searched_width per body: displacement relative to the base (m) and quaternion at the last
+                           // contact search; the last is 1 if the body is lost
   Array<float> listed;     // the same when its pairs were last listed
 
   // Pairs of cells that are near each other without a joint between them, sorted.
   Array<std::int32_t> pair_cells;  // CellPair each
-  Array<float> pair_seen;          // 8 a pair: placement of one body in the frame of the other when they were last
-                                   // examined (m, quaternion); distance it may move before the next examination (m)
+  Array<float> pair_seen;  // 8 per pair: placement of one body in the frame of the other when they were last examined
+                           // (m, quaternion); distance it may move before the next examination (m)
 
   Array<std::int32_t> joint_order;  // index in Assembly::joints of each of Model::joints, see solver/contact/grouping
   Array<float> built;               // 6 of each of Assembly::joints: Patch::built; empty without a ConstructionPlan
   PatchMemory joint;                // of Model::joints
   Array<double> slip;               // per batch 3 × 8: rigid plastic slip of the intact path: s, t (m), about n (rad)
   Array<float> branch;              // per batch 6 × branches × 8: q of the six generalised jumps
-  Array<double> branch_work;        // 8 a tile: work done on the branches of the intact path (J)
-  Array<double> support_work;       // 1 a tile: work of the forces that hold or drive still bodies, on the joints of
-                                    // the tile (J)
+  Array<double> branch_work;        // 8 per tile: work done on the branches of the intact path (J)
+  Array<double> support_work;       // 1 per tile: work of the forces that hold or drive still bodies, on its joints (J)
 
   // Contacts found during the run are stored in slots, eight to a batch. A free slot has mode_gone and a patch without
   // points. The slot of a contact depends on the earlier contacts, so batches and free slots are part of the state.
   std::vector<Patch> contacts;
-  Array<std::int32_t> contact_tiles;    // 2 a batch: tile, rows of points
+  Array<std::int32_t> contact_tiles;    // 2 per batch: tile, rows of points
   Array<ContactBatch> contact_batches;  // the same patches side by side: made from them, not written
   Array<double> contact_points;         // s, t, weight; eight contacts side by side
   Array<double> contact_corners;        // s, t
   PatchMemory contact;
-  Array<double>
-      contact_slid;  // 4 a contact: slip of the patches it replaced (m, world axes), largest slip while they lived
+  Array<double> contact_slid;  // 4 per contact: slip of the patches it replaced (m, world axes), largest slip of these
+                               // patches (m)
   Array<double> contact_rows;  // the contacts as numbers, for files
 
   FillMemory fill;
   Interface interface;
-  PatchMemory interface_memory;  // of its patches; `last` has 9 rows of lanes a batch
+  PatchMemory interface_memory;  // of its patches; `last` has 9 rows of lanes per batch
   Array<float> interface_seen;   // as `searched`, when patches with the fill were last looked for
   Array<double> interface_rows, interface_points, interface_corners;  // the patches as numbers, for files
 

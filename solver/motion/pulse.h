@@ -20,8 +20,8 @@ struct PulseSettings {
 };
 const std::vector<std::string>& pulse_kinds();  // names in the order of PulseSettings::Kind
 
-/// Length in s: as given, else one period (sine), half a period (half_sine). A rectangular pulse needs a length, a
-/// half_sine given both must have length = 1/(2 frequency). Throws InputError.
+/// Length in s: as given, else one period (sine), half a period (half_sine). A rectangular pulse needs a length. A
+/// half_sine with both values must have length = 1/(2 frequency). Throws InputError.
 double pulse_length(const PulseSettings& pulse);
 /// Frequency in Hz: as given, else one wave (sine) or half a wave (half_sine) in the length; 0 for rectangular.
 double pulse_frequency(const PulseSettings& pulse);

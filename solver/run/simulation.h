@@ -132,8 +132,8 @@ class Simulation {
   int threads() const { return stepper_.threads; }
   const RunCosts& costs() const { return costs_; }
   double end_time() const;                                 // s, of all stages
-  double worst_balance() const { return worst_balance_; }  // largest share so far
-  /// Takes over the worst balance of the part of the run before a restart.
+  double worst_balance() const { return worst_balance_; }  // largest Sample::balance_error so far
+  /// Takes over the largest error of the energy balance in the part of the run before a restart.
   void note_balance(double worst) { worst_balance_ = std::max(worst_balance_, worst); }
 
  private:

@@ -14,7 +14,7 @@ namespace voussoir {
 struct Equilibrium {
   bool converged = false;
   bool relaxed = false;    // dynamic relaxation was needed
-  bool lost = false;       // the limit of displacement was exceeded, a velocity ran away, or the motion is `hopeless`
+  bool lost = false;       // a displacement above its limit, StepOutcome::runaway, or a motion that is `hopeless`
   int iterations = 0;      // Newton
   std::int64_t steps = 0;  // iterations of the relaxation
   double residual = 0.0;   // largest out-of-balance force over the weight of an average block
@@ -60,13 +60,12 @@ struct RelaxationLimits {
   std::int64_t steps = 400000;
   double displacement = 1e300;  // m, of any point of a body since the beginning
   bool from_unloaded = true;    // with a fill, the weight is then applied gradually
-  bool gently = false;          // more than critically damped from the first step on, so that sliding parts hardly
-                                // overshoot
-  /// Gradual loading: `ramp` is called before each of `ramp_rounds` rounds of steps, with a share that grows to 1.
+  bool gently = false;  // damped above critical from the first iteration, so that sliding parts hardly overshoot
+  /// Gradual loading: `ramp` is called before each of `ramp_rounds` rounds of iterations, with a share that grows to 1.
   int ramp_rounds = 0;
   std::function<void(double)> ramp = {};
-  /// Called after every round of steps with the work of the out-of-balance forces in it (J). Returns true if the motion
-  /// will not come to rest. May be empty.
+  /// Called after every round of iterations with the work of the out-of-balance forces in it (J). Returns true if the
+  /// motion will not come to rest. May be empty.
   std::function<bool(const State& state, double work)> hopeless = {};
 };
 

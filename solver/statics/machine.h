@@ -14,10 +14,11 @@ struct Machine {
   double stiffness = 0.0;  // 1/m; chosen by brace()
   double multiplier = 0.0;
 
-  /// Chooses the stiffness of the spring for a relaxation. relax() has given `model` an inertia M ≥ K in its fictitious
-  /// time, so that the inertia stands for the stiffness. The spring has a quarter of the stiffness of the loaded
-  /// body or node with the least stiffness for its load. It increases the inertia of the loaded bodies and nodes
-  /// accordingly: (Σ wᵢ uᵢ)² ≤ Σ |wᵢ| uᵢ², with Σ |wᵢ| = 1.
+  /// Chooses the stiffness of the spring for a relaxation. relax() has given each body of `model` an inertia in its
+  /// fictitious time that is at least its own block of K, so that the inertia stands for the stiffness. The spring has
+  /// a quarter of the stiffness of the loaded body or node with the least stiffness for its load. The function
+  /// increases the inertia of the loaded bodies and nodes accordingly: (Σ wᵢ uᵢ)² ≤ Σ |wᵢ| uᵢ², where uᵢ are their
+  /// displacements and wᵢ their shares of the pattern, Σ |wᵢ| = 1.
   void brace(Model& model);
   /// Computes the multiplier at the present placement and sets the corresponding loads.
   void push(const Model& model, const State& state, LoadsAtWork& loads);

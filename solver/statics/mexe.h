@@ -22,13 +22,13 @@ struct MexeInput {
 /// All intermediate values and the axle load.
 struct MexeResult {
   double fill = 0.0, total = 0.0;         // m, h and d + h as used in the calculation
-  double provisional = 0.0;               // t, PAL, at most 70
+  double provisional = 0.0;               // t, provisional axle load (PAL), at most 70
   double span_rise_ratio = 0.0;           // L / r_c
   double quarter_ratio = 0.0;             // r_q / r_c
   double span_rise = 1.0, profile = 1.0;  // F_sr, F_p
   double material = 1.0, joint = 1.0;     // F_m, F_j
   double condition = 1.0;                 // F_cM
-  double modified = 0.0;                  // t, MAL, without the axle factors of BA 16/97 3.27
+  double modified = 0.0;                  // t, modified axle load (MAL), without the axle factors of BA 16/97 3.27
 };
 
 /// Throws InputError for values outside the limits of the method: spans of 1.5 to 18 m, d + h of 0.25 to 1.8 m.

@@ -6,14 +6,15 @@ namespace voussoir {
 
 /// A motion comes to rest if its driving force decreases. From the given distance (m) on, the mean driving force over
 /// one doubling of the displacement is compared with that over the previous doubling. If it has not decreased, there is
-/// no equilibrium nearby. With a fill, if only loaded bodies and the fill move, the soil can yield and find resistance
-/// farther down. Such a motion is followed to the median block size, or to four times the distance if that is more.
+/// no equilibrium nearby. With a fill, if only loaded bodies and the fill move, the soil can yield and then resist
+/// again after a larger displacement. Such a motion is followed to the median block size, or to four times the distance
+/// if that is more.
 class MotionWatch {
  public:
   /// `loaded`: of each body, whether forces of the pattern act on it; empty if it acts on all. It must outlive the
   /// watch.
   MotionWatch(const Model& model, const std::vector<char>& loaded, const State& from, double distance);
-  /// Call it after each round of steps, with the work of the out-of-balance forces in it (J).
+  /// Call it after each round of iterations, with the work of the out-of-balance forces in it (J).
   bool hopeless(const State& state, double work);
   double displacement() const { return std::max(loaded_.moved, stones_.moved); }  // m, of any body
 

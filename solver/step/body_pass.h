@@ -1,8 +1,9 @@
 // The update of the bodies in a time step. Each body sums the joint wrenches of its tiles, tile by tile, then the
 // wrenches of its contacts in ascending order, and moves immediately. Free bodies are computed eight side by side.
 //
-// Leapfrog: v and L live at half steps. v⁺ = v⁻ + dt (F/m + g), L⁺ = L⁻ + dt T in the spatial frame; ω = R Ib⁻¹ Rᵀ L at
-// the half step from a predicted half rotation (Fincham 1992), the quaternion by the exponential map.
+// Leapfrog: the velocity v and the angular momentum L are known at half steps. With F the force and T the moment on the
+// body, v⁺ = v⁻ + dt (F/m + g), L⁺ = L⁻ + dt T in the spatial frame; ω = R Ib⁻¹ Rᵀ L at the half step from a predicted
+// half rotation (Fincham 1992), the quaternion by the exponential map.
 #pragma once
 #include "solver/contact/patch_kernel.h"
 #include "solver/step/loads.h"
@@ -31,7 +32,7 @@ struct BodyUpdate {
   Triple<double> force, moment;                              // N, N m, of the patches, gravity and loads
   Triple<double> velocity;                                   // m/s at the next half step
   Triple<double> momentum;                                   // kg m2/s at the next half step
-  double loss = 0.0;                                         // J, body damping over this step
+  double loss = 0.0;                                         // J, body damping over this time step
   Triple<double> load = {0, 0, 0}, load_moment = {0, 0, 0};  // part of the loads in force and moment
 };
 
@@ -70,16 +71,16 @@ struct BodyPass {
   bool looks = false;                               // whether displacements are checked at the end of the time step,
                                                     // see BodyReport
   const Array<std::int32_t>* drive = nullptr;       // of each body: index in drive_velocity, or -1; empty: none
-  std::vector<Vec3> drive_velocity;                 // relative to the ground, at the next half step
+  std::vector<Vec3> drive_velocity;                 // m/s, relative to the ground, at the next half step
   const LoadsAtWork* loads = nullptr;               // none: only gravity acts
-  double load_share = 1.0;                          // at this step
-  Vec3 base_velocity_now = Vec3::Zero();            // at the last half step
-  Vec3 base_velocity_next = Vec3::Zero();           // at the next half step
-  Vec3 base_displacement_next = Vec3::Zero();       // at the next step
+  double load_share = 1.0;                          // at this time step
+  Vec3 base_velocity_now = Vec3::Zero();            // m/s, at the last half step
+  Vec3 base_velocity_next = Vec3::Zero();           // m/s, at the next half step
+  Vec3 base_displacement_next = Vec3::Zero();       // m, at the next time step
   // Of Model::still at the next time step and half step; none: the bodies of the state are moved one by one.
   const StillPlaces *still_now = nullptr, *still_next = nullptr;
 
-  /// Of a fixed body at the next half step.
+  /// Velocity (m/s) of a fixed body at the next half step.
   Vec3 prescribed_velocity(std::size_t body) const {
     const std::int32_t which = drive->empty() ? -1 : (*drive)[body];
     return which < 0 ? base_velocity_next : base_velocity_next + drive_velocity[std::size_t(which)];
@@ -108,7 +109,7 @@ struct BodyPass {
 /// it; velocities (m/s) at both half steps.
 double holding_work(const double* force, const double* velocity_now, const double* velocity_next, double dt);
 
-/// Work of the loads on a body over half a step at this velocity and angular momentum, J.
+/// Work of the loads on a body over half a time step at this velocity (m/s) and angular momentum (kg m2/s), J.
 double load_work(const BodyPass& pass, std::size_t body, const BodyUpdate& next, const Triple<double>& velocity,
                  const Triple<double>& momentum);
 

@@ -23,7 +23,7 @@ struct LoadsAtWork {
   Vec3 acceleration_from = Vec3::Zero(), acceleration_to = Vec3::Zero();  // m/s2, on free bodies and the fill
   std::vector<PointLoad> points;                                          // by body
   Array<std::int32_t> first;           // point load of each body, and one past the end; empty: no point loads
-  Array<double> nodes_from, nodes_to;  // N, node_width a node of the fill; empty: none
+  Array<double> nodes_from, nodes_to;  // N, node_width per node of the fill; empty: none
 
   bool accelerates() const { return !acceleration_from.isZero(0.0) || !acceleration_to.isZero(0.0); }
   bool none() const { return first.empty() && nodes_to.empty() && !accelerates(); }

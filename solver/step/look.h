@@ -7,7 +7,7 @@ namespace voussoir {
 /// Result of a check: whether contacts are searched now, and the time step of the next check.
 struct Look {
   bool search = false;
-  std::int64_t next = 0;  // step
+  std::int64_t next = 0;  // time step of the next check
 };
 /// A search is required when a body has moved farther than `distance` (m) since its position was noted. Slow bodies
 /// near this distance would cause frequent checks, so they require the search somewhat earlier.

@@ -53,7 +53,7 @@ struct Snapshot {
   Vec3 base_displacement = Vec3::Zero();     // m
   std::vector<Vec3> displacement;            // m, of the centroid of each block since the reference placement
   std::vector<Eigen::Quaterniond> rotation;  // since the reference placement
-  std::vector<Vec3> velocity;                // m/s, of each centroid at the last half step, likewise
+  std::vector<Vec3> velocity;  // m/s, of each centroid at the last half step, including that of the ground
   std::vector<PatchSnapshot> patches;
   FillSnapshot fill;
 };

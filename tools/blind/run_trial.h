@@ -1,4 +1,4 @@
-// One trial: hides what the trial says, and diagnoses the resulting measurements.
+// One trial: makes measurements with the hidden effects of the trial, and diagnoses them.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -18,8 +18,8 @@ struct TrialRun {
   std::string log;                   // path of the log
 };
 
-/// Runs a trial in FOLDER: seen (case and measurements), sealed (the answer), said, log.txt. Throws RunError if hide
-/// fails.
+/// Runs a trial in FOLDER. It writes the folders seen (case and measurements), sealed (the answer) and said (the
+/// diagnosis), and log.txt. Throws RunError if hide fails.
 TrialRun run_trial(const BlindTrial& trial, const std::string& program, const std::string& folder);
 
 /// Runs diagnose on FOLDER/seen/case.toml with default settings and one thread. Null if it fails.

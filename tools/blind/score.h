@@ -12,7 +12,7 @@ struct Outcome {
   double score = 0.0;                // also 0 for a failed trial
   double probability = 0.0;          // probability of the first effect
   bool wrong = false, false_alarm = true;
-  bool placed = false;               // out of the library: the place is right, whatever its name
+  bool placed = false;               // for an effect outside the library: the place is right, whatever the name
   int values = 0, values_right = 0;  // values of hidden effects that were named
   int faults = 0, faults_right = 0;  // faults of sensors
   // Root mean square residuals, standard deviations: of the fitted data before and after the diagnosis, and of the data
@@ -22,9 +22,9 @@ struct Outcome {
   double seconds = 0.0;  // s, wall-clock time of the trial
 };
 
-/// Smallest trace of an effect that evidence can name. A candidate pays about 5 for being one of 150 places and must
-/// win by a margin (log probabilities), and the evidence is at most half of the trace. The margin was 2.3 when this
-/// limit was set.
+/// Smallest trace (see TrialRun) for which the evidence can be sufficient to name an effect. In log probabilities, the
+/// evidence must exceed about 5 (the effect is at one of 150 places) plus a margin, and it is at most half of the
+/// trace. This limit was set for a margin of 2.3; see DiagnosisSettings::margin for the present one.
 inline constexpr double shows = 15.0;
 
 /// Verdict and effects in words: "found; abutment_restraint at both (1.00)".

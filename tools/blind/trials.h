@@ -11,7 +11,7 @@ struct BlindTrial {
   double noise = 0.01;               // relative standard deviation of periods; that of shapes is twice as large
   std::vector<std::string> effects;  // as for hide; channels also as in with_channels()
   std::string without;               // effects excluded from the diagnosis, which should then end unexplained
-  std::string where;                 // out of the library: text that the place should contain
+  std::string where;                 // for an effect outside the library: text that the place should contain
   double minutes = 0.0;              // min, recorded ambient vibration that replaces modes
   double shaken = 0.0;               // s, recorded earthquake that replaces modes, with the ground motion
   std::uint64_t seed = 0;            // seed of hide

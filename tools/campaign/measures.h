@@ -19,10 +19,11 @@ std::vector<double> measure(const GroundMotion& motion, const std::vector<double
 
 /// The motion of a stage with this duration, s.
 GroundMotion first_part(const GroundMotion& motion, double duration);
-/// Time at which 95 % of the Arias intensity of both horizontal components have passed (of the vertical component if
-/// there is no other), s.
+/// Time at which both horizontal components have reached 95 % of their Arias intensity (the vertical component if there
+/// is no other), s.
 double significant_end(const GroundMotion& motion);
-/// Two seconds before the first 5 % of it have passed in any component, but not before the start of the record, s.
+/// Two seconds before any component first reaches 5 % of its Arias intensity, but not before the start of the record,
+/// s.
 double significant_begin(const GroundMotion& motion);
 
 }  // namespace voussoir::campaign

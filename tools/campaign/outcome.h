@@ -1,4 +1,4 @@
-// The outcome of a run, in one small file of its folder. The program writes it last, in one step: if it exists, it is
+// The outcome of a run, in one small file of its folder. The program writes it last and atomically. If it exists, it is
 // complete; otherwise the run has not ended.
 #pragma once
 #include "tools/campaign/plan.h"

@@ -69,7 +69,7 @@ CampaignTable read_table(const std::string& path);
 /// The table as text. parse_table() returns the same table bit for bit, except that line breaks in texts become blanks
 /// and infinite numbers become NaN.
 std::string table_text(const CampaignTable& table);
-/// Writes the table in one step into an existing folder.
+/// Writes the table atomically into an existing folder.
 void write_table(const std::string& path, const CampaignTable& table);
 
 }  // namespace voussoir

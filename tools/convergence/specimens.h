@@ -16,9 +16,9 @@ struct Bed {
 };
 constexpr double bed_side = 1.0, bed_force = 1e4, bed_kn = 1e10;  // m, N, Pa/m
 
-/// Closed form of an elastic bed without tension under bed_force at `eccentricity` (share of the side, below 0.5).
-/// Inside the kern the pressure is linear over the whole bed; outside it acts over c = 3 (b/2 − e) with the edge
-/// pressure 2P/(c d).
+/// Closed form of an elastic bed without tension under P = bed_force at `eccentricity` (share of the side, below 0.5).
+/// Inside the kern the pressure is linear over the whole bed. Outside it the pressure acts over c = 3 (b/2 − e) with
+/// the edge pressure 2P/(c d), where b = d = bed_side and e is the eccentricity in m.
 Bed exact_bed(double eccentricity);
 /// The same from the equilibrium of the joint with `points` integration points per side.
 Bed computed_bed(double eccentricity, int points);
@@ -36,13 +36,14 @@ double arch_multiplier(double kn, int points);
 constexpr double slab_width = 1.0, slab_height = 4.0;  // m; the block tips at their quotient
 /// Horizontal acceleration, as a multiplier of gravity, at which a block of slab_width × slab_height tips.
 double slab_multiplier(double kn, int points);
-/// First-order reduction of that multiplier by the finite stiffness of a joint. The block tips when the row of points
-/// at the edge, with its share w of the area, carries the whole weight W. The row has then sunk by W/(w kn A), and the
-/// next row, at g times the width from it, just opens. The block leans by θ = W/(w g kn A b), and λ = tan(α − θ), tan
-/// α = B/H: a reduction of (1 + tan² α) θ.
+/// First-order reduction of that multiplier λ by the finite stiffness of a joint. The block of width B and height H
+/// tips when the row of points at the edge, with its share w of the area A, carries the whole weight W. The row has
+/// then sunk by W/(w kn A), and the next row, at g times the width from it, just opens. The block leans by θ = W/(w g
+/// kn A B), and λ = tan(α − θ), tan α = B/H: a reduction of (1 + tan² α) θ.
 double slab_loss(double kn, int points);
-/// The same for a face that is elastic everywhere. With the contact length c at a lean θ, W = kn d θ c²/2. With k = 1
-/// + tan² α, λ = B/H − 2c/(3H) − k θ. The maximum B/H − 3 k θ is at θ = (√(2W/(kn d)) / (3 k H))^(2/3).
+/// The same for a face that is elastic everywhere. With the contact length c at a lean θ and the depth d of the block,
+/// W = kn d θ c²/2. With k = 1 + tan² α, λ = B/H − 2c/(3H) − k θ. The maximum B/H − 3 k θ is at θ = (√(2W/(kn d)) / (3
+/// k H))^(2/3).
 double slab_loss_of_an_elastic_face(double kn);
 
 // --- Rocking ---

@@ -5,8 +5,8 @@
 
 namespace voussoir {
 
-/// Gaps of the case as it is, with fitted materials and corrected, for the fitted data and for the data that were not
-/// fitted.
+/// Gaps (root mean square residuals, in standard deviations) of the case as it is, with fitted materials and corrected,
+/// for the fitted data and for the data that were not fitted.
 struct GapRow {
   std::string data;
   double before = 0.0, materials = 0.0, after = 0.0;

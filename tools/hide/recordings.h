@@ -11,9 +11,9 @@ namespace voussoir {
 Recording ambient(const Response& response, const std::vector<Sensor>& sensors, const HideRequest& request,
                   double ratio);
 
-/// A synthetic earthquake, recorded at the sensors and, in the last three columns, on the ground. Each sensor follows
-/// the ground and the resonant modes, and supports that move differently according to their influence on it. The
-/// response is that of the model and the memory, with participation.
+/// A synthetic earthquake, recorded at the sensors and, in the last three columns, on the ground. The motion of each
+/// sensor is the sum of the ground motion, the resonant modes and the influence of supports that move differently, with
+/// noise. `response` must be that of the model and the memory, with participation.
 Recording earthquake(const Assembly& assembly, const LinearModel& model, const Response& response,
                      const EigenMemory& memory, const std::vector<Sensor>& sensors, const HideRequest& request,
                      double ratio);

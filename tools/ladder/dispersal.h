@@ -124,8 +124,8 @@ inline double arriving(double k) {
   return 2.0 * (std::sinh(k) + k * std::cosh(k)) / (std::sinh(2.0 * k) + 2.0 * k);
 }
 
-/// On a smooth base, by Simpson's rule over the waves: (2 p/π) ∫ sin(k a)/k T cos(k x) dk, and the same over both
-/// directions under a wheel.
+/// Pressure (Pa) on a smooth base at x (m) from the middle, by Simpson's rule over the waves: (2 p/π) ∫ sin(k a)/k T
+/// cos(k x) dk, with T = arriving(k depth) and a = patch_half. Under a wheel the integral is over both directions.
 inline double smooth_base_pressure(const Dispersal& d, double x) {
   constexpr int steps = 400;
   const double most = 24.0 / d.depth, h = most / steps, a = patch_half;
@@ -144,7 +144,8 @@ inline double smooth_base_pressure(const Dispersal& d, double x) {
   return d.pressure * 2.0 / std::numbers::pi * sum;
 }
 
-/// In a half-space (Boussinesq 1885), at the same depth; of a wheel by the corners of rectangles (Newmark 1935).
+/// Pressure (Pa) in a half-space at the same depth, at x (m) from the middle (Boussinesq 1885). That of a wheel follows
+/// from the corners of rectangles (Newmark 1935).
 inline double half_space_pressure(const Dispersal& d, double x) {
   const double z = d.depth, a = patch_half;
   if (!d.wheel) {

@@ -1,4 +1,4 @@
-// A fill without stones that is stepped by hand, shared by the rungs of the continuum and the tests of its elements.
+// A fill without stones that the caller advances, for the rungs of the continuum and the tests of its elements.
 #pragma once
 #include <algorithm>
 #include <map>

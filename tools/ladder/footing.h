@@ -9,7 +9,7 @@ struct Footing {
   double friction = 0.0, dilation = 0.0;  // degrees
   double cell = 0.1;                      // m
   int cells_along = 40, cells_up = 25;    // of the soil
-  double settlement = 12.0;               // half-widths times c/G
+  double settlement = 12.0;               // in units of half-width × cohesion / shear modulus
   int steps = 6000;                       // time steps of the settlement
   int rest = 0;                           // time steps at rest after the settlement
   bool averaged = true;                   // volumetric strains of nodes; else plain tetrahedra
@@ -20,7 +20,7 @@ struct Footing {
 /// Borst 1984).
 inline double bearing_factor(const Footing& f) {
   constexpr double half_width = 1.0, cohesion = 1e3;  // m, Pa
-  // A stiffness at which collapse comes at strains of a thousandth: what is small stays small.
+  // With this stiffness the collapse occurs at strains of about 0.001, so that displacements remain small.
   Material soil = elastic_fill(2000.0, 200e6, 100e6);
   soil.cohesion = cohesion, soil.tensile_strength = 1e9;
   soil.friction_angle = radians(f.friction), soil.dilation_angle = radians(f.dilation);

@@ -46,15 +46,16 @@ inline double four_hinge_multiplier(const Polygon& intrados, const Polygon& extr
             if (std::abs(cross) < 1e-12) continue;
             const double s = (r.x() * v.z() - r.z() * v.x()) / cross, t = (r.x() * u.z() - r.z() * u.x()) / cross;
             const Vec3 p = a + s * u;
-            // b moves alike on both sides: w1 (b − a) = w2 (b − p); c likewise.
+            // Hinge b has the same velocity on both sides: w1 (b − a) = w2 (b − p); so has c.
             if (std::abs(1.0 - s) < 1e-12 || std::abs(t) < 1e-12 || std::abs(1.0 - t) < 1e-12) continue;
             const double w2 = 1.0 / (1.0 - s), w3 = w2 * (1.0 - t);
             const double of_live =
                 power(live[j] - live[i], 1.0, a) + power(live[k] - live[j], w2, p) + power(live[l] - live[k], w3, d);
             const double of_dead =
                 power(dead[j] - dead[i], 1.0, a) + power(dead[k] - dead[j], w2, p) + power(dead[l] - dead[k], w3, d);
-            // A joint opens at the intrados when what is right of it turns less about y than what is left of it; all
-            // four changes of turn must have the sign of their side, in the sense in which the pattern drives.
+            // A joint opens at the intrados if the part on its right rotates less about y than the part on its left.
+            // All four changes of rotation must have the sign of their side, for the direction of motion in which the
+            // power of the pattern is positive.
             const double sense = of_live > 0.0 ? 1.0 : -1.0;
             const double change[4] = {1.0, w2 - 1.0, w3 - w2, -w3};
             bool opens = of_live != 0.0;

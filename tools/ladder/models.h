@@ -1,4 +1,4 @@
-// Models and a hand-driven stepper that the rungs of the ladder and the tests of the solver share.
+// Models, and a stepper that the caller advances, for the rungs of the ladder and the tests of the solver.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ inline void set_law(Assembly& assembly, const JointLaw& law) {
   for (Joint& joint : assembly.joints) joint.law = 0;
 }
 
-/// Bond and friction that displacements of 0.1 mm break at a stiffness of about 1e9 Pa/m.
+/// Bond and friction so weak that displacements of 0.1 mm break the bond at a stiffness of about 1e9 Pa/m.
 inline JointLaw weak_bond() {
   JointLaw law;
   law.tension = 1e5, law.cohesion = 1.5e5;
@@ -157,7 +157,7 @@ inline Vec3 random_vector(double scale, std::mt19937& random) {
   return scale * Vec3(unit(random), unit(random), unit(random));
 }
 
-/// Model, state and stepper held together, driven by hand; blocks are those of the assembly.
+/// Model, state and stepper in one object. The caller advances them. Block numbers are those of the assembly.
 class Bench {
  public:
   explicit Bench(Assembly a, const SolverSettings& s = undamped())

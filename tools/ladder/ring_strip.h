@@ -12,8 +12,8 @@ struct RingStrip {
   std::vector<double> rings = {0.33};  // m, thickness of each, the lowest first
   double span = 3.0, rise = 0.75;      // m, of the intrados
   int voussoirs = 40;                  // of each ring
-  int headers_every = 0;               // every so many courses, one header goes through both of the lowest rings; 0:
-                                       // none
+  int headers_every = 0;               // number of courses from one header to the next; a header goes through the two
+                                       // lowest rings; 0: none
   double friction = 0.6;               // of radial joints and springings
   double ring_friction = 0.5;          // of the joints between rings
   bool lifts = false;                  // joints dilate with the full friction angle
@@ -83,7 +83,7 @@ inline Assembly ring_strip(const RingStrip& strip) {
   assembly.laws.push_back(dry_law(strip.ring_friction));
   if (strip.lifts)
     for (JointLaw& law : assembly.laws) law.dilation_angle = law.friction_angle;
-  // Joints between rings look along the radius.
+  // The normals of joints between rings are radial.
   const double radius = (0.25 * strip.span * strip.span + strip.rise * strip.rise) / (2.0 * strip.rise);
   const Vec3 centre(0.5 * strip.span, 0.0, strip.rise - radius);
   for (Joint& joint : assembly.joints) {

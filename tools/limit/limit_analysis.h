@@ -49,8 +49,8 @@ struct LimitAnalysis {
   std::vector<JointForce> forces;    // forces in equilibrium at the multiplier; not unique where the structure does
                                      // not move
   std::vector<JointRate> mechanism;  // joints whose opening or slip is at least a hundredth of the largest
-  std::vector<Vec3> rates;           // of each block: velocity of the centroid along x, rotation about y, velocity
-                                     // along z
+  std::vector<Vec3> rates;           // of each block: velocity of the centroid along x (m/s), rotation about y (rad/s),
+                                     // velocity along z (m/s)
   int iterations = 1;                // number of linear programs solved
   double excess = 0.0;               // largest shear force above the friction limit, divided by the largest normal
                                      // force

@@ -13,7 +13,7 @@ constexpr double unmoved = 5e-6;
 /// fill is reported separately.
 std::string verdict_section(const RunFiles& run);
 
-/// Collapse stage: the multiplier, its confirmation by dynamic runs, numbered hinges, load and displacement on the way.
+/// Collapse stage: the multiplier, its confirmation by dynamic runs, numbered hinges, load against displacement.
 std::string collapse_section(const RunFiles& run);
 /// Quasi-static stages: capacity curve, settlement along the deck, reactions.
 std::string steps_section(const RunFiles& run);

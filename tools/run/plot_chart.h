@@ -6,8 +6,8 @@
 
 namespace voussoir {
 
-/// One history channel over another, with the measured curves whose file exists. Throws InputError for a channel that
-/// the history does not have.
+/// One history channel against another, with the measured curves whose file exists. Throws InputError for a channel
+/// that the history does not have.
 LineChart plot_chart(const PlotSpec& plot, const History& history);
 
 }  // namespace voussoir

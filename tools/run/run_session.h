@@ -23,7 +23,7 @@ struct RunRequest {
   Packing packing = usual_packing;  // compression of the files for ParaView
   double until = -1.0;              // s, simulated time at which the run stops; negative: at its end
   double time_limit = 0.0;          // s, wall-clock time after which the run stops with a checkpoint; 0: none
-  std::function<void(const Progress&)> progress;  // told in addition to the line on the terminal
+  std::function<void(const Progress&)> progress;  // called in addition to the line on the terminal
   double fall_displacement = 0.0;                 // m, displacement beyond which mass counts as fallen
   double fall_share = 0.0;  // the run ends when more than this share of the movable mass has fallen; 0: never
 };

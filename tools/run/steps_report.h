@@ -19,8 +19,8 @@ std::string steps_table(const std::vector<StageSettings>& stages, const History&
 /// displacement.
 nlohmann::json steps_json(const std::vector<StageSettings>& stages, const History& history);
 
-/// Charts: force over displacement; settlement along the deck at the end of each stage, since its beginning; vertical
-/// reactions on the way. A chart has no curves if there is nothing to show.
+/// Charts: force against displacement; settlement along the deck from the beginning to the end of each stage; vertical
+/// reactions during the stages. A chart has no curves if there is nothing to show.
 LineChart capacity_chart(const std::vector<StageSettings>& stages, const History& history);
 LineChart deck_chart(const std::vector<StageSettings>& stages, const History& history);
 LineChart reaction_chart(const std::vector<StageSettings>& stages, const History& history);

@@ -21,8 +21,8 @@ std::vector<BedJoint> bed_joints_of_state(const Assembly& assembly, const Model&
 /// The text of joints.csv (docs/formats.md): one row for each bed joint. The cell of a value that is not finite is
 /// empty.
 std::string bed_joint_table(const std::vector<BedJoint>& beds);
-/// Reads joints.csv. Areas and torsion are 0, n has its default, g is zero, and d is zero if an earlier version wrote
-/// the table without d. Throws InputError for another table.
+/// Reads joints.csv. In the result `area` and `torsion` are 0, `n` has its default and `g` is zero; `d` is zero if an
+/// earlier version wrote the table without it. Throws InputError for another table.
 std::vector<BedJoint> bed_joints_from_table(const TextFile& file);
 
 /// A line of thrust: its name and its bed joints.

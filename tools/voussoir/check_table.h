@@ -18,8 +18,8 @@ struct CheckRow {
 };
 
 void print_check_heading();
-/// Prints one line, and below it why there is no value, why it misses, or that a known miss is now within its
-/// tolerance.
+/// Prints one line. Below it, it prints the reason why there is no value or why the value is outside its tolerance, or
+/// a note that a known miss is within its tolerance.
 void print_check_row(const CheckRow& row);
 /// "31 of 33 quantities within their tolerance, 2 known misses".
 std::string check_count(const std::vector<CheckRow>& rows);

@@ -1,4 +1,5 @@
-// Dimensions of the assembly as built, measured from the stones: spans, rings, supports, levels.
+// Dimensions of the assembly as built, measured from the stones: spans, rings, supports, levels. Coordinates (x, y, z)
+// are in m.
 #pragma once
 #include <limits>
 #include <optional>

@@ -44,12 +44,12 @@ class DrawingSheet {
   static double width_of(const std::string& words, double size = kSmallText);
   /// The text, shortened at its end to fit the given width, mm.
   static std::string fitting(const std::string& words, double room, double size = kSmallText);
-  /// The text in lines that are not wider than this, mm; only a single word may be.
+  /// The text in lines that are not wider than `room` (mm). Only a line of a single word may be wider.
   static std::vector<std::string> wrapped(const std::string& words, double room, double size = kSmallText);
 
   /// Title of the view in a box, underlined and centred at x.
   void title(const SheetBox& box, double middle, const std::string& words);
-  /// A chain of dimensions along x at height y, with one text between each two points (none if it is empty), and
+  /// A chain of dimensions along x at height y, with one text between neighbouring points (none if it is empty), and
   /// likewise along y. Texts that do not fit between their points are put next to the line.
   void chain_along_x(double y, const std::vector<ChainStop>& stops, const std::vector<std::string>& texts);
   void chain_along_y(double x, const std::vector<ChainStop>& stops, const std::vector<std::string>& texts,

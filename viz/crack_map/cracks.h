@@ -30,7 +30,7 @@ struct JointGaps {
 /// Opening and slip of each joint of the assembly in a snapshot. If a contact has replaced a joint, its opening is the
 /// separation of the two stones since they were built.
 std::vector<JointGaps> joint_gaps(const Assembly& assembly, const Snapshot& snapshot);
-/// Displacement of block b relative to block a at a point that both had as built, m.
+/// Displacement of block b relative to block a at the point `at` (as built), m.
 Vec3 moved_apart(const Assembly& assembly, const Snapshot& snapshot, const Joint& joint, const Vec3& at);
 
 /// The part of a stone: "arch 0", "spandrel y-".

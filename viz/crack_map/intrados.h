@@ -11,7 +11,7 @@ struct Intrados {
   std::int32_t part = 0;         // of component arch
   Vec3 along = Vec3::UnitX();    // unit vector, horizontal, square to the barrel, from left to right
   Vec3 axis = Vec3::UnitY();     // unit, of the barrel, towards y+
-  Vec3 origin = Vec3::Zero();    // m, of both
+  Vec3 origin = Vec3::Zero();    // m, of both axes
   Polygon profile;               // (along, z, 0), m, from the left springing to the right one
   std::vector<double> arc;       // m, from the left springing to each corner of the profile
   double thickness = kNotKnown;  // m, of the vault at its crown
@@ -19,7 +19,7 @@ struct Intrados {
   struct Place {
     double s = 0.0;    // m, along the intrados from the left springing
     double w = 0.0;    // m, along the barrel from the middle of the bridge
-    double off = 0.0;  // m, from the intrados
+    double off = 0.0;  // m, distance from the intrados, not negative
   };
   Place unrolled(const Vec3& x) const;
   double length() const { return arc.back(); }

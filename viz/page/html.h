@@ -12,7 +12,7 @@ std::string note(std::string_view words);
 std::string heading(std::string_view words);
 /// Empty for an empty drawing.
 std::string figure(const std::string& svg);
-/// A drawing as wide as the page, on paper on its own landscape sheet; empty if it is not SVG.
+/// A drawing as wide as the page; in print it has its own landscape sheet. Empty if it is not SVG.
 std::string sheet_figure(std::string_view svg);
 std::string list(const std::vector<std::string>& items);
 

@@ -53,7 +53,8 @@ std::string line_chart(const LineChart& chart);
 /// Gives the curves the line colours in turn, and dashes when all colours are used.
 void number_curves(LineChart& chart);
 
-/// Largest and smallest of every share of the curve, in their order: as much as a width of pixels can show.
+/// The curve with only the smallest and the largest value of each of `shares` equal parts, in the order of the curve.
+/// A picture cannot show more points. A curve of at most 2 × `shares` points is not changed.
 ChartCurve thinned(const ChartCurve& curve, std::size_t shares = 900);
 
 }  // namespace voussoir

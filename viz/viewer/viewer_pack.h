@@ -38,7 +38,7 @@ class ViewerPack {
   nlohmann::json sections_ = nlohmann::json::object();
 };
 
-/// Bits of a scale not smaller than `largest` (finite, not negative), with so few digits that many scales are equal.
+/// A scale not smaller than `largest` (finite, not negative), with so few digits that many scales are equal.
 float coarse_scale(double largest);
 
 }  // namespace voussoir

@@ -6,8 +6,9 @@
 
 namespace voussoir::python {
 
-/// time, base_displacement; of each block displacement (n, 3), rotation (n, 4; w x y z), velocity (n, 3); joints: a
-/// dictionary of columns, the assembly's joints and then contacts; of the fill's nodes fill_displacement (n, 3).
+/// time (s), base_displacement (3; m); of each block displacement of the centroid since the reference placement (n, 3;
+/// m), rotation (n, 4; unit quaternion w x y z), velocity (n, 3; m/s); of the fill's nodes fill_displacement (n, 3; m).
+/// joints: a dictionary of columns in SI units, for joint_count joints of the assembly and then for contacts.
 inline py::dict snapshot_of(const Assembly& assembly, const Snapshot& s) {
   py::dict d, joints;
   const auto& p = s.patches;
