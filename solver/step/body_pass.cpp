@@ -390,16 +390,19 @@ void look_at_lanes(const BodyPass& pass, std::size_t first, int count, const Tri
 
 }  // namespace
 
-/// Free bodies of the batch that begins at `first`; returns which it has moved: none where one turns too fast for the
-/// series of rotate().
+/// Free bodies of the batch that begins at `first`, which has one; returns which it has moved: none where one turns too
+/// fast for the series of rotate().
 LaneMask BodyPass::move_lanes(std::size_t first, std::size_t end, BodyReport& report) const {
   const int count = int(std::min<std::size_t>(lane_count, end - first));
   const BodyBatch& batch = batches[first / lane_count];
   const LaneMask free = batch.are_free();
   LaneRows sum, motion = load_rows(&state->motion[motion_width * first], count),
                 pose = load_rows(&state->pose[pose_width * first], count);
+  int any_free = 0;
+  while (batch.free[any_free] <= 0.0) ++any_free;
+  // The sums of a held body are not read: tiles that write them may be at another time step.
   for (int lane = 0; lane < lane_count; ++lane)
-    sum.r[lane] = wrench_sum(first + std::size_t(std::min(lane, count - 1)));
+    sum.r[lane] = wrench_sum(first + std::size_t(batch.free[lane] > 0.0 ? lane : any_free));
   transpose(sum.r);
   fetch_motion(first + 2 * lane_count);
   const Triple<Lanes> x = {batch.centroid[0] + pose.r[0], batch.centroid[1] + pose.r[1], batch.centroid[2] + pose.r[2]};
