@@ -48,6 +48,14 @@ def test_a_diagnosis_names_what_is_missing(tmp_path, program):
     assert found.data == json.loads((tmp_path / "found" / "diagnosis.json").read_text())
     assert vs.Case(tmp_path / "found" / "corrected.toml", geometry=True).path
     assert "abutment_restraint" in found.corrected
+    # The corrected case of an assembly has a copy of it in its folder; that of the dictionary is a temporary file.
+    of_assembly = vs.Case({}, assembly=vs.Case(case, geometry=True).assembly(), geometry=True)
+    vs.diagnose(of_assembly, tmp_path / "field" / "measured", directory=tmp_path / "again", effects=1,
+                least_amounts=False, run_seconds=0.0, progress=False)
+    del of_assembly
+    again = vs.Case(tmp_path / "again" / "corrected.toml", geometry=True)
+    assert len(again.assembly().blocks) > 100
+    assert (tmp_path / "again" / "vtk" / "modes_after.pvd").exists()
 
 
 def test_a_rating_is_that_of_the_verb(tmp_path, program):

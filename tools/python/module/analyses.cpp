@@ -1,14 +1,10 @@
 // Diagnosis, rating and the tables of campaigns. What has a JSON form of its own is handed over as that text.
-#include <filesystem>
-
-#include "io/case/case.h"
 #include "solver/base/atomic_file.h"
 #include "solver/base/error.h"
 #include "solver/base/json_file.h"
 #include "tools/campaign/table.h"
 #include "tools/diagnosis/diagnose_case.h"
-#include "tools/diagnosis/diagnosis_page.h"
-#include "tools/diagnosis/diagnosis_pictures.h"
+#include "tools/diagnosis/diagnosis_files.h"
 #include "tools/python/module/arrays.h"
 #include "tools/python/module/module.h"
 #include "tools/rate/rate_report.h"
@@ -54,18 +50,12 @@ py::tuple diagnosis(const Case& c, const std::string& measured, const std::strin
   std::string json, text, corrected;
   {
     const py::gil_scoped_release others;
+    if (!directory.empty()) check_diagnosis_folder(c, directory);
     const DiagnosisInput input = diagnosis_input(request);
     const DiagnosisResult result = diagnose_case(input, request, tell);
     json = json_text(diagnosis_json(input, result)), text = diagnosis_text(input, result);
     corrected = result.corrected_text;
-    if (!directory.empty()) {
-      std::filesystem::create_directories(directory);
-      write_json(directory + "/diagnosis.json", diagnosis_json(input, result));
-      write_atomically(directory + "/corrected.toml", corrected);
-      if (page)
-        write_atomically(directory + "/diagnosis.html",
-                         diagnosis_page(input, result, draw_diagnosis(input, result, directory, tell)));
-    }
+    if (!directory.empty()) write_diagnosis(input, result, directory, page, tell);
   }
   return py::make_tuple(json, text, corrected);
 }
@@ -140,7 +130,7 @@ void bind_analyses(py::module_& m) {
     request.effective_width = effective_width;
     return rating(c, std::move(request), vehicles, strip, say);
   });
-  m.def("vehicles", &shipped_vehicles);
+  m.def("vehicles", &shipped_vehicles, "Names of the vehicles of the library (docs/vehicles.md).");
   m.def("_campaign_table", &campaign_table);
 }
 
