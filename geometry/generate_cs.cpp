@@ -195,7 +195,7 @@ std::vector<Choice> bridge_choices(bool leaf, bool table) {
        {"rigid", "deformable", "none"},
        "rigid: blocks; deformable: one continuum of tetrahedra; none: no backfill"},
       {"fill_bond", {"stack", "running"}, "rigid backfill: joints above joints (stack), or running bond *"},
-      {"makeup", makeup, "piers and abutments: an outer leaf around infill (abutments also have wing walls), or solid"},
+      {"makeup", makeup, "piers and abutments: leaf around infill (in abutments abutment_leaf_length long), or solid"},
       {"stiffness", stiffness, "joint stiffness from the table kn_, ks_ of each component, or from E/dc and G/dc"}};
 }
 

@@ -101,12 +101,14 @@ std::vector<Parameter> bridge_parameters(bool cs1) {
   for (const Row& row : kDimensions) add(row);
   for (int i = 0; i < 7; ++i) {
     const double own = !cs1 && i == 1 ? 11.3 : 0.0;
-    parameters.push_back({fmt::format("pier_{}_height", i), own, 0.0, 80.0, "m",
-                          fmt::format("height from base to springing of pier {} from the left; 0: pier_height", i)});
+    parameters.push_back(
+        {fmt::format("pier_{}_height", i), own, 0.0, 80.0, "m",
+         fmt::format("height from base to springing of pier {} (from 0 at the left); 0: pier_height", i)});
   }
   for (int i = 0; i < 8; ++i)
-    parameters.push_back({fmt::format("span_{}_clear", i), 0.0, 0.0, 60.0, "m",
-                          fmt::format("clear span of vault {} from the left, under the same deck; 0: clear_span", i)});
+    parameters.push_back(
+        {fmt::format("span_{}_clear", i), 0.0, 0.0, 60.0, "m",
+         fmt::format("clear span of vault {} (from 0 at the left), under the same deck; 0: clear_span", i)});
   for (const Row& row : kBlocks) add(row);
   for (const Row& row : kJoints) add(row);
   return parameters;

@@ -127,8 +127,10 @@ std::string case_template(const CaseTemplate& wanted) {
   Given given;
   if (wanted.width != 0.0) given["width"] = number_text(wanted.width);
   std::string text = fmt::format(
-      "# A bridge of {} for the generator \"bridge\". Every key is listed with its default, in SI units;\n"
-      "# a key that is left out has its default, too. In the folder of this file:\n"
+      "# A bridge of {} for the generator \"bridge\". It has every key of [bridge], in SI units and degrees.\n"
+      "# Spans, shape of the vaults and width are those of --spans, --shape and --width. All other values are the\n"
+      "# defaults. A key that you leave out has its default, too; that of the shape is \"semicircular\".\n"
+      "# In the folder of this file:\n"
       "#   voussoir generate NAME.toml --picture     draws it with its dimensions\n"
       "#   voussoir run NAME.toml -o NAME            finds its equilibrium under its weight\n\n"
       "[bridge]\ngenerator = \"bridge\"\n",

@@ -117,7 +117,7 @@ install(FILES ${debian}/copyright ${debian}/libvoussoir-dev/changelog.gz ${debia
 if(TARGET voussoir_python)
   install(FILES ${debian}/copyright ${debian}/python3-voussoir/changelog.gz ${debian}/python3-voussoir/changelog.Debian.gz
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-voussoir COMPONENT python)
-  # Python compiles the package when it is installed, and what it compiled goes with it.
+  # Python compiles the package when it is installed. The compiled files are removed together with it.
   file(WRITE ${debian}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ] && command -v py3compile >/dev/null; then py3compile -p python3-voussoir; fi\n")
   file(WRITE ${debian}/prerm "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null; then py3clean -p python3-voussoir; fi\n")
   file(CHMOD ${debian}/postinst ${debian}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

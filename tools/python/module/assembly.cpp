@@ -254,7 +254,7 @@ void bind_assembly(py::module_& m) {
       .def_property_readonly(
           "joints", &joints_of,
           "Joints as a dictionary of arrays: a, b (blocks), area (m2), centroid (m, 3), normal (from a "
-          "to b, 3), kn, ks (Pa/m), law.")
+          "to b, 3), kn, ks (Pa/m), law (number of the joint law).")
       .def("block", &cells_of_block, py::arg("index"),
            "Convex cells of a block: [(vertices of shape (v, 3) in m, [[vertex, ...], ...]), ...].")
       .def("joint_polygon", &polygon_of_joint, py::arg("index"), "Corners of a joint, shape (c, 3), m.")

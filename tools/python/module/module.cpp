@@ -53,16 +53,19 @@ PYBIND11_MODULE(_voussoir, m) {
   m.doc() = "The voussoir libraries; use the package voussoir.";
   kernels();  // a wish that cannot be met (VOUSSOIR_KERNELS) is said when the module is imported
   m.attr("version") = program_version();
-  m.def("build_info", [] {
-    py::dict info;
-    info["version"] = program_version();
-    info["commit"] = build_commit();
-    info["kernels"] = kernels().instructions;
-    info["compiler"] = build_compiler();
-    info["libraries"] = build_libraries();
-    return info;
-  });
-  m.def("available_threads", &available_threads);
+  m.def(
+      "build_info",
+      [] {
+        py::dict info;
+        info["version"] = program_version();
+        info["commit"] = build_commit();
+        info["kernels"] = kernels().instructions;
+        info["compiler"] = build_compiler();
+        info["libraries"] = build_libraries();
+        return info;
+      },
+      "Version, commit, instruction set of the kernels, compiler and libraries of this build: {name: text}.");
+  m.def("available_threads", &available_threads, "Number of threads that the machine offers.");
   translate_errors(m);
   bind_assembly(m);
   bind_case(m);

@@ -1,7 +1,7 @@
 """voussoir: masonry arch bridges, stone by stone.
 
-Every block is a rigid body, every joint can open, slide and break, a fill can be a continuum. Cases are those of the
-program (docs/case-reference.md), as files or as dictionaries; the results have the same bits as the program's.
+Every block is a rigid body. Every joint can open, slide and break. A fill can be a continuum. Cases are those of the
+program (docs/case-reference.md), as files or as dictionaries. The results have the same bits as those of the program.
 
     import voussoir as vs
 

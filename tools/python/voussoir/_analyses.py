@@ -9,11 +9,11 @@ from ._progress import says
 
 
 class Diagnosis:
-    """What a diagnosis found.
+    """The result of diagnose().
 
     verdict    'consistent', 'found' or 'unexplained'
     text       the report in words
-    corrected  TOML text of the case with what was found
+    corrected  TOML text of the corrected case
     data       everything, as in diagnosis.json (docs/formats.md)
     """
 
@@ -37,7 +37,7 @@ def _case(source):
 
 def diagnose(case, measured, *, directory=None, page=False, hold_back=(), without=(), effects=3, model_error=0.005,
              least_amounts=True, run_seconds=10.0, threads=None, progress=True):
-    """Where model and measurement disagree, which effect is missing, and the corrected case.
+    """Compares a case with measurements and finds the effect that the case lacks. Returns a Diagnosis.
 
     case           Case, or what Case() takes
     measured       folder with modes.csv, sensors.csv, shapes.csv, records/ (docs/formats.md)
@@ -45,11 +45,13 @@ def diagnose(case, measured, *, directory=None, page=False, hold_back=(), withou
     page           with `directory`: also diagnosis.html with its pictures
     hold_back      names of modes that are predicted, not fitted
     without        names of effects that are not tried
-    effects        most that are added
-    model_error    of the frequencies of a correct model, as a share, in addition to the error of the mesh
-    least_amounts  say what least amount of each effect would have been found
-    run_seconds    s of a recording with the ground's motion for which the explicit solver is run; 0: not
-    progress       True: a line for each step; or a function of a text
+    effects        largest number of effects that are added
+    model_error    error of the frequencies of a correct model, as a share, in addition to the error of the mesh
+    least_amounts  True: also compute the least amount of each effect that these measurements would show
+    run_seconds    s of the first recording with the ground's motion that the explicit solver computes, before and after
+                   the correction; 0: none
+    threads        None: all that the machine has
+    progress       True: a line for each step on standard error; False: nothing; or a function that receives each line
 
     Ctrl-C stops between two steps. Raises InputError when there is nothing to compare.
     """
@@ -62,8 +64,8 @@ def diagnose(case, measured, *, directory=None, page=False, hold_back=(), withou
 class Rating:
     """The vehicles that a bridge can carry.
 
-    text  one line a vehicle: the worst place and the factor there
-    data  every place, as in rate.json (docs/formats.md)
+    text  one line for each vehicle: the worst position and the factor there
+    data  every position, as in rate.json (docs/formats.md)
     """
 
     def __init__(self, data, text):
@@ -76,20 +78,22 @@ class Rating:
 
 def rate(case, vehicles, *, lanes=(0.0,), both_ways=True, step=None, refinements=2, most=30.0, tolerance=0.05,
          strip=None, effective_width=None, threads=None, progress=True):
-    """Adequacy factors of vehicles at their worst places on a bridge (docs/rating.md).
+    """Computes adequacy factors of vehicles at their worst positions on a bridge (docs/rating.md). Returns a Rating.
 
     case             Case, or what Case() takes; with a stage that brings it to rest
     vehicles         names of vehicles() or files
     lanes            m, y of the vehicles' middle lines
     both_ways        also driving towards -x, where that is different
-    step             m from place to place; None: a tenth of the shortest span
-    refinements      halvings of the step about the worst place
-    most, tolerance  the factor is looked for up to `most`, to within `tolerance`
+    step             m, distance between positions; None: a tenth of the shortest span
+    refinements      number of halvings of this distance around the worst position
+    most, tolerance  largest factor of the search, and tolerance of the factor
     strip            m: a strip of this width in plane strain instead of the whole bridge
     effective_width  m, width of the bridge that carries a vehicle, with `strip`; None: wheels + 1.5 m + cover
-    progress         True: a line for each place; or a function of a text
+    threads          None: all that the machine has
+    progress         True: a line for each position on standard error; False: nothing; or a function that receives each
+                     line
 
-    No dynamic factor acts. Ctrl-C stops between two places.
+    The program applies no dynamic factor. Ctrl-C stops between two positions.
     """
     from ._case import Case
     case = case if isinstance(case, Case) else Case(case)
@@ -104,7 +108,7 @@ def campaign_table(path):
 
     path  campaign directory or its table.csv
 
-    A pandas.DataFrame where pandas is installed, else a dictionary of lists and arrays.
+    Returns a pandas.DataFrame if pandas is installed, else a dictionary of lists and arrays.
     """
     path = os.fspath(path)
     if os.path.isdir(path):

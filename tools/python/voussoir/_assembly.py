@@ -28,13 +28,13 @@ def _said(result):
 
 def assembly_from_blocks(blocks, *, fixed=None, components=None, parts=None, materials=None, block_materials=None,
                          groups=None, kn=None, ks=None, gap=1e-4):
-    """An Assembly of closed shapes; its joints are found where faces meet.
+    """Makes an Assembly of closed shapes. The program finds the joints where faces meet.
 
     blocks           one entry a block: (vertices, faces) with vertices of shape (v, 3) in m, z upwards, and faces as
                      loops of vertex numbers; or, of a block that is not convex, a list of such pairs, its convex cells.
     fixed            truth values or block numbers: which blocks move with the ground; None: those that reach down to
                      the lowest point.
-    components       'arch', 'pier', ... a block (component_names()); None: 'block'.
+    components       component of each block, such as 'arch' or 'pier' (component_names() lists them); None: 'block'.
     parts            number of each block's part among those of its component; None: 0.
     materials        dictionaries with name, density (kg/m3), youngs_modulus, shear_modulus, tensile_strength,
                      cohesion (Pa), friction_angle (degrees); a joint has the weaker strength of its two
@@ -44,8 +44,8 @@ def assembly_from_blocks(blocks, *, fixed=None, components=None, parts=None, mat
     kn, ks           Pa/m of every joint; None: from the moduli and the sizes of the stones.
     gap              m: faces closer than this are in contact.
 
-    Raises InputError for a shape that is not closed, not convex or without volume, and for blocks that overlap; warns
-    of what was repaired or may surprise.
+    Raises InputError for a shape that is not closed, not convex or without volume, and for blocks that overlap. Warns
+    of each repair of a shape, and of results that you may not expect.
     """
     blocks = [_cells(block) for block in blocks]
     count = len(blocks)

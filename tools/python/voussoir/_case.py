@@ -19,8 +19,8 @@ class Case:
     folder    folder that relative names in a dictionary start from.
     geometry  True: for geometry, modes and diagnosis; the case may then have no stage.
 
-    Raises InputError that names the line and the key. Two cases with equal text are the same case: the results have
-    the same bits as those of the program.
+    Raises InputError that names the line and the key. A case gives results with the same bits here as with the
+    program.
     """
 
     def __init__(self, source, *, assembly=None, folder=".", geometry=False):
@@ -49,7 +49,7 @@ class Case:
 
     @property
     def path(self):
-        """Path of the file; of a dictionary, a name in messages."""
+        """Path of the case file. For a case from a dictionary: the name that messages use."""
         return self._case.path
 
     @property
@@ -71,18 +71,18 @@ class Case:
         return self._case._assembly()
 
     def remarks(self, assembly):
-        """What is odd about the case and its assembly, in words: [text, ...]."""
+        """The program's remarks on unusual values of the case and its assembly: [text, ...]."""
         return self._case._remarks(assembly)
 
     def run(self, directory, *, overwrite=False, until=None, threads=None, pictures=True, progress=True):
         """Runs all stages in a run directory, as `voussoir run` does; returns the Run.
 
-        directory  folder for checkpoints, history, tables, pictures and the page; an earlier run there is refused
-                   unless `overwrite`.
+        directory  folder for checkpoints, history, tables, pictures and the page. A folder that contains a run is
+                   refused unless `overwrite` is True.
         until      s of simulated time at which to pause with a checkpoint; None: to the end.
         threads    None: all that the machine has. The number changes no bit of the results.
         pictures   False: leave out pictures and page.
-        progress   True: a line that keeps changing; False: nothing; or a function of a dictionary.
+        progress   True: a line that keeps changing; False: nothing; or a function of a dictionary (see ProgressBar).
 
         Ctrl-C stops with a checkpoint and raises KeyboardInterrupt; Run(directory).resume() goes on. Raises RunError
         where the run fails.

@@ -7,20 +7,20 @@ from ._assembly import _first
 
 
 class Modes:
-    """Modes, the lowest first.
+    """Modes, the lowest first: m modes of n blocks and k nodes of a fill.
 
-    frequency       Hz, shape (m,); 0 for a rigid motion or a mechanism
+    frequency       Hz, shape (m,); 0 for a rigid motion, for a mechanism and for an unstable mode
     period          s, shape (m,); infinite where the frequency is 0
-    shapes          of each block displacement of the centroid and rotation vector, world axes, shape (m, n, 6); the
-                    largest displacement is 1, rotations are per m of it
-    fill_shapes     of each node of the fill, shape (m, k, 3)
+    shapes          displacement of the centroid and rotation vector of each block, world axes, shape (m, n, 6); the
+                    largest displacement is 1, and rotations are in rad for 1 m of it
+    fill_shapes     displacement of each node of the fill, to the same scale, shape (m, k, 3)
     effective_mass  kg, along x, y, z, shape (m, 3)
-    participation   shape (m, 3)
-    modal_mass      kg, of that shape, shape (m,)
-    damping_ratio   of the case's damping, shape (m,)
+    participation   participation factors of these shapes along x, y, z, shape (m, 3)
+    modal_mass      kg, of these shapes, shape (m,)
+    damping_ratio   damping ratio of the mode with the damping of the case, shape (m,)
     words           'transverse, 1st order', ...
-    mass            kg, of all that can move
-    about           what was analysed
+    mass            kg, of all blocks that can move, and of the fill
+    about           description of the analysed state
     """
 
     def __init__(self, values):
@@ -48,10 +48,11 @@ def modal(source, modes=None, *, state=None, geometric=False, as_stored=False, t
 
     source     Case (or what Case() takes, a dictionary or a case file), Run, or the path of a run directory or a
                checkpoint
-    modes      how many; None: the case's, 10
+    modes      number of modes; None: as the case says (10 by default)
     state      of a case: 'intact' (all joints elastic) or 'gravity' (as they rest); None: as the case says
-    geometric  with the stiffness of the forces that the joints carry
-    as_stored  of a run: the state as it is; else it is brought to rest with its damage
+    geometric  True: add the geometric stiffness of the forces in the joints
+    as_stored  of a run: True: the state as it is stored; False: the program first brings it to rest with its damage
+    threads    None: all that the machine has
     """
     from ._case import Case
     from ._run import Run

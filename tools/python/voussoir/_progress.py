@@ -1,4 +1,4 @@
-"""What a person sees while something takes long."""
+"""Lines that show the progress of runs and analyses."""
 
 import sys
 import time
@@ -16,8 +16,9 @@ def _duration(seconds):
 class ProgressBar:
     """A line on `stream` (standard error) that keeps changing; works in a terminal and in a notebook.
 
-    Called with a dictionary: stage (words), timed, time and end (s of simulated time), share (of the run), speed
-    (simulated over wall-clock time), left (s of wall-clock time), note.
+    A run calls it with a dictionary: stage (text), timed (whether the stage takes simulated time), time and end (s of
+    simulated time), share (of the run), speed (simulated over wall-clock time), left (s of wall-clock time), note
+    (text, for example the state of the iteration).
     """
 
     width = 24

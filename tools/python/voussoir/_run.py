@@ -1,4 +1,4 @@
-"""Run directories: what the program, or Case.run(), leaves behind."""
+"""Run directories, which the program or Case.run() writes."""
 
 import base64
 import json
@@ -90,7 +90,10 @@ class Run:
         return Snapshot(_voussoir._stored_state(os.fspath(_first(checkpoint, self.directory))))
 
     def resume(self, *, until=None, threads=None, pictures=True, progress=True):
-        """Goes on from the newest checkpoint, with the bits of a run that was never stopped; see Case.run()."""
+        """Continues from the newest checkpoint. The results have the same bits as those of a run that was not stopped.
+
+        The arguments are those of Case.run().
+        """
         return _started(self, progress, lambda p: _voussoir._resume_run(
             self.directory, _first(until, -1.0), _first(threads, _voussoir.available_threads()), pictures, p))
 

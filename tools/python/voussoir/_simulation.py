@@ -10,7 +10,7 @@ class Simulation:
     """The stages of a case, one after the other, in this process; nothing is written.
 
     case      Case, or what Case() takes
-    assembly  Assembly; None: that of the case. A dictionary without "bridge" is about this one
+    assembly  Assembly; None: that of the case. A dictionary without "bridge" uses this one
     threads   None: all that the machine has; fewer are used where the model is too small to share
 
     The results have the same bits as the program's, for any number of threads.
@@ -29,18 +29,21 @@ class Simulation:
         """Runs what is left of the stages, or on to `until` s of simulated time. Returns 'finished' or 'stopped'.
 
         on_sample      function of a dictionary, called at every row of the history ([output] history_every): time (s),
-                       stage, energies {name: J}, balance_error, base_displacement, base_acceleration, contacts,
-                       reactions {group: (fx, fy, fz) in N}, accelerations (of the sensors, m/s2), and of quasi-static
-                       stages multiplier, displacement (m), force (N). A true result stops the run there.
+                       stage (counted from 0), energies {name: J}, balance_error, base_displacement (m),
+                       base_acceleration (m/s2), contacts (number of contacts found during the run), reactions
+                       {group: (fx, fy, fz) in N}, accelerations (of the sensors, m/s2), and for quasi-static stages
+                       multiplier, displacement (m), force (N). A true result stops the run there.
         control        function of this Simulation, called at the beginning of each stage with time and then every
-                       `control_every` s of simulated time (0: at every time step). It may look at the state, and
-                       returns what forces act until it is called again: None (as before), or what push() takes.
+                       `control_every` s of simulated time (0: at every time step). It may read the state.
+                       It returns the forces that act until the next call: None for the same forces as before, or a
+                       dictionary as for push().
         on_log         function of a line of text
         progress       True: a progress bar; or a function of a dictionary, see ProgressBar
 
         Other Python threads run meanwhile. Ctrl-C stops at the next time step and raises KeyboardInterrupt; an
         exception in a callback stops the run and is raised here. Either way the state stays as it is, and run() goes
-        on from there. Raises RunError where the run fails: no equilibrium, stones that fly off.
+        on from there. Raises RunError if the run fails, for example if it finds no equilibrium or a block moves faster
+        than 1000 m/s.
         """
         def asked():
             forces = control(self)
@@ -144,8 +147,16 @@ class Simulation:
 
     @property
     def collapse(self):
-        """Of a collapse stage: found, multiplier, above, curve of shape (k, 3) (multiplier, displacement along the
-        load and largest displacement in m), mechanism [{a, b, slides, place, opening, slip}], account in words."""
+        """Result of a collapse stage as a dictionary.
+
+        found       whether equilibrium was lost
+        multiplier  largest multiplier with an equilibrium
+        above       smallest multiplier that was tried above it, at which equilibrium was lost
+        curve       shape (k, 3): multiplier, displacement along the load and largest displacement, both in m
+        mechanism   [{a, b (blocks), slides, place (m), opening, slip}]; opening and slip are shares of the largest
+                    displacement
+        account     result as a text
+        """
         return self._run.collapse
 
     def __repr__(self):

@@ -19,10 +19,11 @@ class Snapshot:
     rotation           of each block since the assembly, unit quaternions (w, x, y, z), shape (n, 4)
     velocity           of each block's centroid, shape (n, 3), m/s
     joints             dictionary of arrays over the assembly's joints and then the contacts found during the run:
-                       a, b (blocks), area (m2), centroid, normal (m and unit, shape (j, 3)), opening, slip,
-                       largest_opening, largest_slip (m), normal_traction (Pa, tension positive), shear_traction (Pa),
-                       eccentricity (share of the depth), utilisation (shear over what can be borne), bonded (share of
-                       the area), had_bond, tie
+                       a, b (blocks), area (m2), centroid (m) and normal (unit vector from a to b), shape (j, 3) each,
+                       opening, slip (m), largest_opening, largest_slip (m, since the start), normal_traction (Pa,
+                       tension positive), shear_traction (Pa), eccentricity (share of the depth), utilisation (shear
+                       over shear capacity), bonded (share of the area), had_bond (the joint is elastic or had a bond at
+                       the start), tie (it is a tie)
     joint_count        how many of them are joints of the assembly
     fill_displacement  of each node of the fill, shape (k, 3), m
     """

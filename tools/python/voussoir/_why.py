@@ -19,5 +19,5 @@ def why_not(error):
                 f"({sys.executable}): run that Python, or install voussoir again with this one (pip install .).")
     if "cannot open shared object file" in str(error):
         return (f"a library that voussoir needs is not installed: {error}. On Debian 12, tools/install-packages or the "
-                "package python3-voussoir bring them.")
+                "package python3-voussoir installs it.")
     return f"the compiled module of voussoir cannot be loaded: {error}."

@@ -5,7 +5,7 @@
     run.run()
     results = voussoir.compas.results(assembly, run.snapshot())
 
-COMPAS itself is not needed: what is exchanged is plain data.
+COMPAS itself is not needed, because the exchange uses plain data.
 """
 
 import json
