@@ -54,7 +54,7 @@ def test_a_diagnosis_names_what_is_missing(tmp_path, program):
                 least_amounts=False, run_seconds=0.0, progress=False)
     del of_assembly
     again = vs.Case(tmp_path / "again" / "corrected.toml", geometry=True)
-    assert len(again.assembly().blocks) > 100
+    assert len(again.assembly()) > 100
     assert (tmp_path / "again" / "vtk" / "modes_after.pvd").exists()
 
 

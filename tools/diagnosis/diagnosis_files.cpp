@@ -42,8 +42,10 @@ class CorrectedCase {
       const fs::path there = results_ / name;
       if (!fs::exists(there)) continue;
       if (!fs::is_regular_file(there) || read_text(there.string()) != read_text((own_ / name).string()))
-        throw InputError("{} exists and is not a copy of the file that the case names. Choose another folder",
-                         there.string());
+        throw InputError(
+            "{} exists and is not a copy of the file that the case names. Choose another folder (-o, in Python "
+            "directory)",
+            there.string());
     }
   }
   void put_in_place() const {
