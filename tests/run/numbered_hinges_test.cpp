@@ -50,6 +50,17 @@ TEST(NumberedHinges, AHingeAndASlideAtOnePlaceAreTwo) {
             2u);
 }
 
+TEST(LargestHinges, AreThoseThatMoveMostInTheirOrder) {
+  std::vector<NumberedHinge> all(4);
+  for (int i = 0; i < 4; ++i) all[std::size_t(i)].number = i + 1;
+  all[0].opening = 0.3, all[1].slip = 0.9, all[2].opening = 1.0, all[3].opening = 0.2;
+  const std::vector<NumberedHinge> largest = largest_hinges(all, 2);
+  ASSERT_EQ(largest.size(), 2u);
+  EXPECT_EQ(largest[0].number, 2);
+  EXPECT_EQ(largest[1].number, 3);
+  EXPECT_EQ(largest_hinges(all, 9).size(), 4u);
+}
+
 TEST(NumberedHinges, NoneOfNone) {
   EXPECT_TRUE(numbered_hinges(two_rows(), {}, 1.0).empty());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "solver/base/disjoint_sets.h"
@@ -51,6 +52,14 @@ std::vector<NumberedHinge> numbered_hinges(const Assembly& assembly, const std::
     return std::pair(a.place.x(), a.place.z()) < std::pair(b.place.x(), b.place.z());
   });
   for (std::size_t i = 0; i < all.size(); ++i) all[i].number = int(i) + 1;
+  return all;
+}
+
+std::vector<NumberedHinge> largest_hinges(std::vector<NumberedHinge> all, std::size_t most) {
+  const auto motion = [](const NumberedHinge& h) { return std::max(h.opening, h.slip); };
+  std::ranges::stable_sort(all, std::ranges::greater(), motion);
+  if (all.size() > most) all.erase(all.begin() + std::ptrdiff_t(most), all.end());
+  std::ranges::sort(all, {}, &NumberedHinge::number);
   return all;
 }
 

@@ -25,4 +25,8 @@ struct NumberedHinge {
 std::vector<NumberedHinge> numbered_hinges(const Assembly& assembly, const std::vector<MechanismJoint>& mechanism,
                                            double size);
 
+/// The hinges and sliding joints with the largest motion (opening or slip), at most `most`, in their order. Pictures
+/// use it, because more numbers would cover each other.
+std::vector<NumberedHinge> largest_hinges(std::vector<NumberedHinge> all, std::size_t most);
+
 }  // namespace voussoir

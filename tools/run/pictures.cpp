@@ -69,10 +69,14 @@ void draw_mechanism(const std::string& images, const Simulation& run, const Snap
   o.undeformed = true;
   o.hide = {};
   if (!model.fill.empty()) o.cut = std::string("y");  // soil between walls of plane strain, or behind spandrels
-  for (const NumberedHinge& hinge : numbered_hinges(run.assembly(), run.collapse().mechanism, model.typical_size))
+  const std::vector<NumberedHinge> all = numbered_hinges(run.assembly(), run.collapse().mechanism, model.typical_size);
+  const std::vector<NumberedHinge> largest = largest_hinges(all, 12);
+  for (const NumberedHinge& hinge : largest)
     o.marks.push_back(
         {drawn_at(run.assembly(), snapshot, hinge.a, hinge.place, o.amplification), std::to_string(hinge.number)});
   o.title = fmt::format("Beyond multiplier {:.4g}", run.collapse().multiplier);
+  if (largest.size() < all.size())
+    o.title += fmt::format("; the {} of {} joints that move most are numbered", largest.size(), all.size());
   render_picture(run.assembly(), snapshot, o, images + "/mechanism_front.png");
 }
 
