@@ -25,8 +25,12 @@ TEST(CollapseWords, CountMovingBlocks) {
   const Assembly assembly = spandrels(2);
   EXPECT_EQ(moving_part(assembly, of({0}, true).loss), "1 block of component spandrel and the fill around it");
   EXPECT_EQ(moving_part(assembly, of({0, 1}, true).loss), "2 blocks of component spandrel and the fill around them");
-  const std::string text = collapse_headline(assembly, of({0}, false));
-  EXPECT_TRUE(text.ends_with(" The rest stands if this part is held and its loads are removed.")) << text;
+  Collapse c = of({0}, false);
+  EXPECT_TRUE(
+      collapse_headline(assembly, c).ends_with(" The rest stands if this part is held and its loads are removed."));
+  c.loss.rest_stands = false;
+  EXPECT_TRUE(
+      collapse_headline(assembly, c).ends_with(" The rest falls even if this part is held and its loads are removed."));
 }
 
 TEST(CollapseWords, CountJointsOfAMechanism) {

@@ -70,7 +70,8 @@ void draw_mechanism(const std::string& images, const Simulation& run, const Snap
   o.hide = {};
   if (!model.fill.empty()) o.cut = std::string("y");  // soil between walls of plane strain, or behind spandrels
   const std::vector<NumberedHinge> all = numbered_hinges(run.assembly(), run.collapse().mechanism, model.typical_size);
-  const std::vector<NumberedHinge> largest = largest_hinges(all, 12);
+  constexpr std::size_t most_numbers = 12;  // more would cover each other
+  const std::vector<NumberedHinge> largest = largest_hinges(all, most_numbers);
   for (const NumberedHinge& hinge : largest)
     o.marks.push_back(
         {drawn_at(run.assembly(), snapshot, hinge.a, hinge.place, o.amplification), std::to_string(hinge.number)});

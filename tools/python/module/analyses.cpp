@@ -50,8 +50,8 @@ py::tuple diagnosis(const Case& c, const std::string& measured, const std::strin
   std::string json, text, corrected;
   {
     const py::gil_scoped_release others;
-    if (!directory.empty()) check_diagnosis_folder(c, directory);
     const DiagnosisInput input = diagnosis_input(request);
+    if (!directory.empty()) check_diagnosis_folder(c, directory);
     const DiagnosisResult result = diagnose_case(input, request, tell);
     json = json_text(diagnosis_json(input, result)), text = diagnosis_text(input, result);
     corrected = result.corrected_text;
